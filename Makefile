@@ -1,0 +1,216 @@
+# elasto: `make run` builds and runs the demo, `make test` checks it.
+# `make help` lists the rest.
+
+# ---- what a user may set ---------------------------------------------------
+CC      ?= cc
+CFLAGS  ?= -O2 -g
+PREFIX  ?= /usr/local
+SANITIZE ?=
+V       ?= 0
+ARGS    ?=
+
+# ---- what is built ---------------------------------------------------------
+# In lecture order: `make single` writes them one after the other.
+MODULES = status square_mesh psd quartic \
+          inertia_energy mass_spring_energy avf_energy system \
+          sparse cholesky incremental_potential line_search plane_search newton \
+          scalar_newton time_integrator backward_euler explicit_methods \
+          implicit_methods average_vector_field options simulation \
+          square_scenes circle_scene overshoot_scene landscape_scene scene \
+          canvas colour_map font paper text_block plot history trail hud \
+          panels square_picture circle_picture curve_picture \
+          landscape_picture draw output png_file recording view player \
+          summary
+
+VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
+comma   := ,
+B       := build/$(VARIANT)
+CONFIG  := build/config.mk
+
+OBJECTS := $(MODULES:%=$(B)/%.o)
+SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
+
+ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude $(DEP_CFLAGS) $(CPPFLAGS)
+ALL_CFLAGS   = -std=c11 -ffp-contract=off -Wall -Wextra $(CFLAGS) $(SANITIZER)
+ALL_LDFLAGS  = $(LDFLAGS) $(SANITIZER)
+SANITIZER    = $(if $(SANITIZE),-fsanitize=$(SANITIZE) \
+               -fno-sanitize-recover=all -fno-omit-frame-pointer)
+COMPILE      = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS)
+
+Q = $(if $(filter 1,$(V)),,@)
+say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' $(1) $(2))
+
+.PHONY: all run test single install uninstall clean help FORCE
+.DELETE_ON_ERROR:
+.SECONDARY:
+
+all: elasto
+
+elasto: build/elasto
+.PHONY: elasto
+
+run: build/elasto
+	./build/elasto $(ARGS)
+
+# ---- dependencies ----------------------------------------------------------
+# build/config.mk holds their flags.  Its recipe installs what is missing; make
+# then starts again with the new file.  clean and help need none of it.
+GOALS := $(or $(MAKECMDGOALS),all)
+ifneq ($(filter-out clean help uninstall,$(GOALS)),)
+include $(CONFIG)
+ifneq ($(filter test suites,$(GOALS)),)
+include build/config-test.mk
+endif
+endif
+
+# $(call try,FLAGS,HEADER,CALL): does this compile and link?
+define deps_functions
+try() { printf '#include <stddef.h>\n#include <stdio.h>\n#include <%b>\nint main(void){return (int)(size_t)(%s);}\n' \
+  "$$2" "$$3" | $(CC) -x c - -o build/try $$1 >build/try.log 2>&1; }; \
+pc() { pkg-config --cflags --libs $$1 2>/dev/null || echo "$$2"; }; \
+sdl() { try "$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')" SDL.h '&SDL_RenderGeometry'; }; \
+png() { try "$$(pc libpng -lpng)" png.h '&png_image_write_to_stdio'; }; \
+cmocka() { try "$$(pc cmocka -lcmocka)" 'stdarg.h>\n#include <stdint.h>\n#include <setjmp.h>\n#include <cmocka.h' '&_cmocka_run_group_tests'; }; \
+cholmod_flags() { for f in "$$(pkg-config --cflags --libs CHOLMOD 2>/dev/null)" \
+    -lcholmod "-I/usr/include/suitesparse -lcholmod" \
+    "-I/usr/local/include/suitesparse -L/usr/local/lib -lcholmod" \
+    "-I/opt/homebrew/include/suitesparse -L/opt/homebrew/lib -lcholmod"; do \
+  if try "$$f" cholmod.h '&cholmod_solve2'; then echo "$$f"; return 0; fi; done; return 1; }; \
+install_packages() { \
+  echo "elasto needs these packages: $$1"; \
+  if ! command -v apt-get >/dev/null 2>&1; then \
+    echo "Please install them:"; \
+    echo "  Fedora:  dnf install SDL2-devel suitesparse-devel openblas-devel libpng-devel libcmocka-devel pkgconf"; \
+    echo "  Arch:    pacman -S sdl2 suitesparse openblas libpng cmocka pkgconf"; \
+    echo "  macOS:   brew install sdl2 suite-sparse libpng cmocka pkg-config"; \
+    return 1; fi; \
+  as=; [ "$$(id -u)" = 0 ] || as=sudo; \
+  if [ "$$as" ] && ! command -v sudo >/dev/null 2>&1; then \
+    echo "Please install them as root: apt-get install $$1"; return 1; fi; \
+  echo "Installing them with $$as apt-get ..."; \
+  export DEBIAN_FRONTEND=noninteractive; \
+  $$as apt-get install -y -q --no-install-recommends $$1 || \
+  { $$as apt-get update -q && \
+    $$as apt-get install -y -q --no-install-recommends $$1; }; }
+endef
+
+$(CONFIG): Makefile
+	@mkdir -p build
+	@$(deps_functions); \
+	missing=; \
+	command -v pkg-config >/dev/null 2>&1 || missing="$$missing pkg-config"; \
+	sdl || missing="$$missing libsdl2-dev"; \
+	png || missing="$$missing libpng-dev"; \
+	cholmod_flags >/dev/null || \
+	  missing="$$missing libsuitesparse-dev libopenblas0"; \
+	if [ "$$missing" ]; then install_packages "$$missing" || exit 1; fi; \
+	sdl && png && cholmod=$$(cholmod_flags) || { cat build/try.log; exit 1; }; \
+	flags="$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2') $$(pc libpng -lpng) $$cholmod"; \
+	c=; l=; for f in $$flags; do \
+	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \
+	{ echo "DEP_CFLAGS :=$$c"; echo "DEP_LIBS :=$$l -ldl -lm"; } >$@.new; \
+	rm -f build/try build/try.log; mv $@.new $@
+
+build/config-test.mk: $(CONFIG)
+	@$(deps_functions); \
+	cmocka || install_packages libcmocka-dev || exit 1; \
+	cmocka || { cat build/try.log; exit 1; }; \
+	echo "TEST_LIBS := $$(pc cmocka -lcmocka)" >$@.new; \
+	rm -f build/try build/try.log; mv $@.new $@
+
+# ---- programs --------------------------------------------------------------
+build/elasto: $(B)/elasto FORCE
+	@cmp -s $< $@ || cp $< $@
+
+$(B)/elasto: $(OBJECTS) $(B)/main.o
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
+
+# Objects are made again when the compiler or its flags change.
+$(B)/flags: FORCE
+	@mkdir -p $(B)/tests
+	@echo '$(COMPILE) $(ALL_LDFLAGS)' | cmp -s - $@ || \
+	  echo '$(COMPILE) $(ALL_LDFLAGS)' >$@
+
+$(B)/%.o: src/%.c $(B)/flags
+	$(call say,CC,$<)
+	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
+
+-include $(wildcard $(B)/*.d $(B)/tests/*.d)
+
+# ---- one file --------------------------------------------------------------
+# Each local #include becomes the header itself, the first time it is met.
+define SINGLE_AWK
+function paste(file,    line, name) {
+    while ((getline line < file) > 0) {
+        if (line !~ /^#include "/) { print line; continue }
+        name = line; gsub(/.*include "|".*/, "", name)
+        if (!(name in pasted)) { pasted[name] = 1; paste("include/" name) }
+    }
+    close(file)
+}
+BEGIN {
+    for (i = 1; i < ARGC; i++) {
+        printf "\n/* ======== %s ======== */\n", ARGV[i]
+        paste("src/" ARGV[i] ".c")
+    }
+}
+endef
+export SINGLE_AWK
+
+single: build/elasto_single.c
+
+build/elasto_single.c: $(wildcard include/*.h) $(MODULES:%=src/%.c) \
+                       src/main.c Makefile
+	$(call say,WRITE,$@)
+	@mkdir -p build
+	@{ echo '/* elasto, the whole demo as one file, in lecture order.'; \
+	   echo ' * Compile it with one line:'; \
+	   echo ' *   $(CC) -std=c11 -O2 -ffp-contract=off elasto_single.c'; \
+	   echo ' *   -o elasto $(DEP_CFLAGS)'; \
+	   echo ' *   $(DEP_LIBS)'; \
+	   echo ' */'; \
+	   echo '#define _GNU_SOURCE'; \
+	   awk "$$SINGLE_AWK" $(MODULES) main; } >$@
+
+# ---- tests -----------------------------------------------------------------
+$(B)/tests/%.o: tests/%.c $(B)/flags
+	$(call say,CC,$<)
+	$(Q)$(COMPILE) -Itests -MMD -MP -c $< -o $@
+
+$(B)/tests/test_%: $(B)/tests/test_%.o $(B)/tests/testing.o $(OBJECTS)
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
+	  $(DEP_LIBS) $(LDLIBS)
+
+# This suite makes allocations fail one by one.
+$(B)/tests/test_memory: TEST_LIBS += -Wl,--wrap=malloc,--wrap=calloc \
+  -lsuitesparseconfig
+
+suites: $(SUITES)
+.PHONY: suites
+
+test: $(SUITES) build/elasto build/elasto_single.c
+	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
+	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto sh tests/run.sh $(SUITES)
+
+# ---- the rest --------------------------------------------------------------
+install: build/elasto
+	install -d '$(DESTDIR)$(PREFIX)/bin'
+	install -m 755 build/elasto '$(DESTDIR)$(PREFIX)/bin/elasto'
+
+uninstall:
+	rm -f '$(DESTDIR)$(PREFIX)/bin/elasto'
+
+clean:
+	rm -rf build
+
+help:
+	@echo 'make run        build, then watch the stretched square relax'
+	@echo '                (ARGS="--segments 16" gives it options)'
+	@echo 'make            build build/elasto'
+	@echo 'make test       build and run all tests (SANITIZE=address,undefined)'
+	@echo 'make single     write the whole demo as build/elasto_single.c'
+	@echo 'make install    to $$(DESTDIR)$$(PREFIX)/bin; make uninstall'
+	@echo 'make clean      remove build/'
+	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected; V=1 shows commands'

@@ -1,0 +1,44 @@
+/* mass_spring_energy.h - P(x) = sum l2 k/2 s^2, s = |d|^2/l2 - 1,
+ * d = x_i - x_j (slide MassSpringEnergy.py).
+ *
+ *   springs  number of springs
+ *   x        [2n] m, in
+ *   e        [2 springs] nodes i, j of each spring, in
+ *   l2       [springs] m^2, squared rest lengths, in
+ *   k        [springs] J/m^2, stiffness, in
+ *   scale    factor on everything that is added (h^2 for implicit Euler)
+ */
+#ifndef ELASTO_MASS_SPRING_ENERGY_H
+#define ELASTO_MASS_SPRING_ENERGY_H
+
+#include "psd.h"
+
+/* P(x), J. */
+double mass_spring_energy_value(int springs, const double *x, const int *e,
+                                const double *l2, const double *k);
+
+/* g += scale * grad P; the share of node i is 2 k s d, node j gets its
+ * opposite.  g [2n] in/out. */
+void mass_spring_energy_gradient(int springs, const double *x, const int *e,
+                                 const double *l2, const double *k,
+                                 double scale, double *g);
+
+/* Entries a spring has in one triangle of the Hessian: its 4x4 block is
+ * [[H, -H], [-H, H]], so ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy. */
+enum { SPRING_ENTRIES = 10 };
+
+/* values[slot[t]] += scale * entry t of the (projected) Hessian, entries
+ * counted spring by spring; slot NULL: t itself, the plain triplets.
+ *   slot    [10 springs] in
+ *   values  in/out
+ * Returns how many springs were projected. */
+int mass_spring_energy_hessian(int springs, const double *x, const int *e,
+                               const double *l2, const double *k, double scale,
+                               Filter filter, const int *slot, double *values);
+
+/* Adds the block [[H, -H], [-H, H]] of spring i through its ten slots.
+ *   H  [3] in: H_xx, H_xy, H_yy; slot, values as above */
+void mass_spring_scatter(const double H[3], int i, const int *slot,
+                         double *values);
+
+#endif

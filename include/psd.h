@@ -1,0 +1,39 @@
+/* psd.h - projection of a spring's Hessian to positive semi-definite
+ * (slide utils.py, make_PSD), as the slide has it and in closed form.
+ */
+#ifndef ELASTO_PSD_H
+#define ELASTO_PSD_H
+
+#include <stdbool.h>
+
+/* What is done with negative eigenvalues of a spring's Hessian block. */
+typedef enum Filter {
+    FILTER_CLAMP, /* replace them by 0: the slides' projection */
+    FILTER_NONE,  /* keep them */
+    FILTER_COUNT
+} Filter;
+
+/* A, the symmetric 4x4 block, becomes the nearest positive semi-definite
+ * matrix in the Frobenius norm: A = Q L Q^T -> Q max(L, 0) Q^T.  A block
+ * without negative eigenvalues stays as it is, to the last bit.
+ *   a  [16] in/out, row by row
+ * Eigenvalues by cyclic Jacobi rotations (Golub, Van Loan: 8.5). */
+void make_psd(double a[16]);
+
+/* The spring's 2x2 Hessian H = (2k/l2) (2 d d^T + (|d|^2 - l2) I).  The 4x4
+ * block is [[H, -H], [-H, H]]: its eigenvalues are 0, 0 and twice those of H.
+ *   d   [2] m, in: x_i - x_j
+ *   H   [3] J/m^2, out: H_xx, H_xy, H_yy */
+void spring_hessian(const double d[2], double l2, double k, double H[3]);
+
+/* spring_hessian, projected, without any eigenvalue routine (see psd.c).
+ * Returns whether there was a negative eigenvalue to remove. */
+bool spring_hessian_psd(const double d[2], double l2, double k, double H[3]);
+
+/* H, any symmetric 2x2 matrix, becomes the nearest positive semi-definite one;
+ * unchanged to the last bit if it is that already.
+ *   H   [3] in/out: H_xx, H_xy, H_yy
+ * Returns whether there was a negative eigenvalue to remove. */
+bool make_psd_2x2(double H[3]);
+
+#endif

@@ -1,0 +1,160 @@
+/* main.c - the program: options, simulation, loop, summary. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "player.h"
+#include "scene.h"
+#include "summary.h"
+
+/* How the program ends. */
+enum ExitCode {
+    EXIT_FINE = 0,
+    EXIT_FAILED = 1,      /* while running */
+    EXIT_MISUSED = 2,     /* the command line */
+    EXIT_UNCONVERGED = 3, /* the run ended, but steps did not converge */
+};
+
+static volatile sig_atomic_t main_stop = 0;
+static Player main_player; /* too large for some stacks */
+
+/* SIGINT, SIGTERM: end after the present Newton iteration. */
+static void on_signal(int number)
+{
+    (void)number;
+    main_stop = 1;
+}
+
+/* Signals that end the run, and SIGPIPE, which then is a failed write. */
+static void handle_signals(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, NULL);
+}
+
+/* Xlib ends the program by itself when its server is gone: the files are then
+ * finished here.  After an orderly end there is nothing left to do. */
+static void save_files(void)
+{
+    recording_close(&main_player.recording);
+}
+
+/* Standard streams that are closed must not become those of other files:
+ * reading only, so that writing to them still fails. */
+static void hold_standard_streams(void)
+{
+    int file = 0;
+    while (file >= 0 && file <= STDERR_FILENO)
+        file = open("/dev/null", O_RDONLY);
+    if (file > STDERR_FILENO)
+        close(file);
+}
+
+/* Whether everything printed so far arrived. */
+static int check_output(void)
+{
+    errno = 0;
+    if (!ferror(stdout) && fflush(stdout) == 0)
+        return EXIT_FINE;
+    fprintf(stderr, "elasto: standard output: %s\n",
+            strerror(errno ? errno : EIO));
+    return EXIT_FAILED;
+}
+
+/* --help, --version, --list. */
+static int print_information(const Options *options)
+{
+    if (options->help)
+        fputs(options_help(), stdout);
+    else if (options->version)
+        puts("elasto " ELASTO_VERSION);
+    else
+        for (const Scene *scene = scenes; scene->name; scene++)
+            printf("%-12s %s\n", scene->name, scene->sentence);
+    return check_output();
+}
+
+/* What a user can do about a failure. */
+static const char *advice(Status status)
+{
+    switch (status) {
+    case STATUS_OUT_OF_MEMORY:
+    case STATUS_TOO_LARGE:
+        return "; try fewer --segments";
+    case STATUS_NOT_FINITE:
+        return "; try a smaller --timestep or --stretch";
+    case STATUS_NOT_POSITIVE_DEFINITE:
+        return "; try --filter clamp";
+    case STATUS_INVALID_INPUT:
+        return "; try numbers nearer to the defaults";
+    default:
+        return "";
+    }
+}
+
+/* The one line about a failure. */
+static void report_failure(const Player *player, Status status)
+{
+    const Recording *recording = &player->recording;
+    if (recording->reason)
+        fprintf(stderr, "elasto: %s: %s\n", recording->failed,
+                strerror(recording->reason));
+    else if (player->simulation.status == status)
+        fprintf(stderr, "elasto: step %ld failed: %s%s\n",
+                player->simulation.steps + 1, status_text(status),
+                advice(status));
+    else
+        fprintf(stderr, "elasto: %s%s\n", status_text(status), advice(status));
+}
+
+/* Files, then the summary or the failure.  Returns the exit code. */
+static int finish(Player *player, Status status)
+{
+    const Options *options = &player->options;
+    bool standard = (options->states && output_is_standard(options->states)) ||
+                    (options->log && output_is_standard(options->log));
+    Status closed = player_finish(player);
+    if (!status)
+        status = closed;
+    if (status) {
+        report_failure(player, status);
+        return EXIT_FAILED;
+    }
+    if (!options->quiet)
+        summary_print(standard ? stderr : stdout, player);
+    int code = check_output();
+    if (code == EXIT_FINE && player_unconverged(player))
+        return EXIT_UNCONVERGED;
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    Player *player = &main_player;
+    Options options;
+    char message[512];
+    hold_standard_streams();
+    if (options_parse(argc, argv, &options, message, sizeof message)) {
+        fprintf(stderr, "elasto: %s\n", message);
+        return EXIT_MISUSED;
+    }
+    if (options.help || options.version || options.list)
+        return print_information(&options);
+    handle_signals();
+    atexit(save_files);
+    Status status = player_create(&options, &main_stop, player);
+    if (!status)
+        status =
+            player->window ? player_run_window(player) : player_run(player);
+    int code = finish(player, status);
+    player_free(player);
+    return code;
+}

@@ -1,0 +1,80 @@
+#include "mass_spring_energy.h"
+
+/* d = x_i - x_j; returns s = |d|^2/l2 - 1 */
+static double spring_strain(const double *x, const int e[2], double l2,
+                            double d[2])
+{
+    const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
+    d[0] = xi[0] - xj[0];
+    d[1] = xi[1] - xj[1];
+    return (d[0] * d[0] + d[1] * d[1]) / l2 - 1;
+}
+
+/* sum l2 k/2 s^2 */
+double mass_spring_energy_value(int springs, const double *x, const int *e,
+                                const double *l2, const double *k)
+{
+    double sum = 0;
+    for (int i = 0; i < springs; i++) {
+        double d[2];
+        double s = spring_strain(x, e + 2 * i, l2[i], d);
+        sum += l2[i] * 0.5 * k[i] * s * s;
+    }
+    return sum;
+}
+
+/* grad_i P = 2 k s d, grad_j P = -2 k s d */
+void mass_spring_energy_gradient(int springs, const double *x, const int *e,
+                                 const double *l2, const double *k,
+                                 double scale, double *g)
+{
+    for (int i = 0; i < springs; i++) {
+        double d[2];
+        double s = spring_strain(x, e + 2 * i, l2[i], d);
+        double factor = scale * 2 * k[i] * s;
+        double *gi = g + 2 * e[2 * i], *gj = g + 2 * e[2 * i + 1];
+        gi[0] += factor * d[0];
+        gi[1] += factor * d[1];
+        gj[0] -= factor * d[0];
+        gj[1] -= factor * d[1];
+    }
+}
+
+void mass_spring_scatter(const double H[3], int i, const int *slot,
+                         double *values)
+{
+    static const int plain[SPRING_ENTRIES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    if (slot) {
+        slot += SPRING_ENTRIES * i;
+    } else {
+        values += SPRING_ENTRIES * i;
+        slot = plain;
+    }
+    for (int t = 0; t < 3; t++) {
+        values[slot[t]] += H[t];
+        values[slot[3 + t]] += H[t];
+    }
+    values[slot[6]] -= H[0];
+    values[slot[7]] -= H[1];
+    values[slot[8]] -= H[1];
+    values[slot[9]] -= H[2];
+}
+
+/* H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), projected where d is too short */
+int mass_spring_energy_hessian(int springs, const double *x, const int *e,
+                               const double *l2, const double *k, double scale,
+                               Filter filter, const int *slot, double *values)
+{
+    int projected = 0;
+    for (int i = 0; i < springs; i++) {
+        const double *xi = x + 2 * e[2 * i], *xj = x + 2 * e[2 * i + 1];
+        double d[2] = {xi[0] - xj[0], xi[1] - xj[1]};
+        double H[3];
+        if (filter == FILTER_CLAMP)
+            projected += spring_hessian_psd(d, l2[i], scale * k[i], H);
+        else
+            spring_hessian(d, l2[i], scale * k[i], H);
+        mass_spring_scatter(H, i, slot, values);
+    }
+    return projected;
+}

@@ -1,0 +1,62 @@
+#include "paper.h"
+
+#include <math.h>
+
+#include "colour_map.h"
+
+/* Canvas and font. */
+Status paper_create(int width, int height, Paper *paper)
+{
+    *paper = (Paper){0};
+    Status status = canvas_create(width, height, &paper->canvas);
+    if (status)
+        return status;
+    int smaller = width < height ? width : height;
+    paper->unit = (double)smaller / PAPER_UNITS;
+    return font_create(paper->unit, &paper->font);
+}
+
+/* Canvas and font. */
+void paper_free(Paper *paper)
+{
+    if (!paper)
+        return;
+    canvas_free(&paper->canvas);
+    font_free(&paper->font);
+}
+
+/* units * unit, rounded. */
+int paper_pixels(const Paper *paper, double units)
+{
+    return (int)floor(units * paper->unit + 0.5);
+}
+
+/* Letters below 4 x 7 pixels are only noise. */
+bool paper_shows_text(const Paper *paper)
+{
+    return paper->font.width >= 4;
+}
+
+/* scale = part * smaller side / size */
+Mapping paper_mapping(const Paper *paper, double size, double part)
+{
+    Mapping mapping;
+    mapping.scale = part * PAPER_UNITS * paper->unit / size;
+    mapping.x0 = 0.5 * paper->canvas.width;
+    mapping.y0 = 0.5 * paper->canvas.height;
+    return mapping;
+}
+
+/* Lets one sixth of what is below shine through. */
+void paper_panel(Paper *paper, Box box)
+{
+    canvas_rectangle(&paper->canvas, box.x, box.y, box.width, box.height,
+                     COLOUR_PANEL);
+}
+
+/* The font of the paper on its canvas. */
+void paper_text(Paper *paper, int x, int y, Align align, Colour colour,
+                const char *text)
+{
+    font_draw(&paper->font, &paper->canvas, x, y, align, colour, text);
+}

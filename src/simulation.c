@@ -1,0 +1,145 @@
+#include "simulation.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "scene.h"
+
+/* More updates than any step needs that ends at all; 1024 segments need some
+ * thousands. */
+enum { MAX_NEWTON_ITERATIONS = 10000 };
+
+Status simulation_create(const Options *options, NewtonObserver observer,
+                         void *user, Simulation *simulation)
+{
+    *simulation = (Simulation){.scene = options->scene,
+                               .options = *options,
+                               .observer = observer,
+                               .user = user};
+    NewtonSettings settings = {
+        .h = options->timestep,
+        .tolerance = options->tolerance,
+        .solver = options->solver,
+        .filter = options->filter,
+        .search = options->line_search,
+        .max_iterations = MAX_NEWTON_ITERATIONS,
+        .observer = observer,
+        .user = user,
+    };
+    return options->scene->create(simulation, &settings);
+}
+
+void simulation_free(Simulation *simulation)
+{
+    if (!simulation)
+        return;
+    for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
+        time_integrator_free(&simulation->run[i]);
+    system_free(&simulation->system);
+    square_mesh_free(&simulation->mesh);
+    *simulation = (Simulation){0};
+}
+
+/* A step in time of every run; the last status that is not OK counts. */
+static Status step_runs(Simulation *simulation)
+{
+    Status worst = STATUS_OK;
+    for (int i = 0; i < simulation->runs; i++) {
+        Status status = time_integrator_step(&simulation->run[i]);
+        if (status)
+            worst = status;
+        if (status && !status_is_unconverged(status))
+            break;
+    }
+    return worst;
+}
+
+Status simulation_step(Simulation *simulation)
+{
+    const struct Scene *scene = simulation->scene;
+    if (simulation->done)
+        return STATUS_OK;
+    simulation->status =
+        scene->step ? scene->step(simulation) : step_runs(simulation);
+    if (simulation->status && !status_is_unconverged(simulation->status))
+        return simulation->status;
+    simulation->steps++;
+    if (simulation->status)
+        simulation->unconverged++;
+    return simulation->status;
+}
+
+bool simulation_record(Simulation *simulation, const NewtonRecord *record)
+{
+    Descent *descent = &simulation->descent;
+    if (descent->count < DESCENT_MAX)
+        descent->record[descent->count++] = *record;
+    return !simulation->observer ||
+           simulation->observer(simulation->user, record);
+}
+
+double simulation_time(const Simulation *simulation)
+{
+    return (double)simulation->steps * simulation->options.timestep;
+}
+
+Energies simulation_energies(const Simulation *simulation, int run)
+{
+    const TimeIntegrator *integrator = &simulation->run[run];
+    Energies energies;
+    energies.kinetic = system_kinetic(&simulation->system, integrator->v);
+    energies.elastic = system_potential(&simulation->system, integrator->x);
+    energies.total = energies.kinetic + energies.elastic;
+    return energies;
+}
+
+/* sum += counters */
+static void add_counters(const NewtonCounters *counters, NewtonCounters *sum)
+{
+    sum->minimisations += counters->minimisations;
+    sum->iterations += counters->iterations;
+    sum->gradients += counters->gradients;
+    sum->factorisations += counters->factorisations;
+    sum->solves += counters->solves;
+    sum->projected += counters->projected;
+    sum->trials += counters->trials;
+    sum->skipped += counters->skipped;
+    sum->seconds_assembly += counters->seconds_assembly;
+    sum->seconds_factor += counters->seconds_factor;
+    sum->seconds_solve += counters->seconds_solve;
+    sum->seconds_search += counters->seconds_search;
+}
+
+NewtonCounters simulation_counters(const Simulation *simulation)
+{
+    NewtonCounters sum = {0};
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            add_counters(&simulation->run[i].newton->counters, &sum);
+    return sum;
+}
+
+void simulation_set_filter(Simulation *simulation, Filter filter)
+{
+    simulation->options.filter = filter;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            simulation->run[i].newton->settings.filter = filter;
+}
+
+void simulation_set_line_search(Simulation *simulation, LineSearch search)
+{
+    simulation->options.line_search = search;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            simulation->run[i].newton->settings.search = search;
+}
+
+/* |d|/l - 1 */
+double simulation_strain(const Simulation *simulation, int run, int s)
+{
+    const System *system = &simulation->system;
+    const double *x = simulation->run[run].x;
+    int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+    return hypot(x[i] - x[j], x[i + 1] - x[j + 1]) / sqrt(system->l2[s]) - 1;
+}

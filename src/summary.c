@@ -1,0 +1,41 @@
+#include "summary.h"
+
+#include "scene.h"
+
+/* What Newton did; all 0 with explicit methods. */
+static void print_newton(FILE *file, const Simulation *simulation)
+{
+    NewtonCounters sum = simulation_counters(simulation);
+    long iterations = sum.iterations;
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        iterations = simulation->descent.count;
+    fprintf(file, "Newton iterations   %ld\n", iterations);
+    fprintf(file, "factorisations      %ld\n", sum.factorisations);
+    fprintf(file, "solves              %ld\n", sum.solves);
+    fprintf(file, "springs projected   %ld\n", sum.projected);
+}
+
+/* One quantity a line. */
+void summary_print(FILE *file, const Player *player)
+{
+    const Simulation *simulation = &player->simulation;
+    const Energies end = simulation_energies(simulation, 0);
+    fprintf(file, "steps               %ld\n", simulation->steps);
+    if (simulation->scene->needs & NEEDS_TIME)
+        fprintf(file, "simulated time      %g s\n",
+                simulation_time(simulation));
+    fprintf(file, "wall time           %.3f s\n",
+            player_clock() - player->started);
+    print_newton(file, simulation);
+    if (simulation->scene->needs & NEEDS_TIME)
+        fprintf(file,
+                "energy at start     %.9g J\n"
+                "energy at end       %.9g J\n",
+                player->start.total, end.total);
+    if (player->recording.folder)
+        fprintf(file, "frames written      %ld, in %s/\n",
+                player->recording.frames, player->recording.folder);
+    else
+        fprintf(file, "frames written      0\n");
+    fprintf(file, "steps not converged %ld\n", simulation->unconverged);
+}

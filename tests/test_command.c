@@ -1,0 +1,370 @@
+/* The program as a process: what it prints where, what it leaves in files and
+ * its exit codes.  The program is named by ELASTO or the first argument, else
+ * build/elasto.
+ */
+#include "testing.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { TEXT = 1 << 20 };
+
+static char program[4096] = "build/elasto";
+static char folder[] = "/tmp/elasto-test-XXXXXX"; /* for everything written */
+
+/* What a run left behind. */
+typedef struct Result {
+    int code; /* exit code; -1: killed by a signal */
+    char out[TEXT], error[TEXT];
+} Result;
+
+static Result result; /* large, so only one */
+
+static void read_text(const char *name, char *text)
+{
+    FILE *file = fopen(name, "r");
+    CHECK(file != NULL);
+    text[fread(text, 1, TEXT - 1, file)] = '\0';
+    fclose(file);
+}
+
+/* PROGRAM ARGUMENTS, in a shell whose working directory is the folder;
+ * ARGUMENTS may redirect.  No display, so never a window. */
+static void run(const char *arguments)
+{
+    static char command[8192];
+    snprintf(command, sizeof command,
+             "cd %s && unset DISPLAY WAYLAND_DISPLAY && "
+             "( timeout 60 %s %s ) >out 2>error",
+             folder, program, arguments);
+    char path[64];
+    int status = system(command);
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    snprintf(path, sizeof path, "%s/out", folder);
+    read_text(path, result.out);
+    snprintf(path, sizeof path, "%s/error", folder);
+    read_text(path, result.error);
+}
+
+static void check_code(int expected)
+{
+    if (result.code != expected)
+        print_error("exit code %d, expected %d; standard error: %s\n",
+                    result.code, expected, result.error);
+    CHECK(result.code == expected);
+}
+
+/* Lines that end with a newline. */
+static int count_lines(const char *text)
+{
+    int lines = 0;
+    for (; *text; text++)
+        lines += *text == '\n';
+    return lines;
+}
+
+/* Whether the folder has this file, not empty. */
+static bool exists(const char *name)
+{
+    char path[4200];
+    struct stat information;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return stat(path, &information) == 0 && information.st_size > 0;
+}
+
+/* One line on standard error that has all three words; nothing else. */
+static void check_refused(int code, const char *a, const char *b, const char *c)
+{
+    check_code(code);
+    bool good = count_lines(result.error) == 1 && strstr(result.error, a) &&
+                strstr(result.error, b) && strstr(result.error, c);
+    if (!good)
+        print_error("%s", result.error);
+    CHECK(good);
+}
+
+static void help_goes_to_standard_output(void **unused)
+{
+    (void)unused;
+    run("--help");
+    check_code(0);
+    CHECK(strstr(result.out, "--segments") != NULL);
+    CHECK(count_lines(result.out) <= 24 && result.error[0] == '\0');
+    run("--help --segments 3");
+    check_code(0);
+}
+
+static void version_is_one_line(void **unused)
+{
+    (void)unused;
+    run("--version");
+    check_code(0);
+    CHECK(count_lines(result.out) == 1 && result.error[0] == '\0');
+    CHECK(strncmp(result.out, "elasto ", 7) == 0);
+}
+
+static void list_names_the_scenes(void **unused)
+{
+    (void)unused;
+    run("--list");
+    check_code(0);
+    CHECK(strncmp(result.out, "square ", 7) == 0 && result.error[0] == '\0');
+}
+
+static void information_that_cannot_be_written_is_a_failure(void **unused)
+{
+    (void)unused;
+    const char *lines[] = {"--help >/dev/full", "--list >/dev/full",
+                           "--version >/dev/full"};
+    for (int i = 0; i < 3; i++) {
+        run(lines[i]);
+        CHECK(result.code == 1);
+    }
+}
+
+static void bad_lines_exit_with_2(void **unused)
+{
+    (void)unused;
+    run("--segments 0");
+    check_refused(2, "--segments", "'0'", "1 to 4096");
+    CHECK(result.out[0] == '\0');
+    run("--timestep nan --headless");
+    check_refused(2, "--timestep", "'nan'", "above 0");
+    run("--filter abs");
+    check_refused(2, "--filter", "'abs'", "clamp, none");
+    run("--steps");
+    check_refused(2, "--steps", "missing", "");
+    run("--no-such-option");
+    check_refused(2, "--no-such-option", "--help", "");
+    run("nowhere");
+    check_refused(2, "'nowhere'", "--list", "");
+    run("--side ''");
+    check_refused(2, "--side", "''", "above 0");
+}
+
+static void summaries_tell_what_was_done(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 5");
+    check_code(0);
+    const char *words[] = {"5",       "Newton", "factor",  "solve",
+                           "project", "energy", "converge"};
+    char all[2 * TEXT];
+    snprintf(all, sizeof all, "%s%s", result.out, result.error);
+    for (int i = 0; i < 7; i++) {
+        if (!strstr(all, words[i]))
+            print_error("no '%s' in: %s\n", words[i], all);
+        CHECK(strstr(all, words[i]) != NULL);
+    }
+    run("--headless --steps 5 --quiet");
+    check_code(0);
+    CHECK(result.out[0] == '\0' && result.error[0] == '\0');
+    run("--headless --steps 0 --quiet");
+    check_code(0);
+}
+
+/* On standard output there is the table and nothing else; its last state is
+ * that of the library, to the last bit. */
+static void states_are_clean_and_exact(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    run("--headless --segments 2 --steps 7 --states -");
+    check_code(0);
+    CHECK(count_lines(result.out) == 1 + 8 * 9);
+    const char *line = result.out;
+    CHECK(strncmp(line, "step,time,node,x,y,vx,vy\n", 25) == 0);
+    simulation_from_line("--segments 2", NULL, NULL, &simulation);
+    for (int step = 0; step <= 7; step++) {
+        for (int node = 0; node < 9; node++) {
+            const TimeIntegrator *state = &simulation.run[0];
+            int s, n;
+            double t, got[4], expected[4];
+            line = strchr(line, '\n') + 1;
+            CHECK(sscanf(line, "%d,%lf,%d,%lf,%lf,%lf,%lf\n", &s, &t, &n,
+                         &got[0], &got[1], &got[2], &got[3]) == 7);
+            memcpy(expected, state->x + 2 * node, 2 * sizeof *expected);
+            memcpy(expected + 2, state->v + 2 * node, 2 * sizeof *expected);
+            CHECK(s == step && n == node);
+            CHECK_NEAR(t, simulation_time(&simulation), 0);
+            CHECK_SAME_BITS(got, expected, 4);
+        }
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    }
+    simulation_free(&simulation);
+}
+
+static void logs_have_a_row_an_iteration(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 5 --log log.csv --states states.csv --quiet");
+    check_code(0);
+    CHECK(exists("log.csv") && exists("states.csv"));
+    char path[64];
+    static char text[TEXT];
+    snprintf(path, sizeof path, "%s/log.csv", folder);
+    read_text(path, text);
+    CHECK(strncmp(text, "step,iteration,residual,alpha", 29) == 0);
+    Simulation simulation;
+    simulation_from_line("square", NULL, NULL, &simulation);
+    for (int step = 0; step < 5; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(count_lines(text) == 1 + simulation_counters(&simulation).iterations);
+    simulation_free(&simulation);
+    double residual, alpha;
+    int step, iteration;
+    CHECK(sscanf(strchr(text, '\n'), "%d,%d,%lf,%lf", &step, &iteration,
+                 &residual, &alpha) == 4);
+    CHECK(step == 1 && iteration == 0 && alpha == 1 && residual > 1);
+    snprintf(path, sizeof path, "%s/states.csv", folder);
+    read_text(path, text);
+    CHECK(count_lines(text) == 1 + 6 * 25);
+}
+
+static void frames_are_written(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 3 --frames pictures --quiet");
+    check_code(0);
+    for (int i = 0; i <= 3; i++) {
+        char path[80];
+        unsigned char start[8] = {0};
+        snprintf(path, sizeof path, "%s/pictures/frame_%06d.png", folder, i);
+        FILE *file = fopen(path, "rb");
+        CHECK(file != NULL);
+        CHECK(fread(start, 1, 8, file) == 8);
+        fclose(file);
+        CHECK(memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0);
+    }
+    CHECK(!exists("pictures/frame_000004.png"));
+}
+
+static void headless_alone_draws_nothing(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 2 --quiet");
+    check_code(0);
+    CHECK(!exists("frames"));
+}
+
+static void failed_files_exit_with_1(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 5 --quiet --states /dev/full");
+    check_refused(1, "/dev/full", strerror(ENOSPC), "");
+    run("--headless --steps 5 --quiet --log /dev/full");
+    check_refused(1, "/dev/full", strerror(ENOSPC), "");
+    run("--headless --steps 2 --quiet --states nowhere/states.csv");
+    check_refused(1, "nowhere/states.csv", strerror(ENOENT), "");
+    run("--headless --steps 2 --quiet --log nowhere/log.csv");
+    check_refused(1, "nowhere/log.csv", strerror(ENOENT), "");
+    run("--headless --steps 2 --quiet --frames out");
+    check_refused(1, "out", "", "");
+    run("--headless --steps 2 --quiet --frames nowhere/pictures");
+    check_refused(1, "nowhere/pictures", strerror(ENOENT), "");
+    run("--headless --steps 2 --quiet --states .");
+    check_refused(1, ".", "", "");
+    CHECK(!exists("nowhere"));
+}
+
+/* Unconverged steps are made, counted and shown in the exit code. */
+static void unconverged_steps_exit_with_3(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 5 --filter none --timestep 0.02 --stretch 0.5");
+    check_code(3);
+    run("--headless --steps 3 --tolerance 1e-30 --quiet --states s.csv");
+    check_code(3);
+    CHECK(exists("s.csv"));
+}
+
+static void overflow_exits_with_1(void **unused)
+{
+    (void)unused;
+    run("--headless --steps 100 --integrator forward-euler --timestep 1 "
+        "--quiet --states blown.csv");
+    check_refused(1, "step", "NaN or infinite", "--timestep");
+    CHECK(exists("blown.csv")); /* what was written before stays */
+}
+
+/* Signals end a run early and leave whole files. */
+static void signals_end_the_run(void **unused)
+{
+    (void)unused;
+    const char *names[] = {"INT", "TERM"};
+    for (int i = 0; i < 2; i++) {
+        static char line[256], text[TEXT];
+        char path[64];
+        snprintf(line, sizeof line,
+                 "--headless --steps 100000000 --quiet --log signal.csv & "
+                 "sleep 0.3; kill -%s $!; wait $!",
+                 names[i]);
+        run(line);
+        CHECK(result.code != 124 && result.code >= 0);
+        snprintf(path, sizeof path, "%s/signal.csv", folder);
+        read_text(path, text);
+        CHECK(strncmp(text, "step,", 5) == 0);
+        unlink(path);
+    }
+}
+
+static void same_line_gives_same_bits(void **unused)
+{
+    (void)unused;
+    static char first[TEXT];
+    run("--headless --segments 5 --steps 10 --states -");
+    check_code(0);
+    memcpy(first, result.out, sizeof first);
+    run("--headless --segments 5 --steps 10 --states - --quiet");
+    CHECK(strcmp(first, result.out) == 0);
+}
+
+static int make_folder(void **unused)
+{
+    (void)unused;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **unused)
+{
+    (void)unused;
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_goes_to_standard_output),
+        cmocka_unit_test(version_is_one_line),
+        cmocka_unit_test(list_names_the_scenes),
+        cmocka_unit_test(information_that_cannot_be_written_is_a_failure),
+        cmocka_unit_test(bad_lines_exit_with_2),
+        cmocka_unit_test(summaries_tell_what_was_done),
+        cmocka_unit_test(states_are_clean_and_exact),
+        cmocka_unit_test(logs_have_a_row_an_iteration),
+        cmocka_unit_test(frames_are_written),
+        cmocka_unit_test(headless_alone_draws_nothing),
+        cmocka_unit_test(failed_files_exit_with_1),
+        cmocka_unit_test(unconverged_steps_exit_with_3),
+        cmocka_unit_test(overflow_exits_with_1),
+        cmocka_unit_test(signals_end_the_run),
+        cmocka_unit_test(same_line_gives_same_bits),
+    };
+    const char *name = argc > 1 ? argv[1] : getenv("ELASTO");
+    if (!realpath(name ? name : "build/elasto", program)) {
+        fprintf(stderr, "%s: %s\n", name ? name : "build/elasto",
+                strerror(errno));
+        return 1;
+    }
+    return cmocka_run_group_tests_name("command", tests, make_folder,
+                                       remove_folder);
+}

@@ -1,0 +1,505 @@
+/* Newton's method: every way in which it can end, and that its records and
+ * counters say what happened, by formulas that share nothing with it.
+ */
+#include "testing.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Squares of up to 4 segments; most have 3. */
+enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
+
+/* max over nodes |p_x| + |p_y|, over h, of p = -H^-1 grad E. */
+static double exact_residual(const IncrementalPotential *E, const double *u,
+                             const double *x, bool clamp, double h)
+{
+    int size = 2 * E->system->nodes;
+    long double H[LARGEST * LARGEST], p[LARGEST], largest = 0;
+    exact_derivatives(E, u, x, p, NULL);
+    exact_hessian(E, x, clamp, H);
+    CHECK(dense_solve(size, H, p));
+    for (int i = 0; i < size; i += 2)
+        largest = fmaxl(largest, fabsl(p[i]) + fabsl(p[i + 1]));
+    return (double)(largest / h);
+}
+
+/* Springs shorter than at rest. */
+static int short_springs(const System *system, const double *x)
+{
+    int count = 0;
+    for (int s = 0; s < system->springs; s++) {
+        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+        double dx = x[i] - x[j], dy = x[i + 1] - x[j + 1];
+        count += dx * dx + dy * dy < system->l2[s];
+    }
+    return count;
+}
+
+/* Follows a run from record to record. */
+typedef struct Witness {
+    Simulation *simulation;
+    double u[LARGEST], x[LARGEST]; /* the last iterate */
+    int iteration;
+    long iterations, trials, projected, records;
+    double worst_residual; /* relative error of the records */
+    double worst_change;   /* of E, over E */
+    bool good;
+} Witness;
+
+/* Before each step: the iterate is the state. */
+static void witness_start(Witness *witness)
+{
+    const TimeIntegrator *run = &witness->simulation->run[0];
+    size_t bytes = 2 * (size_t)run->system->nodes * sizeof(double);
+    memset(witness->u, 0, bytes);
+    memcpy(witness->x, run->x, bytes);
+    witness->iteration = 0;
+    witness->good = true;
+}
+
+static bool witness_record(void *user, const NewtonRecord *record)
+{
+    Witness *witness = user;
+    const Newton *newton = witness->simulation->run[0].newton;
+    const IncrementalPotential *E = &newton->E;
+    bool clamp = newton->settings.filter == FILTER_CLAMP;
+    double residual =
+        exact_residual(E, witness->u, witness->x, clamp, newton->settings.h);
+    long double before = exact_energy(E, witness->u, witness->x, -1, -1).f;
+    long double after = exact_energy(E, newton->u, newton->x, -1, -1).f;
+    witness->worst_residual =
+        fmax(witness->worst_residual, fabs(record->residual / residual - 1));
+    double change = (double)fabsl(record->change - (after - before));
+    witness->worst_change =
+        fmax(witness->worst_change, change / (double)before);
+    witness->good =
+        witness->good && record->slope < 0 && record->change <= 0 &&
+        after <= before && record->iteration == witness->iteration &&
+        record->step == witness->simulation->steps + 1 && record->factorised &&
+        record->seconds >= 0 && record->alpha == ldexp(1, 1 - record->trials) &&
+        record->projected == (clamp ? short_springs(E->system, witness->x) : 0);
+    size_t bytes = 2 * (size_t)E->system->nodes * sizeof(double);
+    memcpy(witness->u, newton->u, bytes);
+    memcpy(witness->x, newton->x, bytes);
+    witness->iteration++;
+    witness->iterations++;
+    witness->records++;
+    witness->trials += record->trials;
+    witness->projected += record->projected;
+    return true;
+}
+
+/* Steps of one command line, each iteration watched.  1e-10: the condition of
+ * H, some thousand, times rounding; 1e-13 of E: its own rounding. */
+static void check_run(const char *line, int steps)
+{
+    Simulation simulation;
+    Witness witness = {.simulation = &simulation};
+    simulation_from_line(line, witness_record, &witness, &simulation);
+    for (int step = 0; step < steps; step++) {
+        witness_start(&witness);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        CHECK(witness.good);
+    }
+    NewtonCounters counters = simulation_counters(&simulation);
+    CHECK(witness.records > 0);
+    CHECK_AT_MOST(witness.worst_residual, 1e-10);
+    CHECK_AT_MOST(witness.worst_change, 1e-13);
+    CHECK(counters.minimisations == steps);
+    CHECK(counters.iterations == witness.iterations);
+    CHECK(counters.trials == witness.trials);
+    CHECK(counters.projected >= witness.projected);
+    CHECK(counters.gradients == counters.minimisations + counters.iterations);
+    CHECK(counters.solves == counters.gradients - counters.skipped);
+    CHECK(counters.factorisations >= counters.solves);
+    CHECK(simulation.steps == steps && simulation.unconverged == 0);
+    simulation_free(&simulation);
+}
+
+static void records_are_right(void **unused)
+{
+    (void)unused;
+    check_run("--segments 3", 15);
+    check_run("--segments 2 --side 3 --density 20 --stiffness 7e3", 15);
+}
+
+static void records_are_right_where_springs_are_compressed(void **unused)
+{
+    (void)unused;
+    check_run("--segments 3 --stretch 0.5 --timestep 0.02", 15);
+    check_run("--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3", 8);
+}
+
+static void records_are_right_without_projection(void **unused)
+{
+    (void)unused;
+    check_run("--segments 3 --filter none", 15);
+}
+
+/* Where the bound on |p| ended the loop, p itself must pass the test, and be
+ * below the bound. */
+static void bound_implies_the_test(void **unused)
+{
+    (void)unused;
+    const char *lines[] = {"--segments 3 --tolerance 0.1",
+                           "--segments 3 --tolerance 1e-3 --stretch 0.6",
+                           "--segments 2 --tolerance 3 --stretch 2"};
+    for (int line = 0; line < 3; line++) {
+        Simulation simulation;
+        long skipped = 0;
+        simulation_from_line(lines[line], NULL, NULL, &simulation);
+        TimeIntegrator *run = &simulation.run[0];
+        const Newton *newton = run->newton;
+        for (int step = 0; step < 20; step++) {
+            double x_n[SIZE];
+            memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            IncrementalPotential E = newton->E;
+            E.x_n = x_n;
+            double residual =
+                exact_residual(&E, newton->u, newton->x, true, run->h);
+            CHECK_AT_MOST(residual, newton->settings.tolerance);
+            if (newton->counters.skipped > skipped)
+                CHECK_AT_MOST(residual, newton->residual);
+            skipped = newton->counters.skipped;
+        }
+        CHECK(skipped > 0);
+        simulation_free(&simulation);
+    }
+}
+
+/* One gradient a step, and nothing else, not even a matrix. */
+static void rest_costs_one_gradient(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double x[SIZE];
+    simulation_from_line("--segments 3 --stretch 1", NULL, NULL, &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    memcpy(x, run->x, sizeof x);
+    for (int step = 0; step < 5; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    NewtonCounters counters = simulation_counters(&simulation);
+    CHECK(counters.gradients == 5 && counters.skipped == 5);
+    CHECK(counters.iterations == 0 && counters.factorisations == 0);
+    CHECK(counters.solves == 0 && counters.trials == 0);
+    CHECK(run->newton->cholesky == NULL);
+    CHECK_SAME_BITS(run->x, x, SIZE);
+    for (int i = 0; i < SIZE; i++)
+        CHECK(run->v[i] == 0);
+    simulation_free(&simulation);
+}
+
+static void pieces_are_the_whole(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --stretch 0.4 --timestep 0.02", NULL,
+                         NULL, &simulation);
+    Newton *whole = simulation.run[0].newton, pieces;
+    const double *x_n = simulation.run[0].x;
+    double h = whole->settings.h;
+    CHECK_STATUS(newton_create(&simulation.system, &whole->settings, &pieces),
+                 STATUS_OK);
+    CHECK_STATUS(newton_minimise(whole, x_n, h * h), STATUS_OK);
+    CHECK_STATUS(newton_start(&pieces, x_n, h * h), STATUS_RUNNING);
+    int iterations = 1;
+    while (newton_iterate(&pieces) == STATUS_RUNNING)
+        iterations++;
+    CHECK_STATUS(newton_iterate(&pieces), STATUS_OK); /* stays at its end */
+    CHECK(iterations > 1 && iterations == whole->counters.iterations);
+    CHECK(iterations == pieces.counters.iterations);
+    CHECK_SAME_BITS(pieces.u, whole->u, SIZE);
+    CHECK_SAME_BITS(pieces.x, whole->x, SIZE);
+    newton_free(&pieces);
+    newton_free(NULL);
+    simulation_free(&simulation);
+}
+
+/* Keys may change both at any time: the next step obeys. */
+static void settings_change_while_running(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3", NULL, NULL, &simulation);
+    const Newton *newton = simulation.run[0].newton;
+    for (int round = 0; round < 3; round++) {
+        simulation_set_filter(&simulation, FILTER_CLAMP);
+        simulation_set_line_search(&simulation, LINE_SEARCH_BACKTRACK);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        CHECK(newton->kind == CHOLESKY_SIMPLICIAL);
+        CHECK(newton->record.trials > 0);
+        simulation_set_filter(&simulation, FILTER_NONE);
+        simulation_set_line_search(&simulation, LINE_SEARCH_NONE);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        CHECK(newton->kind == CHOLESKY_INDEFINITE);
+        CHECK(newton->record.trials == 0 && newton->record.alpha == 1);
+        CHECK(newton->record.projected == 0);
+    }
+    simulation_free(&simulation);
+}
+
+static void large_matrices_use_blocks(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 24", NULL, NULL, &simulation);
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(simulation.run[0].newton->kind == CHOLESKY_SUPERNODAL);
+    simulation_free(&simulation);
+}
+
+/* A step that ends like this is made all the same: the state is finite and
+ * E is not higher than at the start. */
+static void check_unconverged_step(Simulation *simulation, Status expected)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    int size = 2 * run->system->nodes;
+    double x_n[LARGEST], zero[LARGEST] = {0};
+    memcpy(x_n, run->x, (size_t)size * sizeof *x_n);
+    long steps = simulation->steps, unconverged = simulation->unconverged;
+    CHECK_STATUS(simulation_step(simulation), expected);
+    IncrementalPotential E = run->newton->E;
+    E.x_n = x_n;
+    CHECK_AT_MOST(exact_energy(&E, run->newton->u, run->x, -1, -1).f,
+                  exact_energy(&E, zero, x_n, -1, -1).f);
+    for (int i = 0; i < size; i++)
+        CHECK(isfinite(run->x[i]) && isfinite(run->v[i]));
+    CHECK(simulation->steps == steps + 1 && run->steps == steps + 1);
+    CHECK(simulation->unconverged == unconverged + 1);
+    CHECK(run->unconverged == unconverged + 1);
+    CHECK(status_is_unconverged(expected));
+}
+
+static void iteration_limit_is_reached(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3", NULL, NULL, &simulation);
+    simulation.run[0].newton->settings.max_iterations = 1;
+    check_unconverged_step(&simulation, STATUS_ITERATION_LIMIT);
+    CHECK(simulation.run[0].newton->counters.iterations == 1);
+    simulation_free(&simulation);
+}
+
+/* Without projection some directions point uphill. */
+static void ascent_is_reported(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--filter none --timestep 0.02 --stretch 0.5", NULL,
+                         NULL, &simulation);
+    check_unconverged_step(&simulation, STATUS_NOT_DESCENT);
+    CHECK(simulation.run[0].newton->record.slope > 0);
+    simulation_free(&simulation);
+}
+
+static void rounding_limit_is_reached(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --tolerance 1e-30", NULL, NULL,
+                         &simulation);
+    for (int step = 0; step < 5; step++)
+        check_unconverged_step(&simulation, STATUS_ROUNDING_LIMIT);
+    CHECK_AT_MOST(simulation_counters(&simulation).iterations, 250);
+    simulation_free(&simulation);
+}
+
+/* All nodes in one point: a maximum of P, where its gradient is 0. */
+static void maximum_is_not_taken_for_a_minimum(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --timestep 0.1", NULL, NULL,
+                         &simulation);
+    memset(simulation.run[0].x, 0, SIZE * sizeof(double));
+    check_unconverged_step(&simulation, STATUS_NOT_A_MINIMUM);
+    simulation_free(&simulation);
+    /* h so small that the masses outweigh the springs: there it is one */
+    simulation_from_line("--segments 3 --timestep 1e-6", NULL, NULL,
+                         &simulation);
+    memset(simulation.run[0].x, 0, SIZE * sizeof(double));
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(simulation_counters(&simulation).factorisations == 0);
+    simulation_free(&simulation);
+}
+
+/* One spring from a pinned node at 0 to a node of 1 kg at (1/2, 0), half as
+ * long as at rest.  h = 1: the Hessian's entry across is 1 - 3/2 k. */
+typedef struct Lever {
+    System system;
+    Newton newton;
+    double x[4];
+} Lever;
+
+static void lever_create(double k, double pull, Lever *lever)
+{
+    System *system = &lever->system;
+    NewtonSettings settings = {.h = 1,
+                               .tolerance = 1e-6,
+                               .filter = FILTER_NONE,
+                               .max_iterations = 100};
+    CHECK_STATUS(system_create(2, 1, system), STATUS_OK);
+    CHECK_STATUS(system_create_pins(system), STATUS_OK);
+    system->m[0] = system->m[1] = system->l2[0] = 1;
+    system->e[1] = 1;
+    system->k[0] = k;
+    system->pinned[0] = 1;
+    memset(lever->x, 0, sizeof lever->x);
+    lever->x[2] = 0.5;
+    CHECK_STATUS(newton_create(system, &settings, &lever->newton), STATUS_OK);
+    lever->newton.u_tilde[3] = pull;
+}
+
+static void lever_free(Lever *lever)
+{
+    newton_free(&lever->newton);
+    system_free(&lever->system);
+}
+
+/* A direction 1e38 m long is downhill, but only for steps below 2^-64. */
+static void line_search_limit_is_reached(void **unused)
+{
+    (void)unused;
+    Lever lever;
+    lever_create((1 - 1e-8) / 1.5, 1e30, &lever);
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1),
+                 STATUS_LINE_SEARCH_LIMIT);
+    CHECK(lever.newton.record.slope < 0 && lever.newton.record.alpha == 0);
+    CHECK(lever.newton.record.trials == 65);
+    for (int i = 0; i < 4; i++)
+        CHECK(lever.newton.u[i] == 0 && lever.newton.x[i] == lever.x[i]);
+    lever_free(&lever);
+}
+
+/* 1 - 3/2 k = 0 in double precision, and the node is pulled across. */
+static void singular_hessian_is_reported(void **unused)
+{
+    (void)unused;
+    Lever lever;
+    lever_create(2.0 / 3, 1, &lever);
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_SINGULAR);
+    for (int i = 0; i < 4; i++)
+        CHECK(lever.newton.u[i] == 0 && lever.newton.x[i] == lever.x[i]);
+    lever_free(&lever);
+}
+
+/* Projected, the same lever swings out; the pinned node stays. */
+static void pins_hold(void **unused)
+{
+    (void)unused;
+    Lever lever;
+    lever_create(2.0 / 3, 1, &lever);
+    lever.newton.settings.filter = FILTER_CLAMP;
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_OK);
+    CHECK(lever.newton.u[0] == 0 && lever.newton.u[1] == 0);
+    CHECK(lever.newton.u[3] > 0.5);
+    long double g[4];
+    exact_derivatives(&lever.newton.E, lever.newton.u, lever.newton.x, g, NULL);
+    CHECK_NEAR(g[2], 0, 1e-5); /* tolerance times the largest eigenvalue */
+    CHECK_NEAR(g[3], 0, 1e-5);
+    lever_free(&lever);
+}
+
+/* Against springs of 1e30 J/m^2 the masses are nothing, and the projected
+ * Hessian of a square that may move and turn has pivots of 0 but for rounding:
+ * some of them come out negative.  That must be told as it is. */
+static void lost_masses_are_reported(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --stiffness 1e30", NULL, NULL,
+                         &simulation);
+    check_unconverged_step(&simulation, STATUS_NOT_POSITIVE_DEFINITE);
+    simulation_free(&simulation);
+}
+
+/* |d|^4 overflows: the step fails and leaves everything as it was. */
+static void overflow_is_reported(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double x[SIZE];
+    simulation_from_line("--segments 3 --stretch 1e160", NULL, NULL,
+                         &simulation);
+    memcpy(x, simulation.run[0].x, sizeof x);
+    CHECK_STATUS(simulation_step(&simulation), STATUS_NOT_FINITE);
+    CHECK(!status_is_unconverged(STATUS_NOT_FINITE));
+    CHECK_SAME_BITS(simulation.run[0].x, x, SIZE);
+    CHECK(simulation.steps == 0 && simulation.unconverged == 0);
+    for (int i = 0; i < SIZE; i++)
+        CHECK(simulation.run[0].v[i] == 0);
+    simulation_free(&simulation);
+}
+
+/* Stops at the given record. */
+static bool stop_at(void *user, const NewtonRecord *record)
+{
+    (void)record;
+    return --*(int *)user > 0;
+}
+
+static void observers_can_interrupt(void **unused)
+{
+    (void)unused;
+    for (int records = 1; records <= 3; records++) {
+        Simulation simulation;
+        double x[SIZE];
+        int left = records;
+        simulation_from_line("--segments 3 --tolerance 1e-9", stop_at, &left,
+                             &simulation);
+        memcpy(x, simulation.run[0].x, sizeof x);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_INTERRUPTED);
+        CHECK(left == 0 && simulation.steps == 0);
+        CHECK_SAME_BITS(simulation.run[0].x, x, SIZE);
+        left = 1000; /* and the step can be made again */
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        simulation_free(&simulation);
+    }
+}
+
+/* Each constant has a name and a text of its own. */
+static void every_status_has_a_text(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < STATUS_COUNT; i++) {
+        CHECK(strlen(status_text((Status)i)) > 5);
+        for (int j = 0; j < i; j++) {
+            CHECK(strcmp(status_text((Status)i), status_text((Status)j)) != 0);
+            CHECK(strcmp(status_name((Status)i), status_name((Status)j)) != 0);
+        }
+    }
+    assert_string_equal(status_name(STATUS_COUNT), "unknown");
+    assert_string_equal(status_text((Status)-1), "unknown status");
+    CHECK(!status_is_unconverged(STATUS_OK));
+    CHECK(!status_is_unconverged(STATUS_OUT_OF_MEMORY));
+    CHECK(!status_is_unconverged(STATUS_INTERRUPTED));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(records_are_right),
+        cmocka_unit_test(records_are_right_where_springs_are_compressed),
+        cmocka_unit_test(records_are_right_without_projection),
+        cmocka_unit_test(bound_implies_the_test),
+        cmocka_unit_test(rest_costs_one_gradient),
+        cmocka_unit_test(pieces_are_the_whole),
+        cmocka_unit_test(settings_change_while_running),
+        cmocka_unit_test(large_matrices_use_blocks),
+        cmocka_unit_test(iteration_limit_is_reached),
+        cmocka_unit_test(ascent_is_reported),
+        cmocka_unit_test(rounding_limit_is_reached),
+        cmocka_unit_test(maximum_is_not_taken_for_a_minimum),
+        cmocka_unit_test(line_search_limit_is_reached),
+        cmocka_unit_test(singular_hessian_is_reported),
+        cmocka_unit_test(pins_hold),
+        cmocka_unit_test(lost_masses_are_reported),
+        cmocka_unit_test(overflow_is_reported),
+        cmocka_unit_test(observers_can_interrupt),
+        cmocka_unit_test(every_status_has_a_text),
+    };
+    return cmocka_run_group_tests_name("newton", tests, NULL, NULL);
+}
