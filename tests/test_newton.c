@@ -326,6 +326,29 @@ static void maximum_is_not_taken_for_a_minimum(void **unused)
     simulation_free(&simulation);
 }
 
+/* Two nodes in one point, one of them too heavy to matter: whichever is the
+ * light one, and at whichever end of the spring, it may fall either way. */
+static void light_nodes_show_a_maximum(void **unused)
+{
+    (void)unused;
+    for (int light = 0; light < 2; light++) {
+        System system;
+        Newton newton;
+        const double x[4] = {0};
+        NewtonSettings settings = {
+            .h = 1, .tolerance = 1e-3, .max_iterations = 9};
+        CHECK_STATUS(system_create(2, 1, &system), STATUS_OK);
+        system.e[1] = 1;
+        system.l2[0] = system.k[0] = 1;
+        system.m[light] = 0.1;
+        system.m[1 - light] = 1e6;
+        CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
+        CHECK_STATUS(newton_minimise(&newton, x, 1), STATUS_NOT_A_MINIMUM);
+        newton_free(&newton);
+        system_free(&system);
+    }
+}
+
 /* One spring from a pinned node at 0 to a node of 1 kg at (1/2, 0), half as
  * long as at rest.  h = 1: the Hessian's entry across is 1 - 3/2 k. */
 typedef struct Lever {
@@ -493,6 +516,7 @@ int main(void)
         cmocka_unit_test(ascent_is_reported),
         cmocka_unit_test(rounding_limit_is_reached),
         cmocka_unit_test(maximum_is_not_taken_for_a_minimum),
+        cmocka_unit_test(light_nodes_show_a_maximum),
         cmocka_unit_test(line_search_limit_is_reached),
         cmocka_unit_test(singular_hessian_is_reported),
         cmocka_unit_test(pins_hold),
