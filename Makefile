@@ -13,7 +13,7 @@ ARGS    ?=
 # In lecture order: `make single` writes them one after the other.
 MODULES = status square_mesh psd quartic \
           inertia_energy mass_spring_energy avf_energy system \
-          sparse cholesky incremental_potential line_search plane_search newton \
+          sparse cholesky incremental_potential line_search plane_search search_direction newton \
           scalar_newton time_integrator backward_euler explicit_methods \
           implicit_methods average_vector_field options simulation \
           square_scenes circle_scene overshoot_scene landscape_scene scene \

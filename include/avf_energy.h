@@ -34,6 +34,12 @@ int avf_energy_hessian(int springs, const double *x_n, const double *u,
                        double scale, Filter filter, const int *slot,
                        double *values);
 
+/* y += scale * (projected) Hessian of Phi times q.  q [2n] in, y [2n] in/out */
+void avf_energy_product(int springs, const double *x_n, const double *u,
+                        const int *e, const double *l2, const double *k,
+                        double scale, Filter filter, const double *q,
+                        double *y);
+
 /* Coefficients of alpha^2, alpha^3, alpha^4 in Phi(u + alpha p), times scale,
  * added to q.  p [2n] m, in; q [3] in/out. */
 void avf_energy_along(int springs, const double *x_n, const double *u,

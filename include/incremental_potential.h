@@ -51,6 +51,12 @@ int incremental_potential_hessian(const IncrementalPotential *E,
                                   const double *u, const double *x,
                                   Filter filter, const int *slot, Sparse *A);
 
+/* y = (filtered) Hessian of E times q, without a matrix.
+ *   u, x  [2n] in, as above; q [2n] in, 0 for pinned nodes; y [2n] out */
+void incremental_potential_product(const IncrementalPotential *E,
+                                   const double *u, const double *x,
+                                   Filter filter, const double *q, double *y);
+
 /* E(x + alpha p) - E(x) as an exact polynomial in alpha.
  *   u, x, g  [2n] in, as above; g = grad E(x)
  *   p        [2n] m, in, 0 for pinned nodes */

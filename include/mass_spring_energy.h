@@ -36,6 +36,16 @@ int mass_spring_energy_hessian(int springs, const double *x, const int *e,
                                const double *l2, const double *k, double scale,
                                Filter filter, const int *slot, double *values);
 
+/* y += scale * (projected) Hessian of P at x times q, spring by spring.
+ *   q  [2n] in; y [2n] in/out */
+void mass_spring_energy_product(int springs, const double *x, const int *e,
+                                const double *l2, const double *k, double scale,
+                                Filter filter, const double *q, double *y);
+
+/* y += [[H, -H], [-H, H]] q for the spring between nodes e[0] and e[1]. */
+void mass_spring_multiply(const double H[3], const int e[2], const double *q,
+                          double *y);
+
 /* Adds the block [[H, -H], [-H, H]] of spring i through its ten slots.
  *   H  [3] in: H_xx, H_xy, H_yy; slot, values as above */
 void mass_spring_scatter(const double H[3], int i, const int *slot,

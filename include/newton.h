@@ -1,15 +1,15 @@
 /* newton.h - projected Newton (slides: Algorithm 3, and Algorithm 1 inside).
  *
  * A resumable object: newton_start, then newton_iterate until it returns
- * something else than RUNNING.  newton_minimise does both.  Each iteration
+ * something else than RUNNING, then newton_finish.  newton_minimise does all
+ * three.  Each iteration
  * leaves a record, which log, window and tests read.
  */
 #ifndef ELASTO_NEWTON_H
 #define ELASTO_NEWTON_H
 
-#include "cholesky.h"
-#include "incremental_potential.h"
 #include "line_search.h"
+#include "search_direction.h"
 
 /* How the minimiser is found. */
 typedef enum Solver {
@@ -29,6 +29,7 @@ typedef struct NewtonRecord {
     double change;   /* E(x + alpha p) - E(x), J s^2 */
     int projected;   /* springs whose Hessian was projected */
     bool factorised; /* false: an older factor served */
+    double shift;    /* kg, what the diagonal needed to be factored */
     double seconds;  /* this iteration took */
     Status status;   /* RUNNING, or how the minimisation ended here */
     double from[2];  /* where it started and where it led, in scenes with a */
@@ -58,6 +59,7 @@ typedef struct NewtonCounters {
     long solves;
     long projected; /* springs projected, summed over factorisations */
     long trials;    /* energies looked at by the line search */
+    long shifted;   /* factorisations that needed a shift */
     long skipped;   /* final tests decided without a factorisation */
     double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
 } NewtonCounters;
@@ -80,12 +82,8 @@ typedef struct Newton {
     double *p;       /* [2n] m, search direction at x */
     double *r;       /* [2n] m, last update; only the lagged solver's */
     int age;         /* updates since the factor was made; < 0: none yet */
-    double *b;       /* [2n] right-hand side, in elimination order */
     const System *system;
-    Sparse A;           /* Hessian, one triangle */
-    int *slot;          /* place of each triplet in A */
-    Cholesky *cholesky; /* made when the first factorisation is due */
-    CholeskyKind kind;  /* what cholesky was made for */
+    SearchDirection search; /* the Hessian and its factor */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.
@@ -105,7 +103,11 @@ Status newton_start(Newton *newton, const double *x_n, double weight);
  * iterate, where E is not higher than at the start. */
 Status newton_iterate(Newton *newton);
 
-/* newton_start and newton_iterate until the end. */
+/* After the end: moves the centre of mass to where it belongs exactly; u and x
+ * are then ready for the integrator.  Nothing to do after a failure. */
+void newton_finish(Newton *newton);
+
+/* newton_start, newton_iterate until the end, newton_finish. */
 Status newton_minimise(Newton *newton, const double *x_n, double weight);
 
 #endif

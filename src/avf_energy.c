@@ -92,6 +92,20 @@ int avf_energy_hessian(int springs, const double *x_n, const double *u,
     return projected;
 }
 
+void avf_energy_product(int springs, const double *x_n, const double *u,
+                        const int *e, const double *l2, const double *k,
+                        double scale, Filter filter, const double *q, double *y)
+{
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        double H[3];
+        average_hessian(&a, l2[i], scale * k[i], H);
+        if (filter == FILTER_CLAMP)
+            make_psd_2x2(H);
+        mass_spring_multiply(H, e + 2 * i, q, y);
+    }
+}
+
 /* Along p: B + alpha b, C + alpha c1 + alpha^2 c2 with b = 2 d.q/l2,
  * c1 = 2 delta.q/l2, c2 = |q|^2/l2, q = p_i - p_j, put into Phi. */
 void avf_energy_along(int springs, const double *x_n, const double *u,

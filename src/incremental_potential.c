@@ -142,6 +142,22 @@ int incremental_potential_hessian(const IncrementalPotential *E,
                                       A->value);
 }
 
+void incremental_potential_product(const IncrementalPotential *E,
+                                   const double *u, const double *x,
+                                   Filter filter, const double *q, double *y)
+{
+    const System *system = E->system;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        y[i] = (1 + central_weight(E)) * system->m[i / 2] * q[i];
+    if (E->averaged)
+        avf_energy_product(system->springs, E->x_n, u, system->e, system->l2,
+                           system->k, E->weight, filter, q, y);
+    else
+        mass_spring_energy_product(system->springs, x, system->e, system->l2,
+                                   system->k, E->weight, filter, q, y);
+    system_clear_pinned(system, y);
+}
+
 /* With q = p_i - p_j, B = 2 d.q/l2 and C = |q|^2/l2 a spring's strain along
  * the direction is s + alpha B + alpha^2 C, so its energy
  * l2 k/2 (s + alpha B + alpha^2 C)^2 has the coefficients below. */

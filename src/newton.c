@@ -7,10 +7,6 @@
 
 #include "plane_search.h"
 
-/* Matrices of at most this many rows are factored column by column: below it
- * dense blocks are too small to pay (measured at 4 ... 64 segments). */
-enum { SIMPLICIAL_MAX_ROWS = 700 };
-
 /* After this many iterations without a smaller residual, rounding may be all
  * that is left. */
 enum { STAGNANT_ITERATIONS = 20 };
@@ -32,79 +28,28 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system, .age = -1};
     size_t size = 2 * (size_t)system->nodes;
-    double **vectors[] = {&newton->u, &newton->x, &newton->u_tilde, &newton->g,
-                          &newton->p, &newton->r, &newton->b};
+    double **vectors[] = {&newton->u, &newton->x, &newton->u_tilde,
+                          &newton->g, &newton->p, &newton->r};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         *vectors[i] = calloc(size, sizeof(double));
         if (!*vectors[i])
             return STATUS_OUT_OF_MEMORY;
     }
-    return STATUS_OK;
-}
-
-/* The matrix, its slots and its factor. */
-static void newton_free_matrix(Newton *newton)
-{
-    cholesky_free(newton->cholesky);
-    newton->cholesky = NULL;
-    sparse_free(&newton->A);
-    free(newton->slot);
-    newton->slot = NULL;
+    return search_direction_create(system, &newton->search);
 }
 
 void newton_free(Newton *newton)
 {
     if (!newton)
         return;
-    newton_free_matrix(newton);
+    search_direction_free(&newton->search);
     free(newton->u);
     free(newton->x);
     free(newton->u_tilde);
     free(newton->g);
     free(newton->p);
     free(newton->r);
-    free(newton->b);
     *newton = (Newton){0};
-}
-
-/* What kind of factor the matrix needs. */
-static CholeskyKind factor_kind(const Newton *newton)
-{
-    if (newton->settings.filter == FILTER_NONE)
-        return CHOLESKY_INDEFINITE;
-    return 2 * newton->system->nodes <= SIMPLICIAL_MAX_ROWS
-               ? CHOLESKY_SIMPLICIAL
-               : CHOLESKY_SUPERNODAL;
-}
-
-/* Pattern, slots and symbolic analysis: once, and again only when a key
- * changes the filter. */
-static Status newton_analyse(Newton *newton)
-{
-    CholeskyKind kind = factor_kind(newton);
-    if (newton->cholesky && newton->kind == kind)
-        return STATUS_OK;
-    newton_free_matrix(newton);
-    newton->kind = kind;
-    Triplets triplets;
-    Status status = incremental_potential_pattern(newton->system, &triplets);
-    if (!status) {
-        newton->slot = malloc((size_t)triplets.count * sizeof(int));
-        status = newton->slot
-                     ? sparse_create(&triplets, cholesky_triangle(kind),
-                                     &newton->A, newton->slot)
-                     : STATUS_OUT_OF_MEMORY;
-    }
-    triplets_free(&triplets);
-    if (!status) {
-        incremental_potential_drop_pinned(newton->system, &newton->A,
-                                          newton->slot);
-        status = cholesky_create(
-            &newton->A, kind, newton->system->order != NULL, &newton->cholesky);
-    }
-    if (status)
-        newton_free_matrix(newton);
-    return status;
 }
 
 /* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
@@ -134,45 +79,25 @@ static double newton_residual_bound(const Newton *newton)
     return sqrt(2 * sum / lightest) / newton->settings.h;
 }
 
-/* b = -g in elimination order, or p back from it. */
-static void negate_into_order(const Newton *newton, const double *g, double *b)
-{
-    const int *order = newton->system->order;
-    for (int i = 0; i < newton->system->nodes; i++) {
-        int place = order ? order[i] : i;
-        b[2 * place] = -g[2 * i];
-        b[2 * place + 1] = -g[2 * i + 1];
-    }
-}
-
-static void copy_from_order(const Newton *newton, const double *b, double *p)
-{
-    const int *order = newton->system->order;
-    for (int i = 0; i < newton->system->nodes; i++) {
-        int place = order ? order[i] : i;
-        p[2 * i] = b[2 * place];
-        p[2 * i + 1] = b[2 * place + 1];
-    }
-}
-
 /* Assembles and factors the Hessian at x. */
-static Status newton_factor(Newton *newton)
+static Status newton_factor(Newton *newton, Filter filter)
 {
     NewtonCounters *counters = &newton->counters;
-    Status status = newton_analyse(newton);
+    double start = clock_seconds(), assembled;
+    int projected, tries = 0;
     newton->age = -1;
-    if (status)
-        return status;
-    double start = clock_seconds();
-    newton->record.projected = incremental_potential_hessian(
-        &newton->E, newton->u, newton->x, newton->settings.filter, newton->slot,
-        &newton->A);
-    double assembled = clock_seconds();
-    status = cholesky_factor(newton->cholesky);
+    Status status = search_direction_assemble(
+        &newton->search, &newton->E, newton->u, newton->x, filter, &projected);
+    assembled = clock_seconds();
+    if (!status)
+        status = search_direction_factor(&newton->search, &tries);
     newton->age = status ? -1 : 0;
     newton->record.factorised = true;
-    counters->projected += newton->record.projected;
-    counters->factorisations++;
+    newton->record.projected = projected;
+    newton->record.shift = newton->search.shift;
+    counters->projected += projected;
+    counters->factorisations += tries;
+    counters->shifted += newton->search.shift > 0;
     counters->seconds_assembly += assembled - start;
     counters->seconds_factor += clock_seconds() - assembled;
     return status;
@@ -182,10 +107,9 @@ static Status newton_factor(Newton *newton)
 static Status newton_solve(Newton *newton)
 {
     double start = clock_seconds();
-    negate_into_order(newton, newton->g, newton->b);
-    Status status = cholesky_solve(newton->cholesky, newton->b, newton->b);
-    if (!status)
-        copy_from_order(newton, newton->b, newton->p);
+    Status status =
+        search_direction_solve(&newton->search, &newton->E, newton->u,
+                               newton->x, newton->g, newton->p);
     newton->counters.solves++;
     newton->counters.seconds_solve += clock_seconds() - start;
     return status;
@@ -202,8 +126,9 @@ static bool uses_plane(const Newton *newton)
 static bool factor_may_serve(const Newton *newton)
 {
     return newton->settings.solver == SOLVER_LAGGED &&
-           newton->settings.filter == FILTER_CLAMP && newton->age >= 0 &&
-           newton->age < MAX_FACTOR_AGE;
+           newton->settings.filter == FILTER_CLAMP &&
+           newton->search.filter == FILTER_CLAMP && newton->search.shift == 0 &&
+           newton->age >= 0 && newton->age < MAX_FACTOR_AGE;
 }
 
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
@@ -243,13 +168,26 @@ static Status newton_direction(Newton *newton)
         if (status)
             return status;
     }
-    Status status = newton_factor(newton);
+    Status status = newton_factor(newton, newton->settings.filter);
     return status ? status : newton_solve_and_test(newton);
+}
+
+/* Whether g is 0 but for rounding, compared with the force of a spring that is
+ * compressed to nothing. */
+static bool gradient_vanishes(const Newton *newton)
+{
+    const System *system = newton->system;
+    double force = 0, largest = 0;
+    for (int s = 0; s < system->springs; s++)
+        force = fmax(force, system->k[s] * sqrt(system->l2[s]));
+    for (int i = 0; i < 2 * system->nodes; i++)
+        largest = fmax(largest, fabs(newton->g[i]));
+    return largest <= 1e-12 * newton->E.weight * force;
 }
 
 /* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
  * lower eigenvalue of its H; so masses that outweigh these sums make the
- * Hessian positive definite, without any factorisation. */
+ * Hessian positive definite, without any factorisation.  sum [2n] out */
 static bool masses_outweigh_springs(const Newton *newton, double *sum)
 {
     const System *system = newton->system;
@@ -272,23 +210,25 @@ static bool masses_outweigh_springs(const Newton *newton, double *sum)
     return true;
 }
 
-/* A start whose gradient passes the test by itself may be a maximum or a
- * saddle, such as all nodes in one point.  There the Hessian as it is, not
- * projected, has no Cholesky factor. */
+/* Where the gradient vanishes may be a maximum or a saddle, such as all nodes
+ * in one point.  There the Hessian as it is, not projected, has a negative
+ * eigenvalue: a pivot of L D L^T that is not positive. */
 static Status newton_check_minimum(Newton *newton)
 {
-    if (newton->settings.filter != FILTER_CLAMP ||
-        masses_outweigh_springs(newton, newton->b))
+    if (newton->settings.filter != FILTER_CLAMP || !gradient_vanishes(newton) ||
+        masses_outweigh_springs(newton, newton->p))
         return STATUS_OK;
-    Status status = newton_analyse(newton);
-    if (status)
-        return status;
-    incremental_potential_hessian(&newton->E, newton->u, newton->x, FILTER_NONE,
-                                  newton->slot, &newton->A);
+    int projected;
+    Status status =
+        search_direction_assemble(&newton->search, &newton->E, newton->u,
+                                  newton->x, FILTER_NONE, &projected);
+    if (!status)
+        status = cholesky_factor(newton->search.cholesky);
+    newton->age = -1;
     newton->counters.factorisations++;
-    status = cholesky_factor(newton->cholesky);
-    return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
-                                                  : status;
+    if (!status && cholesky_negative_pivots(newton->search.cholesky) > 0)
+        return STATUS_NOT_A_MINIMUM;
+    return status;
 }
 
 /* Without springs E is quadratic and its Hessian diagonal: the minimiser is
@@ -344,7 +284,7 @@ static double quartic_difference(const void *function, double alpha)
 static bool hidden_by_rounding(const Newton *newton, double change)
 {
     double E = incremental_potential_scale(&newton->E, newton->u, newton->x);
-    return fabs(change) <= 4 * 2.220446049250313e-16 * E;
+    return isfinite(E) && fabs(change) <= 4 * 2.220446049250313e-16 * E;
 }
 
 /* Step length along p (Algorithm 2). */
@@ -393,6 +333,8 @@ static Status newton_search(Newton *newton)
         return STATUS_OK;
     newton->record.alpha = 0;
     newton->record.change = 0;
+    if (!isfinite(newton->record.slope))
+        return STATUS_NOT_FINITE;
     if (hidden_by_rounding(newton, newton->record.slope))
         return STATUS_ROUNDING_LIMIT;
     return newton->record.slope > 0 ? STATUS_NOT_DESCENT : status;
@@ -459,10 +401,33 @@ Status newton_iterate(Newton *newton)
     return newton->status = status;
 }
 
+/* Springs cannot move the centre of mass: at the minimum sum m u equals
+ * sum m u_tilde.  What the tolerance has left of the difference is moved, which
+ * lowers E, and linear momentum is conserved to rounding. */
+void newton_finish(Newton *newton)
+{
+    const System *system = newton->system;
+    double mass = 0, missing[2] = {0, 0};
+    if (system->pinned || system->omega2 > 0 ||
+        (newton->status && !status_is_unconverged(newton->status)))
+        return;
+    for (int i = 0; i < system->nodes; i++) {
+        mass += system->m[i];
+        for (int c = 0; c < 2; c++)
+            missing[c] += system->m[i] *
+                          (newton->u_tilde[2 * i + c] - newton->u[2 * i + c]);
+    }
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        newton->u[i] += missing[i % 2] / mass;
+        newton->x[i] = newton->E.x_n[i] + newton->u[i];
+    }
+}
+
 Status newton_minimise(Newton *newton, const double *x_n, double weight)
 {
     Status status = newton_start(newton, x_n, weight);
     while (status == STATUS_RUNNING)
         status = newton_iterate(newton);
+    newton_finish(newton);
     return status;
 }

@@ -103,6 +103,7 @@ static void add_counters(const NewtonCounters *counters, NewtonCounters *sum)
     sum->solves += counters->solves;
     sum->projected += counters->projected;
     sum->trials += counters->trials;
+    sum->shifted += counters->shifted;
     sum->skipped += counters->skipped;
     sum->seconds_assembly += counters->seconds_assembly;
     sum->seconds_factor += counters->seconds_factor;

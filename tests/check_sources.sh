@@ -80,17 +80,18 @@ verdict headers_have_guards "$(guards)"
 # Layer of a module; a higher one may use a lower one, and its own.
 layer() {
     case $1 in
-    status | square_mesh) echo 1 ;;
+    status | square_mesh | quartic) echo 1 ;;
     psd | inertia_energy | mass_spring_energy | avf_energy | system) echo 2 ;;
     sparse | cholesky) echo 3 ;;
     line_search | plane_search | incremental_potential | newton | \
+        search_direction | plain_newton | \
         scalar_newton) echo 4 ;;
     time_integrator | backward_euler | explicit_methods | \
         implicit_methods | average_vector_field) echo 5 ;;
     options | scene | simulation | *_scene | *_scenes) echo 6 ;;
     canvas | colour_map | font | draw | history | view | recording | hud | \
         panels | paper | plot | *_picture | text_block | output | png_file | \
-        player | summary) echo 7 ;;
+        player | summary | trail) echo 7 ;;
     main | bench | bench_*) echo 8 ;;
     *) echo 0 ;;
     esac

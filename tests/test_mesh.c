@@ -125,7 +125,7 @@ static double factor_entries(int segments, bool ordered)
     }
     CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
     double entries =
-        cholesky_factor_entries(simulation.run[0].newton->cholesky);
+        cholesky_factor_entries(simulation.run[0].newton->search.cholesky);
     simulation_free(&simulation);
     return entries;
 }

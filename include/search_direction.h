@@ -1,0 +1,53 @@
+/* search_direction.h - p = -H^-1 g (slide: search_dir), H the Hessian of the
+ * incremental potential: pattern, slots and symbolic analysis once, then
+ * assemble, factor and solve as often as wanted.
+ *
+ * Where h^2 k outweighs the masses by more than the 16 digits of a double, H
+ * has no Cholesky factor in floating point.  Then H + shift I is factored, and
+ * conjugate gradients on H itself, applied spring by spring, remove what the
+ * shift has changed.
+ */
+#ifndef ELASTO_SEARCH_DIRECTION_H
+#define ELASTO_SEARCH_DIRECTION_H
+
+#include "cholesky.h"
+#include "incremental_potential.h"
+
+typedef struct SearchDirection {
+    const System *system;  /* not owned */
+    Filter filter;         /* of the Hessian in A */
+    CholeskyKind kind;     /* what cholesky was made for */
+    Sparse A;              /* Hessian, one triangle, in elimination order */
+    int *slot;             /* place of each triplet in A */
+    Cholesky *cholesky;    /* NULL: no matrix was needed yet */
+    double shift;          /* kg, on the diagonal of what was factored */
+    double *b;             /* [2n] right-hand side in elimination order */
+    double *r, *z, *q, *d; /* [2n] of conjugate gradients, or NULL */
+} SearchDirection;
+
+/* Returns OK, OUT_OF_MEMORY; free it in any case.  No matrix is made yet. */
+Status search_direction_create(const System *system, SearchDirection *search);
+void search_direction_free(SearchDirection *search);
+
+/* Makes A and its analysis, unless it has them for this filter, and fills A
+ * with the Hessian of E at u, x.
+ *   projected  out, springs projected
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status search_direction_assemble(SearchDirection *search,
+                                 const IncrementalPotential *E, const double *u,
+                                 const double *x, Filter filter,
+                                 int *projected);
+
+/* Factors A, with a shift if it must.  tries out, factorisations made.
+ * Returns OK, NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
+Status search_direction_factor(SearchDirection *search, int *tries);
+
+/* p = -H^-1 g with the last factor.  Where that has a shift, E, u and x must
+ * be those it was assembled for.
+ *   g  [2n] in; p [2n] out
+ * Returns OK, NOT_FINITE, SINGULAR, OUT_OF_MEMORY. */
+Status search_direction_solve(SearchDirection *search,
+                              const IncrementalPotential *E, const double *u,
+                              const double *x, const double *g, double *p);
+
+#endif

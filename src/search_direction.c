@@ -1,0 +1,228 @@
+#include "search_direction.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Matrices of at most this many rows are factored column by column: below it
+ * dense blocks are too small to pay (measured at 4 ... 64 segments). */
+enum { SIMPLICIAL_MAX_ROWS = 700 };
+
+/* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
+enum { SHIFT_TRIES = 6 };
+
+/* A shift leaves a handful of directions to correct. */
+enum { CONJUGATE_MAX_ITERATIONS = 60 };
+
+Status search_direction_create(const System *system, SearchDirection *search)
+{
+    *search = (SearchDirection){.system = system};
+    search->b = calloc(2 * (size_t)system->nodes, sizeof *search->b);
+    return search->b ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+/* The matrix, its slots and its factor. */
+static void free_matrix(SearchDirection *search)
+{
+    cholesky_free(search->cholesky);
+    search->cholesky = NULL;
+    sparse_free(&search->A);
+    free(search->slot);
+    search->slot = NULL;
+}
+
+void search_direction_free(SearchDirection *search)
+{
+    if (!search)
+        return;
+    free_matrix(search);
+    free(search->b);
+    free(search->r);
+    free(search->z);
+    free(search->q);
+    free(search->d);
+    *search = (SearchDirection){0};
+}
+
+/* What kind of factor the Hessian needs. */
+static CholeskyKind factor_kind(const System *system, Filter filter)
+{
+    if (filter == FILTER_NONE)
+        return CHOLESKY_INDEFINITE;
+    return 2 * system->nodes <= SIMPLICIAL_MAX_ROWS ? CHOLESKY_SIMPLICIAL
+                                                    : CHOLESKY_SUPERNODAL;
+}
+
+/* Triplets to compressed columns, and each triplet's slot. */
+static Status create_pattern(SearchDirection *search)
+{
+    const System *system = search->system;
+    Triplets triplets;
+    Status status = incremental_potential_pattern(system, &triplets);
+    if (!status) {
+        search->slot = malloc((size_t)triplets.count * sizeof(int));
+        status = search->slot
+                     ? sparse_create(&triplets, cholesky_triangle(search->kind),
+                                     &search->A, search->slot)
+                     : STATUS_OUT_OF_MEMORY;
+    }
+    triplets_free(&triplets);
+    if (!status)
+        incremental_potential_drop_pinned(system, &search->A, search->slot);
+    return status;
+}
+
+/* Pattern and symbolic analysis: once, and again only when a key changes the
+ * filter. */
+static Status analyse(SearchDirection *search, Filter filter)
+{
+    CholeskyKind kind = factor_kind(search->system, filter);
+    if (search->cholesky && search->kind == kind)
+        return STATUS_OK;
+    free_matrix(search);
+    search->kind = kind;
+    Status status = create_pattern(search);
+    if (!status)
+        status = cholesky_create(
+            &search->A, kind, search->system->order != NULL, &search->cholesky);
+    if (status)
+        free_matrix(search);
+    return status;
+}
+
+Status search_direction_assemble(SearchDirection *search,
+                                 const IncrementalPotential *E, const double *u,
+                                 const double *x, Filter filter, int *projected)
+{
+    *projected = 0;
+    Status status = analyse(search, filter);
+    if (status)
+        return status;
+    search->filter = filter;
+    *projected = incremental_potential_hessian(E, u, x, filter, search->slot,
+                                               &search->A);
+    return STATUS_OK;
+}
+
+/* The largest entry of the diagonal; its slots come first. */
+static double largest_diagonal(const SearchDirection *search)
+{
+    double largest = 0;
+    for (int t = 0; t < 2 * search->system->nodes; t++)
+        largest = fmax(largest, search->A.value[search->slot[t]]);
+    return largest;
+}
+
+Status search_direction_factor(SearchDirection *search, int *tries)
+{
+    search->shift = 0;
+    *tries = 1;
+    Status status = cholesky_factor(search->cholesky);
+    if (status != STATUS_NOT_POSITIVE_DEFINITE || search->filter == FILTER_NONE)
+        return status;
+    double shift = 1e-15 * largest_diagonal(search);
+    for (int i = 0; i < SHIFT_TRIES && status == STATUS_NOT_POSITIVE_DEFINITE;
+         i++, shift *= 100) {
+        for (int t = 0; t < 2 * search->system->nodes; t++)
+            search->A.value[search->slot[t]] += shift - search->shift;
+        search->shift = shift;
+        ++*tries;
+        status = cholesky_factor(search->cholesky);
+    }
+    return status;
+}
+
+/* z = (H + shift I)^-1 r, both in the order of the nodes. */
+static Status apply_factor(SearchDirection *search, const double *r, double *z)
+{
+    const int *order = search->system->order;
+    double *b = search->b;
+    for (int i = 0; i < search->system->nodes; i++) {
+        int place = order ? order[i] : i;
+        b[2 * place] = r[2 * i];
+        b[2 * place + 1] = r[2 * i + 1];
+    }
+    Status status = cholesky_solve(search->cholesky, b, b);
+    if (status)
+        return status;
+    for (int i = 0; i < search->system->nodes; i++) {
+        int place = order ? order[i] : i;
+        z[2 * i] = b[2 * place];
+        z[2 * i + 1] = b[2 * place + 1];
+    }
+    return STATUS_OK;
+}
+
+/* a . b */
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Workspaces, the first time they are needed. */
+static Status create_workspaces(SearchDirection *search)
+{
+    double **array[] = {&search->r, &search->z, &search->q, &search->d};
+    for (int i = 0; i < 4; i++) {
+        if (!*array[i])
+            *array[i] =
+                calloc(2 * (size_t)search->system->nodes, sizeof(double));
+        if (!*array[i])
+            return STATUS_OUT_OF_MEMORY;
+    }
+    return STATUS_OK;
+}
+
+/* Conjugate gradients for H p = -g, preconditioned with the shifted factor
+ * (Golub, Van Loan: 11.5): directions d, q = H d, residual r, z = factor^-1 r.
+ * H is applied spring by spring: that keeps the small masses which the
+ * assembled matrix has lost to rounding. */
+static Status solve_shifted(SearchDirection *search,
+                            const IncrementalPotential *E, const double *u,
+                            const double *x, const double *g, double *p)
+{
+    int n = 2 * search->system->nodes;
+    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double rz = 0, first = 0;
+    for (int i = 0; i < n; i++) {
+        p[i] = d[i] = 0;
+        r[i] = -g[i];
+    }
+    for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
+        Status status = apply_factor(search, r, z);
+        if (status)
+            return status;
+        double last = rz;
+        rz = dot(n, r, z);
+        first = k == 0 ? rz : first;
+        if (!(rz > 1e-28 * first))
+            break;
+        for (int i = 0; i < n; i++)
+            d[i] = z[i] + (k == 0 ? 0 : rz / last) * d[i];
+        incremental_potential_product(E, u, x, search->filter, d, q);
+        double alpha = rz / dot(n, d, q);
+        if (!(alpha > 0))
+            break;
+        for (int i = 0; i < n; i++) {
+            p[i] += alpha * d[i];
+            r[i] -= alpha * q[i];
+        }
+    }
+    return STATUS_OK;
+}
+
+Status search_direction_solve(SearchDirection *search,
+                              const IncrementalPotential *E, const double *u,
+                              const double *x, const double *g, double *p)
+{
+    if (search->shift > 0) {
+        Status status = create_workspaces(search);
+        return status ? status : solve_shifted(search, E, u, x, g, p);
+    }
+    Status status = apply_factor(search, g, p);
+    for (int i = 0; i < 2 * search->system->nodes; i++)
+        p[i] = -p[i];
+    return status;
+}
