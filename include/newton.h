@@ -81,6 +81,7 @@ typedef struct Newton {
     double *g;       /* [2n] grad E at x */
     double *p;       /* [2n] m, search direction at x */
     double *r;       /* [2n] m, last update; only the lagged solver's */
+    int clamps;      /* iterations that on-demand projection still clamps */
     int age;         /* updates since the factor was made; < 0: none yet */
     const System *system;
     SearchDirection search; /* the Hessian and its factor */

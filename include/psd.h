@@ -8,8 +8,11 @@
 
 /* What is done with negative eigenvalues of a spring's Hessian block. */
 typedef enum Filter {
-    FILTER_CLAMP, /* replace them by 0: the slides' projection */
-    FILTER_NONE,  /* keep them */
+    FILTER_CLAMP,     /* replace them by 0: the slides' projection */
+    FILTER_NONE,      /* keep them */
+    FILTER_ABS,       /* replace them by their absolute values */
+    FILTER_ON_DEMAND, /* keep them while the whole Hessian has a Cholesky
+                         factor, else clamp; for one block: as NONE */
     FILTER_COUNT
 } Filter;
 
@@ -30,10 +33,21 @@ void spring_hessian(const double d[2], double l2, double k, double H[3]);
  * Returns whether there was a negative eigenvalue to remove. */
 bool spring_hessian_psd(const double d[2], double l2, double k, double H[3]);
 
+/* The spring's Hessian H with its negative eigenvalues treated as the filter
+ * says.  Returns whether there was one that was changed. */
+bool spring_hessian_filtered(const double d[2], double l2, double k,
+                             Filter filter, double H[3]);
+
 /* H, any symmetric 2x2 matrix, becomes the nearest positive semi-definite one;
  * unchanged to the last bit if it is that already.
  *   H   [3] in/out: H_xx, H_xy, H_yy
  * Returns whether there was a negative eigenvalue to remove. */
 bool make_psd_2x2(double H[3]);
+
+/* The same by absolute values of the eigenvalues. */
+bool make_abs_2x2(double H[3]);
+
+/* Either of them, or nothing, as the filter says. */
+bool filter_2x2(Filter filter, double H[3]);
 
 #endif

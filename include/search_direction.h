@@ -29,17 +29,20 @@ typedef struct SearchDirection {
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
 
-/* Makes A and its analysis, unless it has them for this filter, and fills A
- * with the Hessian of E at u, x.
+/* Makes A and its analysis, unless it has them for this kind, and fills A with
+ * the Hessian of E at u, x.
+ *   definite   false: a factor L D L^T, which allows negative eigenvalues
  *   projected  out, springs projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status search_direction_assemble(SearchDirection *search,
                                  const IncrementalPotential *E, const double *u,
-                                 const double *x, Filter filter,
+                                 const double *x, Filter filter, bool definite,
                                  int *projected);
 
-/* Factors A, with a shift if it must.  tries out, factorisations made.
- * Returns OK, NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
+/* Factors A, with a shift if it must: only a filtered A is known to be
+ * semi-definite but for rounding, so only that is shifted.  tries out,
+ * factorisations made. Returns OK, NOT_POSITIVE_DEFINITE, NOT_FINITE,
+ * OUT_OF_MEMORY. */
 Status search_direction_factor(SearchDirection *search, int *tries);
 
 /* p = -H^-1 g with the last factor.  Where that has a shift, E, u and x must

@@ -85,8 +85,7 @@ int avf_energy_hessian(int springs, const double *x_n, const double *u,
         AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
         double H[3];
         average_hessian(&a, l2[i], scale * k[i], H);
-        if (filter == FILTER_CLAMP)
-            projected += make_psd_2x2(H);
+        projected += filter_2x2(filter, H);
         mass_spring_scatter(H, i, slot, values);
     }
     return projected;
@@ -100,8 +99,7 @@ void avf_energy_product(int springs, const double *x_n, const double *u,
         AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
         double H[3];
         average_hessian(&a, l2[i], scale * k[i], H);
-        if (filter == FILTER_CLAMP)
-            make_psd_2x2(H);
+        filter_2x2(filter, H);
         mass_spring_multiply(H, e + 2 * i, q, y);
     }
 }

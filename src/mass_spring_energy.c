@@ -67,10 +67,7 @@ static bool filtered_hessian(const double *x, const int e[2], double l2,
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
     double d[2] = {xi[0] - xj[0], xi[1] - xj[1]};
-    if (filter == FILTER_CLAMP)
-        return spring_hessian_psd(d, l2, k, H);
-    spring_hessian(d, l2, k, H);
-    return false;
+    return spring_hessian_filtered(d, l2, k, filter, H);
 }
 
 int mass_spring_energy_hessian(int springs, const double *x, const int *e,

@@ -15,6 +15,9 @@ enum { STAGNANT_ITERATIONS = 20 };
  * fewer factorisations; 16 ... 64 measured about the same. */
 enum { MAX_FACTOR_AGE = 16 };
 
+/* Iterations for which projection on demand clamps after it had to. */
+enum { CLAMPS_AFTER_FAILURE = 4 };
+
 /* Wall-clock time, s; only differences mean something. */
 static double clock_seconds(void)
 {
@@ -79,15 +82,15 @@ static double newton_residual_bound(const Newton *newton)
     return sqrt(2 * sum / lightest) / newton->settings.h;
 }
 
-/* Assembles and factors the Hessian at x. */
-static Status newton_factor(Newton *newton, Filter filter)
+/* Assembles and factors the Hessian at x, once. */
+static Status factor_as(Newton *newton, Filter filter, bool definite)
 {
     NewtonCounters *counters = &newton->counters;
     double start = clock_seconds(), assembled;
     int projected, tries = 0;
-    newton->age = -1;
-    Status status = search_direction_assemble(
-        &newton->search, &newton->E, newton->u, newton->x, filter, &projected);
+    Status status =
+        search_direction_assemble(&newton->search, &newton->E, newton->u,
+                                  newton->x, filter, definite, &projected);
     assembled = clock_seconds();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
@@ -101,6 +104,26 @@ static Status newton_factor(Newton *newton, Filter filter)
     counters->seconds_assembly += assembled - start;
     counters->seconds_factor += clock_seconds() - assembled;
     return status;
+}
+
+/* As the filter says.  Projection on demand first tries the Hessian as it is;
+ * after a failure it clamps, and goes on to do so for some iterations. */
+static Status newton_factor(Newton *newton)
+{
+    Filter filter = newton->settings.filter;
+    newton->age = -1;
+    if (filter == FILTER_NONE)
+        return factor_as(newton, FILTER_NONE, false);
+    if (filter != FILTER_ON_DEMAND)
+        return factor_as(newton, filter, true);
+    if (newton->clamps == 0) {
+        Status status = factor_as(newton, FILTER_NONE, true);
+        if (status != STATUS_NOT_POSITIVE_DEFINITE)
+            return status;
+        newton->clamps = CLAMPS_AFTER_FAILURE;
+    }
+    newton->clamps--;
+    return factor_as(newton, FILTER_CLAMP, true);
 }
 
 /* p = -H^-1 g (slide: search_dir). */
@@ -126,9 +149,10 @@ static bool uses_plane(const Newton *newton)
 static bool factor_may_serve(const Newton *newton)
 {
     return newton->settings.solver == SOLVER_LAGGED &&
-           newton->settings.filter == FILTER_CLAMP &&
-           newton->search.filter == FILTER_CLAMP && newton->search.shift == 0 &&
-           newton->age >= 0 && newton->age < MAX_FACTOR_AGE;
+           newton->settings.filter != FILTER_NONE &&
+           newton->search.kind != CHOLESKY_INDEFINITE &&
+           newton->search.shift == 0 && newton->age >= 0 &&
+           newton->age < MAX_FACTOR_AGE;
 }
 
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
@@ -156,7 +180,7 @@ static Status newton_direction(Newton *newton)
     newton->counters.seconds_assembly += clock_seconds() - start;
     newton->record.factorised = false;
     newton->record.projected = 0;
-    if (newton->settings.filter == FILTER_CLAMP) {
+    if (newton->settings.filter != FILTER_NONE) {
         newton->residual = newton_residual_bound(newton);
         if (newton->residual <= newton->settings.tolerance) {
             newton->counters.skipped++;
@@ -168,7 +192,7 @@ static Status newton_direction(Newton *newton)
         if (status)
             return status;
     }
-    Status status = newton_factor(newton, newton->settings.filter);
+    Status status = newton_factor(newton);
     return status ? status : newton_solve_and_test(newton);
 }
 
@@ -215,13 +239,13 @@ static bool masses_outweigh_springs(const Newton *newton, double *sum)
  * eigenvalue: a pivot of L D L^T that is not positive. */
 static Status newton_check_minimum(Newton *newton)
 {
-    if (newton->settings.filter != FILTER_CLAMP || !gradient_vanishes(newton) ||
+    if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
         masses_outweigh_springs(newton, newton->p))
         return STATUS_OK;
     int projected;
     Status status =
         search_direction_assemble(&newton->search, &newton->E, newton->u,
-                                  newton->x, FILTER_NONE, &projected);
+                                  newton->x, FILTER_NONE, false, &projected);
     if (!status)
         status = cholesky_factor(newton->search.cholesky);
     newton->age = -1;

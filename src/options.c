@@ -20,6 +20,8 @@ static const char *const solver_names[SOLVER_COUNT] = {
 static const char *const filter_names[FILTER_COUNT] = {
     [FILTER_CLAMP] = "clamp",
     [FILTER_NONE] = "none",
+    [FILTER_ABS] = "abs",
+    [FILTER_ON_DEMAND] = "on-demand",
 };
 
 static const char *const line_search_names[LINE_SEARCH_COUNT] = {
@@ -429,7 +431,7 @@ const char *options_help(void)
            "symplectic-euler, verlet,\n"
            "                    bdf2, midpoint, sdirk2, avf, avf4\n"
            "  --solver S        newton, lagged\n"
-           "  --filter F        clamp, none\n"
+           "  --filter F        clamp, none, abs, on-demand (projection)\n"
            "  --line-search L   backtrack, none\n"
            "  --start X,Y       where overshoot and landscape begin, m\n"
            "  --steps N         stop after N steps (no screen: 100)\n"

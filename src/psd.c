@@ -105,14 +105,52 @@ bool spring_hessian_psd(const double d[2], double l2, double k, double H[3])
     return true;
 }
 
-/* Eigenvalues mean +- radius.  One negative: (H - low I) is the projector on
- * the other eigenvector times (high - low), so high (H - low I)/(high - low)
- * is what remains. */
-bool make_psd_2x2(double H[3])
+/* Both eigenvectors are known, so the absolute values are at hand:
+ * |lambda_d| d d^T/|d|^2 + |lambda_across| (I - d d^T/|d|^2), where for d = 0
+ * both are 2k. */
+static bool spring_hessian_abs(const double d[2], double l2, double k,
+                               double H[3])
+{
+    double factor = 2 * k / l2;
+    double d2 = d[0] * d[0] + d[1] * d[1];
+    if (d2 >= l2) {
+        spring_hessian(d, l2, k, H);
+        return false;
+    }
+    double along = factor * fabs(3 * d2 - l2), across = factor * (l2 - d2);
+    double difference = d2 > 0 ? (along - across) / d2 : 0;
+    H[0] = across + difference * d[0] * d[0];
+    H[1] = difference * d[0] * d[1];
+    H[2] = across + difference * d[1] * d[1];
+    return true;
+}
+
+bool spring_hessian_filtered(const double d[2], double l2, double k,
+                             Filter filter, double H[3])
+{
+    if (filter == FILTER_CLAMP)
+        return spring_hessian_psd(d, l2, k, H);
+    if (filter == FILTER_ABS)
+        return spring_hessian_abs(d, l2, k, H);
+    spring_hessian(d, l2, k, H);
+    return false;
+}
+
+/* Eigenvalues of a symmetric 2x2 matrix: mean +- radius. */
+static void eigenvalues_2x2(const double H[3], double *low, double *high)
 {
     double mean = 0.5 * (H[0] + H[2]);
     double radius = hypot(0.5 * (H[0] - H[2]), H[1]);
-    double low = mean - radius, high = mean + radius;
+    *low = mean - radius;
+    *high = mean + radius;
+}
+
+/* One negative: (H - low I) is the projector on the other eigenvector times
+ * (high - low), so high (H - low I)/(high - low) is what remains. */
+bool make_psd_2x2(double H[3])
+{
+    double low, high;
+    eigenvalues_2x2(H, &low, &high);
     if (low >= 0)
         return false;
     double factor = high > 0 ? high / (high - low) : 0;
@@ -120,4 +158,27 @@ bool make_psd_2x2(double H[3])
     H[1] = factor * H[1];
     H[2] = factor * (H[2] - low);
     return true;
+}
+
+/* With both projectors: |H| = ((high + low) H - 2 high low I)/(high - low). */
+bool make_abs_2x2(double H[3])
+{
+    double low, high;
+    eigenvalues_2x2(H, &low, &high);
+    if (low >= 0)
+        return false;
+    bool mixed = high > 0;
+    double factor = mixed ? (high + low) / (high - low) : -1;
+    double round = mixed ? -2 * high * low / (high - low) : 0;
+    H[0] = factor * H[0] + round;
+    H[1] = factor * H[1];
+    H[2] = factor * H[2] + round;
+    return true;
+}
+
+bool filter_2x2(Filter filter, double H[3])
+{
+    if (filter == FILTER_CLAMP)
+        return make_psd_2x2(H);
+    return filter == FILTER_ABS && make_abs_2x2(H);
 }

@@ -43,10 +43,10 @@ void search_direction_free(SearchDirection *search)
     *search = (SearchDirection){0};
 }
 
-/* What kind of factor the Hessian needs. */
-static CholeskyKind factor_kind(const System *system, Filter filter)
+/* What kind of factor serves best. */
+static CholeskyKind factor_kind(const System *system, bool definite)
 {
-    if (filter == FILTER_NONE)
+    if (!definite)
         return CHOLESKY_INDEFINITE;
     return 2 * system->nodes <= SIMPLICIAL_MAX_ROWS ? CHOLESKY_SIMPLICIAL
                                                     : CHOLESKY_SUPERNODAL;
@@ -71,11 +71,11 @@ static Status create_pattern(SearchDirection *search)
     return status;
 }
 
-/* Pattern and symbolic analysis: once, and again only when a key changes the
- * filter. */
-static Status analyse(SearchDirection *search, Filter filter)
+/* Pattern and symbolic analysis: once, and again only when another kind of
+ * factor is wanted. */
+static Status analyse(SearchDirection *search, bool definite)
 {
-    CholeskyKind kind = factor_kind(search->system, filter);
+    CholeskyKind kind = factor_kind(search->system, definite);
     if (search->cholesky && search->kind == kind)
         return STATUS_OK;
     free_matrix(search);
@@ -91,10 +91,11 @@ static Status analyse(SearchDirection *search, Filter filter)
 
 Status search_direction_assemble(SearchDirection *search,
                                  const IncrementalPotential *E, const double *u,
-                                 const double *x, Filter filter, int *projected)
+                                 const double *x, Filter filter, bool definite,
+                                 int *projected)
 {
     *projected = 0;
-    Status status = analyse(search, filter);
+    Status status = analyse(search, definite);
     if (status)
         return status;
     search->filter = filter;

@@ -295,6 +295,71 @@ static void diagonal_blocks_are_cut_exactly(void **unused)
         CHECK(a[i] == (i == 5 ? 2 : i == 15 ? 4 : 0));
 }
 
+/* |H| is the positive semi-definite matrix with |H|^2 = H^2: for the spring's
+ * closed form and for any 2x2 matrix. */
+static void check_absolute(const double H[3], const double A[3])
+{
+    double scale = fabs(H[0]) + fabs(H[1]) + fabs(H[2]) + DBL_MIN;
+    double square = scale * scale;
+    for (int i = 0; i < 2; i++) {
+        const double *d = i == 0 ? H : A;
+        CHECK(isfinite(d[0] + d[1] + d[2]));
+    }
+    /* A few roundings of each product. */
+    CHECK_NEAR(A[0] * A[0] + A[1] * A[1], H[0] * H[0] + H[1] * H[1],
+               1e-13 * square);
+    CHECK_NEAR(A[1] * (A[0] + A[2]), H[1] * (H[0] + H[2]), 1e-13 * square);
+    CHECK_NEAR(A[2] * A[2] + A[1] * A[1], H[2] * H[2] + H[1] * H[1],
+               1e-13 * square);
+    CHECK_AT_MOST(-(A[0] + A[2]), 0);
+    CHECK_AT_MOST(A[1] * A[1] - A[0] * A[2], 1e-13 * square);
+}
+
+static void absolute_values_are_right(void **unused)
+{
+    (void)unused;
+    Random random = {11};
+    for (int i = 0; i < 2000; i++) {
+        double d[2], k, H[3], A[3];
+        double ratio = i % 10 == 0 ? 0 : random_uniform(&random, 0, 1.5);
+        double l2 = random_spring(&random, ratio, d, &k);
+        spring_hessian(d, l2, k, H);
+        bool changed = spring_hessian_filtered(d, l2, k, FILTER_ABS, A);
+        check_absolute(H, A);
+        CHECK(changed == (d[0] * d[0] + d[1] * d[1] < l2));
+        if (!changed)
+            CHECK_SAME_BITS(A, H, 3);
+        for (int c = 0; c < 3; c++)
+            A[c] = H[c] = random_uniform(&random, -1, 1);
+        if (!make_abs_2x2(A))
+            CHECK_SAME_BITS(A, H, 3);
+        check_absolute(H, A);
+    }
+}
+
+static void filters_do_what_they_say(void **unused)
+{
+    (void)unused;
+    const double d[2] = {0.3, 0.1}, mixed[3] = {1, 0, -2};
+    double H[3], plain[3];
+    spring_hessian(d, 1, 2, plain);
+    CHECK(spring_hessian_filtered(d, 1, 2, FILTER_CLAMP, H) && H[0] == 0);
+    CHECK(!spring_hessian_filtered(d, 1, 2, FILTER_NONE, H));
+    CHECK_SAME_BITS(H, plain, 3);
+    CHECK(!spring_hessian_filtered(d, 1, 2, FILTER_ON_DEMAND, H));
+    CHECK_SAME_BITS(H, plain, 3);
+    for (int filter = 0; filter < FILTER_COUNT; filter++) {
+        const double last[FILTER_COUNT] = {[FILTER_CLAMP] = 0,
+                                           [FILTER_NONE] = -2,
+                                           [FILTER_ABS] = 2,
+                                           [FILTER_ON_DEMAND] = -2};
+        memcpy(H, mixed, sizeof H);
+        CHECK(filter_2x2((Filter)filter, H) == (last[filter] > -2));
+        CHECK_NEAR(H[0], 1, 1e-15);
+        CHECK_NEAR(H[2], last[filter], 1e-15);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -307,6 +372,8 @@ int main(void)
         cmocka_unit_test(no_length_gives_zero),
         cmocka_unit_test(borders_are_continuous),
         cmocka_unit_test(diagonal_blocks_are_cut_exactly),
+        cmocka_unit_test(absolute_values_are_right),
+        cmocka_unit_test(filters_do_what_they_say),
     };
     return cmocka_run_group_tests_name("psd", tests, NULL, NULL);
 }
