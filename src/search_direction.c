@@ -13,6 +13,9 @@ enum { SHIFT_TRIES = 6 };
 /* A shift leaves a handful of directions to correct. */
 enum { CONJUGATE_MAX_ITERATIONS = 60 };
 
+/* More solves than this to refine a direction, and a new factor is cheaper. */
+enum { REFINE_MAX_SOLVES = 6 };
+
 Status search_direction_create(const System *system, SearchDirection *search)
 {
     *search = (SearchDirection){.system = system};
@@ -176,41 +179,105 @@ static Status create_workspaces(SearchDirection *search)
     return STATUS_OK;
 }
 
-/* Conjugate gradients for H p = -g, preconditioned with the shifted factor
- * (Golub, Van Loan: 11.5): directions d, q = H d, residual r, z = factor^-1 r.
- * H is applied spring by spring: that keeps the small masses which the
- * assembled matrix has lost to rounding. */
+/* The state of conjugate gradients for H p = -g, preconditioned with a factor
+ * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
+ * r. H is applied spring by spring: that keeps small masses which the assembled
+ * matrix has lost to rounding. */
+typedef struct ConjugateGradients {
+    const IncrementalPotential *E;
+    const double *u, *x;
+    Filter filter;
+    double rz; /* r.z, squared size of the residual; the first is kept */
+    double first;
+} ConjugateGradients;
+
+/* p = 0, r = -g */
+static void conjugate_start(SearchDirection *search, const double *g, double *p)
+{
+    for (int i = 0; i < 2 * search->system->nodes; i++) {
+        p[i] = search->d[i] = 0;
+        search->r[i] = -g[i];
+    }
+}
+
+/* One step along the next direction, z being known.  Returns false where there
+ * is nothing left to gain. */
+static bool conjugate_step(SearchDirection *search, ConjugateGradients *state,
+                           double *p)
+{
+    int n = 2 * search->system->nodes;
+    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double last = state->rz;
+    state->rz = dot(n, r, z);
+    if (last == 0)
+        state->first = state->rz;
+    if (!(state->rz > 1e-28 * state->first))
+        return false;
+    for (int i = 0; i < n; i++)
+        d[i] = z[i] + (last == 0 ? 0 : state->rz / last) * d[i];
+    incremental_potential_product(state->E, state->u, state->x, state->filter,
+                                  d, q);
+    double alpha = state->rz / dot(n, d, q);
+    if (!(alpha > 0))
+        return false;
+    for (int i = 0; i < n; i++) {
+        p[i] += alpha * d[i];
+        r[i] -= alpha * q[i];
+    }
+    return true;
+}
+
+/* With the factor of H + shift I. */
 static Status solve_shifted(SearchDirection *search,
                             const IncrementalPotential *E, const double *u,
                             const double *x, const double *g, double *p)
 {
-    int n = 2 * search->system->nodes;
-    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
-    double rz = 0, first = 0;
-    for (int i = 0; i < n; i++) {
-        p[i] = d[i] = 0;
-        r[i] = -g[i];
-    }
+    ConjugateGradients state = {E, u, x, search->filter, 0, 0};
+    conjugate_start(search, g, p);
     for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
-        Status status = apply_factor(search, r, z);
+        Status status = apply_factor(search, search->r, search->z);
         if (status)
             return status;
-        double last = rz;
-        rz = dot(n, r, z);
-        first = k == 0 ? rz : first;
-        if (!(rz > 1e-28 * first))
+        if (!conjugate_step(search, &state, p))
             break;
-        for (int i = 0; i < n; i++)
-            d[i] = z[i] + (k == 0 ? 0 : rz / last) * d[i];
-        incremental_potential_product(E, u, x, search->filter, d, q);
-        double alpha = rz / dot(n, d, q);
-        if (!(alpha > 0))
-            break;
-        for (int i = 0; i < n; i++) {
-            p[i] += alpha * d[i];
-            r[i] -= alpha * q[i];
-        }
     }
+    return STATUS_OK;
+}
+
+/* |r|_(M^-1) */
+static double inverse_mass_norm(const System *system, const double *r)
+{
+    double sum = 0;
+    for (int i = 0; i < system->nodes; i++)
+        sum +=
+            (r[2 * i] * r[2 * i] + r[2 * i + 1] * r[2 * i + 1]) / system->m[i];
+    return sqrt(sum);
+}
+
+Status search_direction_refine(SearchDirection *search,
+                               const IncrementalPotential *E, const double *u,
+                               const double *x, Filter filter, const double *g,
+                               double accuracy, double *p, double *error,
+                               int *solves)
+{
+    ConjugateGradients state = {E, u, x, filter, 0, 0};
+    *solves = 0;
+    Status status = create_workspaces(search);
+    if (status)
+        return status;
+    for (int i = 0; i < 2 * search->system->nodes; i++)
+        search->z[i] = p[i]; /* factor^-1 (-g) already */
+    conjugate_start(search, g, p);
+    while (conjugate_step(search, &state, p)) {
+        *error = inverse_mass_norm(search->system, search->r);
+        if (*error <= accuracy || *solves == REFINE_MAX_SOLVES)
+            return STATUS_OK;
+        ++*solves;
+        status = apply_factor(search, search->r, search->z);
+        if (status)
+            return status;
+    }
+    *error = inverse_mass_norm(search->system, search->r);
     return STATUS_OK;
 }
 
