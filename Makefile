@@ -22,12 +22,18 @@ MODULES = status square_mesh psd quartic \
           landscape_picture draw output png_file recording view player \
           summary
 
-VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
+# elasto-bench has these besides, and bench.c.
+BENCH_MODULES = plain_newton bench_report bench_reference bench_problem \
+                bench_cost bench_memory bench_work bench_solver \
+                bench_tolerance bench_filters bench_drawing bench_claims
+
 comma   := ,
+VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
 B       := build/$(VARIANT)
 CONFIG  := build/config.mk
 
 OBJECTS := $(MODULES:%=$(B)/%.o)
+BENCH_OBJECTS := $(BENCH_MODULES:%=$(B)/%.o)
 SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 
 ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude $(DEP_CFLAGS) $(CPPFLAGS)
@@ -40,7 +46,8 @@ COMPILE      = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS)
 Q = $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' $(1) $(2))
 
-.PHONY: all run test single install uninstall clean help FORCE
+.PHONY: all run test bench figures single pictures install uninstall clean \
+        help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -54,11 +61,12 @@ run: build/elasto
 
 # ---- dependencies ----------------------------------------------------------
 # build/config.mk holds their flags.  Its recipe installs what is missing; make
-# then starts again with the new file.  clean and help need none of it.
+# then starts again with the new file.  clean, figures and help need none of it.
 GOALS := $(or $(MAKECMDGOALS),all)
-ifneq ($(filter-out clean help uninstall,$(GOALS)),)
+ifneq ($(filter-out clean help uninstall figures,$(GOALS)),)
 include $(CONFIG)
-ifneq ($(filter test suites,$(GOALS)),)
+ifneq ($(filter test suites stress envelope mutants coverage analyse \
+          build/stress,$(GOALS)),)
 include build/config-test.mk
 endif
 endif
@@ -138,6 +146,30 @@ $(B)/%.o: src/%.c $(B)/flags
 
 -include $(wildcard $(B)/*.d $(B)/tests/*.d)
 
+# ---- benchmark -------------------------------------------------------------
+# The CSV files that it writes say with which flags it was compiled.
+build/elasto-bench: $(B)/elasto-bench FORCE
+	@cmp -s $< $@ || cp $< $@
+
+$(B)/elasto-bench: $(OBJECTS) $(BENCH_OBJECTS) $(B)/bench.o
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
+
+$(B)/bench_report.o: src/bench_report.c $(B)/flags
+	$(call say,CC,$<)
+	$(Q)$(COMPILE) -DBENCH_FLAGS='"$(strip $(ALL_CFLAGS))"' -MMD -MP -c $< -o $@
+
+bench: build/elasto-bench
+	./build/elasto-bench $(ARGS)
+
+figures:
+	@command -v gnuplot >/dev/null 2>&1 || { \
+	  echo 'make figures needs gnuplot (apt-get install gnuplot-nox)'; exit 1; }
+	@[ -f build/bench/work_precision.csv ] || { \
+	  echo 'make figures draws what make bench has measured: run that first'; \
+	  exit 1; }
+	gnuplot -c src/bench_figures.gnuplot build/bench tests
+
 # ---- one file --------------------------------------------------------------
 # Each local #include becomes the header itself, the first time it is met.
 define SINGLE_AWK
@@ -183,16 +215,86 @@ $(B)/tests/test_%: $(B)/tests/test_%.o $(B)/tests/testing.o $(OBJECTS)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
 	  $(DEP_LIBS) $(LDLIBS)
 
+# These need more than the demo has.
+$(B)/tests/test_plain_newton: $(B)/plain_newton.o
+$(B)/tests/test_orders: $(B)/bench_reference.o
+
 # This suite makes allocations fail one by one.
 $(B)/tests/test_memory: TEST_LIBS += -Wl,--wrap=malloc,--wrap=calloc \
   -lsuitesparseconfig
 
+# This one counts calls of CHOLMOD.
+$(B)/tests/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
+  -Wl,--wrap=cholmod_analyze,--wrap=cholmod_factorize
+
 suites: $(SUITES)
 .PHONY: suites
 
-test: $(SUITES) build/elasto build/elasto_single.c
+test: $(SUITES) build/elasto $(B)/elasto-bench build/elasto_single.c
 	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
-	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto sh tests/run.sh $(SUITES)
+	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
+	  sh tests/run.sh $(SUITES)
+
+# ---- pictures of the README -----------------------------------------------
+# tests/pictures.txt: name, step, command line; a test holds them.
+pictures: build/elasto
+	@while read -r name step line; do \
+	  ./build/elasto $$line --headless --quiet --steps $$step \
+	    --frames build/frames-$$name || [ $$? = 3 ] || exit 1; \
+	  cp build/frames-$$name/frame_$$(printf %06d $$step).png \
+	    tests/$$name.png || exit 1; \
+	  rm -rf build/frames-$$name; echo "tests/$$name.png"; \
+	done <tests/pictures.txt
+
+# ---- hard to break ---------------------------------------------------------
+STRESS_PARTS = stress_exact stress_watch stress_random stress_cases \
+               stress_answers stress_envelope
+STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/%.o)
+
+$(B)/tests/test_stress: $(STRESS_OBJECTS)
+
+$(B)/stress: $(B)/tests/stress.o $(STRESS_OBJECTS) $(B)/tests/testing.o \
+             $(OBJECTS)
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
+	  $(DEP_LIBS) $(LDLIBS)
+
+build/stress: $(B)/stress FORCE
+	@cmp -s $< $@ || cp $< $@
+
+# The program with faults linked in: sanitizers see what they do.
+$(B)/elasto-faults: $(OBJECTS) $(B)/main.o tests/faults.c
+	$(call say,LINK,$@)
+	$(Q)$(COMPILE) -DFAULT_WRAP $(filter-out %.o,$^) $(filter %.o,$^) -o $@ \
+	  $(ALL_LDFLAGS) $(DEP_LIBS) $(LDLIBS) \
+	  $(foreach call,malloc calloc realloc fopen rename mkdir,-Wl,--wrap=$(call))
+
+test: $(if $(SANITIZE),$(B)/elasto-faults)
+
+# Ends by itself within ten minutes.
+stress: build/stress build/elasto
+	./build/stress $(ARGS)
+	@$(CHECK_ENVIRONMENT) FAULTS=all sh tests/check_faults.sh
+
+envelope: build/stress
+	./build/stress --envelope tests/envelope.csv tests/envelope.png
+
+CHECK_ENVIRONMENT = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' \
+  DEP_LIBS='$(DEP_LIBS)' SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto
+
+same-bits: build/elasto_single.c build/elasto
+	@$(CHECK_ENVIRONMENT) sh tests/same_bits.sh
+
+mutants: $(CONFIG)
+	@sh tests/mutants.sh $(ARGS)
+
+coverage: $(CONFIG)
+	@sh tests/coverage.sh
+
+analyse: $(CONFIG)
+	@$(CHECK_ENVIRONMENT) sh tests/analyse.sh
+
+.PHONY: stress envelope same-bits mutants coverage analyse
 
 # ---- the rest --------------------------------------------------------------
 install: build/elasto
@@ -211,6 +313,15 @@ help:
 	@echo 'make            build build/elasto'
 	@echo 'make test       build and run all tests (SANITIZE=address,undefined)'
 	@echo 'make single     write the whole demo as build/elasto_single.c'
+	@echo 'make pictures   draw the pictures of the README again'
+	@echo 'make bench      measure run time against error, for minutes'
+	@echo '                (ARGS="--quick" or "--only PART"; --help)'
+	@echo 'make figures    draw what it measured (needs gnuplot)'
+	@echo 'make stress     named cases, random scenes, faults: ten minutes'
+	@echo 'make envelope   draw where the solvers converge again'
+	@echo 'make same-bits  one run by all compilers gives one hash'
+	@echo 'make mutants    faults put into the sources must fail a test'
+	@echo 'make coverage   lines that the tests run; make analyse: other tools'
 	@echo 'make install    to $$(DESTDIR)$$(PREFIX)/bin; make uninstall'
 	@echo 'make clean      remove build/'
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected; V=1 shows commands'

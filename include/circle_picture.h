@@ -10,7 +10,8 @@
 void circle_picture_draw(Paper *paper, const Simulation *simulation,
                          const Hud *hud);
 
-/* Lower left: radius over time.  Lower right: which colour is which run. */
+/* Lower left: radius over time.  Lower right: which colour is which run, and
+ * its radius. */
 void circle_picture_panels(Paper *paper, const Simulation *simulation,
                            const Hud *hud);
 

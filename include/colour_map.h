@@ -9,7 +9,7 @@
 #define COLOUR_WHITE    0xffffffffu
 #define COLOUR_SPRING   0xff0000ffu /* as on the slides */
 #define COLOUR_TEXT     0xff202020u
-#define COLOUR_FAINT    0xff707070u
+#define COLOUR_FAINT    0xff585858u
 #define COLOUR_GRID     0xffdcdcdcu
 #define COLOUR_PANEL    0xc0ffffffu
 #define COLOUR_WARNING  0xffd00000u
@@ -17,7 +17,9 @@
 #define COLOUR_REST     0xffb8b8b8u
 #define COLOUR_COMPRESS 0xff0072b2u
 #define COLOUR_THIRD    0xff009e73u
-#define COLOUR_CONTOUR  0xffb0b0b0u
+#define COLOUR_CONTOUR  0xff9c9c9cu
+#define COLOUR_SHADE    0xfffdeecfu /* where E is not convex */
+#define COLOUR_SHADED   0xff8a6100u /* words about it */
 #define COLOUR_TOTAL    0xff303030u
 #define COLOUR_KINETIC  0xffd55e00u
 #define COLOUR_ELASTIC  0xff0072b2u

@@ -1,5 +1,5 @@
 /* curve_picture.h - Newton in one variable: f, its quadratic model where the
- * last update began, and the iterates.
+ * last update began, the minimum of the model, and the iterates.
  */
 #ifndef ELASTO_CURVE_PICTURE_H
 #define ELASTO_CURVE_PICTURE_H
@@ -7,6 +7,7 @@
 #include "paper.h"
 #include "simulation.h"
 
-void curve_picture_draw(Paper *paper, const Simulation *simulation);
+/* text  numbers, axes and legend too */
+void curve_picture_draw(Paper *paper, const Simulation *simulation, bool text);
 
 #endif

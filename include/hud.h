@@ -15,15 +15,17 @@ typedef struct Hud {
     bool strain; /* springs coloured by strain */
     bool keys;   /* the list of keys */
     bool paused;
-    double speed;    /* simulated over real time, as it is set */
-    double measured; /* the same as it is reached; 0: unknown */
-    bool stepped;    /* at least one step was made */
-    int iterations;  /* Newton updates of the last step */
-    int trials;      /* energies its line searches looked at */
-    long projected;  /* springs projected in it, over all updates */
-    double alpha;    /* its smallest step length */
-    Status trouble;  /* of the last step, if it did not converge or failed */
-    long trouble_step;
+    double speed;      /* simulated over real time, as it is set */
+    double measured;   /* the same as it is reached; 0: unknown */
+    bool stepped;      /* at least one step was made */
+    int iterations;    /* Newton updates of the last step */
+    int trials;        /* energies its line searches looked at */
+    int projected;     /* springs projected, in the update that had most */
+    double alpha;      /* its smallest step length */
+    double slope;      /* of its last direction, J s^2: < 0 is downhill */
+    Status trouble;    /* of the last step, if it did not converge or failed */
+    long trouble_step; /* 0: at the start */
+    bool hints;        /* say which key helps: there are keys */
     char note[HUD_NOTE_SIZE]; /* what a key just did, or "" */
     Energies energies;        /* now, when text is on */
     History history; /* total, kinetic, elastic energy, J; or radii, m */

@@ -7,14 +7,15 @@
 #include "paper.h"
 #include "simulation.h"
 
-/* Contours, springs, path and the present direction. */
-void landscape_picture_draw(Paper *paper, const Simulation *simulation);
+/* Contours with their values, where E is not convex, the springs, the path
+ * with directions and step lengths, the direction from here.
+ *   text  numbers, axes and legend too */
+void landscape_picture_draw(Paper *paper, const Simulation *simulation,
+                            bool text);
 
-/* Lower left: which line is what. */
-void landscape_picture_legend(Paper *paper);
-
-/* From a pixel of the paper to metres.  point [2] out */
-void landscape_picture_pick(const Paper *paper, double x, double y,
+/* From a pixel of such a picture to metres; false: beside the map.
+ *   point  [2] m, out, where it is true */
+bool landscape_picture_pick(const Paper *paper, bool text, double x, double y,
                             double *point);
 
 #endif

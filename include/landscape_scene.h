@@ -19,7 +19,14 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings);
 /* One Newton iteration. */
 Status step_landscape(Simulation *simulation);
 
+/* The direction from the present iterate, as the methods now want it. */
+void aim_landscape(Simulation *simulation);
+
 /* E at position (x, y) of the free node, J s^2. */
 double landscape_value(const Simulation *simulation, double x, double y);
+
+/* Whether the Hessian of E, not projected, is positive definite there: then
+ * Newton's direction is downhill with and without projection. */
+bool landscape_is_convex(const Simulation *simulation, double x, double y);
 
 #endif

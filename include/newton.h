@@ -84,6 +84,7 @@ typedef struct Newton {
     int clamps;      /* iterations that on-demand projection still clamps */
     int age;         /* updates since the factor was made; < 0: none yet */
     const System *system;
+    double lightest;        /* kg, the smallest mass */
     SearchDirection search; /* the Hessian and its factor */
 } Newton;
 

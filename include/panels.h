@@ -1,4 +1,8 @@
-/* panels.h - the texts, the plot and the legend around a picture.
+/* panels.h - the texts around a picture that all scenes have, and the places
+ * where a picture may put its own.
+ *
+ * From above: the sentence of the scene; two blocks of numbers, left and
+ * right; the picture; what went wrong in the last step; a plot with a legend.
  */
 #ifndef ELASTO_PANELS_H
 #define ELASTO_PANELS_H
@@ -6,31 +10,39 @@
 #include "hud.h"
 #include "text_block.h"
 
-/* Upper left: step, time, speed, method, mesh. */
+/* Along the upper edge: the sentence of the scene. */
+void panels_draw_sentence(Paper *paper, const Simulation *simulation);
+
+/* Upper left: step, time, speed, method, mesh; or iteration and iterate. */
 void panels_draw_run(Paper *paper, const Simulation *simulation,
                      const Hud *hud);
 
-/* Upper right: the last iteration of a minimisation shown step by step. */
-void panels_draw_descent(Paper *paper, const Simulation *simulation);
+/* Upper right: a block of the picture's own. */
+void panels_draw_right(Paper *paper, const TextBlock *block);
 
-/* Upper right: what Newton did in the last step. */
-void panels_draw_newton(Paper *paper, const Simulation *simulation,
-                        const Hud *hud);
-
-/* Lower left: the energies over time.  Lower right: their numbers. */
-void panels_draw_energies(Paper *paper, const Simulation *simulation,
-                          const Hud *hud);
-
-/* For other pictures: where their plot goes, and a legend beside it. */
+/* Lower left: where a plot goes.  Lower right: a legend beside it. */
 Box panels_plot_box(const Paper *paper);
 void panels_draw_legend(Paper *paper, const TextBlock *block);
 
-/* Lower right, below the numbers: which colour is which strain. */
-void panels_draw_strain_legend(Paper *paper, double range);
+/* For pictures of minimisations: the last update in the upper right, legends
+ * in columns along the lower edge, and the room that both leave. */
+void panels_draw_update(Paper *paper, const Simulation *simulation);
+void panels_draw_columns(Paper *paper, const TextBlock *blocks, int count);
+Box panels_middle_box(const Paper *paper);
 
-/* In the middle: a step that failed, in red; a note; the list of keys. */
-void panels_draw_trouble(Paper *paper, const Hud *hud);
-void panels_draw_note(Paper *paper, const Hud *hud);
-void panels_draw_keys(Paper *paper);
+/* "projection" and "line search": which are on, and what they did.
+ *   projected  springs, or < 0: nothing was projected yet
+ *   trials     step lengths looked at */
+void panels_add_methods(TextBlock *block, const Simulation *simulation,
+                        int projected, int trials);
+
+/* Above what is along the lower edge: a step that failed, in red; a note. */
+void panels_draw_trouble(Paper *paper, const Simulation *simulation,
+                         const Hud *hud);
+void panels_draw_note(Paper *paper, const Simulation *simulation,
+                      const Hud *hud);
+
+/* In the middle: the keys of this scene and what they do. */
+void panels_draw_keys(Paper *paper, const Simulation *simulation);
 
 #endif

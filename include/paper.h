@@ -1,14 +1,15 @@
 /* paper.h - what a picture is drawn on: a canvas, and a font that fits it.
  *
  * Sizes of everything but the square itself are in units: the smaller side of
- * the picture has PAPER_UNITS of them, so that any size looks the same.
+ * the picture has PAPER_UNITS of them, so that any size looks the same.  A
+ * line of text over it holds PAPER_LETTERS letters.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
 
 #include "font.h"
 
-enum { PAPER_UNITS = 450 };
+enum { PAPER_UNITS = 450, PAPER_LETTERS = 62 };
 
 typedef struct Paper {
     Canvas canvas;
@@ -41,11 +42,23 @@ bool paper_shows_text(const Paper *paper);
 /* Origin in the middle; `size` metres fill this part of the smaller side. */
 Mapping paper_mapping(const Paper *paper, double size, double part);
 
+/* A line between two points in metres, at least a pixel wide.
+ *   a, b   [2] m, in
+ *   width  units */
+void paper_line(Paper *paper, const Mapping *mapping, const double *a,
+                const double *b, double width, Colour colour);
+
+/* A disc around a point in metres.  a [2] m, in; radius in units. */
+void paper_disc(Paper *paper, const Mapping *mapping, const double *a,
+                double radius, Colour colour);
+
 /* Translucent white, to put text on. */
 void paper_panel(Paper *paper, Box box);
 
-/* One line of text; y is its upper edge. */
+/* One line of text; y is its upper edge.  The bold one has thicker strokes. */
 void paper_text(Paper *paper, int x, int y, Align align, Colour colour,
                 const char *text);
+void paper_bold_text(Paper *paper, int x, int y, Align align, Colour colour,
+                     const char *text);
 
 #endif

@@ -10,7 +10,8 @@
 #include "view.h"
 
 typedef struct Player {
-    Options options;
+    Options options; /* of the scene that runs */
+    Options given;   /* of the command line, for its own scene */
     Simulation simulation;
     Recording recording;
     Hud hud;

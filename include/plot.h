@@ -22,11 +22,24 @@ double plot_round_up(double value);
  * a number. */
 double plot_round_axis(double value);
 
+/* What is left of the outer box without the numbers and the labels. */
+Box plot_inner_box(const Paper *paper, Box outer);
+
 /* Panel, grid, numbers and labels inside the outer box. */
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y);
 
 /* Where a point is drawn, pixels. */
 void plot_place(const Plot *plot, double x, double y, double place[2]);
+
+/* A line and a disc, as far as they are inside the axes.
+ *   a, b           [2] in, in the units of the axes
+ *   width, radius  units of the paper
+ * The disc is left out where its centre is outside; returns whether it is
+ * inside. */
+void plot_line(Paper *paper, const Plot *plot, const double *a, const double *b,
+               double width, Colour colour);
+bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
+               Colour colour);
 
 /* Joins the points.  x, y [count] in. */
 void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,

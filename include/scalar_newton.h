@@ -27,7 +27,8 @@ typedef struct ScalarNewton {
  * Returns RUNNING, OK (a minimiser already), DIVERGED (it has no direction). */
 Status scalar_newton_start(ScalarNewton *newton);
 
-/* One iteration.  record out, also after a failure; its residual is |p|.
+/* One iteration.  record out, also after a failure; its residual is |p|, its
+ * points are (x, f(x)).
  * Returns RUNNING, OK, LINE_SEARCH_LIMIT, NOT_DESCENT, or DIVERGED where the
  * next direction is beyond all numbers. */
 Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record);

@@ -1,8 +1,9 @@
 /* scene.h - the scenes, one row of a table each.
  *
  * A row names what the scene needs; the rest is skipped: no term evaluated, no
- * matrix analysed, nothing drawn.  To add a scene: one row and one function
- * that fills the system and the start.
+ * matrix analysed, nothing drawn.  To add a scene: one row in scene.c and one
+ * function that fills the system and the start, such as create_square; the
+ * keys, the files, the options and --list know of it then.
  */
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
@@ -27,7 +28,7 @@ enum SceneNeeds {
 
 typedef struct Scene {
     const char *name;     /* as on the command line */
-    const char *sentence; /* for --list and the window */
+    const char *sentence; /* for --list and the window, at most 60 letters */
     Picture picture;
     unsigned needs; /* of enum SceneNeeds */
     /* Changes the default options, before the command line is applied; NULL:
@@ -37,6 +38,9 @@ typedef struct Scene {
     Status (*create)(Simulation *simulation, const NewtonSettings *settings);
     /* One step; NULL: a step in time of every run. */
     Status (*step)(Simulation *simulation);
+    /* The next direction again, after filter or line search changed; NULL:
+     * the next step takes notice by itself. */
+    void (*aim)(Simulation *simulation);
 } Scene;
 
 /* The table; the first row is the default; it ends with a NULL name. */

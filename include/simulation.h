@@ -19,7 +19,9 @@ typedef struct Descent {
     int count;                        /* iterations so far */
     NewtonRecord record[DESCENT_MAX]; /* the first DESCENT_MAX of them */
     double point[2];                  /* the present iterate */
-    double direction[2];              /* p there, m; 0 at the end */
+    double value;                     /* f or E there */
+    double direction[2];              /* p there, m; 0 if there is none */
+    double slope;                     /* grad . p there; < 0 is downhill */
     ScalarNewton scalar;              /* Newton in one variable, if it is */
 } Descent;
 
@@ -60,7 +62,7 @@ Status simulation_step(Simulation *simulation);
  * observer; false: the observer asks to stop. */
 bool simulation_record(Simulation *simulation, const NewtonRecord *record);
 
-/* Simulated time, s. */
+/* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);
 
 /* Energies of one run, computed now. */
@@ -69,7 +71,13 @@ Energies simulation_energies(const Simulation *simulation, int run);
 /* Sum over the runs of what Newton did; zero where all are explicit. */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
-/* Changes filter and line search while running. */
+/* Stored entries of the Hessians of all runs; 0 where none was allocated. */
+long long simulation_matrix_entries(const Simulation *simulation);
+
+/* Filter and line search while running: whether there is a Hessian to project
+ * and a line to search (not in explicit integrators), and their change. */
+bool simulation_has_filter(const Simulation *simulation);
+bool simulation_has_line_search(const Simulation *simulation);
 void simulation_set_filter(Simulation *simulation, Filter filter);
 void simulation_set_line_search(Simulation *simulation, LineSearch search);
 

@@ -52,4 +52,7 @@ void system_acceleration(const System *system, const double *x, double *a);
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 
+/* |g|_(M^-1) = sqrt(sum |g_i|^2 / m_i).  g [2n] in. */
+double system_inverse_mass_norm(const System *system, const double *g);
+
 #endif

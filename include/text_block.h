@@ -5,7 +5,7 @@
 
 #include "paper.h"
 
-enum { TEXT_BLOCK_LINES = 16, TEXT_BLOCK_SIZE = 96 };
+enum { TEXT_BLOCK_LINES = 24, TEXT_BLOCK_SIZE = 96 };
 
 typedef struct TextBlock {
     int lines;
@@ -19,8 +19,8 @@ void text_block_add(TextBlock *block, Colour colour, const char *format, ...);
 /* Pixels that the block with its margins needs. */
 Box text_block_size(const TextBlock *block, const Paper *paper);
 
-/* Draws panel and lines.  (x, y) is the upper edge of the panel, at its left
- * end, middle or right end. */
+/* Draws panel and lines, warnings in bold.  (x, y) is the upper edge of the
+ * panel, at its left end, middle or right end. */
 void text_block_draw(const TextBlock *block, Paper *paper, int x, int y,
                      Align align);
 

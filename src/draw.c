@@ -7,74 +7,54 @@
 #include "panels.h"
 #include "scene.h"
 
-/* Springs, discs, numbers, energies. */
-static SpringCount draw_square(Paper *paper, const Simulation *simulation,
-                               const Hud *hud)
+/* Whether there are texts around the picture. */
+static bool draws_text(const Paper *paper, const Hud *hud)
 {
+    return hud->text && paper_shows_text(paper);
+}
+
+/* By the kind of picture: first what moves, then its texts. */
+static SpringCount draw_picture(Paper *paper, const Simulation *simulation,
+                                const Hud *hud)
+{
+    bool text = draws_text(paper, hud);
     double range = hud->strain ? square_picture_strain_range(simulation) : 0;
-    SpringCount count = square_picture_draw(paper, simulation, range);
-    if (!hud->text || !paper_shows_text(paper))
-        return count;
-    panels_draw_run(paper, simulation, hud);
-    panels_draw_newton(paper, simulation, hud);
-    panels_draw_energies(paper, simulation, hud);
-    if (hud->strain)
-        panels_draw_strain_legend(paper, range);
+    SpringCount count = {0};
+    switch (simulation->scene->picture) {
+    case PICTURE_CIRCLE:
+        circle_picture_draw(paper, simulation, hud);
+        if (text)
+            circle_picture_panels(paper, simulation, hud);
+        break;
+    case PICTURE_CURVE:
+        curve_picture_draw(paper, simulation, text);
+        break;
+    case PICTURE_LANDSCAPE:
+        landscape_picture_draw(paper, simulation, text);
+        break;
+    default:
+        count = square_picture_draw(paper, simulation, range);
+        if (text)
+            square_picture_panels(paper, simulation, hud, range);
+    }
     return count;
 }
 
-/* Trails and radii. */
-static void draw_circle(Paper *paper, const Simulation *simulation,
-                        const Hud *hud)
-{
-    circle_picture_draw(paper, simulation, hud);
-    if (!hud->text || !paper_shows_text(paper))
-        return;
-    panels_draw_run(paper, simulation, hud);
-    circle_picture_panels(paper, simulation, hud);
-}
-
-/* One Newton iteration after the other. */
-static void draw_descent(Paper *paper, const Simulation *simulation,
-                         const Hud *hud)
-{
-    if (simulation->scene->picture == PICTURE_LANDSCAPE)
-        landscape_picture_draw(paper, simulation);
-    else
-        curve_picture_draw(paper, simulation);
-    if (!hud->text || !paper_shows_text(paper))
-        return;
-    panels_draw_run(paper, simulation, hud);
-    panels_draw_descent(paper, simulation);
-    if (simulation->scene->picture == PICTURE_LANDSCAPE)
-        landscape_picture_legend(paper);
-}
-
-/* By the kind of picture, then what all of them have. */
+/* White, the picture, then what all of them have. */
 SpringCount draw_frame(Paper *paper, const Simulation *simulation,
                        const Hud *hud)
 {
-    SpringCount count = {0};
     canvas_clear(&paper->canvas, COLOUR_WHITE);
-    switch (simulation->scene->picture) {
-    case PICTURE_SQUARE:
-        count = draw_square(paper, simulation, hud);
-        break;
-    case PICTURE_CIRCLE:
-        draw_circle(paper, simulation, hud);
-        break;
-    case PICTURE_CURVE:
-    case PICTURE_LANDSCAPE:
-        draw_descent(paper, simulation, hud);
-        break;
-    default:
-        break;
+    SpringCount count = draw_picture(paper, simulation, hud);
+    if (draws_text(paper, hud)) {
+        panels_draw_sentence(paper, simulation);
+        panels_draw_run(paper, simulation, hud);
     }
     if (!paper_shows_text(paper))
         return count;
-    panels_draw_trouble(paper, hud);
-    panels_draw_note(paper, hud);
+    panels_draw_trouble(paper, simulation, hud);
+    panels_draw_note(paper, simulation, hud);
     if (hud->keys)
-        panels_draw_keys(paper);
+        panels_draw_keys(paper, simulation);
     return count;
 }

@@ -32,6 +32,7 @@ void hud_begin_step(Hud *hud)
     hud->trials = 0;
     hud->projected = 0;
     hud->alpha = 1;
+    hud->slope = 0;
 }
 
 /* One more update. */
@@ -39,8 +40,10 @@ void hud_add_update(Hud *hud, const NewtonRecord *record)
 {
     hud->iterations++;
     hud->trials += record->trials;
-    hud->projected += record->projected;
+    if (record->projected > hud->projected)
+        hud->projected = record->projected;
     hud->alpha = fmin(hud->alpha, record->alpha);
+    hud->slope = record->slope;
 }
 
 /* Remembers what went wrong; an interrupted step is no trouble. */

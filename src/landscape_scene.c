@@ -42,15 +42,21 @@ static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
     return STATUS_OK;
 }
 
-/* Copies the iterate to where the picture and the states look for it. */
+/* Copies the iterate to where the picture and the states look for it.  Where
+ * the search failed its direction stays to be seen. */
 static void show_node(Simulation *simulation)
 {
     TimeIntegrator *run = &simulation->run[0];
+    const Newton *newton = run->newton;
     Descent *descent = &simulation->descent;
+    bool ends = simulation->done && newton->record.alpha > 0;
+    descent->slope = 0;
     for (int i = 0; i < 2; i++) {
-        run->x[i] = descent->point[i] = run->newton->x[i];
-        descent->direction[i] = simulation->done ? 0 : run->newton->p[i];
+        run->x[i] = descent->point[i] = newton->x[i];
+        descent->direction[i] = ends ? 0 : newton->p[i];
+        descent->slope += newton->g[i] * descent->direction[i];
     }
+    descent->value = landscape_value(simulation, run->x[0], run->x[1]);
 }
 
 /* Adds the two positions to the record of an iteration. */
@@ -58,10 +64,25 @@ static bool observe_landscape(void *user, const NewtonRecord *iteration)
 {
     Simulation *simulation = user;
     NewtonRecord record = *iteration;
-    record.step = record.iteration + 1;
+    record.step = simulation->steps + 1;
+    record.iteration = (int)simulation->steps;
     memcpy(record.from, simulation->descent.point, sizeof record.from);
     memcpy(record.to, simulation->run[0].newton->x, sizeof record.to);
     return simulation_record(simulation, &record);
+}
+
+/* Newton starts at the present iterate: x_n is moved there, x_tilde stays. */
+void aim_landscape(Simulation *simulation)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    size_t size = 2 * LANDSCAPE_NODES * sizeof *run->x;
+    for (int i = 0; i < 2; i++)
+        run->newton->u_tilde[i] = LANDSCAPE_TARGET[i] - run->x[i];
+    memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
+    Status status = newton_start(run->newton, run->new_x, run->h * run->h);
+    simulation->done = status != STATUS_RUNNING;
+    simulation->status = simulation->done ? status : STATUS_OK;
+    show_node(simulation);
 }
 
 Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
@@ -69,7 +90,6 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
     const Options *options = &simulation->options;
     double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
     const double v[2 * LANDSCAPE_NODES] = {0};
-    TimeIntegrator *run = &simulation->run[0];
     NewtonSettings own = *settings;
     own.observer = observe_landscape;
     own.user = simulation;
@@ -78,22 +98,17 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
         return status;
     simulation->runs = 1;
     status = time_integrator_create(integrator_method("backward-euler"),
-                                    &simulation->system, &own, x, v, run);
+                                    &simulation->system, &own, x, v,
+                                    &simulation->run[0]);
     if (status)
         return status;
-    for (int i = 0; i < 2; i++)
-        run->newton->u_tilde[i] = LANDSCAPE_TARGET[i] - x[i];
-    memcpy(run->new_x, x, sizeof x); /* run->x follows the iterates */
-    status = newton_start(run->newton, run->new_x, own.h * own.h);
-    simulation->done = status != STATUS_RUNNING;
-    show_node(simulation);
-    return status == STATUS_RUNNING ? STATUS_OK : status;
+    aim_landscape(simulation);
+    return status_is_unconverged(simulation->status) ? STATUS_OK
+                                                     : simulation->status;
 }
 
 Status step_landscape(Simulation *simulation)
 {
-    if (simulation->done)
-        return STATUS_OK;
     Status status = newton_iterate(simulation->run[0].newton);
     simulation->done = status != STATUS_RUNNING;
     show_node(simulation);
@@ -110,4 +125,23 @@ double landscape_value(const Simulation *simulation, double x, double y)
     u[0] = x - newton->E.x_n[0];
     u[1] = y - newton->E.x_n[1];
     return incremental_potential_value(&newton->E, u, at);
+}
+
+/* Positive trace and determinant of m I + h^2 sum of H over the springs. */
+bool landscape_is_convex(const Simulation *simulation, double x, double y)
+{
+    const System *system = &simulation->system;
+    const double *pins = simulation->run[0].x;
+    double weight = simulation->run[0].newton->E.weight;
+    double a = system->m[0], b = 0, c = system->m[0];
+    for (int s = 0; s < system->springs; s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {x - pin[0], y - pin[1]};
+        double H[3];
+        spring_hessian(d, system->l2[s], system->k[s], H);
+        a += weight * H[0];
+        b += weight * H[1];
+        c += weight * H[2];
+    }
+    return a + c > 0 && a * c - b * b > 0;
 }

@@ -83,14 +83,17 @@ static int print_information(const Options *options)
 }
 
 /* What a user can do about a failure. */
-static const char *advice(Status status)
+static const char *advice(const Player *player, Status status)
 {
+    unsigned needs = player->options.scene->needs;
     switch (status) {
     case STATUS_OUT_OF_MEMORY:
     case STATUS_TOO_LARGE:
         return "; try fewer --segments";
     case STATUS_NOT_FINITE:
-        return "; try a smaller --timestep or --stretch";
+        return needs & NEEDS_MESH   ? "; try a smaller --timestep or --stretch"
+               : needs & NEEDS_TIME ? "; try a smaller --timestep"
+                                    : "; try a --start nearer to 0,0";
     case STATUS_NOT_POSITIVE_DEFINITE:
         return "; try --filter clamp";
     case STATUS_INVALID_INPUT:
@@ -110,9 +113,10 @@ static void report_failure(const Player *player, Status status)
     else if (player->simulation.status == status)
         fprintf(stderr, "elasto: step %ld failed: %s%s\n",
                 player->simulation.steps + 1, status_text(status),
-                advice(status));
+                advice(player, status));
     else
-        fprintf(stderr, "elasto: %s%s\n", status_text(status), advice(status));
+        fprintf(stderr, "elasto: %s%s\n", status_text(status),
+                advice(player, status));
 }
 
 /* Files, then the summary or the failure.  Returns the exit code. */

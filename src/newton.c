@@ -29,7 +29,12 @@ static double clock_seconds(void)
 Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton)
 {
-    *newton = (Newton){.settings = *settings, .system = system, .age = -1};
+    *newton = (Newton){.settings = *settings,
+                       .system = system,
+                       .lightest = INFINITY,
+                       .age = -1};
+    for (int i = 0; i < system->nodes; i++)
+        newton->lightest = fmin(newton->lightest, system->m[i]);
     size_t size = 2 * (size_t)system->nodes;
     double **vectors[] = {&newton->u, &newton->x, &newton->u_tilde,
                           &newton->g, &newton->p, &newton->r};
@@ -67,19 +72,20 @@ static double newton_residual(const Newton *newton, const double *p)
     return largest / newton->settings.h;
 }
 
+/* The largest residual that a direction with |p|_M = 1 can have: each node has
+ * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+static double residual_per_norm(const Newton *newton)
+{
+    return sqrt(2 / newton->lightest) / newton->settings.h;
+}
+
 /* The projected Hessian is M plus something positive semi-definite, so
- * |p|_M^2 <= g^T M^-1 g, and each node has m |p_i|^2 <= |p|_M^2.  Where this
- * bound passes the test, p itself would: no factorisation is needed. */
+ * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would: no
+ * factorisation is needed. */
 static double newton_residual_bound(const Newton *newton)
 {
-    const System *system = newton->system;
-    double sum = 0, lightest = INFINITY;
-    for (int i = 0; i < system->nodes; i++) {
-        double gx = newton->g[2 * i], gy = newton->g[2 * i + 1];
-        sum += (gx * gx + gy * gy) / system->m[i];
-        lightest = fmin(lightest, system->m[i]);
-    }
-    return sqrt(2 * sum / lightest) / newton->settings.h;
+    return residual_per_norm(newton) *
+           system_inverse_mass_norm(newton->system, newton->g);
 }
 
 /* Assembles and factors the Hessian at x, once. */
@@ -176,16 +182,13 @@ static Status newton_solve_and_test(Newton *newton)
  * where only a new factor can tell. */
 static Status direction_from_old_factor(Newton *newton, bool *decided)
 {
-    const System *system = newton->system;
     Status status = newton_solve_and_test(newton);
     *decided = status != STATUS_OK;
     if (status)
         return status;
-    double lightest = INFINITY, error, start = clock_seconds();
+    double error, start = clock_seconds();
     int solves;
-    for (int i = 0; i < system->nodes; i++)
-        lightest = fmin(lightest, system->m[i]);
-    double unit = sqrt(2 / lightest) / newton->settings.h;
+    double unit = residual_per_norm(newton);
     double tolerance = newton->settings.tolerance;
     Filter filter =
         newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
@@ -370,6 +373,11 @@ static Status search_plane(Newton *newton)
     record->slope = plane.c[0];
     record->alpha = at[0];
     record->change = plane_value(&plane, at[0], at[1]);
+    if (status) { /* r so long that rounding hides what p alone can do */
+        status = search_line(newton);
+        at[0] = record->alpha;
+        at[1] = 0;
+    }
     for (int i = 0; i < 2 * newton->system->nodes; i++)
         newton->r[i] = at[0] * newton->p[i] + at[1] * newton->r[i];
     return status;

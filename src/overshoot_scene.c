@@ -29,12 +29,13 @@ void overshoot_defaults(Options *options)
 static void show_iterate(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    double x = descent->scalar.x;
+    double x = descent->scalar.x, p = descent->scalar.p;
+    bool ends = simulation->done || !isfinite(p);
+    descent->value = overshoot_function.value(x);
     descent->point[0] = simulation->run[0].x[0] = x;
-    descent->point[1] = simulation->run[0].x[1] = overshoot_function.value(x);
-    descent->direction[0] = simulation->done || !isfinite(descent->scalar.p)
-                                ? 0
-                                : descent->scalar.p;
+    descent->point[1] = simulation->run[0].x[1] = descent->value;
+    descent->direction[0] = ends ? 0 : p;
+    descent->slope = overshoot_function.first(x) * descent->direction[0];
 }
 
 Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
@@ -56,7 +57,9 @@ Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
                              .tolerance = settings->tolerance,
                              .search = settings->search,
                              .x = x[0]};
-    simulation->done = scalar_newton_start(scalar) != STATUS_RUNNING;
+    status = scalar_newton_start(scalar);
+    simulation->done = status != STATUS_RUNNING;
+    simulation->status = simulation->done ? status : STATUS_OK;
     show_iterate(simulation);
     return STATUS_OK;
 }
@@ -65,8 +68,6 @@ Status step_overshoot(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     NewtonRecord record;
-    if (simulation->done)
-        return STATUS_OK;
     descent->scalar.search = simulation->options.line_search;
     Status status = scalar_newton_iterate(&descent->scalar, &record);
     simulation->done = status != STATUS_RUNNING;

@@ -4,6 +4,9 @@
 
 #include "colour_map.h"
 
+/* Size of a letter's dots in units, so that a line holds PAPER_LETTERS. */
+static const double PAPER_DOT = 1.2;
+
 /* Canvas and font. */
 Status paper_create(int width, int height, Paper *paper)
 {
@@ -13,7 +16,7 @@ Status paper_create(int width, int height, Paper *paper)
         return status;
     int smaller = width < height ? width : height;
     paper->unit = (double)smaller / PAPER_UNITS;
-    return font_create(paper->unit, &paper->font);
+    return font_create(PAPER_DOT * paper->unit, &paper->font);
 }
 
 /* Canvas and font. */
@@ -47,6 +50,26 @@ Mapping paper_mapping(const Paper *paper, double size, double part)
     return mapping;
 }
 
+/* The canvas clips. */
+void paper_line(Paper *paper, const Mapping *mapping, const double *a,
+                const double *b, double width, Colour colour)
+{
+    canvas_line(&paper->canvas, mapping->x0 + mapping->scale * a[0],
+                mapping->y0 - mapping->scale * a[1],
+                mapping->x0 + mapping->scale * b[0],
+                mapping->y0 - mapping->scale * b[1],
+                fmax(1, width * paper->unit), colour);
+}
+
+/* The canvas clips. */
+void paper_disc(Paper *paper, const Mapping *mapping, const double *a,
+                double radius, Colour colour)
+{
+    canvas_disc(&paper->canvas, mapping->x0 + mapping->scale * a[0],
+                mapping->y0 - mapping->scale * a[1], radius * paper->unit,
+                colour);
+}
+
 /* Lets one sixth of what is below shine through. */
 void paper_panel(Paper *paper, Box box)
 {
@@ -59,4 +82,14 @@ void paper_text(Paper *paper, int x, int y, Align align, Colour colour,
                 const char *text)
 {
     font_draw(&paper->font, &paper->canvas, x, y, align, colour, text);
+}
+
+/* Twice, a little apart. */
+void paper_bold_text(Paper *paper, int x, int y, Align align, Colour colour,
+                     const char *text)
+{
+    int apart = paper_pixels(paper, 0.5);
+    paper_text(paper, x, y, align, colour, text);
+    if (apart > 0)
+        paper_text(paper, x + apart, y, align, colour, text);
 }

@@ -47,6 +47,16 @@ static void plane_direction(const double g[2], const double H[3],
     step[1] = scaled_step(g[1], H[2]);
 }
 
+/* What the rounding errors of plane_value are in proportion to: the sum of
+ * its terms without signs. */
+static double plane_size(const PlaneQuartic *quartic, double a, double b)
+{
+    PlaneQuartic size;
+    for (int i = 0; i < PLANE_TERMS; i++)
+        size.c[i] = fabs(quartic->c[i]);
+    return plane_value(&size, fabs(a), fabs(b));
+}
+
 Status plane_minimise(const PlaneQuartic *quartic, double at[2], int *trials)
 {
     double value = 0;
@@ -75,5 +85,7 @@ Status plane_minimise(const PlaneQuartic *quartic, double at[2], int *trials)
         if (settled)
             break;
     }
-    return value < 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT;
+    return value < -1e-14 * plane_size(quartic, at[0], at[1])
+               ? STATUS_OK
+               : STATUS_LINE_SEARCH_LIMIT;
 }

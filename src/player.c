@@ -78,6 +78,7 @@ static Status begin_run(Player *player)
                                       &player->simulation);
     if (status)
         return status;
+    hud_end_step(&player->hud, &player->simulation);
     reset_speed(player);
     if (!player->options.quiet)
         player->start = simulation_energies(&player->simulation, 0);
@@ -119,13 +120,14 @@ static Status open_view(Player *player)
 Status player_create(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player)
 {
-    *player = (Player){.options = *options, .stop = stop};
+    *player = (Player){.options = *options, .given = *options, .stop = stop};
     player->started = player_clock();
     player->speed = first_speed(options);
     hud_create(&player->hud);
     Status status = open_view(player);
     if (status)
         return status;
+    player->hud.hints = player->window;
     status = recording_open(&player->options, &player->recording);
     return status ? status : begin_run(player);
 }
@@ -134,9 +136,10 @@ bool player_ended(const Player *player)
 {
     const Options *options = &player->options;
     const Simulation *simulation = &player->simulation;
+    bool unattended = !player->window || options->steps >= 0;
     return player->quit || *player->stop ||
            (options->steps >= 0 && simulation->steps >= options->steps) ||
-           (!player->window && simulation->done);
+           (unattended && simulation->done);
 }
 
 bool player_unconverged(const Player *player)
@@ -234,30 +237,43 @@ static Status restart_run(Player *player)
     return status ? status : begin_run(player);
 }
 
-/* Another scene with its own defaults; files and ends stay. */
-static Status switch_scene(Player *player, int number)
+/* The options of a scene: those of the command line if it was called for
+ * there, else its defaults; files and ends are those of the command line.
+ * Returns false if there is no such scene. */
+static bool find_options(const Options *given, int number, Options *options)
 {
-    char program[] = "elasto", name[64], title[128], message[128];
+    char program[] = "elasto", name[64], message[128];
     char *arguments[] = {program, name, NULL};
-    const Options old = player->options;
-    Options options;
     int known = 0;
     while (scenes[known].name)
         known++;
     if (number >= known)
-        return STATUS_OK;
+        return false;
+    *options = *given;
+    if (given->scene == &scenes[number])
+        return true;
     snprintf(name, sizeof name, "%s", scenes[number].name);
-    if (options_parse(2, arguments, &options, message, sizeof message))
+    if (options_parse(2, arguments, options, message, sizeof message))
+        return false;
+    options->steps = given->steps;
+    options->quiet = given->quiet;
+    options->frames = given->frames;
+    options->states = given->states;
+    options->log = given->log;
+    return true;
+}
+
+/* Another scene, from its start. */
+static Status switch_scene(Player *player, int number)
+{
+    char title[128];
+    Options options;
+    if (!find_options(&player->given, number, &options))
         return STATUS_OK;
-    options.steps = old.steps;
-    options.quiet = old.quiet;
-    options.frames = old.frames;
-    options.states = old.states;
-    options.log = old.log;
     player->options = options;
     player->speed = first_speed(&options);
     player->hud.paused = false;
-    format_title(title, sizeof title, name);
+    format_title(title, sizeof title, options.scene->name);
     view_set_title(player->view, title);
     return restart_run(player);
 }
@@ -266,10 +282,10 @@ static Status switch_scene(Player *player, int number)
 static Status pick_start(Player *player, const Command *command)
 {
     Paper *paper = view_paper(player->view);
-    if (!paper || player->options.scene->picture != PICTURE_LANDSCAPE)
+    if (!paper || player->options.scene->picture != PICTURE_LANDSCAPE ||
+        !landscape_picture_pick(paper, player->hud.text, command->x, command->y,
+                                player->options.start))
         return STATUS_OK;
-    landscape_picture_pick(paper, command->x, command->y,
-                           player->options.start);
     player->hud.paused = true;
     return restart_run(player);
 }
@@ -294,17 +310,58 @@ static void save_screenshot(Player *player)
         snprintf(player->hud.note, HUD_NOTE_SIZE, "saved %s", name);
 }
 
-/* The next filter or line search of their lists. */
-static void switch_method(Player *player, CommandKind kind)
+/* Off, or on again as the command line has it, if there is anything to
+ * project. */
+static bool switch_filter(Player *player)
 {
-    Options *options = &player->options;
-    if (kind == COMMAND_FILTER)
-        options->filter = (Filter)((options->filter + 1) % FILTER_COUNT);
+    Filter given = player->given.filter, *filter = &player->options.filter;
+    if (!simulation_has_filter(&player->simulation)) {
+        snprintf(player->hud.note, HUD_NOTE_SIZE, "nothing to project here");
+        return false;
+    }
+    if (*filter != FILTER_NONE)
+        *filter = FILTER_NONE;
     else
-        options->line_search =
-            (LineSearch)((options->line_search + 1) % LINE_SEARCH_COUNT);
-    simulation_set_filter(&player->simulation, options->filter);
-    simulation_set_line_search(&player->simulation, options->line_search);
+        *filter = given != FILTER_NONE ? given : FILTER_CLAMP;
+    simulation_set_filter(&player->simulation, *filter);
+    return true;
+}
+
+/* The same, if there is a line to search. */
+static bool switch_line_search(Player *player)
+{
+    LineSearch given = player->given.line_search;
+    LineSearch *search = &player->options.line_search;
+    if (!simulation_has_line_search(&player->simulation)) {
+        snprintf(player->hud.note, HUD_NOTE_SIZE, "no line search here");
+        return false;
+    }
+    if (*search != LINE_SEARCH_NONE)
+        *search = LINE_SEARCH_NONE;
+    else
+        *search = given != LINE_SEARCH_NONE ? given : LINE_SEARCH_BACKTRACK;
+    simulation_set_line_search(&player->simulation, *search);
+    return true;
+}
+
+/* While it runs; a scene that is at its end starts again with the new one. */
+static Status switch_method(Player *player, CommandKind kind)
+{
+    char note[HUD_NOTE_SIZE];
+    const Options *options = &player->options;
+    bool ended = player->simulation.done;
+    bool filter = kind == COMMAND_FILTER;
+    if (!(filter ? switch_filter(player) : switch_line_search(player)))
+        return STATUS_OK;
+    snprintf(note, sizeof note, "%s: %s%s",
+             filter ? "projection" : "line search",
+             filter ? filter_name(options->filter)
+                    : line_search_name(options->line_search),
+             ended ? ", from the start" : "");
+    player->hud.paused = player->hud.paused && !ended;
+    Status status = ended ? restart_run(player) : STATUS_OK;
+    memcpy(player->hud.note, note, sizeof note);
+    return status;
 }
 
 /* value + 1 or - 1, limited. */
@@ -371,8 +428,7 @@ static Status apply_command(Player *player, const Command *command)
         return STATUS_OK;
     case COMMAND_FILTER:
     case COMMAND_LINE_SEARCH:
-        switch_method(player, command->kind);
-        return STATUS_OK;
+        return switch_method(player, command->kind);
     default:
         apply_switch(player, command->kind);
         return STATUS_OK;
@@ -391,10 +447,13 @@ static Status apply_commands(Player *player)
     return status;
 }
 
-/* Pauses at the first step that did not converge, and at the end. */
+/* Pauses at the first step that did not converge, and at the end; a run of a
+ * given number of steps ends by itself and does not. */
 static void pause_if_due(Player *player)
 {
     const Simulation *simulation = &player->simulation;
+    if (player->options.steps >= 0)
+        return;
     if (simulation->done)
         player->hud.paused = true;
     if (simulation->status && !player->warned) {
@@ -441,6 +500,8 @@ static Status run_frame(Player *player, double *next)
 {
     double period = 1 / fmin(FRAME_RATE, player_rate(player));
     Status status = apply_commands(player);
+    if (player->sampled < 0) /* a new run: step 0 is a frame too */
+        *next = player_clock() + period;
     if (!status && !player->quit && !player->hud.paused &&
         player_clock() >= *next - EARLY) {
         *next = fmax(*next + period, player_clock());

@@ -76,7 +76,10 @@ Status recording_open(const Options *options, Recording *recording)
         status = open_table(recording, options->states, &recording->states);
     if (!status)
         status = open_table(recording, options->log, &recording->log);
-    return status ? status : write_headers(recording);
+    if (!status)
+        return write_headers(recording);
+    output_discard(&recording->states); /* what stood there before stays */
+    return status;
 }
 
 /* FOLDER/frame_000012.png */

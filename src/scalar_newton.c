@@ -33,22 +33,23 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
         .alpha = 1,
         .slope = newton->f.first(newton->x) * newton->p,
         .factorised = true,
-        .from = {newton->x, 0},
-        .to = {newton->x, 0},
+        .from = {newton->x, newton->f.value(newton->x)},
     };
     Status status = STATUS_OK;
     if (newton->search == LINE_SEARCH_BACKTRACK)
         status = line_search_backtrack(scalar_difference, newton,
                                        &record->alpha, &record->trials);
     if (status) {
+        record->alpha = 0;
         newton->status = record->slope > 0 ? STATUS_NOT_DESCENT : status;
     } else {
         record->change = scalar_difference(newton, record->alpha);
         newton->x += record->alpha * newton->p;
-        record->to[0] = newton->x;
         newton->iterations++;
         scalar_newton_start(newton);
     }
+    record->to[0] = newton->x;
+    record->to[1] = newton->f.value(newton->x);
     record->status = newton->status;
     return newton->status;
 }

@@ -244,16 +244,6 @@ static Status solve_shifted(SearchDirection *search,
     return STATUS_OK;
 }
 
-/* |r|_(M^-1) */
-static double inverse_mass_norm(const System *system, const double *r)
-{
-    double sum = 0;
-    for (int i = 0; i < system->nodes; i++)
-        sum +=
-            (r[2 * i] * r[2 * i] + r[2 * i + 1] * r[2 * i + 1]) / system->m[i];
-    return sqrt(sum);
-}
-
 Status search_direction_refine(SearchDirection *search,
                                const IncrementalPotential *E, const double *u,
                                const double *x, Filter filter, const double *g,
@@ -269,7 +259,7 @@ Status search_direction_refine(SearchDirection *search,
         search->z[i] = p[i]; /* factor^-1 (-g) already */
     conjugate_start(search, g, p);
     while (conjugate_step(search, &state, p)) {
-        *error = inverse_mass_norm(search->system, search->r);
+        *error = system_inverse_mass_norm(search->system, search->r);
         if (*error <= accuracy || *solves == REFINE_MAX_SOLVES)
             return STATUS_OK;
         ++*solves;
@@ -277,7 +267,7 @@ Status search_direction_refine(SearchDirection *search,
         if (status)
             return status;
     }
-    *error = inverse_mass_norm(search->system, search->r);
+    *error = system_inverse_mass_norm(search->system, search->r);
     return STATUS_OK;
 }
 

@@ -80,6 +80,8 @@ bool simulation_record(Simulation *simulation, const NewtonRecord *record)
 
 double simulation_time(const Simulation *simulation)
 {
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        return 0;
     return (double)simulation->steps * simulation->options.timestep;
 }
 
@@ -120,12 +122,42 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
+long long simulation_matrix_entries(const Simulation *simulation)
+{
+    long long sum = 0;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            sum += simulation->run[i].newton->search.A.entries;
+    return sum;
+}
+
+/* Springs, and a Newton object that asks for their Hessian. */
+bool simulation_has_filter(const Simulation *simulation)
+{
+    return simulation->system.springs > 0 && simulation->run[0].newton;
+}
+
+/* Newton with springs, or in one variable. */
+bool simulation_has_line_search(const Simulation *simulation)
+{
+    return simulation_has_filter(simulation) ||
+           simulation->descent.scalar.f.value;
+}
+
+/* What scenes that show directions do after a change of method. */
+static void aim_again(Simulation *simulation)
+{
+    if (simulation->scene->aim && !simulation->done)
+        simulation->scene->aim(simulation);
+}
+
 void simulation_set_filter(Simulation *simulation, Filter filter)
 {
     simulation->options.filter = filter;
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             simulation->run[i].newton->settings.filter = filter;
+    aim_again(simulation);
 }
 
 void simulation_set_line_search(Simulation *simulation, LineSearch search)
@@ -134,6 +166,7 @@ void simulation_set_line_search(Simulation *simulation, LineSearch search)
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             simulation->run[i].newton->settings.search = search;
+    aim_again(simulation);
 }
 
 /* |d|/l - 1 */

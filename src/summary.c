@@ -2,7 +2,7 @@
 
 #include "scene.h"
 
-/* What Newton did; all 0 with explicit methods. */
+/* What Newton did; all 0 with explicit methods, which have no matrix. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     NewtonCounters sum = simulation_counters(simulation);
@@ -13,6 +13,8 @@ static void print_newton(FILE *file, const Simulation *simulation)
     fprintf(file, "factorisations      %ld\n", sum.factorisations);
     fprintf(file, "solves              %ld\n", sum.solves);
     fprintf(file, "springs projected   %ld\n", sum.projected);
+    fprintf(file, "matrix entries      %lld\n",
+            simulation_matrix_entries(simulation));
 }
 
 /* One quantity a line. */

@@ -130,3 +130,12 @@ double system_kinetic(const System *system, const double *v)
                (v[2 * i] * v[2 * i] + v[2 * i + 1] * v[2 * i + 1]);
     return sum;
 }
+
+double system_inverse_mass_norm(const System *system, const double *g)
+{
+    double sum = 0;
+    for (int i = 0; i < system->nodes; i++)
+        sum +=
+            (g[2 * i] * g[2 * i] + g[2 * i + 1] * g[2 * i + 1]) / system->m[i];
+    return sqrt(sum);
+}

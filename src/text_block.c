@@ -3,6 +3,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "colour_map.h"
+
 enum { BLOCK_MARGIN = 4, BLOCK_LEADING = 1 }; /* units */
 
 /* Formats into the next line. */
@@ -48,8 +50,10 @@ void text_block_draw(const TextBlock *block, Paper *paper, int x, int y,
                                     : x - box.width;
     box.y = y;
     paper_panel(paper, box);
-    for (int i = 0; i < block->lines; i++)
-        paper_text(paper, box.x + margin,
-                   box.y + margin + i * block_pitch(paper), ALIGN_LEFT,
-                   block->colour[i], block->text[i]);
+    for (int i = 0; i < block->lines; i++) {
+        int top = box.y + margin + i * block_pitch(paper);
+        (block->colour[i] == COLOUR_WARNING ? paper_bold_text : paper_text)(
+            paper, box.x + margin, top, ALIGN_LEFT, block->colour[i],
+            block->text[i]);
+    }
 }

@@ -137,8 +137,8 @@ static void bad_lines_exit_with_2(void **unused)
     CHECK(result.out[0] == '\0');
     run("--timestep nan --headless");
     check_refused(2, "--timestep", "'nan'", "above 0");
-    run("--filter abs");
-    check_refused(2, "--filter", "'abs'", "clamp, none");
+    run("--filter absolute");
+    check_refused(2, "--filter", "'absolute'", "clamp, none");
     run("--steps");
     check_refused(2, "--steps", "missing", "");
     run("--no-such-option");

@@ -186,7 +186,7 @@ static const BadLine bad_words[] = {
     {"--integrator Backward-Euler", {"--integrator", "'B", "symplectic-euler"}},
     {"--solver cg", {"--solver", "'cg'", "newton"}},
     {"--solver newto", {"--solver", "'newto'", "newton"}},
-    {"--filter abs", {"--filter", "'abs'", "clamp, none"}},
+    {"--filter absolute", {"--filter", "'absolute'", "clamp, none"}},
     {"--filter clamped", {"--filter", "'clamped'", "clamp, none"}},
     {"--line-search wolfe", {"--line-search", "'wolfe'", "backtrack, none"}},
     {"--frames ''", {"--frames", "empty", ""}},

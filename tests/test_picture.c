@@ -12,10 +12,12 @@
 
 #include "colour_map.h"
 #include "draw.h"
+#include "landscape_picture.h"
 #include "panels.h"
 #include "plot.h"
 #include "png_file.h"
 #include "recording.h"
+#include "scene.h"
 #include "text_block.h"
 #include "view.h"
 
@@ -116,23 +118,30 @@ static bool observe(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* The default scene with this many segments after some steps. */
-static void simulate(char *segments, int steps, Simulation *simulation,
-                     Hud *hud)
+/* A scene after some steps, as the program shows it. */
+static void simulate_line(const char *line, int steps, Simulation *simulation,
+                          Hud *hud)
 {
-    char program[] = "elasto", name[] = "--segments";
-    char *arguments[] = {program, name, segments, NULL};
-    Options options = parsed(3, arguments);
     hud_create(hud);
-    hud->speed = 60 * options.timestep;
-    assert_int_equal(simulation_create(&options, observe, hud, simulation), 0);
+    simulation_from_line(line, observe, hud, simulation);
+    hud->speed = 60 * simulation->options.timestep;
     hud_sample(hud, simulation);
     for (int i = 0; i < steps; i++) {
         hud_begin_step(hud);
-        assert_int_equal(simulation_step(simulation), 0);
+        Status status = simulation_step(simulation);
+        assert_true(!status || status_is_unconverged(status));
         hud_end_step(hud, simulation);
         hud_sample(hud, simulation);
     }
+}
+
+/* The default scene with this many segments after some steps. */
+static void simulate(const char *segments, int steps, Simulation *simulation,
+                     Hud *hud)
+{
+    char line[64];
+    snprintf(line, sizeof line, "square --segments %s", segments);
+    simulate_line(line, steps, simulation, hud);
 }
 
 /* ---- canvas ------------------------------------------------------------- */
@@ -386,27 +395,49 @@ static void frames_are_repeatable(void **unused)
     }
 }
 
-/* tests/frame.png is frame 10 of the default scene, made by
- * elasto --headless --steps 10 --frames FOLDER. */
-static void frame_is_the_reference_picture(void **unused)
+/* Pixels of tests/NAME.png that are off by more than 4 of 255. */
+static int count_far_pixels(const char *name, const Paper *paper)
+{
+    char file[64];
+    struct stat info;
+    int far = 0;
+    snprintf(file, sizeof file, "tests/%s.png", name);
+    Canvas reference = read_png(file);
+    assert_int_equal(reference.width, FRAME);
+    assert_int_equal(reference.height, FRAME);
+    for (int i = 0; i < FRAME * FRAME; i++)
+        far += pixel_distance(paper->canvas.pixels[i], reference.pixels[i]) > 4;
+    canvas_free(&reference);
+    assert_int_equal(stat(file, &info), 0);
+    CHECK(info.st_size < 120000);
+    return far;
+}
+
+/* The pictures that `make pictures` made are those of now. */
+static void readme_shows_what_is_drawn(void **unused)
 {
     (void)unused;
     static Simulation simulation;
     static Hud hud;
-    Paper paper;
-    simulate("4", 10, &simulation, &hud);
-    assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-    draw_frame(&paper, &simulation, &hud);
-    Canvas reference = read_png("tests/frame.png");
-    assert_int_equal(reference.width, FRAME);
-    assert_int_equal(reference.height, FRAME);
-    int far = 0;
-    for (int i = 0; i < FRAME * FRAME; i++)
-        far += pixel_distance(paper.canvas.pixels[i], reference.pixels[i]) > 4;
-    CHECK_AT_MOST(far, 0);
-    canvas_free(&reference);
-    paper_free(&paper);
-    simulation_free(&simulation);
+    char name[32], line[128];
+    int steps, count = 0;
+    FILE *list = fopen("tests/pictures.txt", "r");
+    assert_non_null(list);
+    while (fscanf(list, "%31s %d %127[^\n]", name, &steps, line) == 3) {
+        Paper paper;
+        simulate_line(line, steps, &simulation, &hud);
+        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
+        draw_frame(&paper, &simulation, &hud);
+        int far = count_far_pixels(name, &paper);
+        if (far)
+            print_error("tests/%s.png differs\n", name);
+        CHECK_AT_MOST(far, 0);
+        paper_free(&paper);
+        simulation_free(&simulation);
+        count++;
+    }
+    fclose(list);
+    CHECK(count == 5);
 }
 
 /* Bare means bare: white, blue and what lies between. */
@@ -474,7 +505,7 @@ static void short_springs_are_skipped(void **unused)
     simulation_free(&simulation);
 }
 
-/* Any size can be drawn, and blown-up positions do no harm. */
+/* Any size can be drawn of any scene, and blown-up positions do no harm. */
 static void every_size_is_drawn(void **unused)
 {
     (void)unused;
@@ -482,19 +513,104 @@ static void every_size_is_drawn(void **unused)
         {1, 1}, {1, 900}, {2000, 3}, {199, 201}, {1500, 999}};
     static Simulation simulation;
     static Hud hud;
-    simulate("3", 2, &simulation, &hud);
-    hud.strain = hud.keys = true;
-    hud.trouble = STATUS_NOT_FINITE;
-    simulation.run[0].x[0] = NAN;
-    simulation.run[0].x[3] = 1e300;
-    simulation.run[0].x[4] = -INFINITY;
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 5 * 5; i++) {
         Paper paper;
-        assert_int_equal(paper_create(sizes[i][0], sizes[i][1], &paper), 0);
-        draw_frame(&paper, &simulation, &hud);
-        paper_free(&paper);
+        const Scene *scene = &scenes[i / 5];
+        const int *size = sizes[i % 5];
+        simulate_line(scene->name, 2, &simulation, &hud);
+        hud.strain = hud.keys = true;
+        hud.trouble = STATUS_NOT_FINITE;
+        simulation.run[0].x[0] = NAN;
+        if (scene->needs & NEEDS_MESH) {
+            simulation.run[0].x[3] = 1e300;
+            simulation.run[0].x[4] = -INFINITY;
+        }
+        for (int text = 0; text < 2; text++) {
+            hud.text = text;
+            assert_int_equal(paper_create(size[0], size[1], &paper), 0);
+            draw_frame(&paper, &simulation, &hud);
+            paper_free(&paper);
+        }
+        simulation_free(&simulation);
     }
-    simulation_free(&simulation);
+}
+
+/* Ink of the part of a picture between two lines, 0 ... 1 from above. */
+static double ink_between(const Paper *paper, double from, double to)
+{
+    const Canvas *canvas = &paper->canvas;
+    int first = (int)(from * canvas->height), last = (int)(to * canvas->height);
+    Canvas part = {canvas->width, last - first,
+                   canvas->pixels + first * canvas->width};
+    return ink(&part);
+}
+
+/* Every scene says its sentence, and keeps quiet when text is hidden. */
+static void every_scene_says_its_sentence(void **unused)
+{
+    (void)unused;
+    static Simulation simulation;
+    static Hud hud;
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        Paper paper;
+        simulate_line(scene->name, 0, &simulation, &hud);
+        CHECK(strlen(scene->sentence) <= PAPER_LETTERS);
+        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
+        draw_frame(&paper, &simulation, &hud);
+        CHECK(ink_between(&paper, 0, 0.035) > 30 * strlen(scene->sentence));
+        hud.text = false;
+        draw_frame(&paper, &simulation, &hud);
+        if (scene->picture != PICTURE_LANDSCAPE &&
+            scene->picture != PICTURE_CURVE)
+            CHECK_NEAR(ink_between(&paper, 0, 0.035), 0, 0);
+        paper_free(&paper);
+        simulation_free(&simulation);
+    }
+}
+
+/* No line of the texts is cut: the longest that there are fit. */
+static void texts_fit_on_a_line(void **unused)
+{
+    (void)unused;
+    for (int status = 0; status < STATUS_COUNT; status++)
+        CHECK(strlen(status_text((Status)status)) <= PAPER_LETTERS - 1);
+}
+
+/* A click on the black disc picks the place where it is. */
+static void picks_are_where_the_disc_is(void **unused)
+{
+    (void)unused;
+    static Simulation simulation;
+    static Hud hud;
+    Paper paper;
+    assert_int_equal(paper_create(FRAME, 700, &paper), 0);
+    for (int text = 0; text < 2; text++) {
+        double point[2], sum[3] = {0};
+        simulate_line("landscape --start 0.9,0.8 --tolerance 1e9", 0,
+                      &simulation, &hud);
+        hud.text = text;
+        draw_frame(&paper, &simulation, &hud);
+        CHECK(landscape_picture_pick(&paper, text, 450, 350, point));
+        for (int j = 170; j < 350; j++) /* black: the disc, and no letters */
+            for (int i = 460; i < 700; i++)
+                if (paper.canvas.pixels[FRAME * j + i] == COLOUR_TEXT) {
+                    sum[0] += i + 0.5;
+                    sum[1] += j + 0.5;
+                    sum[2] += 1;
+                }
+        CHECK(sum[2] > 50);
+        CHECK(landscape_picture_pick(&paper, text, sum[0] / sum[2],
+                                     sum[1] / sum[2], point));
+        CHECK_NEAR(point[0], 0.9, 0.05);
+        CHECK_NEAR(point[1], 0.8, 0.05);
+        simulation_free(&simulation);
+    }
+    double point[2] = {7, 7};
+    CHECK(!landscape_picture_pick(&paper, true, 5, 5, point));
+    CHECK(!landscape_picture_pick(&paper, true, 450, 699, point));
+    CHECK(landscape_picture_pick(&paper, false, 5, 5, point));
+    CHECK(point[0] < -1.6 && point[1] > 1.6);
+    paper_free(&paper);
 }
 
 /* SDL's software renderer shows exactly the paper. */
@@ -773,11 +889,14 @@ int main(void)
         cmocka_unit_test(history_spans_the_run),
         cmocka_unit_test(axes_end_at_round_numbers),
         cmocka_unit_test(frames_are_repeatable),
-        cmocka_unit_test(frame_is_the_reference_picture),
+        cmocka_unit_test(readme_shows_what_is_drawn),
         cmocka_unit_test(hidden_text_leaves_the_slide),
         cmocka_unit_test(trouble_is_red),
         cmocka_unit_test(short_springs_are_skipped),
         cmocka_unit_test(every_size_is_drawn),
+        cmocka_unit_test(every_scene_says_its_sentence),
+        cmocka_unit_test(texts_fit_on_a_line),
+        cmocka_unit_test(picks_are_where_the_disc_is),
         cmocka_unit_test(surface_shows_the_paper),
         cmocka_unit_test(png_files_are_whole),
         cmocka_unit_test(png_failures_have_reasons),

@@ -1,0 +1,397 @@
+#!/bin/sh
+# The window, driven by real keys and clicks on a virtual screen: each key does
+# on each scene what the list of keys says.  What a key did is seen in
+# screenshots (their name tells the step), recorded frames, tables and exit
+# codes.  Nothing waits for a fixed time: only for what shall happen, or until
+# a time-out.
+set -u
+failed=0
+timeout=20 # s, that anything may take
+
+. "$(dirname "$0")/verdict.sh"
+
+for program in Xvfb xdotool; do
+    if ! command -v $program >/dev/null 2>&1; then
+        echo "skipped window_keys: no $program"
+        exit 0
+    fi
+done
+
+elasto=$(realpath "${ELASTO:-build/elasto}")
+sources=$(realpath "$(dirname "$0")")
+folder=$(mktemp -d) || exit 1
+screen=
+pid=
+finish() {
+    [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
+    [ -z "$screen" ] || kill "$screen" 2>/dev/null
+    wait 2>/dev/null
+    rm -rf "$folder"
+}
+trap finish EXIT
+trap 'exit 1' INT TERM HUP
+cd "$folder" || exit 1
+
+# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
+# later ones in the same test sooner.
+until_true() {
+    end=$(($(date +%s) + timeout))
+    until "$@" >/dev/null 2>&1; do
+        [ "$(date +%s)" -lt $end ] || {
+            timeout=2
+            return 1
+        }
+        sleep 0.02
+    done
+}
+
+Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
+    3>display >screen.log 2>&1 &
+screen=$!
+until_true test -s display || {
+    verdict the_screen_starts "$(tail -n 1 screen.log)"
+    exit 1
+}
+DISPLAY=:$(cat display)
+export DISPLAY
+unset WAYLAND_DISPLAY SDL_VIDEODRIVER
+# Drivers and libraries below SDL leak; the other suites look for leaks of ours.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+has_title() {
+    xdotool search --name "^elasto: $1 " 2>/dev/null
+}
+find_window() {
+    window=$(has_title "$1" | tail -n 1)
+    [ -n "$window" ]
+}
+
+# begin SCENE LINE...: a window with this scene, keys go to it.
+begin() {
+    rm -rf frames ./*.png states log
+    "$elasto" "$@" --quiet --frames frames --states states --log log \
+        2>error &
+    pid=$!
+    until_true find_window "$1" || echo "$1: no window"
+    # a run of few steps may be over by now
+    timeout $timeout xdotool windowfocus --sync "$window" \
+        mousemove --window "$window" 450 880 2>/dev/null
+    until_true test -s frames/frame_000000.png || echo "$1: no frame"
+}
+
+# end CODE: waits for the end of the program and complains about its code.
+end() {
+    last=$pid
+    until_true has_ended "$last" || {
+        echo 'does not end'
+        kill -KILL "$last"
+    }
+    wait "$last"
+    code=$?
+    pid=
+    [ $code = "$1" ] || echo "ends with $code, not $1: $(tail -n 1 error)"
+    ls ./*.part 2>/dev/null
+    [ -s states ] && [ -s log ] || echo 'no tables'
+}
+has_ended() {
+    ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
+}
+
+key() {
+    xdotool key --delay 5 "$@"
+}
+
+# shot NAME: a screenshot as NAME.png; prints its step.  Commands are obeyed in
+# their order, so it shows what the keys before it did.
+shot() {
+    rm -f elasto_*.png
+    key s
+    until_true is_there || {
+        echo none
+        return
+    }
+    file=$(echo elasto_*.png)
+    mv "$file" "$1.png"
+    file=${file#elasto_}
+    expr "${file%.png}" + 0
+}
+is_there() {
+    test -s "$(echo elasto_*.png)"
+}
+
+# frame N: waits for the recorded frame of this step.
+frame() {
+    until_true test -s "frames/frame_$(printf %06d "$1").png" ||
+        echo "step $1 is not reached"
+}
+
+# toggles KEY NAME: the key changes the picture, and pressed again changes it
+# back.
+toggles() {
+    shot before >/dev/null
+    key "$1"
+    shot changed >/dev/null
+    key "$1"
+    shot back >/dev/null
+    cmp -s before.png changed.png && echo "$1 does nothing"
+    cmp -s before.png back.png || echo "$1 twice is not as before"
+}
+
+# without KEY: the key has nothing to do in this scene: only a note says so,
+# which the screenshot leaves out.
+without() {
+    shot before >/dev/null
+    key "$1"
+    shot changed >/dev/null
+    cmp -s before.png changed.png || echo "$1 does something"
+}
+
+# Clock ticks of processor time that the program has used.
+ticks() {
+    sed 's/.*) //' "/proc/$pid/stat" | awk '{ print $12 + $13 }'
+}
+
+# Keys of all scenes, in a scene that runs: pause, step, restart, texts, speed.
+# What is ahead of it takes many steps, or iterations slowly.
+common_keys() {
+    key space
+    a=$(shot a)
+    b=$(shot b)
+    [ "$a" = "$b" ] || echo "paused at $a, then at $b"
+    key n
+    b=$(shot b)
+    [ "$b" = $((a + 1)) ] || echo "N: from $a to $b"
+    key Right
+    b=$(shot b)
+    [ "$b" = $((a + 2)) ] || echo "Right: from $a to $b"
+    toggles h
+    toggles question
+    toggles F1
+    rm -f frames/*
+    key r
+    frame 0
+    frame 1
+    key space
+}
+
+# The speed is part of the texts where there is time.
+speed_keys() {
+    shot before >/dev/null
+    key plus
+    shot changed >/dev/null
+    key minus
+    shot back >/dev/null
+    cmp -s before.png changed.png && echo '+ does nothing'
+    cmp -s before.png back.png || echo '- is not as before +'
+}
+
+square_keys() {
+    begin square
+    frame 5
+    common_keys
+    speed_keys
+    toggles c
+    toggles p
+    toggles l
+    key q
+    end 0
+}
+verdict keys_work_in_square "$(square_keys)"
+
+circle_keys() {
+    begin circle
+    frame 3
+    common_keys
+    speed_keys
+    without c
+    without p
+    without l
+    key Escape
+    end 0
+    awk -F, 'NR > 1 && $3 > 2 { print "node " $3 }' states
+}
+verdict keys_work_in_circle "$(circle_keys)"
+
+# Iterations come slowly, but may have come to their end before a key does: so
+# the line search, which needs some more, is turned on there.
+overshoot_keys() {
+    begin overshoot
+    frame 2
+    key l # at its end: begins again, with the line search
+    frame 6
+    a=$(shot a)
+    [ "$a" = 6 ] || echo "ends at $a"
+    key n
+    b=$(shot b)
+    [ "$b" = 6 ] || echo "goes on to $b"
+    rm -f frames/*
+    key r minus
+    common_keys
+    without c
+    without p
+    toggles l
+    key q
+    end 0
+    awk -F, 'NR > 1 && $5 < 1 { print "no line search: " $0 }' log
+}
+verdict keys_work_in_overshoot "$(overshoot_keys)"
+
+landscape_keys() {
+    begin landscape
+    frame 5
+    rm -f frames/*
+    key p # at its end: begins again, without projection
+    frame 1
+    a=$(shot a)
+    [ "$a" = 1 ] || echo "without projection it ends at $a"
+    key l # again, without line search
+    frame 3
+    key p l
+    shot a >/dev/null
+    rm -f frames/*
+    key r
+    common_keys
+    without c
+    toggles p
+    toggles l
+    key q
+    end 0
+}
+verdict keys_work_in_landscape "$(landscape_keys)"
+
+# A click is a start; further right is a larger x, further down a smaller y.
+mouse_picks() {
+    old=
+    for place in '450 350' '550 350' '450 450'; do
+        begin landscape
+        # shellcheck disable=SC2086
+        xdotool mousemove --window "$window" $place click 1
+        a=$(shot a)
+        [ "$a" = 0 ] || echo "a click leaves it at step $a"
+        key q
+        end 0
+        new=$(sed -n 2p states | cut -d, -f 4,5)
+        echo "$old,$new" | awk -F, -v place="$place" '
+            NF == 4 && place ~ /^5/ && !($3 > $1 + 0.2 && $4 == $2) { bad = 1 }
+            NF == 4 && place ~ /450 450/ && !($3 == $1 && $4 < $2 - 0.2) {
+                bad = 1 }
+            bad { print "click at " place ": from " $1 "," $2 " to " $3 "," $4 }'
+        [ "$place" = '550 350' ] || old=$new
+    done
+    begin landscape
+    key space
+    shot a >/dev/null
+    xdotool mousemove --window "$window" 450 890 click 1
+    shot b >/dev/null
+    cmp -s a.png b.png || echo 'a click beside the map does something'
+    key q
+    end 0
+}
+verdict clicks_pick_starts "$(mouse_picks)"
+
+# It pauses at its first step, which fails; P lets it go on.
+unprojected_keys() {
+    begin unprojected
+    frame 1
+    a=$(shot a)
+    [ "$a" = 1 ] || echo "does not pause at step 1 but at $a"
+    key p space
+    frame 20
+    common_keys
+    toggles c
+    toggles l
+    toggles p
+    key r
+    frame 10
+    key Escape
+    end 0
+    awk -F, 'NR > 1 && !($4 > 0) { print "alpha " $4 } { sum += $8 }
+        END { if (!(sum > 0)) print "nothing was projected" }' log
+    begin unprojected
+    frame 1
+    key p space
+    frame 5
+    key p space q
+    end 3
+}
+verdict keys_work_in_unprojected "$(unprojected_keys)"
+
+# Number keys, from each scene to the next and back; the options of the command
+# line hold for their own scene.
+number_keys() {
+    begin square --segments 2
+    number=1
+    key space
+    for scene in circle overshoot landscape unprojected square; do
+        number=$((number % 5 + 1))
+        shot a >/dev/null # paused, so that no frame is being written
+        rm -f frames/*
+        key $number
+        until_true has_title $scene || echo "$number is not $scene"
+        frame 0
+        key space
+    done
+    key 9
+    has_title square >/dev/null || echo '9 does something'
+    key q
+    end 0
+    awk -F, 'NR > 1 && $3 > 8 { print "not two segments: " $0; exit }' states
+}
+verdict number_keys_switch_scenes "$(number_keys)"
+
+# A paused window, once it has drawn itself, uses less than 5 % of a processor.
+paused_window() {
+    for scene in square landscape; do
+        begin $scene
+        key space
+        shot a >/dev/null
+        for second in 1 2 3; do
+            used=$(ticks)
+            sleep 1
+            used=$(($(ticks) - used))
+            [ $used -gt 5 ] || break
+        done
+        [ $used -le 5 ] ||
+            echo "$scene: $used ticks in second $second of a pause"
+        key q
+        end 0
+    done
+}
+verdict a_paused_window_is_idle "$(paused_window)"
+
+# All ways to end, running and paused.
+ends() {
+    for way in TERM INT; do
+        for scene in square circle; do
+            begin $scene
+            [ $scene = square ] || key space
+            kill -$way $pid
+            end 0
+        done
+    done
+    begin circle --steps 5
+    end 0
+    frame 5
+    begin overshoot --steps 50
+    end 3
+    begin unprojected --steps 3
+    end 3
+}
+verdict signals_and_steps_end_the_window "$(ends)"
+
+if ${CC:-cc} -std=c11 "$sources/close_window.c" -o close_window \
+    -l:libX11.so.6 >/dev/null 2>&1; then
+    verdict closing_the_window_ends_it "$(
+        begin square
+        ./close_window "$window"
+        end 0
+        begin landscape
+        key space
+        ./close_window "$window"
+        end 0
+    )"
+else
+    echo "skipped closing_the_window_ends_it: no libX11.so.6 to link with"
+fi
+
+exit $failed

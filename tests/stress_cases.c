@@ -1,0 +1,325 @@
+/* The cases that have a name: places where floating point is known to bite.
+ * Those with an answer in closed form stand in stress_answers.c.
+ */
+#include "stress_cases.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool case_wrong(Case *c, const char *format, ...)
+{
+    va_list arguments;
+    if (!c->wrong) {
+        va_start(arguments, format);
+        vsnprintf(c->reason, 512, format, arguments);
+        va_end(arguments);
+    }
+    c->wrong = true;
+    return false;
+}
+
+bool case_open(Case *c, const char *line)
+{
+    simulation_from_line(line, NULL, NULL, &c->simulation);
+    c->run = &c->simulation.run[0];
+    if (watch_create(c->run, &c->watch))
+        return true;
+    return case_wrong(c, "no memory");
+}
+
+bool case_restart(Case *c, double finer)
+{
+    TimeIntegrator old = *c->run;
+    NewtonSettings settings = {.h = old.h, .tolerance = 1};
+    if (old.newton)
+        settings = old.newton->settings;
+    settings.h = old.h;
+    settings.tolerance *= finer;
+    watch_free(&c->watch);
+    Status status = time_integrator_create(old.method, old.system, &settings,
+                                           old.x, old.v, c->run);
+    time_integrator_free(&old);
+    if (status)
+        return case_wrong(c, "restart: %s", status_name(status));
+    return watch_create(c->run, &c->watch) || case_wrong(c, "no memory");
+}
+
+bool case_steps(Case *c, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        Verdict verdict = watch_step(&c->watch);
+        c->tally->statuses[c->watch.status]++;
+        if (verdict == VERDICT_WRONG)
+            return case_wrong(c, "%s", c->watch.reason);
+    }
+    return true;
+}
+
+bool case_converges(Case *c, int steps)
+{
+    for (int i = 0; i < steps; i++)
+        if (case_steps(c, 1) && c->watch.status)
+            return case_wrong(c, "step %d: %s", i + 1,
+                              status_name(c->watch.status));
+    return !c->wrong;
+}
+
+bool case_close(Case *c)
+{
+    bool good = !c->wrong;
+    if (c->run) {
+        tally_add(&c->watch, c->tally);
+        watch_free(&c->watch);
+        simulation_free(&c->simulation);
+    }
+    c->run = NULL;
+    c->tally->cases++;
+    c->tally->wrong += !good;
+    return good;
+}
+
+int case_size(const Case *c)
+{
+    return 2 * c->run->system->nodes;
+}
+
+/* Steps of several command lines, with both solvers. */
+static bool run_lines(Tally *tally, char *reason, const char *const *lines,
+                      int steps, bool converge)
+{
+    for (; *lines; lines++)
+        for (int solver = 0; solver < SOLVER_COUNT; solver++) {
+            char line[256];
+            Case c = {.tally = tally, .reason = reason};
+            snprintf(line, sizeof line, "%s --solver %s", *lines,
+                     solver_name((Solver)solver));
+            if (case_open(&c, line))
+                converge ? case_converges(&c, steps) : case_steps(&c, steps);
+            if (!case_close(&c)) {
+                size_t used = strlen(reason);
+                snprintf(reason + used, 512 - used, " (%s)", line);
+                return false;
+            }
+        }
+    return true;
+}
+
+static bool huge_time_steps(Tally *tally, char *reason)
+{
+    const char *lines[] = {"--timestep 1e3", "--timestep 1e3 --stretch 0.3",
+                           "--timestep 1e3 --stretch 100",
+                           "--timestep 1e3 --segments 1", NULL};
+    return run_lines(tally, reason, lines, 5, true);
+}
+
+static bool extreme_stiffness(Tally *tally, char *reason)
+{
+    const char *lines[] = {"--stiffness 1e-6", "--stiffness 1e15",
+                           "--stiffness 1e-6 --stretch 0.1",
+                           "--stiffness 1e15 --stretch 0.9", NULL};
+    return run_lines(tally, reason, lines, 5, true);
+}
+
+static bool extreme_stretch(Tally *tally, char *reason)
+{
+    const char *lines[] = {
+        "--stretch 1e6", "--stretch 1e-6", "--stretch 0", "--stretch -1.4",
+        "--stretch 1e3", "--stretch 0.1",  NULL};
+    return run_lines(tally, reason, lines, 5, false);
+}
+
+static bool one_cell(Tally *tally, char *reason)
+{
+    const char *lines[] = {"--segments 1", "--segments 1 --stretch 0.2",
+                           "--segments 1 --timestep 1", NULL};
+    return run_lines(tally, reason, lines, 50, true);
+}
+
+/* Every integrator, gently and hard. */
+static bool every_integrator(Tally *tally, char *reason)
+{
+    for (int i = 0; integrator_methods[i].name; i++) {
+        char line[2][128];
+        const char *lines[3] = {line[0], line[1], NULL};
+        const char *name = integrator_methods[i].name;
+        snprintf(line[0], 128, "--integrator %s --timestep 1e-3", name);
+        snprintf(line[1], 128, "--integrator %s --timestep 0.05", name);
+        if (!run_lines(tally, reason, lines, 20, false))
+            return false;
+    }
+    return true;
+}
+
+/* Where |d|^4 overflows nothing moves, whatever the integrator. */
+static bool overflow(Tally *tally, char *reason)
+{
+    for (int i = 0; integrator_methods[i].name; i++) {
+        char line[128];
+        Case c = {.tally = tally, .reason = reason};
+        snprintf(line, sizeof line, "--integrator %s --stretch 1e160",
+                 integrator_methods[i].name);
+        if (case_open(&c, line) && case_steps(&c, 2) &&
+            c.watch.status != STATUS_NOT_FINITE)
+            case_wrong(&c, "%s: %s", line, status_name(c.watch.status));
+        if (!case_close(&c))
+            return false;
+    }
+    return true;
+}
+
+/* A square in which something is changed before the steps. */
+static bool run_changed(Tally *tally, char *reason, const char *line,
+                        void (*change)(Case *), int steps)
+{
+    const char *solvers[] = {"newton", "lagged"};
+    for (int i = 0; i < 2; i++) {
+        char whole[256];
+        Case c = {.tally = tally, .reason = reason};
+        snprintf(whole, sizeof whole, "%s --solver %s", line, solvers[i]);
+        if (case_open(&c, whole)) {
+            change(&c);
+            if (case_restart(&c, 1))
+                case_steps(&c, steps);
+        }
+        if (!case_close(&c))
+            return false;
+    }
+    return true;
+}
+
+static void mix_stiffness(Case *c)
+{
+    System *system = &c->simulation.system;
+    for (int s = 0; s < system->springs; s++)
+        system->k[s] = pow(10, s * 21.0 / (system->springs - 1) - 6);
+}
+
+static void mix_masses(Case *c)
+{
+    System *system = &c->simulation.system;
+    for (int i = 0; i < system->nodes; i++)
+        system->m[i] = pow(10, i * 12.0 / (system->nodes - 1) - 6);
+}
+
+static void alternate(Case *c)
+{
+    for (int i = 0; i < case_size(c); i++)
+        c->run->x[i] *= i / 2 % 2 ? 1e6 : 1e-6;
+}
+
+static void put_on_a_line(Case *c)
+{
+    for (int i = 1; i < case_size(c); i += 2)
+        c->run->x[i] = 0;
+}
+
+static void make_pairs(Case *c)
+{
+    for (int i = 0; i + 3 < case_size(c); i += 4)
+        memcpy(c->run->x + i + 2, c->run->x + i, 2 * sizeof(double));
+}
+
+static void fold(Case *c)
+{
+    for (int i = 0; i < case_size(c); i += 2)
+        c->run->x[i] = fabs(c->run->x[i]);
+}
+
+static void scatter(Case *c)
+{
+    Random random = {12345};
+    for (int i = 0; i < case_size(c); i++) {
+        c->run->x[i] = random_uniform(&random, -1, 1);
+        c->run->v[i] = random_uniform(&random, -10, 10);
+    }
+}
+
+static bool mixed_stiffness(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1.4", mix_stiffness, 5) &&
+           run_changed(tally, reason, "--timestep 1", mix_stiffness, 5);
+}
+
+static bool mixed_masses(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1.4", mix_masses, 5) &&
+           run_changed(tally, reason, "--timestep 1", mix_masses, 5);
+}
+
+static bool alternating_stretch(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1", alternate, 3) &&
+           run_changed(tally, reason, "--timestep 10", alternate, 3);
+}
+
+static bool nodes_on_a_line(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 0.7", put_on_a_line, 10) &&
+           run_changed(tally, reason, "--timestep 1", put_on_a_line, 5);
+}
+
+static bool coincident_pairs(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1", make_pairs, 10) &&
+           run_changed(tally, reason, "--timestep 1", make_pairs, 5);
+}
+
+static bool folded_over(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1", fold, 20) &&
+           run_changed(tally, reason, "--timestep 1", fold, 5);
+}
+
+static bool random_positions(Tally *tally, char *reason)
+{
+    return run_changed(tally, reason, "--stretch 1", scatter, 20) &&
+           run_changed(tally, reason, "--timestep 1", scatter, 5) &&
+           run_changed(tally, reason, "--timestep 1e-6", scatter, 5) &&
+           run_changed(tally, reason, "--segments 5 --timestep 0.1", scatter,
+                       5);
+}
+
+/* A default square that is kicked at random every 50 steps. */
+static bool million_steps(Tally *tally, char *reason)
+{
+    Random random = {7};
+    Case c = {.tally = tally, .reason = reason};
+    if (case_open(&c, "--stretch 1.4"))
+        for (long step = 0; step < 1000000 && !c.wrong; step++) {
+            for (int i = 0; step % 50 == 0 && i < case_size(&c); i++)
+                c.run->v[i] += random_uniform(&random, -3, 3);
+            c.watch.residuals = step % 500 < 3;
+            case_steps(&c, 1);
+        }
+    return case_close(&c);
+}
+
+const StressCase stress_cases[] = {
+    {"at rest", false, at_rest},
+    {"free flight", false, free_flight},
+    {"two masses", false, two_masses},
+    {"huge time steps", false, huge_time_steps},
+    {"extreme stiffness", false, extreme_stiffness},
+    {"mixed stiffness", false, mixed_stiffness},
+    {"mixed masses", false, mixed_masses},
+    {"extreme stretch", false, extreme_stretch},
+    {"alternating stretch", false, alternating_stretch},
+    {"nodes on a line", false, nodes_on_a_line},
+    {"nodes in one point", false, nodes_in_one_point},
+    {"coincident pairs", false, coincident_pairs},
+    {"mirrored", false, mirrored},
+    {"folded over", false, folded_over},
+    {"random positions", false, random_positions},
+    {"refused input", false, refused_input},
+    {"translated", false, translated},
+    {"rotated", false, rotated},
+    {"other units", false, other_units},
+    {"one cell", false, one_cell},
+    {"every integrator", false, every_integrator},
+    {"overflow", false, overflow},
+    {"interrupted", false, interrupted},
+    {"a million steps", true, million_steps},
+    {NULL, false, NULL},
+};

@@ -1,0 +1,460 @@
+/* Every step and every Newton iteration looked at from outside. */
+#include "stress.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How many units of rounding a sum of that many terms may be off. */
+enum { ROUNDINGS = 16 };
+
+/* Beyond this squares may overflow, and NOT_FINITE is the truth. */
+static const long double HUGE_ENERGY = 1e280L;
+
+/* Larger systems are not solved again: that costs n^3 in wide numbers. */
+enum { LARGEST_JUDGED = 80 };
+
+void watch_blame(Watch *watch, const char *format, ...)
+{
+    va_list arguments;
+    if (watch->wrong)
+        return;
+    watch->wrong = true;
+    va_start(arguments, format);
+    int used = snprintf(watch->reason, sizeof watch->reason,
+                        "step %ld: ", watch->run->steps);
+    vsnprintf(watch->reason + used, sizeof watch->reason - (size_t)used, format,
+              arguments);
+    va_end(arguments);
+}
+
+static int watch_size(const Watch *watch)
+{
+    return 2 * watch->run->system->nodes;
+}
+
+/* The present minimisation, with a start that nobody overwrites. */
+static IncrementalPotential watch_potential(const Watch *watch)
+{
+    IncrementalPotential E = watch->run->newton->E;
+    E.x_n = watch->x_n;
+    return E;
+}
+
+/* max over nodes |p_x| + |p_y|, over h */
+static double residual_of_direction(const Watch *watch, const Wide *p)
+{
+    Wide largest = 0;
+    for (int i = 0; i < watch_size(watch); i += 2) {
+        Wide sum =
+            (p[i] < 0 ? -p[i] : p[i]) + (p[i + 1] < 0 ? -p[i + 1] : p[i + 1]);
+        largest = sum > largest ? sum : largest;
+    }
+    return (double)(largest / watch->run->newton->settings.h);
+}
+
+/* What rounding of the gradient and of the factor can make of the residual:
+ * |H^-1| (noise + eps |H| |p|), over h.  watch->H holds the factor, behind it
+ * the Hessian. */
+static double residual_noise(const Watch *watch, const Wide *p)
+{
+    int n = watch_size(watch);
+    const Wide *H = watch->H + n * n;
+    long double sum[LARGEST_JUDGED] = {0}, largest = 0;
+    Wide column[LARGEST_JUDGED];
+    for (int j = 0; j < n; j++) {
+        long double noise = watch->noise[j];
+        for (int i = 0; i < n; i++) {
+            noise += DBL_EPSILON * fabsl((long double)(H[n * j + i] * p[i]));
+            column[i] = i == j;
+        }
+        wide_solve(n, watch->H, column);
+        for (int i = 0; i < n; i++)
+            sum[i] += ROUNDINGS * noise * fabsl((long double)column[i]);
+    }
+    for (int i = 0; i < n; i += 2)
+        largest = fmaxl(largest, sum[i] + sum[i + 1]);
+    return (double)(largest / watch->run->newton->settings.h);
+}
+
+/* Residual at u with the Hessian of this filter, and what rounding may add
+ * to it where it exceeds the limit; infinite where there is no factor. */
+static double judged_residual(Watch *watch, const double *u, Filter filter,
+                              double limit, double *noise)
+{
+    IncrementalPotential E = watch_potential(watch);
+    int n = watch_size(watch), negative;
+    long double largest = 0;
+    wide_derivatives(&E, u, filter, watch->g, watch->H);
+    for (int i = 0; i < n; i++)
+        largest = fmaxl(largest, fabsl((long double)watch->g[i]));
+    memcpy(watch->H + n * n, watch->H,
+           (size_t)n * (size_t)n * sizeof *watch->H);
+    *noise = INFINITY;
+    if (!wide_factor(n, watch->H, &negative))
+        return INFINITY;
+    wide_solve(n, watch->H, watch->g);
+    double residual = residual_of_direction(watch, watch->g);
+    *noise = 0;
+    if (residual <= limit)
+        return residual;
+    rounding_of_gradient(&E, u, watch->noise);
+    if (watch->run->newton->settings.filter == FILTER_NONE)
+        for (int i = 0; i < n; i++) /* as cholesky.h says of INDEFINITE */
+            watch->noise[i] += 1e-8L * largest / ROUNDINGS;
+    *noise = residual_noise(watch, watch->g);
+    return residual;
+}
+
+/* Where a minimisation says it converged at u: once more, in wide numbers.
+ * Projection on demand may have judged with either Hessian.
+ *   factor  of the tolerance that is allowed */
+static void judge_convergence(Watch *watch, const double *u, double factor)
+{
+    const NewtonSettings *settings = &watch->run->newton->settings;
+    bool either = settings->filter == FILTER_ON_DEMAND;
+    double limit = factor * settings->tolerance, noise;
+    if (!watch->residuals || watch_size(watch) > LARGEST_JUDGED)
+        return;
+    double residual = judged_residual(
+        watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
+    watch->judged++;
+    if (!(residual <= limit + noise) && either)
+        residual = judged_residual(watch, u, FILTER_NONE, limit, &noise);
+    if (residual <= limit)
+        watch->worst = fmax(watch->worst, residual / limit);
+    else if (!(residual <= limit + noise))
+        watch_blame(watch,
+                    "converged, but the residual is %g m/s, tolerance %g, "
+                    "rounding %g",
+                    residual, limit, noise);
+    if (noise > 1e-6 * limit)
+        watch->blurred++;
+}
+
+/* What x_n + u, rounded, can make of the energy there. */
+static long double energy_noise(const IncrementalPotential *E, const double *u)
+{
+    const System *system = E->system;
+    long double sum = 0;
+    for (int s = 0; s < system->springs; s++) {
+        long double d2 = 0, x = 0, l2 = system->l2[s];
+        for (int c = 0; c < 2; c++) {
+            int i = 2 * system->e[2 * s] + c, j = 2 * system->e[2 * s + 1] + c;
+            long double xi = (long double)E->x_n[i] + u[i];
+            long double xj = (long double)E->x_n[j] + u[j];
+            d2 += (xi - xj) * (xi - xj);
+            x += DBL_EPSILON * (fabsl(xi) + fabsl(xj));
+        }
+        long double k = 2 * E->weight * system->k[s];
+        sum += k *
+               (fabsl(d2 / l2 - 1) * sqrtl(d2) * x + (3 * d2 / l2 + 1) * x * x);
+    }
+    return sum;
+}
+
+/* How much higher than at `from` the energy at `to` may seem. */
+static long double allowed_rise(Watch *watch, const double *from,
+                                const double *to, long double energy)
+{
+    IncrementalPotential E = watch_potential(watch);
+    int n = watch_size(watch);
+    long double sum = DBL_EPSILON * energy + energy_noise(&E, to);
+    rounding_of_gradient(&E, from, watch->noise);
+    for (int i = 0; i < n; i++)
+        sum += watch->noise[i] * fabsl((long double)to[i] - from[i]);
+    rounding_of_gradient(&E, to, watch->noise);
+    for (int i = 0; i < n; i++)
+        sum += watch->noise[i] * fabsl((long double)to[i] - from[i]);
+    return ROUNDINGS * sum;
+}
+
+/* The first record of a minimisation: it starts at u = 0. */
+static void watch_begin(Watch *watch)
+{
+    int n = watch_size(watch);
+    const Newton *newton = watch->run->newton;
+    memcpy(watch->x_n, newton->E.x_n, (size_t)n * sizeof *watch->x_n);
+    memset(watch->u, 0, (size_t)n * sizeof *watch->u);
+    IncrementalPotential E = watch_potential(watch);
+    watch->energy = wide_energy(&E, watch->u);
+    watch->updates = 0;
+}
+
+/* E at the present iterate must not be above that at the last one. */
+static void watch_descent(Watch *watch, const double *u, const char *where)
+{
+    IncrementalPotential E = watch_potential(watch);
+    long double energy = wide_energy(&E, u);
+    long double scale = fabsl(energy) + fabsl(watch->energy);
+    if (!(energy <= watch->energy) &&
+        !(energy - watch->energy <= allowed_rise(watch, watch->u, u, scale)))
+        watch_blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy,
+                    energy, where);
+    watch->energy = energy;
+}
+
+/* Momenta |m u|/h that pass through, whose rounding stays. */
+static void watch_momentum(Watch *watch, const double *u)
+{
+    const Newton *newton = watch->run->newton;
+    long double sum = 0;
+    for (int i = 0; i < watch_size(watch); i++)
+        sum += watch->run->system->m[i / 2] *
+               (fabsl(u[i]) + fabsl(newton->u_tilde[i]));
+    watch->through = fmaxl(watch->through, sum / newton->settings.h);
+}
+
+/* "No step helps" and "uphill" are said only where rounding does not hide the
+ * slope: else it is rounding that must be named. */
+static void check_excuse(Watch *watch, const NewtonRecord *record)
+{
+    IncrementalPotential E = watch_potential(watch);
+    long double scale = 0;
+    if (record->status != STATUS_LINE_SEARCH_LIMIT &&
+        record->status != STATUS_NOT_DESCENT)
+        return;
+    for (int i = 0; i < watch_size(watch); i++) {
+        long double away = (long double)watch->u[i] - E.u_tilde[i];
+        scale += 0.5L * E.system->m[i / 2] * away * away;
+    }
+    scale += E.weight * wide_potential(E.system, watch->run->newton->x);
+    if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
+        watch_blame(watch, "%s, but the slope %g is lost in E = %Lg",
+                    status_name(record->status), record->slope, scale);
+}
+
+/* Called after every Newton iteration. */
+static bool watch_record(void *user, const NewtonRecord *record)
+{
+    Watch *watch = user;
+    const Newton *newton = watch->run->newton;
+    if (record->iteration == 0)
+        watch_begin(watch);
+    if (record->iteration != watch->updates)
+        watch_blame(watch, "record %d after %d updates", record->iteration,
+                    watch->updates);
+    watch->updates++;
+    if (watch->updates > newton->settings.max_iterations)
+        watch_blame(watch, "%d iterations, more than allowed", watch->updates);
+    for (int i = 0; i < watch_size(watch); i++)
+        if (!isfinite(newton->u[i]) || !isfinite(newton->x[i]))
+            watch_blame(watch, "iterate %d is not finite", watch->updates);
+    if (newton->settings.search != LINE_SEARCH_NONE)
+        watch_descent(watch, newton->u, "in an iteration");
+    check_excuse(watch, record);
+    memcpy(watch->u, newton->u, (size_t)watch_size(watch) * sizeof *watch->u);
+    watch_momentum(watch, newton->u);
+    if (record->status == STATUS_OK)
+        judge_convergence(watch, newton->u, 1);
+    return true;
+}
+
+bool watch_create(TimeIntegrator *run, Watch *watch)
+{
+    *watch = (Watch){.run = run, .residuals = true};
+    size_t n = (size_t)watch_size(watch);
+    double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u};
+    bool good = true;
+    for (int i = 0; i < 4; i++)
+        good = (*vectors[i] = calloc(n, sizeof(double))) && good;
+    watch->noise = calloc(n, sizeof *watch->noise);
+    if (n <= LARGEST_JUDGED) {
+        watch->g = malloc(n * sizeof *watch->g);
+        watch->H = malloc(2 * n * n * sizeof *watch->H);
+        good = good && watch->g && watch->H;
+    }
+    if (run->newton) {
+        run->newton->settings.observer = watch_record;
+        run->newton->settings.user = watch;
+    }
+    return good && watch->noise;
+}
+
+void watch_free(Watch *watch)
+{
+    free(watch->x);
+    free(watch->v);
+    free(watch->x_n);
+    free(watch->u);
+    free(watch->noise);
+    free(watch->g);
+    free(watch->H);
+    *watch = (Watch){0};
+}
+
+/* Whether squares of what this step handles may overflow. */
+static bool overflow_is_near(const Watch *watch)
+{
+    const System *system = watch->run->system;
+    long double h = watch->run->h, sum = 0;
+    for (int i = 0; i < watch_size(watch); i++)
+        sum = fmaxl(sum, fabsl(watch->x[i]) + h * fabsl(watch->v[i]));
+    sum = sum * sum;
+    for (int s = 0; s < system->springs; s++) {
+        long double strain = sum / system->l2[s];
+        if (h * h * system->k[s] * strain * sum > HUGE_ENERGY ||
+            system->k[s] * strain * strain > HUGE_ENERGY)
+            return true;
+    }
+    return sum > HUGE_ENERGY || !watch->run->newton;
+}
+
+/* A step that failed moved nothing, and had a reason to fail. */
+static void check_failure(Watch *watch, Status status)
+{
+    size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
+    if (memcmp(watch->run->x, watch->x, bytes) != 0 ||
+        memcmp(watch->run->v, watch->v, bytes) != 0)
+        watch_blame(watch, "%s, but the state moved", status_name(status));
+    if (status != STATUS_NOT_FINITE)
+        watch_blame(watch, "fails with %s", status_name(status));
+    else if (!overflow_is_near(watch))
+        watch_blame(watch, "not_finite, but nothing is near overflow");
+}
+
+/* sum m v, of absolute values if `size`. */
+static long double momentum(const System *system, const double *v, int c,
+                            bool size)
+{
+    long double sum = 0;
+    for (int i = 0; i < system->nodes; i++) {
+        long double mv = (long double)system->m[i] * v[2 * i + c];
+        sum += size ? fabsl(mv) : mv;
+    }
+    return sum;
+}
+
+/* h times the sum of all spring forces at x, as large as they pass through an
+ * explicit step. */
+static long double impulses(const System *system, const double *x, double h)
+{
+    long double sum = 0;
+    for (int s = 0; s < system->springs; s++) {
+        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+        long double d =
+            hypotl((long double)x[i] - x[j], (long double)x[i + 1] - x[j + 1]);
+        sum += 2 * system->k[s] * d * (d * d / system->l2[s] + 1);
+    }
+    return 2 * h * sum;
+}
+
+/* Springs alone do not change the momentum. */
+static void check_momentum(Watch *watch)
+{
+    const System *system = watch->run->system;
+    const TimeIntegrator *run = watch->run;
+    if (system->pinned || system->omega2 > 0)
+        return;
+    long double through = watch->through;
+    if (!run->newton)
+        through = impulses(system, watch->x, run->h) +
+                  impulses(system, run->x, run->h);
+    if (run->method->memory > 0) /* rounding of earlier steps is remembered */
+        through = watch->earlier = fmaxl(through, watch->earlier);
+    for (int c = 0; c < 2; c++) {
+        long double change = momentum(system, run->v, c, false) -
+                             momentum(system, watch->v, c, false);
+        long double size = momentum(system, run->v, c, true) +
+                           momentum(system, watch->v, c, true) + through;
+        if (!(fabsl(change) <= 4 * ROUNDINGS * DBL_EPSILON * size))
+            watch_blame(watch, "momentum changes by %Lg of %Lg", change, size);
+    }
+}
+
+/* M |v1 - v0|^2/2 + P(x1) <= M |v0|^2/2 + P(x0), for backward Euler. */
+static void check_dissipation(Watch *watch)
+{
+    const TimeIntegrator *run = watch->run;
+    const System *system = run->system;
+    int n = watch_size(watch);
+    long double h2 = (long double)run->h * run->h, jump = 0;
+    if (strcmp(run->method->name, "backward-euler") != 0 ||
+        run->newton->settings.search == LINE_SEARCH_NONE)
+        return;
+    for (int i = 0; i < n; i++) {
+        long double dv = (long double)run->v[i] - watch->v[i];
+        jump += 0.5L * system->m[i / 2] * dv * dv;
+    }
+    long double after = jump + wide_potential(system, run->x);
+    long double before =
+        wide_kinetic(system, watch->v) + wide_potential(system, watch->x);
+    if (after <= before)
+        return;
+    memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x_n);
+    memset(watch->u, 0, (size_t)n * sizeof *watch->u);
+    long double rise =
+        allowed_rise(watch, watch->u, run->newton->u, h2 * (after + before)) /
+        h2;
+    if (!(after - before <= rise))
+        watch_blame(watch, "kinetic and elastic energy rise from %Lg to %Lg",
+                    before, after);
+}
+
+/* What the last minimisation left, after the centre of mass was moved: E is
+ * not above its start, and the residual is at most twice as large, because
+ * the mean of the direction was taken away from it. */
+static void check_last_minimisation(Watch *watch, Status status)
+{
+    const Newton *newton = watch->run->newton;
+    bool composed = strcmp(watch->run->method->name, "avf4") == 0;
+    if (composed && newton->record.iteration < 0)
+        return; /* where its last part began is not known here */
+    int n = watch_size(watch);
+    if (newton->record.iteration < 0) {
+        memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x);
+        memset(watch->u, 0, (size_t)n * sizeof *watch->u);
+        IncrementalPotential E = watch_potential(watch);
+        watch->energy = wide_energy(&E, watch->u);
+        if (!status && watch->run->system->springs > 0)
+            judge_convergence(watch, watch->u, 1);
+    }
+    watch_momentum(watch, newton->u);
+    if (newton->settings.search != LINE_SEARCH_NONE)
+        watch_descent(watch, newton->u, "as the step ends");
+    if (newton->status == STATUS_OK)
+        judge_convergence(watch, newton->u, 2);
+}
+
+/* The state after a step that was made. */
+static void check_state(Watch *watch, Status status)
+{
+    const TimeIntegrator *run = watch->run;
+    for (int i = 0; i < watch_size(watch); i++) {
+        if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
+            watch_blame(watch, "the state is not finite");
+        if (run->system->pinned && run->system->pinned[i / 2] &&
+            run->x[i] != watch->x[i])
+            watch_blame(watch, "a pinned node moved");
+    }
+    if (run->newton)
+        check_last_minimisation(watch, status);
+    check_momentum(watch);
+    if (run->newton)
+        check_dissipation(watch);
+}
+
+Verdict watch_step(Watch *watch)
+{
+    TimeIntegrator *run = watch->run;
+    size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
+    memcpy(watch->x, run->x, bytes);
+    memcpy(watch->v, run->v, bytes);
+    watch->through = 0;
+    watch->wrong = false;
+    watch->updates = 0;
+    Status status = watch->status = time_integrator_step(run);
+    if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
+        watch_blame(watch, "status %d has no name", (int)status);
+    else if (status == STATUS_OK || status_is_unconverged(status))
+        check_state(watch, status);
+    else
+        check_failure(watch, status);
+    Verdict verdict = watch->wrong ? VERDICT_WRONG
+                      : status     ? VERDICT_REPORTED
+                                   : VERDICT_CONVERGED;
+    watch->steps[verdict]++;
+    return verdict;
+}
