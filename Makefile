@@ -230,7 +230,7 @@ $(B)/tests/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
 suites: $(SUITES)
 .PHONY: suites
 
-test: $(SUITES) build/elasto $(B)/elasto-bench build/elasto_single.c
+test: $(SUITES) $(B)/elasto $(B)/elasto-bench build/elasto_single.c
 	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
 	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
 	  sh tests/run.sh $(SUITES)
