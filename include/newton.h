@@ -60,7 +60,8 @@ typedef struct NewtonCounters {
     long projected; /* springs projected, summed over factorisations */
     long trials;    /* energies looked at by the line search */
     long shifted;   /* factorisations that needed a shift */
-    long skipped;   /* final tests decided without a factorisation */
+    long skipped;   /* tests passed by the gradient's size alone */
+    long certified; /* tests passed with an old factor and an error bound */
     double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
 } NewtonCounters;
 
@@ -82,6 +83,7 @@ typedef struct Newton {
     double *p;       /* [2n] m, search direction at x */
     double *r;       /* [2n] m, last update; only the lagged solver's */
     int clamps;      /* iterations that on-demand projection still clamps */
+    bool resting;    /* the last minimisation needed no update */
     int age;         /* updates since the factor was made; < 0: none yet */
     const System *system;
     double lightest;        /* kg, the smallest mass */

@@ -122,25 +122,26 @@ void reference_free(Reference *reference)
     *reference = (Reference){0};
 }
 
-/* Mass-weighted root mean square of x - y, y in double or in long double. */
-static double weighted_distance(const System *system, const long double *x,
-                                const double *y, const long double *precise)
+/* Adds m d^2 for coordinate i to sum[0], its share of the mass to sum[1]. */
+static void add_weighted(const System *system, int i, long double d,
+                         long double sum[2])
 {
-    long double sum = 0, mass = 0;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        long double d = x[i] - (y ? (long double)y[i] : precise[i]);
-        sum += system->m[i / 2] * d * d;
-        mass += 0.5L * system->m[i / 2];
-    }
-    return (double)sqrtl(sum / mass);
+    sum[0] += system->m[i / 2] * d * d;
+    sum[1] += 0.5L * system->m[i / 2];
 }
 
 double reference_distance(const Reference *reference, const double *x)
 {
-    return weighted_distance(reference->system, reference->x, x, NULL);
+    long double sum[2] = {0, 0};
+    for (int i = 0; i < 2 * reference->system->nodes; i++)
+        add_weighted(reference->system, i, reference->x[i] - x[i], sum);
+    return (double)sqrtl(sum[0] / sum[1]);
 }
 
 double reference_difference(const Reference *a, const Reference *b)
 {
-    return weighted_distance(a->system, a->x, NULL, b->x);
+    long double sum[2] = {0, 0};
+    for (int i = 0; i < 2 * a->system->nodes; i++)
+        add_weighted(a->system, i, a->x[i] - b->x[i], sum);
+    return (double)sqrtl(sum[0] / sum[1]);
 }

@@ -184,10 +184,10 @@ static Status solve_once(Cholesky *cholesky, const double *b, double *x)
         .ncol = 1,
         .nzmax = n,
         .d = n,
-        .x = (void *)(size_t)b,
         .xtype = CHOLMOD_REAL,
         .dtype = CHOLMOD_DOUBLE,
     };
+    memcpy(&right.x, &b, sizeof b); /* only read, though the type says not */
     cholesky->common.status = CHOLMOD_OK;
     /* CHOLMOD 5.12 does not notice when it gets no memory for y. */
     if (!cholmod_ensure_dense(&cholesky->y, n, 1, n, CHOLMOD_REAL,

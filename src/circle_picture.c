@@ -69,7 +69,7 @@ void circle_picture_panels(Paper *paper, const Simulation *simulation,
                     (Axis){0, plot_round_up(fmax(last, least)), "time in s"},
                     (Axis){0, RADIUS_AXIS, "radius in m"});
     text_block_add(&block, COLOUR_FAINT, "%-16s  radius now", "");
-    for (int r = 0; r < simulation->runs; r++) {
+    for (int r = 0; r < simulation->runs && r < SIMULATION_MAX_RUNS; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         plot_curve(paper, &plot, history->count, history->time,
                    history->value[r], circle_colours[r]);

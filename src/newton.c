@@ -151,14 +151,26 @@ static bool uses_plane(const Newton *newton)
            newton->settings.search == LINE_SEARCH_BACKTRACK;
 }
 
-/* Whether the lagged solver goes on with the factor it has. */
+/* Whether the next test of Algorithm 3 is likely to be passed: in a step after
+ * one without updates, or after a direction that was nearly short enough. */
+static bool expects_convergence(const Newton *newton)
+{
+    if (newton->record.iteration < 0)
+        return newton->resting;
+    return newton->record.residual <= 10 * newton->settings.tolerance;
+}
+
+/* Whether the factor of an earlier iterate is worth a try: the lagged solver
+ * takes its directions from it, and both may decide with it that the test is
+ * passed. */
 static bool factor_may_serve(const Newton *newton)
 {
-    return newton->settings.solver == SOLVER_LAGGED &&
-           newton->settings.filter != FILTER_NONE &&
-           newton->search.kind != CHOLESKY_INDEFINITE &&
-           newton->search.shift == 0 && newton->age >= 0 &&
-           newton->age < MAX_FACTOR_AGE;
+    if (newton->settings.filter == FILTER_NONE || newton->age < 0 ||
+        newton->search.kind == CHOLESKY_INDEFINITE || newton->search.shift > 0)
+        return false;
+    if (newton->settings.solver == SOLVER_LAGGED)
+        return newton->age < MAX_FACTOR_AGE;
+    return newton->age <= 1 && expects_convergence(newton);
 }
 
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
@@ -175,9 +187,9 @@ static Status newton_solve_and_test(Newton *newton)
                                                           : STATUS_RUNNING;
 }
 
-/* What the lagged solver does with the factor it has.  A direction that passes
- * the test with an old factor is refined until the test can be decided for the
- * Hessian at x, with the error's bound on both sides.
+/* The direction with the factor of an earlier iterate.  One that passes the
+ * test is refined until the test can be decided for the Hessian at x, with the
+ * error's bound on both sides.
  * Returns OK (passed), RUNNING (p can be used), or a failure; *decided is false
  * where only a new factor can tell. */
 static Status direction_from_old_factor(Newton *newton, bool *decided)
@@ -225,7 +237,9 @@ static Status newton_direction(Newton *newton)
     if (factor_may_serve(newton)) {
         bool decided;
         Status status = direction_from_old_factor(newton, &decided);
-        if (decided)
+        if (decided && !status)
+            newton->counters.certified++;
+        if (decided && (!status || newton->settings.solver == SOLVER_LAGGED))
             return status;
     }
     Status status = newton_factor(newton);
@@ -318,6 +332,7 @@ Status newton_start(Newton *newton, const double *x_n, double weight)
                                        newton->u_tilde, newton->averaged};
     memset(newton->u, 0, size * sizeof *newton->u);
     memcpy(newton->x, x_n, size * sizeof *newton->x);
+    newton->resting = newton->record.iteration < 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->best = INFINITY;
     newton->stagnant = 0;

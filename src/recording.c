@@ -45,7 +45,7 @@ static Status write_headers(Recording *recording)
     if (!recording->log.file)
         return STATUS_OK;
     if (fputs("step,iteration,residual,alpha,trials,slope,change,projected,"
-              "factorised,seconds",
+              "factorised,shift,status,seconds",
               recording->log.file) < 0)
         return recording_note(recording, STATUS_FILE_FAILED,
                               recording->log.name);
@@ -132,10 +132,11 @@ Status recording_update(Recording *recording, const NewtonRecord *record)
     if (!log->file)
         return STATUS_OK;
     errno = 0;
-    fprintf(log->file, "%ld,%d,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g",
+    fprintf(log->file, "%ld,%d,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g,%s,%.17g",
             record->step, record->iteration, record->residual, record->alpha,
             record->trials, record->slope, record->change, record->projected,
-            record->factorised, record->seconds);
+            record->factorised, record->shift, status_name(record->status),
+            record->seconds);
     if (recording->points)
         fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
                 record->from[1], record->to[0], record->to[1]);

@@ -5,7 +5,7 @@
 
 /* Matrices of at most this many rows are factored column by column: below it
  * dense blocks are too small to pay (measured at 4 ... 64 segments). */
-enum { SIMPLICIAL_MAX_ROWS = 700 };
+enum { SIMPLICIAL_MAX_ROWS = 400 };
 
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
@@ -40,9 +40,6 @@ void search_direction_free(SearchDirection *search)
     free_matrix(search);
     free(search->b);
     free(search->r);
-    free(search->z);
-    free(search->q);
-    free(search->d);
     *search = (SearchDirection){0};
 }
 
@@ -165,17 +162,18 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* Workspaces, the first time they are needed. */
+/* Workspaces, the first time they are needed: r, z, q, d in one piece. */
 static Status create_workspaces(SearchDirection *search)
 {
-    double **array[] = {&search->r, &search->z, &search->q, &search->d};
-    for (int i = 0; i < 4; i++) {
-        if (!*array[i])
-            *array[i] =
-                calloc(2 * (size_t)search->system->nodes, sizeof(double));
-        if (!*array[i])
-            return STATUS_OUT_OF_MEMORY;
-    }
+    size_t size = 2 * (size_t)search->system->nodes;
+    if (search->r)
+        return STATUS_OK;
+    search->r = calloc(4 * size, sizeof *search->r);
+    if (!search->r)
+        return STATUS_OUT_OF_MEMORY;
+    search->z = search->r + size;
+    search->q = search->z + size;
+    search->d = search->q + size;
     return STATUS_OK;
 }
 

@@ -106,6 +106,7 @@ static void add_counters(const NewtonCounters *counters, NewtonCounters *sum)
     sum->projected += counters->projected;
     sum->trials += counters->trials;
     sum->shifted += counters->shifted;
+    sum->certified += counters->certified;
     sum->skipped += counters->skipped;
     sum->seconds_assembly += counters->seconds_assembly;
     sum->seconds_factor += counters->seconds_factor;

@@ -37,9 +37,12 @@ if ! missing cppcheck; then
     result cppcheck "$work/cppcheck"
 fi
 if ! missing clang-tidy; then
-    # shellcheck disable=SC2086
-    clang-tidy --quiet src/*.c -- -std=c11 -D_GNU_SOURCE -Iinclude \
-        ${DEP_CFLAGS:-} >"$work/tidy" 2>/dev/null
+    # one file at a time: in a row it loses track of va_start
+    for file in src/*.c; do
+        # shellcheck disable=SC2086
+        clang-tidy --quiet "$file" -- -std=c11 -D_GNU_SOURCE -Iinclude \
+            ${DEP_CFLAGS:-} >>"$work/tidy" 2>/dev/null
+    done
     result clang-tidy "$work/tidy"
 fi
 if ! missing valgrind; then

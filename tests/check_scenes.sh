@@ -44,11 +44,11 @@ verdict circle_states_are_three_nodes "$(
 verdict overshoot_shows_the_step_that_diverges "$(
     run 3 overshoot --frames frames
     table 7 3 states
-    table 14 2 log
+    table 16 2 log
     awk -F, 'NR == 3 && $4 > -11.6449585 { print "first update to " $4 }
         NR == 4 && !($4 > 3.2e9 && $4 < 3.3e9) { print "second to " $4 }
         NR > 1 && $2 != 0 { print "time passes" }' states
-    awk -F, 'NR == 2 && ($11 != 2 || $13 > -11.64) { print "log: " $0 }' log
+    awk -F, 'NR == 2 && ($13 != 2 || $15 > -11.64) { print "log: " $0 }' log
     [ "$(ls frames | wc -l)" = 3 ] || echo 'not 3 frames'
     grep -q 'not converged 1' summary || echo 'summary is silent'
 )"
@@ -85,7 +85,7 @@ verdict explicit_methods_count_no_matrix "$(
         for what in 'factorisations ' 'solves ' 'matrix entries '; do
             grep -q "^$what *0\$" summary || echo "$method: $what"
         done
-        table 10 0 log
+        table 12 0 log
     done
     run 0 square --steps 5
     grep -q '^matrix entries *[1-9]' summary || echo 'square has no matrix'

@@ -795,7 +795,7 @@ static void log_has_every_update(void **unused)
         int commas = 0;
         for (char *c = line; *c; c++)
             commas += *c == ',';
-        assert_int_equal(commas, 9);
+        assert_int_equal(commas, 11);
         rows++;
     }
     assert_int_equal(rows, simulation_counters(&simulation).iterations);
