@@ -14,7 +14,10 @@ for suite in build/coverage/tests/test_*; do
         timeout 600 "$suite" >build/coverage/log 2>&1 ||
         echo "$suite failed: see build/coverage/log"
 done
-ELASTO=build/coverage/elasto sh tests/check_faults.sh >build/coverage/log 2>&1
+for check in scenes faults window; do
+    ELASTO=build/coverage/elasto sh tests/check_$check.sh \
+        >build/coverage/log 2>&1 || echo "check_$check.sh failed"
+done
 
 # gcov prints "File 'src/x.c'" and then "Lines executed:97.10% of 69".
 mkdir -p build/coverage/gcov
