@@ -13,7 +13,8 @@ ARGS    ?=
 # In lecture order: `make single` writes them one after the other.
 MODULES = status square_mesh psd quartic \
           inertia_energy mass_spring_energy avf_energy system \
-          sparse cholesky incremental_potential line_search plane_search search_direction newton \
+          sparse cholesky incremental_potential line_search plane_search \
+          search_direction newton \
           scalar_newton time_integrator backward_euler explicit_methods \
           implicit_methods average_vector_field options simulation \
           square_scenes circle_scene overshoot_scene landscape_scene scene \
@@ -73,23 +74,32 @@ endif
 
 # $(call try,FLAGS,HEADER,CALL): does this compile and link?
 define deps_functions
-try() { printf '#include <stddef.h>\n#include <stdio.h>\n#include <%b>\nint main(void){return (int)(size_t)(%s);}\n' \
-  "$$2" "$$3" | $(CC) -x c - -o build/try $$1 >build/try.log 2>&1; }; \
+try() { { printf '#include <%b>\n' stddef.h stdio.h "$$2"; \
+    echo "int main(void) { return (int)(size_t)($$3); }"; } | \
+  $(CC) -x c - -o build/try $$1 >build/try.log 2>&1; }; \
 pc() { pkg-config --cflags --libs $$1 2>/dev/null || echo "$$2"; }; \
-sdl() { try "$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')" SDL.h '&SDL_RenderGeometry'; }; \
+sdl() { try "$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')" SDL.h \
+    '&SDL_RenderGeometry'; }; \
 png() { try "$$(pc libpng -lpng)" png.h '&png_image_write_to_stdio'; }; \
-cmocka() { try "$$(pc cmocka -lcmocka)" 'stdarg.h>\n#include <stdint.h>\n#include <setjmp.h>\n#include <cmocka.h' '&_cmocka_run_group_tests'; }; \
-cholmod_flags() { for f in "$$(pkg-config --cflags --libs CHOLMOD 2>/dev/null)" \
-    -lcholmod "-I/usr/include/suitesparse -lcholmod" \
+cmocka() { \
+  headers='stdarg.h>\n#include <stdint.h>\n#include <setjmp.h>'; \
+  try "$$(pc cmocka -lcmocka)" "$$headers\n#include <cmocka.h" \
+    '&_cmocka_run_group_tests'; }; \
+cholmod_flags() { \
+  found=$$(pkg-config --cflags --libs CHOLMOD 2>/dev/null); \
+  for f in "$$found" -lcholmod "-I/usr/include/suitesparse -lcholmod" \
     "-I/usr/local/include/suitesparse -L/usr/local/lib -lcholmod" \
     "-I/opt/homebrew/include/suitesparse -L/opt/homebrew/lib -lcholmod"; do \
-  if try "$$f" cholmod.h '&cholmod_solve2'; then echo "$$f"; return 0; fi; done; return 1; }; \
+  if try "$$f" cholmod.h '&cholmod_solve2'; then \
+    echo "$$f"; return 0; fi; done; return 1; }; \
 install_packages() { \
   echo "elasto needs these packages: $$1"; \
   if ! command -v apt-get >/dev/null 2>&1; then \
     echo "Please install them:"; \
-    echo "  Fedora:  dnf install SDL2-devel suitesparse-devel openblas-devel libpng-devel libcmocka-devel pkgconf"; \
-    echo "  Arch:    pacman -S sdl2 suitesparse openblas libpng cmocka pkgconf"; \
+    echo "  Fedora:  dnf install SDL2-devel suitesparse-devel \\"; \
+    echo "             openblas-devel libpng-devel libcmocka-devel pkgconf"; \
+    echo "  Arch:    pacman -S sdl2 suitesparse openblas libpng cmocka \\"; \
+    echo "             pkgconf"; \
     echo "  macOS:   brew install sdl2 suite-sparse libpng cmocka pkg-config"; \
     return 1; fi; \
   as=; [ "$$(id -u)" = 0 ] || as=sudo; \
@@ -112,8 +122,10 @@ $(CONFIG): Makefile
 	cholmod_flags >/dev/null || \
 	  missing="$$missing libsuitesparse-dev libopenblas0"; \
 	if [ "$$missing" ]; then install_packages "$$missing" || exit 1; fi; \
-	sdl && png && cholmod=$$(cholmod_flags) || { cat build/try.log; exit 1; }; \
-	flags="$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2') $$(pc libpng -lpng) $$cholmod"; \
+	sdl && png && cholmod=$$(cholmod_flags) || \
+	  { cat build/try.log; exit 1; }; \
+	flags="$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
+	flags="$$flags $$(pc libpng -lpng) $$cholmod"; \
 	c=; l=; for f in $$flags; do \
 	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \
 	{ echo "DEP_CFLAGS :=$$c"; echo "DEP_LIBS :=$$l -ldl -lm"; } >$@.new; \

@@ -171,6 +171,7 @@ int main(int argc, char **argv)
 {
     enum { FINE = 0, FAILED = 1, MISUSED = 2 };
     BenchCommand command;
+    setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
     if (!parse_bench(argc, argv, &command))
         return MISUSED;
     Status status = STATUS_OK;

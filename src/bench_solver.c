@@ -88,6 +88,8 @@ static Status solver_square(Bench *bench, int segments, long steps,
                 return status;
             history[s].left_out = costs[s][r].timed_out;
             made[s] += !costs[s][r].timed_out;
+            if (s == SOLVER_NEWTON && history[s].left_out)
+                history[COST_PLAIN].left_out = true; /* it is slower yet */
         }
     for (int s = 0; s < COST_SOLVERS; s++)
         if (made[s] > 0) {
@@ -96,8 +98,8 @@ static Status solver_square(Bench *bench, int segments, long steps,
             remember_growth(segments, cost->total / (double)steps, &history[s]);
         } else if (history[s].last > 0) {
             bench_progress(bench, NULL);
-            printf("  %8d %-6s more than %g s for %ld steps: stopped, and left "
-                   "out from here on\n",
+            printf("  %8d %-6s more than %g s for %ld steps: left out from "
+                   "here on\n",
                    segments, cost_name(s), longest, steps);
             history[s].last = 0;
         }

@@ -19,7 +19,8 @@ Status create_circle(Simulation *simulation, const NewtonSettings *settings)
     simulation->system.m[0] = 1;
     simulation->system.omega2 = CIRCLE_OMEGA * CIRCLE_OMEGA;
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
-    for (int i = 0; i < simulation->runs && !status; i++)
+    for (int i = 0; i < SIMULATION_MAX_RUNS && i < simulation->runs && !status;
+         i++)
         status = time_integrator_create(
             chosen ? chosen : integrator_method(names[i]), &simulation->system,
             settings, x, v, &simulation->run[i]);

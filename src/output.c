@@ -15,12 +15,10 @@ bool output_is_standard(const char *name)
 /* first and second, in memory of its own, or NULL. */
 static char *join_texts(const char *first, const char *second)
 {
-    size_t a = strlen(first), b = strlen(second);
-    char *text = malloc(a + b + 1);
-    if (text) {
-        memcpy(text, first, a);
-        memcpy(text + a, second, b + 1);
-    }
+    size_t size = strlen(first) + strlen(second) + 1;
+    char *text = malloc(size);
+    if (text)
+        snprintf(text, size, "%s%s", first, second);
     return text;
 }
 

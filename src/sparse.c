@@ -91,7 +91,7 @@ Status sparse_create(const Triplets *triplets, Triangle triangle, Sparse *A,
     A->start = calloc((size_t)size + 1, sizeof *A->start);
     int *start = malloc(((size_t)size + 1) * sizeof *start);
     int *row = calloc(1, bytes), *column = calloc(1, bytes);
-    int *by_row = malloc(bytes), *sorted = malloc(bytes);
+    int *by_row = calloc(1, bytes), *sorted = calloc(1, bytes);
     A->row = malloc(bytes);
     Status status = STATUS_OUT_OF_MEMORY;
     if (!A->start || !start || !row || !column || !by_row || !sorted || !A->row)

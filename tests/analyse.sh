@@ -58,6 +58,7 @@ if ! missing valgrind; then
             --errors-for-leak-kinds=definite "${ELASTO:-build/elasto}" \
             "$scene" --headless --steps 2 --quiet --log "$work/l.csv" \
             --frames "$work/frames" >"$work/out" 2>"$work/err" ||
+            [ $? = 3 ] || # not converged, as the scene means to show
             { echo "$scene:" && cat "$work/err"; } >>"$work/valgrind"
     done
     touch "$work/valgrind"

@@ -33,7 +33,8 @@ same() { # options
 }
 verdict default_run_is_the_same "$(same '--steps 50')"
 verdict large_run_is_the_same "$(same '--segments 20 --steps 5')"
-verdict lagged_run_is_the_same "$(same '--segments 20 --steps 5 --solver lagged')"
+verdict lagged_run_is_the_same \
+    "$(same '--segments 20 --steps 5 --solver lagged')"
 verdict other_methods_are_the_same "$(
     for method in symplectic-euler bdf2 sdirk2 avf4; do
         same "--integrator $method --steps 20"

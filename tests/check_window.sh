@@ -275,7 +275,7 @@ mouse_picks() {
             NF == 4 && place ~ /^5/ && !($3 > $1 + 0.2 && $4 == $2) { bad = 1 }
             NF == 4 && place ~ /450 450/ && !($3 == $1 && $4 < $2 - 0.2) {
                 bad = 1 }
-            bad { print "click at " place ": from " $1 "," $2 " to " $3 "," $4 }'
+            bad { print "click at " place ": " $1 "," $2 " to " $3 "," $4 }'
         [ "$place" = '550 350' ] || old=$new
     done
     begin landscape
