@@ -8,6 +8,7 @@
 #ifndef ELASTO_NEWTON_H
 #define ELASTO_NEWTON_H
 
+#include "gauss_seidel.h"
 #include "line_search.h"
 #include "search_direction.h"
 
@@ -62,7 +63,9 @@ typedef struct NewtonCounters {
     long shifted;   /* factorisations that needed a shift */
     long skipped;   /* tests passed by the gradient's size alone */
     long certified; /* tests passed with an old factor and an error bound */
+    long smoothings;
     double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
+    double seconds_smoothing;
 } NewtonCounters;
 
 typedef struct Newton {
@@ -88,6 +91,7 @@ typedef struct Newton {
     const System *system;
     double lightest;        /* kg, the smallest mass */
     SearchDirection search; /* the Hessian and its factor */
+    GaussSeidel smoother;   /* only the lagged solver's */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.

@@ -28,11 +28,12 @@ static void cost_from_counters(const NewtonCounters *counters, Cost *cost)
     cost->factor = counters->seconds_factor;
     cost->solve = counters->seconds_solve;
     cost->search = counters->seconds_search;
+    cost->smoothing = counters->seconds_smoothing;
     cost->iterations = counters->iterations;
     cost->factorisations = counters->factorisations;
     cost->solves = counters->solves;
     cost->rest = cost->total - cost->assembly - cost->factor - cost->solve -
-                 cost->search;
+                 cost->search - cost->smoothing;
 }
 
 /* The median of some calls alone, times the calls that were made. */

@@ -15,6 +15,9 @@ enum { STAGNANT_ITERATIONS = 20 };
  * fewer factorisations; 8 ... 16 measured about the same. */
 enum { MAX_FACTOR_AGE = 12 };
 
+/* Updates after which the lagged solver smooths: easy steps end before. */
+enum { UPDATES_WITHOUT_SMOOTHING = 2 };
+
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
@@ -51,6 +54,7 @@ void newton_free(Newton *newton)
     if (!newton)
         return;
     search_direction_free(&newton->search);
+    gauss_seidel_free(&newton->smoother);
     free(newton->u);
     free(newton->x);
     free(newton->u_tilde);
@@ -346,12 +350,6 @@ Status newton_start(Newton *newton, const double *x_n, double weight)
     return newton->status;
 }
 
-/* q(alpha), as line_search calls it. */
-static double quartic_difference(const void *function, double alpha)
-{
-    return quartic_value(function, alpha);
-}
-
 /* What rounding can make of a decrease: a few units in the last place of E. */
 static bool hidden_by_rounding(const Newton *newton, double change)
 {
@@ -439,6 +437,35 @@ static bool newton_update(Newton *newton)
     return true;
 }
 
+/* What a factor of long ago knows badly, stiffnesses that have changed from one
+ * spring to the next, a few sweeps over the nodes put right.  The way they go
+ * is a part of the last update. */
+static Status newton_smooth(Newton *newton)
+{
+    if (!uses_plane(newton) || newton->averaged ||
+        newton->settings.filter == FILTER_NONE ||
+        newton->record.iteration < UPDATES_WITHOUT_SMOOTHING)
+        return STATUS_OK;
+    double start = clock_seconds(), change;
+    if (!newton->smoother.group) {
+        Status status = gauss_seidel_create(newton->system, &newton->smoother);
+        if (status)
+            return status;
+    }
+    incremental_potential_gradient(&newton->E, newton->u, newton->x, newton->g);
+    int trials = gauss_seidel_smooth(&newton->smoother, &newton->E, newton->g,
+                                     newton->u, newton->x, newton->p, &change);
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        newton->r[i] += newton->p[i];
+    newton->record.change += change;
+    newton->record.trials += trials;
+    newton->counters.trials += trials;
+    newton->counters.gradients++;
+    newton->counters.smoothings++;
+    newton->counters.seconds_smoothing += clock_seconds() - start;
+    return STATUS_OK;
+}
+
 /* Whether the loop may go on after an iteration that did not converge. */
 static Status newton_limits(Newton *newton)
 {
@@ -465,6 +492,8 @@ Status newton_iterate(Newton *newton)
     Status status = newton_search(newton);
     if (!status && !newton_update(newton))
         status = STATUS_NOT_FINITE;
+    if (!status)
+        status = newton_smooth(newton);
     NewtonRecord done = *record;
     if (!status)
         status = newton_direction(newton);

@@ -6,6 +6,11 @@ double quartic_value(const Quartic *quartic, double alpha)
     return alpha * (q[0] + alpha * (q[1] + alpha * (q[2] + alpha * q[3])));
 }
 
+double quartic_difference(const void *quartic, double alpha)
+{
+    return quartic_value(quartic, alpha);
+}
+
 double plane_value(const PlaneQuartic *quartic, double a, double b)
 {
     const double *c = quartic->c;

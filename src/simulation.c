@@ -111,7 +111,9 @@ static void add_counters(const NewtonCounters *counters, NewtonCounters *sum)
     sum->seconds_assembly += counters->seconds_assembly;
     sum->seconds_factor += counters->seconds_factor;
     sum->seconds_solve += counters->seconds_solve;
+    sum->smoothings += counters->smoothings;
     sum->seconds_search += counters->seconds_search;
+    sum->seconds_smoothing += counters->seconds_smoothing;
 }
 
 NewtonCounters simulation_counters(const Simulation *simulation)

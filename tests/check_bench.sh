@@ -56,11 +56,12 @@ work=case,segments,integrator,solver,order,steps,timestep_s,tolerance_m_s
 work=$work,run_time_s,error_m,energy_drift,iterations,factorisations
 check work_precision "$work,unconverged,failed"
 solver=solver,segments,steps,total_ms,assembly_ms,analysis_ms,factor_ms
-solver=$solver,solve_ms,search_ms,rest_ms,bare_ms,iterations,factorisations
+solver=$solver,solve_ms,search_ms,smooth_ms,rest_ms,bare_ms,iterations
+solver=$solver,factorisations
 check solver "$solver,solves,unconverged,energy_start_J,energy_end_J"
 tolerance=segments,solver,tolerance_m_s,steps,step_ms,iterations
-tolerance=$tolerance,factorisations,mean_distance_m,worst_distance_m
-check tolerance "$tolerance,unconverged"
+tolerance=$tolerance,factorisations,median_distance_m,worst_distance_m
+check tolerance "$tolerance,elsewhere,unconverged"
 filters=filter,timestep_s,stretch,steps,iterations,factorisations
 check filters "$filters,projected,unconverged,failed,ms"
 check drawing segments,springs_drawn,springs_left_out,frames,frame_ms

@@ -21,6 +21,7 @@ suites_for() { # source
     src/sparse.c) first=sparse ;;
     src/cholesky.c) first=cholesky ;;
     src/square_mesh.c) first=mesh ;;
+    src/gauss_seidel.c) first=gauss_seidel ;;
     src/line_search.c | src/quartic.c | src/plane_search.c)
         first=line_search ;;
     src/*_methods.c | src/average_vector_field.c | src/backward_euler.c | \
@@ -28,7 +29,7 @@ suites_for() { # source
     *) first= ;;
     esac
     echo "$first newton derivatives line_search solvers averaged" \
-        "integrators cholesky sparse reference orders stress"
+        "integrators cholesky gauss_seidel sparse reference orders stress"
 }
 
 # build NAME: the suite, with whatever is in src now.

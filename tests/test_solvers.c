@@ -258,6 +258,28 @@ static void factors_are_reused(void **unused)
     }
 }
 
+/* Only the lagged solver smooths, and only in steps that are not over after two
+ * updates: at once where the square buckles, never where it is hardly moved. */
+static void only_hard_steps_are_smoothed(void **unused)
+{
+    (void)unused;
+    for (int s = 0; s < SOLVER_COUNT; s++)
+        for (int hard = 0; hard < 2; hard++) {
+            Simulation simulation;
+            create_run(hard ? "--segments 16 --stretch 1.4"
+                            : "--segments 16 --stretch 1.01",
+                       "backward-euler", (Solver)s, NULL, NULL, &simulation);
+            for (int step = 0; step < 5; step++)
+                CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            NewtonCounters counters = simulation_counters(&simulation);
+            CHECK(counters.iterations > 0);
+            CHECK((counters.smoothings > 0) == (hard && s == SOLVER_LAGGED));
+            CHECK((simulation.run[0].newton->smoother.group != NULL) ==
+                  (counters.smoothings > 0));
+            simulation_free(&simulation);
+        }
+}
+
 /* Explicit methods have no Newton object, so no matrix and no counters. */
 static void explicit_methods_have_no_matrix(void **unused)
 {
@@ -354,6 +376,7 @@ int main(void)
         cmocka_unit_test(rest_needs_no_factor),
         cmocka_unit_test(stretched_springs_are_not_projected),
         cmocka_unit_test(factors_are_reused),
+        cmocka_unit_test(only_hard_steps_are_smoothed),
         cmocka_unit_test(explicit_methods_have_no_matrix),
         cmocka_unit_test(averaged_force_does_the_work),
         cmocka_unit_test(plane_search_ends_in_a_minimum),
