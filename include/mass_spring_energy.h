@@ -48,7 +48,24 @@ void mass_spring_multiply(const double H[3], const int e[2], const double *q,
 
 /* Adds the block [[H, -H], [-H, H]] of spring i through its ten slots.
  *   H  [3] in: H_xx, H_xy, H_yy; slot, values as above */
-void mass_spring_scatter(const double H[3], int i, const int *slot,
-                         double *values);
+static inline void mass_spring_scatter(const double H[3], int i,
+                                       const int *slot, double *values)
+{
+    static const int plain[SPRING_ENTRIES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    if (slot) {
+        slot += SPRING_ENTRIES * i;
+    } else {
+        values += SPRING_ENTRIES * i;
+        slot = plain;
+    }
+    for (int t = 0; t < 3; t++) {
+        values[slot[t]] += H[t];
+        values[slot[3 + t]] += H[t];
+    }
+    values[slot[6]] -= H[0];
+    values[slot[7]] -= H[1];
+    values[slot[8]] -= H[1];
+    values[slot[9]] -= H[2];
+}
 
 #endif

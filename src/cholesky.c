@@ -33,17 +33,28 @@ static void call_if_loaded(const char *name, int argument)
     function(argument);
 }
 
-/* CHOLMOD's parallel loops call this function of GCC's OpenMP library, which
- * takes a fifth of a factorisation to start no thread.  The program's own comes
- * first: each loop runs where it is called. */
-void GOMP_parallel(void (*loop)(void *), void *data, unsigned threads,
-                   unsigned flags);
+/* Two library functions that CHOLMOD calls and that would take a quarter of a
+ * factorisation: the program's own come before those of the libraries (weak: a
+ * static library may bring its own).
+ *
+ * GCC's OpenMP runs CHOLMOD's parallel loops.  One thread is wanted: each loop
+ * runs where it is called, without a team of one being set up around it. */
+__attribute__((weak)) void GOMP_parallel(void (*loop)(void *), void *data,
+                                         unsigned threads, unsigned flags);
 void GOMP_parallel(void (*loop)(void *), void *data, unsigned threads,
                    unsigned flags)
 {
     (void)threads;
     (void)flags;
     loop(data);
+}
+
+/* The clock, read before and after each call of BLAS for a statistic that is
+ * not used here. */
+__attribute__((weak)) double SuiteSparse_time(void);
+double SuiteSparse_time(void)
+{
+    return 0;
 }
 
 /* Blocks of this size are too small to share among threads: OpenMP inside
@@ -69,8 +80,8 @@ static void set_parameters(cholmod_common *common, CholeskyKind kind,
     common->final_ll = kind != CHOLESKY_INDEFINITE;
     common->quick_return_if_not_posdef = 1;
     common->nrelax[0] = 8;
-    common->nrelax[1] = 24;
-    common->nrelax[2] = 48;
+    common->nrelax[1] = 20;
+    common->nrelax[2] = 40;
     common->zrelax[0] = 0.5;
     common->zrelax[1] = 0.1;
     common->zrelax[2] = 0.02;

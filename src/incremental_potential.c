@@ -170,10 +170,10 @@ static void springs_along(const IncrementalPotential *E, const double *x,
         double d0 = x[i] - x[j], d1 = x[i + 1] - x[j + 1];
         double p0 = p[i] - p[j], p1 = p[i + 1] - p[j + 1];
         double l2 = system->l2[s];
-        double w = E->weight * l2 * 0.5 * system->k[s];
-        double strain = (d0 * d0 + d1 * d1) / l2 - 1;
-        double B = 2 * (d0 * p0 + d1 * p1) / l2;
-        double C = (p0 * p0 + p1 * p1) / l2;
+        double w = E->weight * 0.5 * system->k[s] / l2;
+        double strain = d0 * d0 + d1 * d1 - l2;
+        double B = 2 * (d0 * p0 + d1 * p1);
+        double C = p0 * p0 + p1 * p1;
         q[0] += w * (B * B + 2 * strain * C);
         q[1] += 2 * w * B * C;
         q[2] += w * C * C;

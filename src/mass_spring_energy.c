@@ -40,26 +40,6 @@ void mass_spring_energy_gradient(int springs, const double *x, const int *e,
     }
 }
 
-void mass_spring_scatter(const double H[3], int i, const int *slot,
-                         double *values)
-{
-    static const int plain[SPRING_ENTRIES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-    if (slot) {
-        slot += SPRING_ENTRIES * i;
-    } else {
-        values += SPRING_ENTRIES * i;
-        slot = plain;
-    }
-    for (int t = 0; t < 3; t++) {
-        values[slot[t]] += H[t];
-        values[slot[3 + t]] += H[t];
-    }
-    values[slot[6]] -= H[0];
-    values[slot[7]] -= H[1];
-    values[slot[8]] -= H[1];
-    values[slot[9]] -= H[2];
-}
-
 /* H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), projected where d is too short;
  * returns whether it was. */
 static bool filtered_hessian(const double *x, const int e[2], double l2,
@@ -67,7 +47,9 @@ static bool filtered_hessian(const double *x, const int e[2], double l2,
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
     double d[2] = {xi[0] - xj[0], xi[1] - xj[1]};
-    return spring_hessian_filtered(d, l2, k, filter, H);
+    return filter == FILTER_CLAMP
+               ? spring_hessian_psd(d, l2, k, H)
+               : spring_hessian_filtered(d, l2, k, filter, H);
 }
 
 int mass_spring_energy_hessian(int springs, const double *x, const int *e,

@@ -75,36 +75,6 @@ void make_psd(double a[16])
         }
 }
 
-void spring_hessian(const double d[2], double l2, double k, double H[3])
-{
-    double factor = 2 * k / l2;
-    double d2 = d[0] * d[0] + d[1] * d[1];
-    H[0] = factor * (2 * d[0] * d[0] + (d2 - l2));
-    H[1] = factor * (2 * d[0] * d[1]);
-    H[2] = factor * (2 * d[1] * d[1] + (d2 - l2));
-}
-
-/* The eigenvectors of H are d, with eigenvalue (2k/l2) (3|d|^2 - l2), and the
- * one across, with (2k/l2) (|d|^2 - l2).  So with the length alone is known:
- *   |d|^2 >= l2         stretched: both >= 0, nothing to do
- *   |d|^2 >= l2/3       the one across is cut: lambda d d^T / |d|^2 is left
- *   else                both are cut: 0, also for |d| = 0 */
-bool spring_hessian_psd(const double d[2], double l2, double k, double H[3])
-{
-    double d2 = d[0] * d[0] + d[1] * d[1];
-    if (d2 >= l2) {
-        spring_hessian(d, l2, k, H);
-        return false;
-    }
-    double factor = 0;
-    if (3 * d2 > l2)
-        factor = 2 * k / l2 * ((3 * d2 - l2) / d2);
-    H[0] = factor * d[0] * d[0];
-    H[1] = factor * d[0] * d[1];
-    H[2] = factor * d[1] * d[1];
-    return true;
-}
-
 /* Both eigenvectors are known, so the absolute values are at hand:
  * |lambda_d| d d^T/|d|^2 + |lambda_across| (I - d d^T/|d|^2), where for d = 0
  * both are 2k. */

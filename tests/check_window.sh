@@ -394,4 +394,74 @@ else
     echo "skipped closing_the_window_ends_it: no libX11.so.6 to link with"
 fi
 
+# From one pixel to more than the screen, and back; it goes on in all of them.
+any_size() {
+    begin square --segments 32
+    last=0
+    for size in '1 1' '4000 4000' '4000 1' '300 200'; do
+        # shellcheck disable=SC2086
+        timeout $timeout xdotool windowsize $window $size || echo "no $size"
+        until_true has_size $size || echo "$size is not its size"
+        last=$(newest)
+        frame $((last + 20))
+    done
+    key q
+    end 0
+}
+has_size() { # WIDTH HEIGHT
+    xdotool getwindowgeometry --shell "$window" |
+        awk -F= -v w="$1" -v h="$2" '$1 == "WIDTH" { ok = $2 == w }
+            $1 == "HEIGHT" { ok = ok && $2 == h } END { exit !ok }'
+}
+newest() {
+    number=$(find frames -name '*.png' | sort | tail -n 1)
+    number=${number#frames/frame_}
+    expr "${number%.png}" + 0
+}
+verdict a_window_may_have_any_size "$(any_size)"
+
+# A step of this square takes seconds; keys and signals end it between Newton
+# iterations.
+in_a_step() {
+    for way in q TERM; do
+        begin square --segments 128
+        if [ $way = q ]; then key q; else kill -$way $pid; fi
+        end 0
+        [ "$(newest)" -lt 2 ] || echo "$way: after frame $(newest)"
+    done
+}
+verdict a_window_ends_in_the_middle_of_a_step "$(in_a_step)"
+
+# SDL takes another renderer, or the program says that there is none.
+no_renderer() {
+    export SDL_RENDER_DRIVER=nonsense
+    begin square
+    frame 5
+    key q
+    end 0
+    unset SDL_RENDER_DRIVER
+}
+verdict a_renderer_that_is_missing_is_replaced "$(no_renderer)"
+
+# Xlib ends the program; what was recorded is whole.
+screen_dies() {
+    Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
+        3>mortal >mortal.log 2>&1 &
+    mortal=$!
+    until_true test -s mortal || echo 'no second screen'
+    DISPLAY=:$(cat mortal)
+    begin square --segments 16
+    frame 10
+    kill -KILL $mortal
+    end 1
+    for file in frames/*.png; do
+        tail -c 8 "$file" | od -An -tx1 | grep -q 'ae 42 60 82' ||
+            echo "$file is not whole"
+    done
+    find . -name '*.part'
+    awk -F, 'NF != columns && columns { print "states: " $0 }
+        { columns = NF }' states
+}
+verdict a_screen_that_dies_leaves_whole_files "$(screen_dies)"
+
 exit $failed

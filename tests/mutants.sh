@@ -15,8 +15,8 @@ flags='-O1 -fno-strict-aliasing'
 # The suites that know most about a source come first.
 suites_for() { # source
     case $1 in
-    src/psd.c) first='psd derivatives' ;;
-    src/inertia_energy.c | src/mass_spring_energy.c) first=derivatives ;;
+    src/psd.c | include/psd.h) first='psd derivatives' ;;
+    src/inertia_energy.c | */mass_spring_energy.?) first=derivatives ;;
     src/avf_energy.c) first='averaged derivatives' ;;
     src/sparse.c) first=sparse ;;
     src/cholesky.c) first=cholesky ;;
