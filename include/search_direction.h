@@ -53,20 +53,23 @@ Status search_direction_solve(SearchDirection *search,
                               const IncrementalPotential *E, const double *u,
                               const double *x, const double *g, double *p);
 
+/* Whether p, at most error away from what it should be, is good enough. */
+typedef bool (*GoodEnough)(const void *user, const double *p, double error);
+
 /* p = -H^-1 g for the Hessian at u, x with the factor of an older one: p holds
  * what search_direction_solve made of g, and conjugate gradients improve it.
  * H - M is positive semi-definite, so the error is bounded by what can be
  * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
- *   filter    CLAMP or ABS
- *   accuracy  wanted of the error, kg^(1/2) m; after some iterations without
- *             reaching it *error is larger
- *   p         [2n] in/out
- *   solves    out
+ *   filter  CLAMP or ABS
+ *   enough  ends the iteration; some iterations without it end it too
+ *   p       [2n] in/out
+ *   error   out, kg^(1/2) m
+ *   solves  out
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_refine(SearchDirection *search,
                                const IncrementalPotential *E, const double *u,
                                const double *x, Filter filter, const double *g,
-                               double accuracy, double *p, double *error,
-                               int *solves);
+                               GoodEnough enough, const void *user, double *p,
+                               double *error, int *solves);
 
 #endif

@@ -119,6 +119,25 @@ static void report_failure(const Player *player, Status status)
                 advice(player, status));
 }
 
+/* A square that does not fit is refused before it is begun: where memory is
+ * promised that is not there, the program would end without a word. */
+static bool fits_in_memory(const Options *options)
+{
+    Options smaller = *options;
+    double there =
+        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    double needed = simulation_bytes(options);
+    if (!(there > 0) || needed <= there)
+        return true;
+    while (smaller.segments > 1 && simulation_bytes(&smaller) > there)
+        smaller.segments--;
+    fprintf(stderr,
+            "elasto: --segments %d needs about %.1f GB of memory and there "
+            "are %.1f: from 1 to %d\n",
+            options->segments, 1e-9 * needed, 1e-9 * there, smaller.segments);
+    return false;
+}
+
 /* Files, then the summary or the failure.  Returns the exit code. */
 static int finish(Player *player, Status status)
 {
@@ -152,6 +171,8 @@ int main(int argc, char **argv)
     }
     if (options.help || options.version || options.list)
         return print_information(&options);
+    if (!fits_in_memory(&options))
+        return EXIT_MISUSED;
     handle_signals();
     atexit(save_files);
     Status status = player_create(&options, &main_stop, player);

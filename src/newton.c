@@ -191,6 +191,15 @@ static Status newton_solve_and_test(Newton *newton)
                                                           : STATUS_RUNNING;
 }
 
+/* Whether a direction with at most this error passes the test or does not,
+ * wherever the exact one is. */
+static bool test_is_decided(const void *user, const double *p, double error)
+{
+    const Newton *newton = user;
+    double away = newton_residual(newton, p) - newton->settings.tolerance;
+    return fabs(away) >= residual_per_norm(newton) * error;
+}
+
 /* The direction with the factor of an earlier iterate.  One that passes the
  * test is refined until the test can be decided for the Hessian at x, with the
  * error's bound on both sides.
@@ -204,20 +213,19 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
         return status;
     double error, start = clock_seconds();
     int solves;
-    double unit = residual_per_norm(newton);
-    double tolerance = newton->settings.tolerance;
     Filter filter =
         newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
     status = search_direction_refine(
         &newton->search, &newton->E, newton->u, newton->x, filter, newton->g,
-        0.25 * tolerance / unit, newton->p, &error, &solves);
+        test_is_decided, newton, newton->p, &error, &solves);
     newton->counters.solves += solves;
     newton->counters.seconds_solve += clock_seconds() - start;
     if (status)
         return status;
     newton->residual = newton_residual(newton, newton->p);
-    *decided = fabs(newton->residual - tolerance) >= unit * error;
-    return newton->residual <= tolerance ? STATUS_OK : STATUS_RUNNING;
+    *decided = test_is_decided(newton, newton->p, error);
+    return newton->residual <= newton->settings.tolerance ? STATUS_OK
+                                                          : STATUS_RUNNING;
 }
 
 /* Gradient and direction at x, and the test of Algorithm 3.

@@ -245,8 +245,8 @@ static Status solve_shifted(SearchDirection *search,
 Status search_direction_refine(SearchDirection *search,
                                const IncrementalPotential *E, const double *u,
                                const double *x, Filter filter, const double *g,
-                               double accuracy, double *p, double *error,
-                               int *solves)
+                               GoodEnough enough, const void *user, double *p,
+                               double *error, int *solves)
 {
     ConjugateGradients state = {E, u, x, filter, 0, 0};
     *solves = 0;
@@ -258,7 +258,7 @@ Status search_direction_refine(SearchDirection *search,
     conjugate_start(search, g, p);
     while (conjugate_step(search, &state, p)) {
         *error = system_inverse_mass_norm(search->system, search->r);
-        if (*error <= accuracy || *solves == REFINE_MAX_SOLVES)
+        if (*solves == REFINE_MAX_SOLVES || enough(user, p, *error))
             return STATUS_OK;
         ++*solves;
         status = apply_factor(search, search->r, search->z);

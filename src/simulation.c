@@ -125,6 +125,16 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
+double simulation_bytes(const Options *options)
+{
+    if (!(options->scene->needs & NEEDS_MESH))
+        return 0;
+    double row = options->segments + 1.0, n = row * row;
+    if (options->integrator && !options->integrator->implicit)
+        return 250 * n;
+    return (130 * log2(n) + 750) * n;
+}
+
 long long simulation_matrix_entries(const Simulation *simulation)
 {
     long long sum = 0;

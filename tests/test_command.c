@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -285,6 +286,55 @@ static void unconverged_steps_exit_with_3(void **unused)
     CHECK(exists("s.csv"));
 }
 
+/* What simulation_bytes says of this line. */
+static double estimated_bytes(char *segments, char *integrator)
+{
+    Options options;
+    char message[256];
+    char *line[] = {"elasto", "--segments", segments, "--integrator",
+                    integrator};
+    CHECK_STATUS(options_parse(5, line, &options, message, sizeof message),
+                 STATUS_OK);
+    return simulation_bytes(&options);
+}
+
+/* Machines that have room for 4096 segments are asked nothing. */
+static void squares_too_large_for_the_machine_are_refused(void **unused)
+{
+    (void)unused;
+    double there =
+        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    CHECK(estimated_bytes("4096", "verlet") <
+          0.1 * estimated_bytes("4096", "backward-euler"));
+    if (estimated_bytes("4096", "backward-euler") <= there)
+        return;
+    run("--headless --steps 1 --segments 4096");
+    check_refused(2, "--segments 4096 needs about", "GB", "from 1 to ");
+}
+
+/* The largest process so far, less what the program itself takes; sanitizers
+ * take more. */
+static void memory_is_estimated_within_a_quarter(void **unused)
+{
+    (void)unused;
+#if !defined __SANITIZE_ADDRESS__
+    struct rusage before, after;
+    getrusage(RUSAGE_CHILDREN, &before);
+    run("--headless --quiet --steps 1 --segments 200 --stretch 1.001 "
+        "--timestep 1e-4 --tolerance 1e-6");
+    check_code(0);
+    getrusage(RUSAGE_CHILDREN, &after);
+#if defined __APPLE__
+    double unit = 1;
+#else
+    double unit = 1024;
+#endif
+    double own = 12e6, estimate = estimated_bytes("200", "backward-euler");
+    CHECK(after.ru_maxrss > before.ru_maxrss);
+    CHECK_NEAR(unit * (double)after.ru_maxrss - own, estimate, 0.25 * estimate);
+#endif
+}
+
 static void overflow_exits_with_1(void **unused)
 {
     (void)unused;
@@ -356,6 +406,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(failed_files_exit_with_1),
         cmocka_unit_test(unconverged_steps_exit_with_3),
         cmocka_unit_test(overflow_exits_with_1),
+        cmocka_unit_test(squares_too_large_for_the_machine_are_refused),
+        cmocka_unit_test(memory_is_estimated_within_a_quarter),
         cmocka_unit_test(signals_end_the_run),
         cmocka_unit_test(same_line_gives_same_bits),
     };
