@@ -177,6 +177,13 @@ static bool factor_may_serve(const Newton *newton)
     return newton->age <= 1 && expects_convergence(newton);
 }
 
+/* The test of Algorithm 3. */
+static Status newton_test(const Newton *newton)
+{
+    return newton->residual <= newton->settings.tolerance ? STATUS_OK
+                                                          : STATUS_RUNNING;
+}
+
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
  * is passed), or a failure. */
 static Status newton_solve_and_test(Newton *newton)
@@ -187,8 +194,7 @@ static Status newton_solve_and_test(Newton *newton)
     newton->residual = newton_residual(newton, newton->p);
     if (!isfinite(newton->residual))
         return STATUS_NOT_FINITE;
-    return newton->residual <= newton->settings.tolerance ? STATUS_OK
-                                                          : STATUS_RUNNING;
+    return newton_test(newton);
 }
 
 /* Whether a direction with at most this error passes the test or does not,
@@ -224,8 +230,7 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
         return status;
     newton->residual = newton_residual(newton, newton->p);
     *decided = test_is_decided(newton, newton->p, error);
-    return newton->residual <= newton->settings.tolerance ? STATUS_OK
-                                                          : STATUS_RUNNING;
+    return newton_test(newton);
 }
 
 /* Gradient and direction at x, and the test of Algorithm 3.
