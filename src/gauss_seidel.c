@@ -188,7 +188,7 @@ typedef struct Block {
 static inline void add_spring(const SpringLanes *spring, const double *x,
                               Lanes x0, Lanes x1, Block *sum)
 {
-    Lanes other0, other1;
+    Lanes other0 = {0}, other1 = {0};
     for (int lane = 0; lane < LANES; lane++) {
         other0[lane] = x[2 * spring->other[lane]];
         other1[lane] = x[2 * spring->other[lane] + 1];
@@ -233,7 +233,7 @@ static void move_group(const GaussSeidel *smoother,
 {
     const NodeLanes *group = &smoother->group[k];
     Block sum = {{0}, {0}, {0}, {0}, {0}};
-    Lanes x0, x1;
+    Lanes x0 = {0}, x1 = {0};
     for (int lane = 0; lane < LANES; lane++) {
         x0[lane] = x[2 * group->node[lane]];
         x1[lane] = x[2 * group->node[lane] + 1];

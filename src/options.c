@@ -315,28 +315,39 @@ static Status apply_option(int code, const char *text, Options *options,
     }
 }
 
+/* Options that not every scene makes use of: it must have one of these. */
+typedef struct OptionNeed {
+    int first, last; /* codes */
+    unsigned any;    /* of enum SceneNeeds */
+    const char *what;
+} OptionNeed;
+
+static const OptionNeed option_needs[] = {
+    {OPTION_SEGMENTS, OPTION_STRETCH, NEEDS_MESH, "square"},
+    {OPTION_TIMESTEP, OPTION_TIMESTEP, NEEDS_TIME | NEEDS_SPRINGS, "time"},
+    {OPTION_TOLERANCE, OPTION_TOLERANCE, NEEDS_MINIMUM, "minimum to find"},
+    {OPTION_INTEGRATOR, OPTION_INTEGRATOR, NEEDS_TIME, "time steps"},
+    {OPTION_SOLVER, OPTION_FILTER, NEEDS_SPRINGS, "springs"},
+    {OPTION_LINE_SEARCH, OPTION_LINE_SEARCH, NEEDS_MINIMUM, "minimum to find"},
+    {OPTION_START, OPTION_START, NEEDS_START, "start to choose"},
+};
+
 /* Refuses an option that says something about what the scene lacks. */
 static Status check_need(int code, const Scene *scene,
                          const Complaint *complaint)
 {
+    enum { NEEDS = sizeof option_needs / sizeof *option_needs };
     const char *name = NULL;
-    unsigned need = 0;
     for (const struct option *row = option_rows; row->name; row++)
         if (row->val == code)
             name = row->name;
-    if (code >= OPTION_SEGMENTS && code <= OPTION_STRETCH)
-        need = NEEDS_MESH;
-    else if (code == OPTION_INTEGRATOR)
-        need = NEEDS_TIME;
-    else if (code == OPTION_START)
-        need = NEEDS_START;
-    if ((scene->needs & need) == need)
-        return STATUS_OK;
-    return complain(complaint, "--%s: the scene '%s' has no %s", name,
-                    scene->name,
-                    need == NEEDS_MESH   ? "square"
-                    : need == NEEDS_TIME ? "time steps"
-                                         : "start to choose");
+    for (const OptionNeed *need = option_needs; need < option_needs + NEEDS;
+         need++)
+        if (code >= need->first && code <= need->last &&
+            !(scene->needs & need->any))
+            return complain(complaint, "--%s: the scene '%s' has no %s", name,
+                            scene->name, need->what);
+    return STATUS_OK;
 }
 
 /* The next option, as getopt_long does, without its own messages. */

@@ -348,6 +348,13 @@ for scene in nowhere SQUARE square2 ''; do
 done
 bad_line "'circle'" 'one scene' -- square circle
 bad_line --segments "'circle'" 'no square' -- circle --segments 3
+bad_line --filter "'circle'" 'no springs' -- circle --filter none
+bad_line --solver "'overshoot'" 'no springs' -- overshoot --solver lagged
+bad_line --tolerance "'circle'" 'no minimum' -- circle --tolerance 1
+bad_line --line-search "'circle'" 'no minimum' -- circle --line-search none
+bad_line --timestep "'overshoot'" 'no time' -- overshoot --timestep 1
+bad_line --integrator "'landscape'" 'no time' -- landscape --integrator avf
+bad_line --start "'square'" 'no start' -- square --start 1,1
 bad_line --integrator "'overshoot'" 'no time' -- overshoot --integrator bdf2
 bad_line --start "'square'" 'no start' -- --start 1,2
 verdict bad_lines_are_refused "$lines" "$(cat reasons)"

@@ -5,15 +5,7 @@
 set -u
 failed=0
 
-# verdict NAME REASONS: one line for a test; reasons empty: it passed.
-verdict() {
-    if [ -z "$2" ]; then
-        echo "ok $1"
-    else
-        echo "not ok $1: $(printf '%s' "$2" | tr '\n' ';')"
-        failed=1
-    fi
-}
+. "$(dirname "$0")/verdict.sh"
 
 temporary=$(mktemp -d) || exit 1
 trap 'rm -rf "$temporary"' EXIT
