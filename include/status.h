@@ -25,7 +25,7 @@ typedef enum Status {
     STATUS_TOO_LARGE,             /* an index or a size does not fit */
     STATUS_OUT_OF_MEMORY,
     STATUS_FILE_FAILED,   /* errno tells the reason */
-    STATUS_SCREEN_FAILED, /* SDL_GetError() tells the reason */
+    STATUS_SCREEN_FAILED, /* view_failure tells the reason */
     STATUS_COUNT
 } Status;
 

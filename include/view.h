@@ -58,6 +58,10 @@ void view_set_title(View *view, const char *title);
 /* The paper, in the size that the view has now; NULL: not enough memory. */
 Paper *view_paper(View *view);
 
+/* Why the last SCREEN_FAILED, in one line; empty where nobody knows.  reason
+ * [size] out */
+void view_failure(char *reason, size_t size);
+
 /* Shows what is on the paper.  Returns OK or SCREEN_FAILED. */
 Status view_show(View *view);
 

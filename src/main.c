@@ -107,6 +107,9 @@ static const char *advice(const Player *player, Status status)
 static void report_failure(const Player *player, Status status)
 {
     const Recording *recording = &player->recording;
+    char reason[256] = "";
+    if (status == STATUS_SCREEN_FAILED)
+        view_failure(reason, sizeof reason);
     if (recording->reason)
         fprintf(stderr, "elasto: %s: %s\n", recording->failed,
                 strerror(recording->reason));
@@ -115,8 +118,8 @@ static void report_failure(const Player *player, Status status)
                 player->simulation.steps + 1, status_text(status),
                 advice(player, status));
     else
-        fprintf(stderr, "elasto: %s%s\n", status_text(status),
-                advice(player, status));
+        fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),
+                reason[0] ? ": " : "", reason, advice(player, status));
 }
 
 /* A square that does not fit is refused before it is begun: where memory is

@@ -120,7 +120,7 @@ static bool open_window(View *view, const char *title)
 }
 
 /* One line out of SDL's message. */
-static void copy_reason(char *reason, size_t size)
+void view_failure(char *reason, size_t size)
 {
     snprintf(reason, size, "%s", SDL_GetError());
     reason[strcspn(reason, "\r\n")] = '\0';
@@ -134,7 +134,7 @@ Status view_create_window(const char *title, View **view, char *reason,
     if (!made)
         return STATUS_OUT_OF_MEMORY;
     if (!open_window(made, title)) {
-        copy_reason(reason, size);
+        view_failure(reason, size);
         view_free(made);
         return STATUS_SCREEN_FAILED;
     }
