@@ -76,7 +76,7 @@ layer() {
     psd | inertia_energy | mass_spring_energy | avf_energy | system) echo 2 ;;
     sparse | cholesky) echo 3 ;;
     line_search | plane_search | incremental_potential | newton | \
-        gauss_seidel | search_direction | plain_newton | \
+        gauss_seidel | newton_direction | search_direction | plain_newton | \
         scalar_newton) echo 4 ;;
     time_integrator | backward_euler | explicit_methods | \
         implicit_methods | average_vector_field) echo 5 ;;
