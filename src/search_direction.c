@@ -4,8 +4,9 @@
 #include <stdlib.h>
 
 /* Matrices of at most this many rows are factored column by column: below it
- * dense blocks are too small to pay (measured at 4 ... 64 segments). */
-enum { SIMPLICIAL_MAX_ROWS = 400 };
+ * dense blocks are too small to pay.  Solving by columns pays longer, so a
+ * factor that is kept has a higher limit (measured at 4 ... 64 segments). */
+enum { SIMPLICIAL_MAX_ROWS = 400, SIMPLICIAL_MAX_ROWS_KEPT = 700 };
 
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
@@ -44,12 +45,13 @@ void search_direction_free(SearchDirection *search)
 }
 
 /* What kind of factor serves best. */
-static CholeskyKind factor_kind(const System *system, bool definite)
+static CholeskyKind factor_kind(const SearchDirection *search, bool definite)
 {
+    int limit = search->kept ? SIMPLICIAL_MAX_ROWS_KEPT : SIMPLICIAL_MAX_ROWS;
     if (!definite)
         return CHOLESKY_INDEFINITE;
-    return 2 * system->nodes <= SIMPLICIAL_MAX_ROWS ? CHOLESKY_SIMPLICIAL
-                                                    : CHOLESKY_SUPERNODAL;
+    return 2 * search->system->nodes <= limit ? CHOLESKY_SIMPLICIAL
+                                              : CHOLESKY_SUPERNODAL;
 }
 
 /* Triplets to compressed columns, and each triplet's slot. */
@@ -75,7 +77,7 @@ static Status create_pattern(SearchDirection *search)
  * factor is wanted. */
 static Status analyse(SearchDirection *search, bool definite)
 {
-    CholeskyKind kind = factor_kind(search->system, definite);
+    CholeskyKind kind = factor_kind(search, definite);
     if (search->cholesky && search->kind == kind)
         return STATUS_OK;
     free_matrix(search);
