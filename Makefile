@@ -13,8 +13,8 @@ ARGS    ?=
 # In lecture order: `make single` writes them one after the other.
 MODULES = status square_mesh psd quartic \
           inertia_energy mass_spring_energy avf_energy system \
-          sparse cholesky incremental_potential line_search plane_search \
-          gauss_seidel search_direction newton_direction newton \
+          sparse supernodes cholesky incremental_potential line_search \
+          plane_search gauss_seidel search_direction newton_direction newton \
           scalar_newton time_integrator backward_euler explicit_methods \
           implicit_methods average_vector_field options simulation \
           square_scenes circle_scene overshoot_scene landscape_scene scene \

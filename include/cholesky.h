@@ -11,8 +11,7 @@
 typedef struct Cholesky Cholesky;
 
 typedef enum CholeskyKind {
-    CHOLESKY_SIMPLICIAL, /* L L^T column by column: small matrices */
-    CHOLESKY_SUPERNODAL, /* L L^T by dense blocks and BLAS: large ones */
+    CHOLESKY_DEFINITE,   /* L L^T in dense panels, with BLAS */
     CHOLESKY_INDEFINITE, /* L D L^T without pivoting: allows D < 0 */
 } CholeskyKind;
 

@@ -17,17 +17,17 @@
 #define ELASTO_GAUSS_SEIDEL_H
 
 #include "incremental_potential.h"
+#include "lanes.h"
 
-/* Nodes of one colour that are moved together. */
-enum { LANES = 2 };
-
-/* One spring of each; c = 0 where a node has fewer than the others. */
+/* One spring of each node of a group; c = 0 where a node has fewer than the
+ * others. */
 typedef struct SpringLanes {
     double l2[LANES]; /* m^2, rest length squared */
     double c[LANES];  /* J/m^4, 2 k / l2 */
     int other[LANES]; /* node at the other end */
 } SpringLanes;
 
+/* Nodes of one colour, which are moved together. */
 typedef struct NodeLanes {
     int node[LANES]; /* the last again where a colour ends */
     int end;         /* past the last of their springs */

@@ -15,7 +15,6 @@
 
 typedef struct SearchDirection {
     const System *system;  /* not owned */
-    bool kept;             /* set by the caller: factors serve many times */
     Filter filter;         /* of the Hessian in A */
     CholeskyKind kind;     /* what cholesky was made for */
     Sparse A;              /* Hessian, one triangle, in elimination order */

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "supernodes.h"
+
 struct Cholesky {
     cholmod_common common;
     cholmod_sparse A;  /* a view of the caller's matrix */
@@ -14,12 +16,12 @@ struct Cholesky {
     cholmod_dense *y, *e;
     CholeskyKind kind;
     const Sparse *matrix; /* for the refinement of INDEFINITE */
-    double *b, *r;        /* [n] right-hand side and residual, there only */
+    double *b, *r;        /* [n] right-hand side; residual or workspace */
 };
 
 Triangle cholesky_triangle(CholeskyKind kind)
 {
-    return kind == CHOLESKY_SUPERNODAL ? TRIANGLE_LOWER : TRIANGLE_UPPER;
+    return kind == CHOLESKY_DEFINITE ? TRIANGLE_LOWER : TRIANGLE_UPPER;
 }
 
 /* Calls a function of a library that CHOLMOD may have brought along. */
@@ -76,7 +78,7 @@ static void set_parameters(cholmod_common *common, CholeskyKind kind,
     common->method[0].ordering = ordered ? CHOLMOD_NATURAL : CHOLMOD_AMD;
     common->postorder = !ordered;
     common->supernodal =
-        kind == CHOLESKY_SUPERNODAL ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
+        kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     common->final_ll = kind != CHOLESKY_INDEFINITE;
     common->quick_return_if_not_posdef = 1;
     common->nrelax[0] = 8;
@@ -131,15 +133,13 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
     cholesky->matrix = A;
     cholesky->L = cholmod_analyze(&cholesky->A, &cholesky->common);
     Status status = cholmod_failure(&cholesky->common);
-    if (cholesky->L && kind == CHOLESKY_INDEFINITE) {
-        cholesky->b = malloc((size_t)A->size * sizeof *cholesky->b);
-        cholesky->r = malloc((size_t)A->size * sizeof *cholesky->r);
-        if (!cholesky->b || !cholesky->r)
-            status = STATUS_OUT_OF_MEMORY;
-    }
-    if (!cholesky->L || status) {
+    cholesky->b = malloc((size_t)A->size * sizeof *cholesky->b);
+    cholesky->r = malloc((size_t)A->size * sizeof *cholesky->r);
+    if (!status && (!cholesky->L || !cholesky->b || !cholesky->r))
+        status = STATUS_OUT_OF_MEMORY;
+    if (status) {
         cholesky_free(cholesky);
-        return status ? status : STATUS_OUT_OF_MEMORY;
+        return status;
     }
     *out = cholesky;
     return STATUS_OK;
@@ -199,8 +199,24 @@ Status cholesky_factor(Cholesky *cholesky)
     return common->status < CHOLMOD_OK ? cholmod_failure(common) : STATUS_OK;
 }
 
-/* x = L^-T L^-1 b, or with D between */
-static Status solve_once(Cholesky *cholesky, const double *b, double *x)
+/* x = P^T L^-T L^-1 P b, with P the order of the rows. */
+static Status solve_by_supernodes(Cholesky *cholesky, const double *b,
+                                  double *x)
+{
+    const cholmod_factor *L = cholesky->L;
+    const Supernodes supernodes = {L->nsuper, L->super, L->pi,
+                                   L->px,     L->s,     L->x};
+    const int *order = L->Perm;
+    for (size_t i = 0; i < L->n; i++)
+        cholesky->b[i] = b[order[i]];
+    supernodes_solve(&supernodes, cholesky->b, cholesky->r);
+    for (size_t i = 0; i < L->n; i++)
+        x[order[i]] = cholesky->b[i];
+    return all_finite(x, (int)L->n) ? STATUS_OK : STATUS_NOT_FINITE;
+}
+
+/* x = P^T L^-T D^-1 L^-1 P b */
+static Status solve_by_columns(Cholesky *cholesky, const double *b, double *x)
 {
     size_t n = cholesky->A.nrow;
     cholmod_dense right = {
@@ -242,12 +258,12 @@ static Status solve_refined(Cholesky *cholesky, double *x)
     enum { MAX_REFINEMENTS = 20 };
     size_t n = cholesky->A.nrow;
     double size = largest_of(cholesky->b, n);
-    Status status = solve_once(cholesky, cholesky->b, x);
+    Status status = solve_by_columns(cholesky, cholesky->b, x);
     double residual = status ? 0 : residual_of(cholesky, x);
     for (int i = 0; i < MAX_REFINEMENTS && !status; i++) {
         if (residual <= 1e-15 * size)
             break;
-        status = solve_once(cholesky, cholesky->r, cholesky->r);
+        status = solve_by_columns(cholesky, cholesky->r, cholesky->r);
         for (size_t j = 0; j < n && !status; j++)
             x[j] += cholesky->r[j];
         double last = residual;
@@ -262,8 +278,8 @@ static Status solve_refined(Cholesky *cholesky, double *x)
 
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
-    if (cholesky->kind != CHOLESKY_INDEFINITE)
-        return solve_once(cholesky, b, x);
+    if (cholesky->kind == CHOLESKY_DEFINITE)
+        return solve_by_supernodes(cholesky, b, x);
     memcpy(cholesky->b, b, cholesky->A.nrow * sizeof *b);
     return solve_refined(cholesky, x);
 }

@@ -158,24 +158,6 @@ void gauss_seidel_free(GaussSeidel *smoother)
     *smoother = (GaussSeidel){0};
 }
 
-/* One number for each lane, and one machine instruction for all of them (an
- * extension of C that gcc and clang share). */
-typedef double Lanes __attribute__((vector_size(LANES * sizeof(double))));
-typedef long long Mask __attribute__((vector_size(LANES * sizeof(double))));
-
-/* a where the mask is set, else 0 */
-static inline Lanes where(Mask mask, Lanes a)
-{
-    return (Lanes)(mask & (Mask)a);
-}
-
-static inline Lanes load(const double a[LANES])
-{
-    Lanes lanes;
-    memcpy(&lanes, a, sizeof lanes);
-    return lanes;
-}
-
 /* Gradient and upper triangle of the projected Hessian of the springs at the
  * nodes of a group. */
 typedef struct Block {
@@ -193,10 +175,10 @@ static inline void add_spring(const SpringLanes *spring, const double *x,
         other0[lane] = x[2 * spring->other[lane]];
         other1[lane] = x[2 * spring->other[lane] + 1];
     }
-    Lanes d0 = x0 - other0, d1 = x1 - other1, c = load(spring->c);
-    Lanes d2 = d0 * d0 + d1 * d1, t = d2 - load(spring->l2);
-    Lanes iso = c * where(t > 0, t), along = 2 + where(t < 0, t) / d2;
-    along = c * where(along > 0, along);
+    Lanes d0 = x0 - other0, d1 = x1 - other1, c = lanes_load(spring->c);
+    Lanes d2 = d0 * d0 + d1 * d1, t = d2 - lanes_load(spring->l2);
+    Lanes iso = c * lanes_where(t > 0, t), along = 2 + lanes_where(t < 0, t) / d2;
+    along = c * lanes_where(along > 0, along);
     sum->g0 += c * t * d0;
     sum->g1 += c * t * d1;
     sum->H0 += iso + along * d0 * d0;

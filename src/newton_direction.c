@@ -51,7 +51,6 @@ static Status factor_as(Newton *newton, Filter filter, bool definite)
     NewtonCounters *counters = &newton->counters;
     double start = newton_clock(), assembled;
     int projected, tries = 0;
-    newton->search.kept = newton->settings.solver == SOLVER_LAGGED;
     Status status =
         search_direction_assemble(&newton->search, &newton->E, newton->u,
                                   newton->x, filter, definite, &projected);

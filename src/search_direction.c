@@ -3,11 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Matrices of at most this many rows are factored column by column: below it
- * dense blocks are too small to pay.  Solving by columns pays longer, so a
- * factor that is kept has a higher limit (measured at 4 ... 64 segments). */
-enum { SIMPLICIAL_MAX_ROWS = 400, SIMPLICIAL_MAX_ROWS_KEPT = 700 };
-
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
 
@@ -44,16 +39,6 @@ void search_direction_free(SearchDirection *search)
     *search = (SearchDirection){0};
 }
 
-/* What kind of factor serves best. */
-static CholeskyKind factor_kind(const SearchDirection *search, bool definite)
-{
-    int limit = search->kept ? SIMPLICIAL_MAX_ROWS_KEPT : SIMPLICIAL_MAX_ROWS;
-    if (!definite)
-        return CHOLESKY_INDEFINITE;
-    return 2 * search->system->nodes <= limit ? CHOLESKY_SIMPLICIAL
-                                              : CHOLESKY_SUPERNODAL;
-}
-
 /* Triplets to compressed columns, and each triplet's slot. */
 static Status create_pattern(SearchDirection *search)
 {
@@ -77,7 +62,7 @@ static Status create_pattern(SearchDirection *search)
  * factor is wanted. */
 static Status analyse(SearchDirection *search, bool definite)
 {
-    CholeskyKind kind = factor_kind(search, definite);
+    CholeskyKind kind = definite ? CHOLESKY_DEFINITE : CHOLESKY_INDEFINITE;
     if (search->cholesky && search->kind == kind)
         return STATUS_OK;
     free_matrix(search);

@@ -145,8 +145,8 @@ slow=1
 [ -z "${SANITIZE:-}" ] || slow=7
 faults_of memory_fails_once memory '' "$memory" "$slow" --frames frames
 faults_of memory_fails_for_good memory 1 "$memory" "$slow"
-faults_of supernodal_memory_fails memory '' "$memory" $((5 * slow)) \
-    --segments 20
+faults_of lagged_memory_fails memory '' "$memory" $((5 * slow)) \
+    --segments 20 --solver lagged
 faults_of files_do_not_open open '' '(s.csv|l.csv|frame_00000..png): Too many' \
     1 --frames frames
 faults_of writes_fail_once write '' "$space" 1 --frames frames

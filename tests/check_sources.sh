@@ -74,7 +74,7 @@ layer() {
     case $1 in
     status | square_mesh | quartic) echo 1 ;;
     psd | inertia_energy | mass_spring_energy | avf_energy | system) echo 2 ;;
-    sparse | cholesky) echo 3 ;;
+    lanes | sparse | supernodes | cholesky) echo 3 ;;
     line_search | plane_search | incremental_potential | newton | \
         gauss_seidel | newton_direction | search_direction | plain_newton | \
         scalar_newton) echo 4 ;;

@@ -20,6 +20,7 @@ suites_for() { # source
     src/avf_energy.c) first='averaged derivatives' ;;
     src/sparse.c) first=sparse ;;
     src/cholesky.c) first=cholesky ;;
+    src/supernodes.c) first=supernodes ;;
     src/square_mesh.c) first=mesh ;;
     src/gauss_seidel.c) first=gauss_seidel ;;
     src/line_search.c | src/quartic.c | src/plane_search.c)

@@ -113,18 +113,11 @@ static void check_kind(CholeskyKind kind, bool ordered)
     problem_free(&problem);
 }
 
-static void simplicial_solves(void **unused)
+static void definite_solves(void **unused)
 {
     (void)unused;
-    check_kind(CHOLESKY_SIMPLICIAL, false);
-    check_kind(CHOLESKY_SIMPLICIAL, true);
-}
-
-static void supernodal_solves(void **unused)
-{
-    (void)unused;
-    check_kind(CHOLESKY_SUPERNODAL, false);
-    check_kind(CHOLESKY_SUPERNODAL, true);
+    check_kind(CHOLESKY_DEFINITE, false);
+    check_kind(CHOLESKY_DEFINITE, true);
 }
 
 /* One diagonal entry in two made negative: the last one, and the first. */
@@ -147,11 +140,12 @@ static void indefinite_solves(void **unused)
 }
 
 /* Every diagonal entry in turn made negative: one negative eigenvalue. */
-static void check_indefinite_reported(CholeskyKind kind)
+static void indefinite_matrices_are_reported(void **unused)
 {
+    (void)unused;
     Random random = {40};
     Problem problem;
-    problem_create(kind, false, &problem);
+    problem_create(CHOLESKY_DEFINITE, false, &problem);
     for (int i = 0; i < SIZE; i++) {
         problem_fill(&random, 0.5, &problem);
         *diagonal(&problem, i) *= -1;
@@ -162,13 +156,6 @@ static void check_indefinite_reported(CholeskyKind kind)
         check_solution(&random, &problem, false);
     }
     problem_free(&problem);
-}
-
-static void indefinite_matrices_are_reported(void **unused)
-{
-    (void)unused;
-    check_indefinite_reported(CHOLESKY_SIMPLICIAL);
-    check_indefinite_reported(CHOLESKY_SUPERNODAL);
 }
 
 /* Zeros in row and column 7; the right-hand side is not 0 there. */
@@ -183,21 +170,19 @@ static void singular_matrices_are_reported(void **unused)
 {
     (void)unused;
     Random random = {50};
-    for (int kind = 0; kind < CHOLESKY_INDEFINITE; kind++) {
-        Problem problem;
-        problem_create((CholeskyKind)kind, true, &problem);
-        problem_fill(&random, 1, &problem);
-        make_singular(&problem);
-        CHECK_STATUS(cholesky_factor(problem.cholesky),
-                     STATUS_NOT_POSITIVE_DEFINITE);
-        sparse_clear(&problem.A);
-        CHECK_STATUS(cholesky_factor(problem.cholesky),
-                     STATUS_NOT_POSITIVE_DEFINITE);
-        problem_fill(&random, 1, &problem);
-        CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);
-        check_solution(&random, &problem, true);
-        problem_free(&problem);
-    }
+    Problem problem;
+    problem_create(CHOLESKY_DEFINITE, true, &problem);
+    problem_fill(&random, 1, &problem);
+    make_singular(&problem);
+    CHECK_STATUS(cholesky_factor(problem.cholesky),
+                 STATUS_NOT_POSITIVE_DEFINITE);
+    sparse_clear(&problem.A);
+    CHECK_STATUS(cholesky_factor(problem.cholesky),
+                 STATUS_NOT_POSITIVE_DEFINITE);
+    problem_fill(&random, 1, &problem);
+    CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);
+    check_solution(&random, &problem, true);
+    problem_free(&problem);
 }
 
 /* L D L^T steps over the zero pivot, and the solution tells. */
@@ -296,7 +281,7 @@ static void dropped_values_are_not_read(void **unused)
     (void)unused;
     Random random = {70};
     Problem problem;
-    problem_create(CHOLESKY_SIMPLICIAL, true, &problem);
+    problem_create(CHOLESKY_DEFINITE, true, &problem);
     problem_fill(&random, 1, &problem);
     problem.A.value[problem.A.entries] = NAN;
     CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);
@@ -308,8 +293,7 @@ static void dropped_values_are_not_read(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(simplicial_solves),
-        cmocka_unit_test(supernodal_solves),
+        cmocka_unit_test(definite_solves),
         cmocka_unit_test(indefinite_solves),
         cmocka_unit_test(indefinite_matrices_are_reported),
         cmocka_unit_test(singular_matrices_are_reported),

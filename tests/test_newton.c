@@ -232,7 +232,7 @@ static void settings_change_while_running(void **unused)
         simulation_set_filter(&simulation, FILTER_CLAMP);
         simulation_set_line_search(&simulation, LINE_SEARCH_BACKTRACK);
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        CHECK(newton->search.kind == CHOLESKY_SIMPLICIAL);
+        CHECK(newton->search.kind == CHOLESKY_DEFINITE);
         CHECK(newton->record.trials > 0);
         simulation_set_filter(&simulation, FILTER_NONE);
         simulation_set_line_search(&simulation, LINE_SEARCH_NONE);
