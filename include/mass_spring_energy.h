@@ -42,9 +42,20 @@ void mass_spring_energy_product(int springs, const double *x, const int *e,
                                 const double *l2, const double *k, double scale,
                                 Filter filter, const double *q, double *y);
 
-/* y += [[H, -H], [-H, H]] q for the spring between nodes e[0] and e[1]. */
-void mass_spring_multiply(const double H[3], const int e[2], const double *q,
-                          double *y);
+/* y += [[H, -H], [-H, H]] q for the spring between nodes e[0] and e[1]: with
+ * t = H (q_i - q_j), y_i += t and y_j -= t. */
+static inline void mass_spring_multiply(const double H[3], const int e[2],
+                                        const double *q, double *y)
+{
+    const double *qi = q + 2 * e[0], *qj = q + 2 * e[1];
+    double *yi = y + 2 * e[0], *yj = y + 2 * e[1];
+    double q0 = qi[0] - qj[0], q1 = qi[1] - qj[1];
+    double t0 = H[0] * q0 + H[1] * q1, t1 = H[1] * q0 + H[2] * q1;
+    yi[0] += t0;
+    yi[1] += t1;
+    yj[0] -= t0;
+    yj[1] -= t1;
+}
 
 /* Adds the block [[H, -H], [-H, H]] of spring i through its ten slots.
  *   H  [3] in: H_xx, H_xy, H_yy; slot, values as above */

@@ -132,6 +132,7 @@ void avf_energy_in_plane(int springs, const double *x_n, const double *u,
                          const double *l2, const double *k, double scale,
                          PlaneQuartic *quartic)
 {
+    PlaneSums sums = {{{0}}};
     for (int i = 0; i < springs; i++) {
         AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
         AverageSpring dp = average_spring(x_n, p, e + 2 * i, l2[i]);
@@ -141,14 +142,18 @@ void avf_energy_in_plane(int springs, const double *x_n, const double *u,
         double cp = 2 * (delta[0] * q[0] + delta[1] * q[1]) / l2[i];
         double cr = 2 * (delta[0] * t[0] + delta[1] * t[1]) / l2[i];
         double cpr = 2 * (q[0] * t[0] + q[1] * t[1]) / l2[i];
-        PlaneQuadratic sum = {{a.C / 2 + 2 * a.B / 3, cp / 2 + 2 * dp.B / 3,
-                               cr / 2 + 2 * dr.B / 3, dp.C / 2, cpr / 2,
-                               dr.C / 2}};
-        PlaneQuadratic B = {{a.B, dp.B, dr.B, 0, 0, 0}};
-        plane_add_square(&sum, w, quartic);
-        plane_add_square(&B, w / 18, quartic);
+        PlaneQuadratics squares = {{
+            {a.C / 2 + 2 * a.B / 3, a.B},
+            {cp / 2 + 2 * dp.B / 3, dp.B},
+            {cr / 2 + 2 * dr.B / 3, dr.B},
+            {dp.C / 2, 0},
+            {cpr / 2, 0},
+            {dr.C / 2, 0},
+        }};
+        plane_add_squares(&squares, (Lanes){w, w / 18}, &sums);
         quartic->c[2] += w * a.s * dp.C;
         quartic->c[3] += w * a.s * cpr;
         quartic->c[4] += w * a.s * dr.C;
     }
+    plane_add(&sums, quartic);
 }

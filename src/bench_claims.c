@@ -9,7 +9,7 @@
 
 enum {
     CLAIM_STEPS = 10,
-    CLAIM_ROUNDS = 5,
+    CLAIM_ROUNDS = 9,
     CLAIM_BARE_STEPS = 50,
     CLAIM_BARE_ROUNDS = 31
 };
@@ -37,35 +37,47 @@ static void report_claim(Bench *bench, const char *name, int segments,
                   at_most ? "at most" : "at least", limit, met);
 }
 
+/* Which saddle a minimisation passes on which side is decided by rounding, and
+ * with it the number of iterations; so each round starts a billionth apart. */
+static Options round_options(const SpeedClaim *claim, int round)
+{
+    Options options = slides_options(claim->segments);
+    options.stretch += 1e-9 * round;
+    return options;
+}
+
 /* Ten steps with both, in turns; energies in % of that at the start. */
 static Status claim_speed(Bench *bench, const SpeedClaim *claim)
 {
-    Options options = slides_options(claim->segments);
-    double ratio[CLAIM_ROUNDS], outside[CLAIM_ROUNDS], excess = 0;
+    double newton[CLAIM_ROUNDS], lagged[CLAIM_ROUNDS], outside[CLAIM_ROUNDS];
+    double excess[CLAIM_ROUNDS], spent = 0;
     int rounds = 0;
-    Cost newton = {0}, lagged = {0};
-    while (rounds < CLAIM_ROUNDS &&
-           newton.total + lagged.total < unrepeated_pair) {
+    for (; rounds < CLAIM_ROUNDS && spent < unrepeated_pair; rounds++) {
+        Options options = round_options(claim, rounds);
+        Cost slow, fast;
         bench_progress(bench,
                        "claims: %d segments, newton and lagged, %d of "
                        "at most %d rounds",
                        claim->segments, rounds + 1, CLAIM_ROUNDS);
         Status status = cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS,
-                                     no_limit, &newton);
+                                     no_limit, &slow);
         if (!status)
             status = cost_measure(&options, SOLVER_LAGGED, CLAIM_STEPS,
-                                  no_limit, &lagged);
+                                  no_limit, &fast);
         if (status)
             return status;
-        ratio[rounds] = newton.total / lagged.total;
-        outside[rounds++] = 100 * cost_outside(&newton);
-        excess =
-            100 * (lagged.energy_end - newton.energy_end) / newton.energy_start;
+        newton[rounds] = slow.total;
+        lagged[rounds] = fast.total;
+        outside[rounds] = 100 * cost_outside(&slow);
+        excess[rounds] =
+            100 * (fast.energy_end - slow.energy_end) / slow.energy_start;
+        spent += slow.total + fast.total;
     }
     report_claim(bench, "newton's time over lagged's", claim->segments,
-                 bench_median(ratio, rounds), false, claim->ratio);
+                 bench_median(newton, rounds) / bench_median(lagged, rounds),
+                 false, claim->ratio);
     report_claim(bench, "lagged's energy at the end above newton's in %",
-                 claim->segments, excess, true, 1);
+                 claim->segments, bench_median(excess, rounds), true, 1);
     if (claim->segments >= 32)
         report_claim(bench, "newton's time outside factor and solve in %",
                      claim->segments, bench_median(outside, rounds), true, 10);

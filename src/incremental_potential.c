@@ -201,6 +201,17 @@ Quartic incremental_potential_along(const IncrementalPotential *E,
     return along;
 }
 
+/* d = a_i - a_j for springs s and t, one in each lane. */
+static inline void differences(const System *system, const double *a, int s,
+                               int t, Lanes d[2])
+{
+    const int *e = system->e;
+    Lanes ds = lanes_load(a + 2 * e[2 * s]) - lanes_load(a + 2 * e[2 * s + 1]);
+    Lanes dt = lanes_load(a + 2 * e[2 * t]) - lanes_load(a + 2 * e[2 * t + 1]);
+    d[0] = (Lanes){ds[0], dt[0]};
+    d[1] = (Lanes){ds[1], dt[1]};
+}
+
 /* A spring's strain in the plane is a quadratic in a and b; its energy is
  * l2 k/2 times the square of that. */
 static void springs_in_plane(const IncrementalPotential *E, const double *x,
@@ -208,24 +219,25 @@ static void springs_in_plane(const IncrementalPotential *E, const double *x,
                              PlaneQuartic *quartic)
 {
     const System *system = E->system;
-    PlaneQuartic sum = *quartic; /* on its own, it can stay in registers */
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        double d0 = x[i] - x[j], d1 = x[i + 1] - x[j + 1];
-        double p0 = p[i] - p[j], p1 = p[i + 1] - p[j + 1];
-        double r0 = r[i] - r[j], r1 = r[i + 1] - r[j + 1];
-        double l2 = system->l2[s], w = E->weight * 0.5 * system->k[s] / l2;
-        PlaneQuadratic strain = {{
-            (d0 * d0 + d1 * d1) - l2,
-            2 * (d0 * p0 + d1 * p1),
-            2 * (d0 * r0 + d1 * r1),
-            (p0 * p0 + p1 * p1),
-            2 * (p0 * r0 + p1 * r1),
-            (r0 * r0 + r1 * r1),
+    PlaneSums sums = {{{0}}};
+    for (int s = 0, last = system->springs - 1; s <= last; s += LANES) {
+        int t = s < last ? s + 1 : s;
+        Lanes d[2], P[2], R[2], l2 = {system->l2[s], system->l2[t]};
+        Lanes k = {system->k[s], s < last ? system->k[t] : 0};
+        differences(system, x, s, t, d);
+        differences(system, p, s, t, P);
+        differences(system, r, s, t, R);
+        PlaneQuadratics strains = {{
+            d[0] * d[0] + d[1] * d[1] - l2,
+            2 * (d[0] * P[0] + d[1] * P[1]),
+            2 * (d[0] * R[0] + d[1] * R[1]),
+            P[0] * P[0] + P[1] * P[1],
+            2 * (P[0] * R[0] + P[1] * R[1]),
+            R[0] * R[0] + R[1] * R[1],
         }};
-        plane_add_square(&strain, w, &sum);
+        plane_add_squares(&strains, E->weight * 0.5 * k / l2, &sums);
     }
-    *quartic = sum;
+    plane_add(&sums, quartic);
 }
 
 PlaneQuartic incremental_potential_in_plane(const IncrementalPotential *E,

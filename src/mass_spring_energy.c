@@ -42,7 +42,7 @@ void mass_spring_energy_gradient(int springs, const double *x, const int *e,
 
 /* H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), projected where d is too short;
  * returns whether it was. */
-static bool filtered_hessian(const double *x, const int e[2], double l2,
+static inline bool filtered_hessian(const double *x, const int e[2], double l2,
                              double k, Filter filter, double H[3])
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
@@ -64,20 +64,6 @@ int mass_spring_energy_hessian(int springs, const double *x, const int *e,
         mass_spring_scatter(H, i, slot, values);
     }
     return projected;
-}
-
-/* With t = H (q_i - q_j): y_i += t, y_j -= t. */
-void mass_spring_multiply(const double H[3], const int e[2], const double *q,
-                          double *y)
-{
-    const double *qi = q + 2 * e[0], *qj = q + 2 * e[1];
-    double *yi = y + 2 * e[0], *yj = y + 2 * e[1];
-    double q0 = qi[0] - qj[0], q1 = qi[1] - qj[1];
-    double t0 = H[0] * q0 + H[1] * q1, t1 = H[1] * q0 + H[2] * q1;
-    yi[0] += t0;
-    yi[1] += t1;
-    yj[0] -= t0;
-    yj[1] -= t1;
 }
 
 void mass_spring_energy_product(int springs, const double *x, const int *e,

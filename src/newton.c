@@ -254,16 +254,11 @@ Status newton_iterate(Newton *newton)
     return newton->status = status;
 }
 
-/* Springs cannot move the centre of mass: at the minimum sum m u equals
- * sum m u_tilde.  What the tolerance has left of the difference is moved, which
- * lowers E, and linear momentum is conserved to rounding. */
-void newton_finish(Newton *newton)
+/* Moves the centre of mass to where u_tilde has it. */
+static void move_centre(Newton *newton)
 {
     const System *system = newton->system;
     double mass = 0, missing[2] = {0, 0};
-    if (system->pinned || system->omega2 > 0 ||
-        (newton->status && !status_is_unconverged(newton->status)))
-        return;
     for (int i = 0; i < system->nodes; i++) {
         mass += system->m[i];
         for (int c = 0; c < 2; c++)
@@ -274,6 +269,21 @@ void newton_finish(Newton *newton)
         newton->u[i] += missing[i % 2] / mass;
         newton->x[i] = newton->E.x_n[i] + newton->u[i];
     }
+}
+
+/* Springs cannot move the centre of mass: at the minimum sum m u equals
+ * sum m u_tilde.  What the tolerance has left of the difference is moved, which
+ * lowers E, and linear momentum is conserved to rounding; moved twice, because
+ * where springs have hidden the masses the first way is long, and so are its
+ * rounding errors. */
+void newton_finish(Newton *newton)
+{
+    const System *system = newton->system;
+    if (system->pinned || system->omega2 > 0 ||
+        (newton->status && !status_is_unconverged(newton->status)))
+        return;
+    for (int i = 0; i < 2; i++)
+        move_centre(newton);
 }
 
 Status newton_minimise(Newton *newton, const double *x_n, double weight)

@@ -72,9 +72,9 @@ verdict headers_have_guards "$(guards)"
 # Layer of a module; a higher one may use a lower one, and its own.
 layer() {
     case $1 in
-    status | square_mesh | quartic) echo 1 ;;
+    status | square_mesh | lanes | quartic) echo 1 ;;
     psd | inertia_energy | mass_spring_energy | avf_energy | system) echo 2 ;;
-    lanes | sparse | supernodes | cholesky) echo 3 ;;
+    sparse | supernodes | cholesky) echo 3 ;;
     line_search | plane_search | incremental_potential | newton | \
         gauss_seidel | newton_direction | search_direction | plain_newton | \
         scalar_newton) echo 4 ;;

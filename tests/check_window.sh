@@ -73,10 +73,13 @@ begin() {
         2>error &
     pid=$!
     until_true find_window "$1" || echo "$1: no window"
-    # a run of few steps may be over by now
+    until_true test -s frames/frame_000000.png || echo "$1: no frame"
+    # Making the renderer, SDL may have made the window anew; and a run of few
+    # steps may be over by now.
+    found=$(has_title "$1" | tail -n 1)
+    window=${found:-$window}
     timeout $timeout xdotool windowfocus --sync "$window" \
         mousemove --window "$window" 450 880 2>/dev/null
-    until_true test -s frames/frame_000000.png || echo "$1: no frame"
 }
 
 # end CODE: waits for the end of the program and complains about its code.
