@@ -4,8 +4,8 @@
 #include <time.h>
 
 /* Updates for which the lagged solver keeps a factor: more iterations against
- * fewer factorisations; 12 ... 32 measured about the same. */
-enum { MAX_FACTOR_AGE = 24 };
+ * fewer factorisations; 12 ... 48 measured about the same. */
+enum { MAX_FACTOR_AGE = 32 };
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
