@@ -30,7 +30,8 @@ suites_for() { # source
     *) first= ;;
     esac
     echo "$first newton derivatives line_search solvers averaged" \
-        "integrators cholesky gauss_seidel sparse reference orders stress"
+        "integrators cholesky supernodes gauss_seidel sparse reference orders" \
+        "stress"
 }
 
 # build NAME: the suite, with whatever is in src now.
