@@ -159,4 +159,21 @@ verdict a_wrong_name_in_the_table_is_found \
     "$([ "$(names_missing "$temporary/README")" = 'psd.c has no make_ppsd' ] ||
         echo 'not found')"
 
+# Each fault of the list stands in its source exactly once.
+faults_elsewhere() {
+    awk -F ' @@ ?' '!/^#/ && NF > 1 {
+        count = 0
+        while ((getline text < $1) > 0)
+            while ((at = index(text, $2)) > 0) {
+                count++
+                text = substr(text, at + length($2))
+            }
+        close($1)
+        if (count != 1)
+            print $1 ": " $2 ": " count " times"
+    }' "$1"
+}
+verdict mutants_stand_where_the_list_says \
+    "$(faults_elsewhere tests/mutants.txt)"
+
 exit $failed
