@@ -10,7 +10,7 @@ V       ?= 0
 ARGS    ?=
 
 # ---- what is built ---------------------------------------------------------
-# In lecture order: `make single` writes them one after the other.
+# From the ground up: `make single` writes them one after the other.
 MODULES = status square_mesh psd quartic \
           inertia_energy mass_spring_energy avf_energy system \
           sparse supernodes cholesky incremental_potential line_search \
@@ -208,7 +208,7 @@ build/elasto_single.c: $(wildcard include/*.h) $(MODULES:%=src/%.c) \
                        src/main.c Makefile
 	$(call say,WRITE,$@)
 	@mkdir -p build
-	@{ echo '/* elasto, the whole demo as one file, in lecture order.'; \
+	@{ echo '/* elasto, the whole demo as one file, from the ground up.'; \
 	   echo ' * Compile it with one line:'; \
 	   echo ' *   $(CC) -std=c11 -O2 -ffp-contract=off elasto_single.c'; \
 	   echo ' *   -o elasto $(DEP_CFLAGS)'; \

@@ -49,6 +49,9 @@ void system_clear_pinned(const System *system, double *g);
 /* a = -M^-1 grad P(x), m/s^2.  x [2n] m in, a [2n] out. */
 void system_acceleration(const System *system, const double *x, double *a);
 
+/* Whether only springs act: they cannot move the centre of mass. */
+bool system_is_free(const System *system);
+
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 

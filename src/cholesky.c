@@ -69,7 +69,7 @@ static void use_one_thread(void)
 }
 
 /* Supernodes are merged if that adds few zeros; these limits were measured on
- * square meshes.  final_ll and minor are how an indefinite matrix shows. */
+ * square meshes. */
 static void set_parameters(cholmod_common *common, CholeskyKind kind,
                            bool ordered)
 {
@@ -79,7 +79,6 @@ static void set_parameters(cholmod_common *common, CholeskyKind kind,
     common->postorder = !ordered;
     common->supernodal =
         kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
-    common->final_ll = kind != CHOLESKY_INDEFINITE;
     common->quick_return_if_not_posdef = 1;
     common->nrelax[0] = 8;
     common->nrelax[1] = 20;

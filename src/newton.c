@@ -271,15 +271,14 @@ static void move_centre(Newton *newton)
     }
 }
 
-/* Springs cannot move the centre of mass: at the minimum sum m u equals
+/* Springs alone cannot move the centre of mass: at the minimum sum m u equals
  * sum m u_tilde.  What the tolerance has left of the difference is moved, which
  * lowers E, and linear momentum is conserved to rounding; moved twice, because
  * where springs have hidden the masses the first way is long, and so are its
  * rounding errors. */
 void newton_finish(Newton *newton)
 {
-    const System *system = newton->system;
-    if (system->pinned || system->omega2 > 0 ||
+    if (!system_is_free(newton->system) ||
         (newton->status && !status_is_unconverged(newton->status)))
         return;
     for (int i = 0; i < 2; i++)

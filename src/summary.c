@@ -17,11 +17,25 @@ static void print_newton(FILE *file, const Simulation *simulation)
             simulation_matrix_entries(simulation));
 }
 
+/* Of the first run; where there are several, with its name. */
+static void print_energies(FILE *file, const Player *player)
+{
+    const Simulation *simulation = &player->simulation;
+    const Energies end = simulation_energies(simulation, 0);
+    const char *name = "", *of = "";
+    if (simulation->runs > 1) {
+        of = ", ";
+        name = simulation->run[0].method->name;
+    }
+    fprintf(file, "energy at start     %.9g J%s%s\n", player->start.total, of,
+            name);
+    fprintf(file, "energy at end       %.9g J%s%s\n", end.total, of, name);
+}
+
 /* One quantity a line. */
 void summary_print(FILE *file, const Player *player)
 {
     const Simulation *simulation = &player->simulation;
-    const Energies end = simulation_energies(simulation, 0);
     fprintf(file, "steps               %ld\n", simulation->steps);
     if (simulation->scene->needs & NEEDS_TIME)
         fprintf(file, "simulated time      %g s\n",
@@ -30,10 +44,7 @@ void summary_print(FILE *file, const Player *player)
             player_clock() - player->started);
     print_newton(file, simulation);
     if (simulation->scene->needs & NEEDS_TIME)
-        fprintf(file,
-                "energy at start     %.9g J\n"
-                "energy at end       %.9g J\n",
-                player->start.total, end.total);
+        print_energies(file, player);
     if (player->recording.folder)
         fprintf(file, "frames written      %ld, in %s/\n",
                 player->recording.frames, player->recording.folder);

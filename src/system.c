@@ -112,6 +112,11 @@ void system_clear_pinned(const System *system, double *g)
             g[2 * i] = g[2 * i + 1] = 0;
 }
 
+bool system_is_free(const System *system)
+{
+    return !system->pinned && !(system->omega2 > 0);
+}
+
 void system_acceleration(const System *system, const double *x, double *a)
 {
     for (int i = 0; i < 2 * system->nodes; i++)
