@@ -24,10 +24,10 @@ typedef struct NewtonRecord {
     long step;       /* time step, from 1 */
     int iteration;   /* in this minimisation, from 0 */
     double residual; /* max over nodes |p_x| + |p_y|, over h: m/s */
-    double alpha;    /* step length; 0: none was found */
+    double alpha;    /* step length along p; 0: none was found */
     int trials;      /* energies the line search looked at */
     double slope;    /* grad E . p, J s^2: < 0 is downhill */
-    double change;   /* E(x + alpha p) - E(x), J s^2 */
+    double change;   /* of E, J s^2: by alpha p; lagged: by all it did */
     int projected;   /* springs whose Hessian was projected */
     bool factorised; /* false: an older factor served */
     double shift;    /* kg, what the diagonal needed to be factored */
@@ -90,6 +90,9 @@ typedef struct Newton {
     int age;         /* updates since the factor was made; < 0: none yet */
     const System *system;
     double lightest;        /* kg, the smallest mass */
+    double stiffest;        /* J/m^2, the largest k */
+    double energy;          /* J s^2, E at the iterate; only where checked */
+    double margin;          /* J s^2, E may rise by; < 0: is not checked */
     SearchDirection search; /* the Hessian and its factor */
     GaussSeidel smoother;   /* only the lagged solver's */
 } Newton;

@@ -38,6 +38,7 @@ typedef struct Simulation {
     void *user;
     long steps;       /* done so far */
     long unconverged; /* of them not converged */
+    Status first;     /* how the first of these ended */
     Status status;    /* of the last step */
 } Simulation;
 

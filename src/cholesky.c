@@ -61,7 +61,7 @@ double SuiteSparse_time(void)
 
 /* Blocks of this size are too small to share among threads: OpenMP inside
  * CHOLMOD costs more than it gives, and with one BLAS thread the sums have the
- * same order, so the same bits, on every machine. */
+ * same order, so the same bits, however many threads a machine has. */
 static void use_one_thread(void)
 {
     call_if_loaded("omp_set_max_active_levels", 0);

@@ -93,7 +93,7 @@ static void add_group(const System *system, const Lists *lists, NodeLanes group,
 }
 
 /* Colour by colour, LANES nodes at a time; the last of a colour fills the lanes
- * that are left: it then moves more than once to the same place. */
+ * that are left, and is moved in one of them. */
 static int add_groups(const System *system, const Lists *lists,
                       GaussSeidel *smoother)
 {
@@ -127,8 +127,10 @@ static Status create_groups(const System *system, Lists *lists, int *mark,
     smoother->group =
         malloc(((size_t)smoother->groups + 1) * sizeof *smoother->group);
     smoother->spring = malloc((springs + 1) * sizeof *smoother->spring);
-    if (!smoother->group || !smoother->spring)
+    if (!smoother->group || !smoother->spring) {
+        gauss_seidel_free(smoother);
         return STATUS_OUT_OF_MEMORY;
+    }
     add_groups(system, lists, smoother);
     return STATUS_OK;
 }

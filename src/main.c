@@ -152,7 +152,7 @@ static int finish(Player *player, Status status)
         status = closed;
     if (status) {
         report_failure(player, status);
-        return EXIT_FAILED;
+        return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     }
     if (!options->quiet)
         summary_print(standard ? stderr : stdout, player);

@@ -23,6 +23,8 @@ Status newton_create(const System *system, const NewtonSettings *settings,
                        .age = -1};
     for (int i = 0; i < system->nodes; i++)
         newton->lightest = fmin(newton->lightest, system->m[i]);
+    for (int s = 0; s < system->springs; s++)
+        newton->stiffest = fmax(newton->stiffest, system->k[s]);
     size_t size = 2 * (size_t)system->nodes;
     double **vectors[] = {&newton->u, &newton->x, &newton->u_tilde,
                           &newton->g, &newton->p, &newton->r};
@@ -75,6 +77,20 @@ static Status minimise_without_springs(Newton *newton)
     return sum == 0 ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
+/* Where springs outweigh the masses beyond the digits of a double, the gradient
+ * may be rounding, and along a far direction its slope anything.  Only there
+ * each update is held to what E really is, and nothing is smoothed. */
+static void prepare_check(Newton *newton)
+{
+    const IncrementalPotential *E = &newton->E;
+    newton->margin = -1;
+    if (E->weight * newton->stiffest <= 1e16 * newton->lightest)
+        return;
+    newton->energy = incremental_potential_value(E, newton->u, newton->x);
+    newton->margin =
+        1e-12 * incremental_potential_scale(E, newton->u, newton->x);
+}
+
 Status newton_start(Newton *newton, const double *x_n, double weight)
 {
     size_t size = 2 * (size_t)newton->system->nodes;
@@ -90,6 +106,7 @@ Status newton_start(Newton *newton, const double *x_n, double weight)
     newton->counters.minimisations++;
     if (newton->system->springs == 0)
         return newton->status = minimise_without_springs(newton);
+    prepare_check(newton);
     long skipped = newton->counters.skipped;
     newton->status = newton_direction(newton);
     if (newton->counters.skipped > skipped)
@@ -134,7 +151,9 @@ static Status search_plane(Newton *newton)
     record->alpha = at[0];
     record->change = plane_value(&plane, at[0], at[1]);
     if (status) { /* r so long that rounding hides what p alone can do */
+        int trials = record->trials;
         status = search_line(newton);
+        record->trials += trials;
         at[0] = record->alpha;
         at[1] = 0;
     }
@@ -162,9 +181,27 @@ static Status newton_search(Newton *newton)
     return newton->record.slope > 0 ? STATUS_NOT_DESCENT : status;
 }
 
-/* u += alpha p (or r, from the plane), x = x_n + u.  Returns false, with
- * nothing changed, where the result would not be finite. */
-static bool newton_update(Newton *newton)
+/* Whether E is as low at u + alpha way as the line search says it is.  Writes
+ * over g, and over spare [2n]. */
+static bool energy_holds(Newton *newton, const double *way, double alpha,
+                         double *spare)
+{
+    if (newton->margin < 0)
+        return true;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        newton->g[i] = newton->u[i] + alpha * way[i];
+        spare[i] = newton->E.x_n[i] + newton->g[i];
+    }
+    double energy = incremental_potential_value(&newton->E, newton->g, spare);
+    if (!(energy <= newton->energy + newton->margin))
+        return false;
+    newton->energy = energy;
+    return true;
+}
+
+/* u += alpha p (or r, from the plane), x = x_n + u.  Changes neither where the
+ * result would not be finite, or E would rise for all the line search knows. */
+static Status newton_update(Newton *newton)
 {
     bool plane = uses_plane(newton);
     const double *way = plane ? newton->r : newton->p;
@@ -173,7 +210,12 @@ static bool newton_update(Newton *newton)
     for (int i = 0; i < size; i++)
         sum += 0 * (newton->E.x_n[i] + (newton->u[i] + alpha * way[i]));
     if (!(sum == 0))
-        return false;
+        return STATUS_NOT_FINITE;
+    if (newton->settings.search == LINE_SEARCH_BACKTRACK &&
+        !energy_holds(newton, way, alpha, plane ? newton->p : newton->r)) {
+        newton->record.alpha = newton->record.change = 0;
+        return STATUS_ROUNDING_LIMIT;
+    }
     for (int i = 0; i < size; i++) {
         newton->u[i] += alpha * way[i];
         newton->x[i] = newton->E.x_n[i] + newton->u[i];
@@ -181,7 +223,7 @@ static bool newton_update(Newton *newton)
     newton->counters.iterations++;
     if (newton->age >= 0)
         newton->age++;
-    return true;
+    return STATUS_OK;
 }
 
 /* What a factor of long ago knows badly, stiffnesses that have changed from one
@@ -189,7 +231,7 @@ static bool newton_update(Newton *newton)
  * is a part of the last update. */
 static Status newton_smooth(Newton *newton)
 {
-    if (!uses_plane(newton) || newton->averaged ||
+    if (!uses_plane(newton) || newton->averaged || newton->margin >= 0 ||
         newton->settings.filter == FILTER_NONE ||
         newton->record.iteration < UPDATES_WITHOUT_SMOOTHING)
         return STATUS_OK;
@@ -237,8 +279,8 @@ Status newton_iterate(Newton *newton)
     record->iteration++;
     record->residual = newton->residual;
     Status status = newton_search(newton);
-    if (!status && !newton_update(newton))
-        status = STATUS_NOT_FINITE;
+    if (!status)
+        status = newton_update(newton);
     if (!status)
         status = newton_smooth(newton);
     NewtonRecord done = *record;

@@ -38,7 +38,8 @@ static double residual_per_norm(const Newton *newton)
 
 /* The projected Hessian is M plus something positive semi-definite, so
  * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would: no
- * factorisation is needed. */
+ * factorisation is needed.  (On demand, where the Hessian as it is may be less
+ * than M, the test is that of the projected one here.) */
 static double newton_residual_bound(const Newton *newton)
 {
     return residual_per_norm(newton) *

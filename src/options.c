@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <getopt.h>
 #include <limits.h>
@@ -106,6 +107,9 @@ static Status complain(const Complaint *complaint, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(complaint->text, complaint->size, format, arguments);
     va_end(arguments);
+    for (char *c = complaint->text; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            *c = '?'; /* it stays one line */
     return STATUS_INVALID_INPUT;
 }
 
@@ -356,6 +360,16 @@ static int next_option(int argc, char **argv)
     return getopt_long(argc, argv, ":", option_rows, NULL);
 }
 
+/* Of several letters behind one dash, optind is not at them yet. */
+static Status complain_unknown(char **argv, const Complaint *complaint)
+{
+    if (optopt > 0 && optopt < OPTION_SEGMENTS)
+        return complain(complaint, "'-%c' is no option; see elasto --help",
+                        optopt);
+    return complain(complaint, "'%s' is no option; see elasto --help",
+                    argv[optind - 1]);
+}
+
 /* Before the first call of next_option. */
 static void rewind_options(void)
 {
@@ -419,9 +433,7 @@ Status options_parse(int argc, char **argv, Options *options, char *message,
             status = complain(&complaint, "%s: the value is missing",
                               argv[optind - 1]);
         else if (code == '?')
-            status =
-                complain(&complaint, "'%s' is no option; see elasto --help",
-                         argv[optind - 1]);
+            status = complain_unknown(argv, &complaint);
         else if (!(status = check_need(code, options->scene, &complaint)))
             status = apply_option(code, optarg, options, &complaint);
     }

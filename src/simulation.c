@@ -64,8 +64,8 @@ Status simulation_step(Simulation *simulation)
     if (simulation->status && !status_is_unconverged(simulation->status))
         return simulation->status;
     simulation->steps++;
-    if (simulation->status)
-        simulation->unconverged++;
+    if (simulation->status && simulation->unconverged++ == 0)
+        simulation->first = simulation->status;
     return simulation->status;
 }
 

@@ -50,5 +50,8 @@ void summary_print(FILE *file, const Player *player)
                 player->recording.frames, player->recording.folder);
     else
         fprintf(file, "frames written      0\n");
-    fprintf(file, "steps not converged %ld\n", simulation->unconverged);
+    fprintf(file, "steps not converged %ld", simulation->unconverged);
+    if (simulation->unconverged > 0)
+        fprintf(file, ", the first: %s", status_name(simulation->first));
+    fputc('\n', file);
 }
