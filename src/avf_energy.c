@@ -13,11 +13,8 @@ static AverageSpring average_spring(const double *x_n, const double *u,
 {
     const double *xi = x_n + 2 * e[0], *xj = x_n + 2 * e[1];
     const double *ui = u + 2 * e[0], *uj = u + 2 * e[1];
-    AverageSpring a;
-    for (int c = 0; c < 2; c++) {
-        a.d[c] = xi[c] - xj[c];
-        a.delta[c] = ui[c] - uj[c];
-    }
+    AverageSpring a = {.d = {xi[0] - xj[0], xi[1] - xj[1]},
+                       .delta = {ui[0] - uj[0], ui[1] - uj[1]}};
     a.s = (a.d[0] * a.d[0] + a.d[1] * a.d[1]) / l2 - 1;
     a.B = 2 * (a.d[0] * a.delta[0] + a.d[1] * a.delta[1]) / l2;
     a.C = (a.delta[0] * a.delta[0] + a.delta[1] * a.delta[1]) / l2;

@@ -100,7 +100,7 @@ static int add_groups(const System *system, const Lists *lists,
     int springs = 0;
     smoother->groups = 0;
     for (int colour = 0; colour < lists->colours; colour++) {
-        NodeLanes group;
+        NodeLanes group = {{0}, 0};
         int used = 0;
         for (int i = 0; i < system->nodes; i++) {
             if (lists->colour[i] != colour)
