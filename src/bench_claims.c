@@ -59,8 +59,8 @@ static Status claim_speed(Bench *bench, const SpeedClaim *claim)
                        "claims: %d segments, newton and lagged, %d of "
                        "at most %d rounds",
                        claim->segments, rounds + 1, CLAIM_ROUNDS);
-        Status status = cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS,
-                                     no_limit, &slow);
+        Status status =
+            cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS, no_limit, &slow);
         if (!status)
             status = cost_measure(&options, SOLVER_LAGGED, CLAIM_STEPS,
                                   no_limit, &fast);

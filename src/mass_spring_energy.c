@@ -43,7 +43,7 @@ void mass_spring_energy_gradient(int springs, const double *x, const int *e,
 /* H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), projected where d is too short;
  * returns whether it was. */
 static inline bool filtered_hessian(const double *x, const int e[2], double l2,
-                             double k, Filter filter, double H[3])
+                                    double k, Filter filter, double H[3])
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
     double d[2] = {xi[0] - xj[0], xi[1] - xj[1]};
