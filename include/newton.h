@@ -91,7 +91,8 @@ typedef struct Newton {
     const System *system;
     double lightest;        /* kg, the smallest mass */
     double stiffest;        /* J/m^2, the largest k */
-    double energy;          /* J s^2, E at the iterate; only where checked */
+    double start;           /* J s^2, E at x_n, and */
+    double energy;          /* at the iterate; only where it is checked */
     double margin;          /* J s^2, E may rise by; < 0: is not checked */
     SearchDirection search; /* the Hessian and its factor */
     GaussSeidel smoother;   /* only the lagged solver's */
@@ -115,7 +116,9 @@ Status newton_start(Newton *newton, const double *x_n, double weight);
 Status newton_iterate(Newton *newton);
 
 /* After the end: moves the centre of mass to where it belongs exactly; u and x
- * are then ready for the integrator.  Nothing to do after a failure. */
+ * are then ready for the integrator.  Where that shows that E has risen, all
+ * nodes move alike, and the status becomes ROUNDING_LIMIT.  Nothing to do after
+ * a failure. */
 void newton_finish(Newton *newton);
 
 /* newton_start, newton_iterate until the end, newton_finish. */

@@ -86,7 +86,8 @@ static void prepare_check(Newton *newton)
     newton->margin = -1;
     if (E->weight * newton->stiffest <= 1e16 * newton->lightest)
         return;
-    newton->energy = incremental_potential_value(E, newton->u, newton->x);
+    newton->start = incremental_potential_value(E, newton->u, newton->x);
+    newton->energy = newton->start;
     newton->margin =
         1e-12 * incremental_potential_scale(E, newton->u, newton->x);
 }
@@ -104,9 +105,9 @@ Status newton_start(Newton *newton, const double *x_n, double weight)
     newton->best = INFINITY;
     newton->stagnant = 0;
     newton->counters.minimisations++;
+    prepare_check(newton);
     if (newton->system->springs == 0)
         return newton->status = minimise_without_springs(newton);
-    prepare_check(newton);
     long skipped = newton->counters.skipped;
     newton->status = newton_direction(newton);
     if (newton->counters.skipped > skipped)
@@ -317,7 +318,8 @@ static void move_centre(Newton *newton)
  * sum m u_tilde.  What the tolerance has left of the difference is moved, which
  * lowers E, and linear momentum is conserved to rounding; moved twice, because
  * where springs have hidden the masses the first way is long, and so are its
- * rounding errors. */
+ * rounding errors.  Where these have cost the square its shape, it keeps the
+ * one that it had. */
 void newton_finish(Newton *newton)
 {
     if (!system_is_free(newton->system) ||
@@ -325,6 +327,14 @@ void newton_finish(Newton *newton)
         return;
     for (int i = 0; i < 2; i++)
         move_centre(newton);
+    if (newton->margin < 0 ||
+        incremental_potential_value(&newton->E, newton->u, newton->x) <=
+            newton->start + newton->margin)
+        return;
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        newton->u[i] = 0;
+    move_centre(newton);
+    newton->status = STATUS_ROUNDING_LIMIT;
 }
 
 Status newton_minimise(Newton *newton, const double *x_n, double weight)
@@ -333,5 +343,5 @@ Status newton_minimise(Newton *newton, const double *x_n, double weight)
     while (status == STATUS_RUNNING)
         status = newton_iterate(newton);
     newton_finish(newton);
-    return status;
+    return newton->status;
 }
