@@ -363,11 +363,10 @@ static int next_option(int argc, char **argv)
 /* Of several letters behind one dash, optind is not at them yet. */
 static Status complain_unknown(char **argv, const Complaint *complaint)
 {
-    if (optopt > 0 && optopt < OPTION_SEGMENTS)
-        return complain(complaint, "'-%c' is no option; see elasto --help",
-                        optopt);
+    const char letter[] = {'-', (char)optopt, '\0'};
+    bool is_letter = optopt > 0 && optopt < OPTION_SEGMENTS;
     return complain(complaint, "'%s' is no option; see elasto --help",
-                    argv[optind - 1]);
+                    is_letter ? letter : argv[optind - 1]);
 }
 
 /* Before the first call of next_option. */
