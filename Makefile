@@ -10,34 +10,22 @@ V       ?= 0
 ARGS    ?=
 
 # ---- what is built ---------------------------------------------------------
-# From the ground up: `make single` writes them one after the other.
-MODULES = status square_mesh psd quartic \
-          inertia_energy mass_spring_energy avf_energy system \
-          sparse supernodes cholesky incremental_potential line_search \
-          plane_search gauss_seidel search_direction newton_direction newton \
-          scalar_newton time_integrator backward_euler explicit_methods \
-          implicit_methods average_vector_field options simulation \
-          square_scenes circle_scene overshoot_scene landscape_scene scene \
-          canvas colour_map font paper text_block plot history trail hud \
-          panels square_picture circle_picture curve_picture \
-          landscape_picture draw output png_file recording view player \
-          summary
+# The rooms, from the ground up; each uses itself and those before it.
+ROOMS = base model solve step scenes picture play
 
-# elasto-bench has these besides, and bench.c.
-BENCH_MODULES = plain_newton bench_report bench_reference bench_problem \
-                bench_cost bench_memory bench_work bench_solver \
-                bench_tolerance bench_filters bench_drawing bench_claims
+SOURCES := $(foreach room,$(ROOMS),$(wildcard src/$(room)/*.c))
+BENCH_SOURCES := $(filter-out %/bench.c,$(wildcard src/bench/*.c))
 
 comma   := ,
 VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
 B       := build/$(VARIANT)
 CONFIG  := build/config.mk
 
-OBJECTS := $(MODULES:%=$(B)/%.o)
-BENCH_OBJECTS := $(BENCH_MODULES:%=$(B)/%.o)
-SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
+OBJECTS := $(SOURCES:src/%.c=$(B)/%.o)
+BENCH_OBJECTS := $(BENCH_SOURCES:src/%.c=$(B)/%.o)
+SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
-ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude $(DEP_CFLAGS) $(CPPFLAGS)
+ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
 ALL_CFLAGS   = -std=c11 -ffp-contract=off -Wall -Wextra $(CFLAGS) $(SANITIZER)
 ALL_LDFLAGS  = $(LDFLAGS) $(SANITIZER)
 SANITIZER    = $(if $(SANITIZE),-fsanitize=$(SANITIZE) \
@@ -148,27 +136,29 @@ $(B)/elasto: $(OBJECTS) $(B)/main.o
 
 # Objects are made again when the compiler or its flags change.
 $(B)/flags: FORCE
-	@mkdir -p $(B)/tests
+	@mkdir -p $(B)
 	@echo '$(COMPILE) $(ALL_LDFLAGS)' | cmp -s - $@ || \
 	  echo '$(COMPILE) $(ALL_LDFLAGS)' >$@
 
 $(B)/%.o: src/%.c $(B)/flags
 	$(call say,CC,$<)
+	$(Q)mkdir -p $(@D)
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
--include $(wildcard $(B)/*.d $(B)/tests/*.d)
+-include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
 # ---- benchmark -------------------------------------------------------------
 # The CSV files that it writes say with which flags it was compiled.
 build/elasto-bench: $(B)/elasto-bench FORCE
 	@cmp -s $< $@ || cp $< $@
 
-$(B)/elasto-bench: $(OBJECTS) $(BENCH_OBJECTS) $(B)/bench.o
+$(B)/elasto-bench: $(OBJECTS) $(BENCH_OBJECTS) $(B)/bench/bench.o
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
 
-$(B)/bench_report.o: src/bench_report.c $(B)/flags
+$(B)/bench/bench_report.o: src/bench/bench_report.c $(B)/flags
 	$(call say,CC,$<)
+	$(Q)mkdir -p $(@D)
 	$(Q)$(COMPILE) -DBENCH_FLAGS='"$(strip $(ALL_CFLAGS))"' -MMD -MP -c $< -o $@
 
 bench: build/elasto-bench
@@ -180,7 +170,7 @@ figures:
 	@[ -f build/bench/work_precision.csv ] || { \
 	  echo 'make figures draws what make bench has measured: run that first'; \
 	  exit 1; }
-	gnuplot -c src/bench_figures.gnuplot build/bench tests
+	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
 
 # ---- one file --------------------------------------------------------------
 # Each local #include becomes the header itself, the first time it is met.
@@ -189,14 +179,14 @@ function paste(file,    line, name) {
     while ((getline line < file) > 0) {
         if (line !~ /^#include "/) { print line; continue }
         name = line; gsub(/.*include "|".*/, "", name)
-        if (!(name in pasted)) { pasted[name] = 1; paste("include/" name) }
+        if (!(name in pasted)) { pasted[name] = 1; paste((system("test -f include/" name) ? "src/" : "include/") name) }
     }
     close(file)
 }
 BEGIN {
     for (i = 1; i < ARGC; i++) {
         printf "\n/* ======== %s ======== */\n", ARGV[i]
-        paste("src/" ARGV[i] ".c")
+        paste(ARGV[i])
     }
 }
 endef
@@ -204,7 +194,7 @@ export SINGLE_AWK
 
 single: build/elasto_single.c
 
-build/elasto_single.c: $(wildcard include/*.h) $(MODULES:%=src/%.c) \
+build/elasto_single.c: $(wildcard include/*/*.h src/*/*.h) $(SOURCES) \
                        src/main.c Makefile
 	$(call say,WRITE,$@)
 	@mkdir -p build
@@ -215,28 +205,29 @@ build/elasto_single.c: $(wildcard include/*.h) $(MODULES:%=src/%.c) \
 	   echo ' *   $(DEP_LIBS)'; \
 	   echo ' */'; \
 	   echo '#define _GNU_SOURCE'; \
-	   awk "$$SINGLE_AWK" $(MODULES) main; } >$@
+	   awk "$$SINGLE_AWK" $(SOURCES) src/main.c; } >$@
 
 # ---- tests -----------------------------------------------------------------
 $(B)/tests/%.o: tests/%.c $(B)/flags
 	$(call say,CC,$<)
-	$(Q)$(COMPILE) -Itests -MMD -MP -c $< -o $@
+	$(Q)mkdir -p $(@D)
+	$(Q)$(COMPILE) -Itests/unit -Itests/stress -MMD -MP -c $< -o $@
 
-$(B)/tests/test_%: $(B)/tests/test_%.o $(B)/tests/testing.o $(OBJECTS)
+$(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o $(OBJECTS)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
 	  $(DEP_LIBS) $(LDLIBS)
 
 # These need more than the demo has.
-$(B)/tests/test_plain_newton: $(B)/plain_newton.o
-$(B)/tests/test_orders: $(B)/bench_reference.o
+$(B)/tests/unit/test_plain_newton: $(B)/bench/plain_newton.o
+$(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
 
 # This suite makes allocations fail one by one.
-$(B)/tests/test_memory: TEST_LIBS += -Wl,--wrap=malloc,--wrap=calloc \
+$(B)/tests/unit/test_memory: TEST_LIBS += -Wl,--wrap=malloc,--wrap=calloc \
   -lsuitesparseconfig
 
 # This one counts calls of CHOLMOD.
-$(B)/tests/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
+$(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
   -Wl,--wrap=cholmod_analyze,--wrap=cholmod_factorize
 
 suites: $(SUITES)
@@ -245,37 +236,37 @@ suites: $(SUITES)
 test: $(SUITES) $(B)/elasto $(B)/elasto-bench build/elasto_single.c
 	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
 	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
-	  sh tests/run.sh $(SUITES)
+	  sh tests/checks/run.sh $(SUITES)
 
 # ---- pictures of the README -----------------------------------------------
-# tests/pictures.txt: name, step, command line; a test holds them.
+# tests/data/pictures.txt: name, step, command line; a test holds them.
 pictures: build/elasto
 	@while read -r name step line; do \
 	  ./build/elasto $$line --headless --quiet --steps $$step \
 	    --frames build/frames-$$name || [ $$? = 3 ] || exit 1; \
 	  cp build/frames-$$name/frame_$$(printf %06d $$step).png \
-	    tests/$$name.png || exit 1; \
-	  rm -rf build/frames-$$name; echo "tests/$$name.png"; \
-	done <tests/pictures.txt
+	    tests/data/$$name.png || exit 1; \
+	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
+	done <tests/data/pictures.txt
 
 # ---- hard to break ---------------------------------------------------------
 STRESS_PARTS = stress_exact stress_watch stress_random stress_cases \
                stress_answers stress_envelope
-STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/%.o)
+STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/stress/%.o)
 
-$(B)/tests/test_stress: $(STRESS_OBJECTS)
+$(B)/tests/unit/test_stress: $(STRESS_OBJECTS)
 
-$(B)/stress: $(B)/tests/stress.o $(STRESS_OBJECTS) $(B)/tests/testing.o \
+$(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) $(B)/tests/unit/testing.o \
              $(OBJECTS)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
 	  $(DEP_LIBS) $(LDLIBS)
 
-build/stress: $(B)/stress FORCE
+build/stress: $(B)/stress-tests FORCE
 	@cmp -s $< $@ || cp $< $@
 
 # The program with faults linked in: sanitizers see what they do.
-$(B)/elasto-faults: $(OBJECTS) $(B)/main.o tests/faults.c
+$(B)/elasto-faults: $(OBJECTS) $(B)/main.o tests/checks/faults.c
 	$(call say,LINK,$@)
 	$(Q)$(COMPILE) -DFAULT_WRAP $(filter-out %.o,$^) $(filter %.o,$^) -o $@ \
 	  $(ALL_LDFLAGS) $(DEP_LIBS) $(LDLIBS) \
@@ -286,25 +277,25 @@ test: $(if $(SANITIZE),$(B)/elasto-faults)
 # Ends by itself within ten minutes.
 stress: build/stress build/elasto
 	./build/stress $(ARGS)
-	@$(CHECK_ENVIRONMENT) FAULTS=all sh tests/check_faults.sh
+	@$(CHECK_ENVIRONMENT) FAULTS=all sh tests/checks/check_faults.sh
 
 envelope: build/stress
-	./build/stress --envelope tests/envelope.csv tests/envelope.png
+	./build/stress --envelope tests/data/envelope.csv tests/data/envelope.png
 
 CHECK_ENVIRONMENT = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' \
   DEP_LIBS='$(DEP_LIBS)' SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto
 
 same-bits: build/elasto_single.c build/elasto
-	@$(CHECK_ENVIRONMENT) sh tests/same_bits.sh
+	@$(CHECK_ENVIRONMENT) sh tests/checks/same_bits.sh
 
 mutants: $(CONFIG)
-	@sh tests/mutants.sh $(ARGS)
+	@sh tests/checks/mutants.sh $(ARGS)
 
 coverage: $(CONFIG)
-	@sh tests/coverage.sh
+	@sh tests/checks/coverage.sh
 
 analyse: $(CONFIG)
-	@$(CHECK_ENVIRONMENT) sh tests/analyse.sh
+	@$(CHECK_ENVIRONMENT) sh tests/checks/analyse.sh
 
 .PHONY: stress envelope same-bits mutants coverage analyse
 

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "player.h"
-#include "scene.h"
-#include "summary.h"
+#include "play/player.h"
+#include "scenes/scene.h"
+#include "play/summary.h"
 
 /* How the program ends. */
 enum ExitCode {

@@ -1,0 +1,41 @@
+/* square_mesh.h - the square of masses and springs (slide square_mesh.py).
+ *
+ * (segments+1)^2 nodes on a grid centred at the origin.  Node i*(segments+1)+j
+ * is column i, row j, counted from the lower left.  Springs, in this order:
+ * horizontal, vertical, then the two diagonals of each cell.
+ */
+#ifndef ELASTO_SQUARE_MESH_H
+#define ELASTO_SQUARE_MESH_H
+
+#include "base/status.h"
+
+enum { SQUARE_MESH_MAX_SEGMENTS = 4096 };
+
+typedef struct SquareMesh {
+    int segments; /* segments per side */
+    double side;  /* m */
+    int nodes;    /* n = (segments+1)^2 */
+    int springs;  /* 2 segments (segments+1) + 2 segments^2 */
+    double *x;    /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
+    int *e;       /* [2 springs] nodes of each spring */
+    int *order;   /* [n] place of node i in the elimination order */
+} SquareMesh;
+
+/* Builds the mesh.
+ *   segments  1 ... SQUARE_MESH_MAX_SEGMENTS
+ *   side      m, finite and > 0
+ *   mesh      out; free it with square_mesh_free, also after a failure
+ * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+Status square_mesh_create(int segments, double side, SquareMesh *mesh);
+
+/* Accepts NULL and a zeroed struct. */
+void square_mesh_free(SquareMesh *mesh);
+
+/* Nested dissection of the grid (George 1973): the two halves first, the line
+ * of nodes between them last, again in each half.  With it a Cholesky factor
+ * of the mesh has O(n log n) entries.
+ *   segments  in
+ *   order     [n] out, place of each node; a permutation of 0 ... n-1 */
+void square_mesh_order(int segments, int *order);
+
+#endif

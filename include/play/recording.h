@@ -1,0 +1,51 @@
+/* recording.h - what a run leaves in files: frames, states, Newton's log.
+ *
+ *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
+ *   states  CSV: step,time,node,x,y,vx,vy of every node at every step from 0;
+ *           nodes of run 0 first, those of run 1 numbered on
+ *   log     CSV: one row a Newton update, see newton.h; in scenes with a
+ *           single unknown point also where the update began and ended
+ * Numbers have 17 digits: reading them gives the same double.
+ */
+#ifndef ELASTO_RECORDING_H
+#define ELASTO_RECORDING_H
+
+#include "picture/canvas.h"
+#include "play/output.h"
+#include "scenes/simulation.h"
+
+enum { RECORDING_NAME_SIZE = 4096 };
+
+typedef struct Recording {
+    const char *folder; /* of the frames, or NULL: none */
+    long frames;        /* written */
+    long last_frame;    /* its step; -1: none */
+    bool points;        /* the log tells of points */
+    Output states, log; /* not open: not written */
+    int reason;         /* errno of the first failure, 0: none yet */
+    char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
+} Recording;
+
+/* Opens what options->frames, states and log ask for; makes the folder.
+ *   recording  out; close it in any case
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
+ * all functions here do. */
+Status recording_open(const Options *options, Recording *recording);
+
+/* One frame, if frames are asked for. */
+Status recording_frame(Recording *recording, const Canvas *canvas, long step);
+
+/* The state now, if states are asked for. */
+Status recording_states(Recording *recording, const Simulation *simulation);
+
+/* One row of the log, if there is one. */
+Status recording_update(Recording *recording, const NewtonRecord *record);
+
+/* Begins states and log anew, for the scene in the options. */
+Status recording_restart(Recording *recording, const Options *options);
+
+/* Closes everything, whatever happened before: a run that fails keeps what it
+ * wrote. */
+Status recording_close(Recording *recording);
+
+#endif

@@ -1,0 +1,95 @@
+/* simulation.h - what a scene set up, while it runs.
+ *
+ * A system and one or more runs of it, each with its own integrator and state;
+ * all scenes but the comparison of integrators have one run.
+ */
+#ifndef ELASTO_SIMULATION_H
+#define ELASTO_SIMULATION_H
+
+#include "scenes/options.h"
+#include "solve/scalar_newton.h"
+#include "model/square_mesh.h"
+
+struct Scene;
+
+enum { SIMULATION_MAX_RUNS = 3, DESCENT_MAX = 256 };
+
+/* The path of a minimisation that is shown iteration by iteration. */
+typedef struct Descent {
+    int count;                        /* iterations so far */
+    NewtonRecord record[DESCENT_MAX]; /* the first DESCENT_MAX of them */
+    double point[2];                  /* the present iterate */
+    double value;                     /* f or E there */
+    double direction[2];              /* p there, m; 0 if there is none */
+    double slope;                     /* grad . p there; < 0 is downhill */
+    ScalarNewton scalar;              /* Newton in one variable, if it is */
+} Descent;
+
+typedef struct Simulation {
+    const struct Scene *scene;
+    Options options; /* what it was set up with */
+    SquareMesh mesh; /* zeroed in scenes without a square */
+    System system;
+    int runs;
+    TimeIntegrator run[SIMULATION_MAX_RUNS];
+    Descent descent;         /* zeroed in scenes that move through time */
+    bool done;               /* the scene came to its end: no more steps */
+    NewtonObserver observer; /* called after each Newton iteration, or NULL */
+    void *user;
+    long steps;       /* done so far */
+    long unconverged; /* of them not converged */
+    Status first;     /* how the first of these ended */
+    Status status;    /* of the last step */
+} Simulation;
+
+/* J; total is their sum. */
+typedef struct Energies {
+    double kinetic, elastic, total;
+} Energies;
+
+/* Sets up options->scene.  simulation out; free it in any case.
+ *   observer, user  called after each Newton iteration, or NULL
+ * Returns OK, OUT_OF_MEMORY, TOO_LARGE, INVALID_INPUT. */
+Status simulation_create(const Options *options, NewtonObserver observer,
+                         void *user, Simulation *simulation);
+void simulation_free(Simulation *simulation);
+
+/* One step: of time in every run, or one Newton iteration; none where
+ * simulation->done.  OK; an unconverged status: the step was made; a failure
+ * or INTERRUPTED: nothing moved in the run that failed. */
+Status simulation_step(Simulation *simulation);
+
+/* For scenes that show iterations: keeps the record and passes it on to the
+ * observer; false: the observer asks to stop. */
+bool simulation_record(Simulation *simulation, const NewtonRecord *record);
+
+/* Simulated time, s; 0 in scenes where no time passes. */
+double simulation_time(const Simulation *simulation);
+
+/* Energies of one run, computed now. */
+Energies simulation_energies(const Simulation *simulation, int run);
+
+/* Sum over the runs of what Newton did; zero where all are explicit. */
+NewtonCounters simulation_counters(const Simulation *simulation);
+
+/* Memory that the scene will need, about, in bytes: measured on squares of 128
+ * to 1024 segments, where it is right within a tenth; a Cholesky factor in
+ * nested dissection order has of the order of n log n entries (George: Nested
+ * Dissection of a Regular Finite Element Mesh, 1973).  0 in scenes without a
+ * square. */
+double simulation_bytes(const Options *options);
+
+/* Stored entries of the Hessians of all runs; 0 where none was allocated. */
+long long simulation_matrix_entries(const Simulation *simulation);
+
+/* Filter and line search while running: whether there is a Hessian to project
+ * and a line to search (not in explicit integrators), and their change. */
+bool simulation_has_filter(const Simulation *simulation);
+bool simulation_has_line_search(const Simulation *simulation);
+void simulation_set_filter(Simulation *simulation, Filter filter);
+void simulation_set_line_search(Simulation *simulation, LineSearch search);
+
+/* Strain of spring s of a run: |d|/l - 1. */
+double simulation_strain(const Simulation *simulation, int run, int s);
+
+#endif

@@ -1,0 +1,52 @@
+/* cholesky.h - sparse Cholesky factorisation (slide: spsolve), by CHOLMOD.
+ *
+ * Analyse once, then factor and solve as often as the values change.  Nothing
+ * is allocated after the first solve.  CHOLMOD's types stay inside cholesky.c.
+ */
+#ifndef ELASTO_CHOLESKY_H
+#define ELASTO_CHOLESKY_H
+
+#include "base/sparse.h"
+
+typedef struct Cholesky Cholesky;
+
+typedef enum CholeskyKind {
+    CHOLESKY_DEFINITE,   /* L L^T in dense panels, with BLAS */
+    CHOLESKY_INDEFINITE, /* L D L^T without pivoting: allows D < 0 */
+} CholeskyKind;
+
+/* The triangle that this kind reads without a copy. */
+Triangle cholesky_triangle(CholeskyKind kind);
+
+/* Symbolic analysis of the pattern of A (its triangle must be the one above).
+ *   ordered  true: rows are in elimination order already; false: CHOLMOD
+ *            looks for an order (AMD)
+ *   A        in; must live as long as the handle, which reads its values
+ *   out      the handle; free it with cholesky_free; NULL after a failure
+ * Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
+Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
+                       Cholesky **out);
+void cholesky_free(Cholesky *cholesky);
+
+/* Numeric factorisation of the values that A has now.
+ * Returns OK, NOT_POSITIVE_DEFINITE (a pivot not > 0; never for INDEFINITE),
+ * NOT_FINITE (NaN or infinity in A), OUT_OF_MEMORY. */
+Status cholesky_factor(Cholesky *cholesky);
+
+/* Solves A x = b with the last factor.  b [size] in, x [size] out; both may
+ * be the same array.  INDEFINITE refines the solution with A, which must still
+ * hold the values that were factored.
+ * Returns OK, OUT_OF_MEMORY, NOT_FINITE (the result overflows), SINGULAR (no
+ * solution within 1e-8 of b; only INDEFINITE looks). */
+Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
+
+/* INDEFINITE: how many eigenvalues of A are negative (Sylvester's law of
+ * inertia: as many as D has); else 0. */
+int cholesky_negative_pivots(const Cholesky *cholesky);
+
+/* Entries of the factor and bytes that CHOLMOD holds now / held at most. */
+double cholesky_factor_entries(const Cholesky *cholesky);
+double cholesky_bytes(const Cholesky *cholesky);
+double cholesky_peak_bytes(const Cholesky *cholesky);
+
+#endif

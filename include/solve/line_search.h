@@ -1,0 +1,34 @@
+/* line_search.h - step length along a search direction (slide: Algorithm 2,
+ * backtracking line search).
+ *
+ * The slides halve alpha while E(x + alpha p) > E(x).  Here the difference
+ * q(alpha) = E(x + alpha p) - E(x) is asked for, which for this energy is a
+ * polynomial of degree 4 without constant term: exact, O(1) a trial, and no
+ * rounding of two large energies that hides a small decrease.
+ */
+#ifndef ELASTO_LINE_SEARCH_H
+#define ELASTO_LINE_SEARCH_H
+
+#include "base/status.h"
+
+typedef enum LineSearch {
+    LINE_SEARCH_BACKTRACK, /* Algorithm 2 */
+    LINE_SEARCH_NONE,      /* alpha = 1, whatever happens */
+    LINE_SEARCH_COUNT
+} LineSearch;
+
+/* The energy difference along the direction, as line_search calls it. */
+typedef double (*EnergyDifference)(const void *function, double alpha);
+
+/* Halvings after which alpha is below 2^-64: then no step lowers E. */
+enum { LINE_SEARCH_MAX_HALVINGS = 64 };
+
+/* Algorithm 2: alpha = 1; while E(x + alpha p) > E(x): alpha = alpha / 2.
+ *   difference, function  E(x + alpha p) - E(x)
+ *   alpha   out, 1, 1/2, 1/4, ...; 0 after a failure
+ *   trials  out, energies looked at
+ * Returns OK, LINE_SEARCH_LIMIT; NaN counts as "not lower". */
+Status line_search_backtrack(EnergyDifference difference, const void *function,
+                             double *alpha, int *trials);
+
+#endif

@@ -1,0 +1,127 @@
+/* newton.h - projected Newton (slides: Algorithm 3, and Algorithm 1 inside).
+ *
+ * A resumable object: newton_start, then newton_iterate until it returns
+ * something else than RUNNING, then newton_finish.  newton_minimise does all
+ * three.  Each iteration
+ * leaves a record, which log, window and tests read.
+ */
+#ifndef ELASTO_NEWTON_H
+#define ELASTO_NEWTON_H
+
+#include "solve/gauss_seidel.h"
+#include "solve/line_search.h"
+#include "solve/search_direction.h"
+
+/* How the minimiser is found. */
+typedef enum Solver {
+    SOLVER_NEWTON, /* Algorithm 3: a new factor for each direction */
+    SOLVER_LAGGED, /* the same minimum with old factors and a plane search */
+    SOLVER_COUNT
+} Solver;
+
+/* What one Newton iteration did. */
+typedef struct NewtonRecord {
+    long step;       /* time step, from 1 */
+    int iteration;   /* in this minimisation, from 0 */
+    double residual; /* max over nodes |p_x| + |p_y|, over h: m/s */
+    double alpha;    /* step length along p; 0: none was found */
+    int trials;      /* energies the line search looked at */
+    double slope;    /* grad E . p, J s^2: < 0 is downhill */
+    double change;   /* of E, J s^2: by alpha p; lagged: by all it did */
+    int projected;   /* springs whose Hessian was projected */
+    bool factorised; /* false: an older factor served */
+    double shift;    /* kg, what the diagonal needed to be factored */
+    double seconds;  /* this iteration took */
+    Status status;   /* RUNNING, or how the minimisation ended here */
+    double from[2];  /* where it started and where it led, in scenes with a */
+    double to[2];    /* single unknown point; 0 elsewhere */
+} NewtonRecord;
+
+/* Called after each iteration; false asks to stop (INTERRUPTED). */
+typedef bool (*NewtonObserver)(void *user, const NewtonRecord *record);
+
+typedef struct NewtonSettings {
+    double h;                /* s, divides the residual */
+    double tolerance;        /* m/s */
+    Solver solver;           /* how the minimiser is found */
+    Filter filter;           /* what is done with negative eigenvalues */
+    LineSearch search;       /* how the step length is found */
+    int max_iterations;      /* then ITERATION_LIMIT */
+    NewtonObserver observer; /* or NULL */
+    void *user;              /* passed to the observer */
+} NewtonSettings;
+
+/* What was done since the object was made. */
+typedef struct NewtonCounters {
+    long minimisations;
+    long iterations; /* Newton updates */
+    long gradients;  /* evaluations of grad E */
+    long factorisations;
+    long solves;
+    long projected; /* springs projected, summed over factorisations */
+    long trials;    /* energies looked at by the line search */
+    long shifted;   /* factorisations that needed a shift */
+    long skipped;   /* tests passed by the gradient's size alone */
+    long certified; /* tests passed with an old factor and an error bound */
+    long smoothings;
+    double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
+    double seconds_smoothing;
+} NewtonCounters;
+
+typedef struct Newton {
+    NewtonSettings settings; /* may be changed between iterations */
+    NewtonCounters counters;
+    NewtonRecord record; /* of the last iteration */
+    Status status;       /* RUNNING, or how it ended */
+    long step;           /* copied into the records */
+    double residual;     /* of p at the present iterate, m/s */
+    double best;         /* smallest residual of this minimisation, m/s */
+    int stagnant;        /* iterations since it was the smallest */
+    IncrementalPotential E;
+    bool averaged;   /* set by the integrator: Phi in the place of P */
+    double *u;       /* [2n] m, displacement from x_n */
+    double *x;       /* [2n] m, x_n + u */
+    double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
+    double *g;       /* [2n] grad E at x */
+    double *p;       /* [2n] m, search direction at x */
+    double *r;       /* [2n] m, last update; only the lagged solver's */
+    int clamps;      /* iterations that on-demand projection still clamps */
+    bool resting;    /* the last minimisation needed no update */
+    int age;         /* updates since the factor was made; < 0: none yet */
+    const System *system;
+    double lightest;        /* kg, the smallest mass */
+    double stiffest;        /* J/m^2, the largest k */
+    double start;           /* J s^2, E at x_n, and */
+    double energy;          /* at the iterate; only where it is checked */
+    double margin;          /* J s^2, E may rise by; < 0: is not checked */
+    SearchDirection search; /* the Hessian and its factor */
+    GaussSeidel smoother;   /* only the lagged solver's */
+} Newton;
+
+/* Allocates for this system, which must outlive the object.
+ * Returns OK, OUT_OF_MEMORY; free with newton_free in any case. */
+Status newton_create(const System *system, const NewtonSettings *settings,
+                     Newton *newton);
+void newton_free(Newton *newton);
+
+/* Begins to minimise |u - u_tilde|_M^2/2 + weight P(x_n + u) from u = 0, with
+ * newton->u_tilde filled by the caller; computes the first direction.
+ *   x_n  [2n] m, in; must stay valid until the end
+ * Returns RUNNING, OK (x_n is the minimiser), or how it failed. */
+Status newton_start(Newton *newton, const double *x_n, double weight);
+
+/* One iteration: step length, update, next direction, test.
+ * Returns RUNNING, OK (converged), or how it failed; u and x are then the last
+ * iterate, where E is not higher than at the start. */
+Status newton_iterate(Newton *newton);
+
+/* After the end: moves the centre of mass to where it belongs exactly; u and x
+ * are then ready for the integrator.  Where that shows that E has risen, all
+ * nodes move alike, and the status becomes ROUNDING_LIMIT.  Nothing to do after
+ * a failure. */
+void newton_finish(Newton *newton);
+
+/* newton_start, newton_iterate until the end, newton_finish. */
+Status newton_minimise(Newton *newton, const double *x_n, double weight);
+
+#endif

@@ -1,0 +1,75 @@
+/* search_direction.h - p = -H^-1 g (slide: search_dir), H the Hessian of the
+ * incremental potential: pattern, slots and symbolic analysis once, then
+ * assemble, factor and solve as often as wanted.
+ *
+ * Where h^2 k outweighs the masses by more than the 16 digits of a double, H
+ * has no Cholesky factor in floating point.  Then H + shift I is factored, and
+ * conjugate gradients on H itself, applied spring by spring, remove what the
+ * shift has changed.
+ */
+#ifndef ELASTO_SEARCH_DIRECTION_H
+#define ELASTO_SEARCH_DIRECTION_H
+
+#include "solve/cholesky.h"
+#include "solve/incremental_potential.h"
+
+typedef struct SearchDirection {
+    const System *system;  /* not owned */
+    Filter filter;         /* of the Hessian in A */
+    CholeskyKind kind;     /* what cholesky was made for */
+    Sparse A;              /* Hessian, one triangle, in elimination order */
+    int *slot;             /* place of each triplet in A */
+    Cholesky *cholesky;    /* NULL: no matrix was needed yet */
+    double shift;          /* kg, on the diagonal of what was factored */
+    double *b;             /* [2n] right-hand side in elimination order */
+    double *r, *z, *q, *d; /* [2n] of conjugate gradients, or NULL */
+} SearchDirection;
+
+/* Returns OK, OUT_OF_MEMORY; free it in any case.  No matrix is made yet. */
+Status search_direction_create(const System *system, SearchDirection *search);
+void search_direction_free(SearchDirection *search);
+
+/* Makes A and its analysis, unless it has them for this kind, and fills A with
+ * the Hessian of E at u, x.
+ *   definite   false: a factor L D L^T, which allows negative eigenvalues
+ *   projected  out, springs projected
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status search_direction_assemble(SearchDirection *search,
+                                 const IncrementalPotential *E, const double *u,
+                                 const double *x, Filter filter, bool definite,
+                                 int *projected);
+
+/* Factors A, with a shift if it must: only a filtered A is known to be
+ * semi-definite but for rounding, so only that is shifted.  tries out,
+ * factorisations made. Returns OK, NOT_POSITIVE_DEFINITE, NOT_FINITE,
+ * OUT_OF_MEMORY. */
+Status search_direction_factor(SearchDirection *search, int *tries);
+
+/* p = -H^-1 g with the last factor.  Where that has a shift, E, u and x must
+ * be those it was assembled for.
+ *   g  [2n] in; p [2n] out
+ * Returns OK, NOT_FINITE, SINGULAR, OUT_OF_MEMORY. */
+Status search_direction_solve(SearchDirection *search,
+                              const IncrementalPotential *E, const double *u,
+                              const double *x, const double *g, double *p);
+
+/* Whether p, at most error away from what it should be, is good enough. */
+typedef bool (*GoodEnough)(const void *user, const double *p, double error);
+
+/* p = -H^-1 g for the Hessian at u, x with the factor of an older one: p holds
+ * what search_direction_solve made of g, and conjugate gradients improve it.
+ * H - M is positive semi-definite, so the error is bounded by what can be
+ * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
+ *   filter  CLAMP or ABS
+ *   enough  ends the iteration; some iterations without it end it too
+ *   p       [2n] in/out
+ *   error   out, kg^(1/2) m
+ *   solves  out
+ * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
+Status search_direction_refine(SearchDirection *search,
+                               const IncrementalPotential *E, const double *u,
+                               const double *x, Filter filter, const double *g,
+                               GoodEnough enough, const void *user, double *p,
+                               double *error, int *solves);
+
+#endif

@@ -1,0 +1,73 @@
+/* time_integrator.h - one step forward in time (slide time_integrator.py).
+ *
+ * One table: name, order, step function.  A step function moves x and v from
+ * t_n to t_n + h; those of implicit methods fill u_tilde and call
+ * time_integrator_minimise, those of explicit ones never touch Newton.
+ */
+#ifndef ELASTO_TIME_INTEGRATOR_H
+#define ELASTO_TIME_INTEGRATOR_H
+
+#include "solve/newton.h"
+
+typedef struct TimeIntegrator TimeIntegrator;
+
+typedef struct IntegratorMethod {
+    const char *name;  /* as on the command line */
+    const char *label; /* as in the window */
+    int order;         /* of accuracy */
+    bool implicit;     /* needs Newton */
+    int memory;        /* arrays [2n] kept between steps */
+    Status (*step)(TimeIntegrator *);
+} IntegratorMethod;
+
+struct TimeIntegrator {
+    const IntegratorMethod *method;
+    const System *system; /* not owned */
+    double h;             /* s */
+    long steps;           /* done so far; t_n = steps * h */
+    long unconverged;     /* steps that ended without convergence */
+    Status status;        /* of the last step */
+    double *x;            /* [2n] m */
+    double *v;            /* [2n] m/s */
+    double *new_x;        /* [2n] m, workspace of step functions */
+    double *new_v;        /* [2n] m/s, workspace of step functions */
+    double *memory;       /* [memory * 2n] what the method remembers */
+    bool remembers;       /* memory holds something */
+    Newton *newton;       /* NULL for explicit methods */
+};
+
+/* The table; it ends with a row whose name is NULL. */
+extern const IntegratorMethod integrator_methods[];
+
+/* The row with this name, or NULL. */
+const IntegratorMethod *integrator_method(const char *name);
+
+/* Allocates for the system and copies the start.
+ *   settings  of Newton, with h; explicit methods use only h
+ *   x, v      [2n] in, positions and velocities at time 0
+ * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (system_check). */
+Status time_integrator_create(const IntegratorMethod *method,
+                              const System *system,
+                              const NewtonSettings *settings, const double *x,
+                              const double *v, TimeIntegrator *integrator);
+void time_integrator_free(TimeIntegrator *integrator);
+
+/* One step.  OK; or a status for which status_is_unconverged holds: the step
+ * was made with the best iterate; or a failure: x, v are those of t_n. */
+Status time_integrator_step(TimeIntegrator *integrator);
+
+/* For step functions: minimises with newton->u_tilde as target.  Returns OK
+ * where newton->u can be used (a step that did not converge is remembered in
+ * integrator->status), or a failure. */
+Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
+                                double weight);
+
+/* For step functions: x = new_x, v = new_v unless one is not finite: then
+ * nothing changes and NOT_FINITE is returned.  new_x, new_v [2n] in. */
+Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
+                              const double *new_v);
+
+/* Simulated time, s. */
+double time_integrator_time(const TimeIntegrator *integrator);
+
+#endif

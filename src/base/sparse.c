@@ -1,0 +1,143 @@
+#include "base/sparse.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+Status triplets_create(int size, long long capacity, Triplets *triplets)
+{
+    *triplets = (Triplets){.size = size};
+    if (size < 1 || capacity < 1 || capacity >= INT_MAX)
+        return STATUS_TOO_LARGE;
+    triplets->capacity = (int)capacity;
+    triplets->row = malloc((size_t)capacity * sizeof *triplets->row);
+    triplets->column = malloc((size_t)capacity * sizeof *triplets->column);
+    if (!triplets->row || !triplets->column)
+        return STATUS_OUT_OF_MEMORY;
+    return STATUS_OK;
+}
+
+void triplets_free(Triplets *triplets)
+{
+    if (!triplets)
+        return;
+    free(triplets->row);
+    free(triplets->column);
+    *triplets = (Triplets){0};
+}
+
+void triplets_add(Triplets *triplets, int row, int column)
+{
+    triplets->row[triplets->count] = row;
+    triplets->column[triplets->count] = column;
+    triplets->count++;
+}
+
+/* out = the entries of `in` (NULL: 0, 1, 2, ...) stably sorted by key.
+ *   key    [count] in, 0 ... size-1
+ *   start  [size+1] workspace */
+static void counting_sort(int count, int size, const int *key, const int *in,
+                          int *start, int *out)
+{
+    memset(start, 0, ((size_t)size + 1) * sizeof *start);
+    for (int t = 0; t < count; t++)
+        start[key[t] + 1]++;
+    for (int i = 0; i < size; i++)
+        start[i + 1] += start[i];
+    for (int t = 0; t < count; t++) {
+        int entry = in ? in[t] : t;
+        out[start[key[entry]]++] = entry;
+    }
+}
+
+/* Row and column of triplet t, mirrored into the stored triangle. */
+static void stored_place(const Triplets *triplets, Triangle triangle, int t,
+                         int *row, int *column)
+{
+    int r = triplets->row[t], c = triplets->column[t];
+    bool mirror = triangle == TRIANGLE_LOWER ? r < c : r > c;
+    row[t] = mirror ? c : r;
+    column[t] = mirror ? r : c;
+}
+
+/* Walks the sorted triplets; each new place opens a new slot. */
+static void number_slots(int count, const int *sorted, const int *row,
+                         const int *column, Sparse *A, int *slot)
+{
+    int last = -1, last_row = -1, last_column = -1;
+    for (int i = 0; i < count; i++) {
+        int t = sorted[i];
+        if (row[t] != last_row || column[t] != last_column) {
+            last++;
+            last_row = row[t];
+            last_column = column[t];
+            A->row[last] = last_row;
+            A->start[last_column + 1] = last + 1;
+        }
+        slot[t] = last;
+    }
+    A->entries = last + 1;
+    for (int c = 0; c < A->size; c++) /* columns without entries */
+        if (A->start[c + 1] < A->start[c])
+            A->start[c + 1] = A->start[c];
+}
+
+Status sparse_create(const Triplets *triplets, Triangle triangle, Sparse *A,
+                     int *slot)
+{
+    int count = triplets->count, size = triplets->size;
+    size_t bytes = ((size_t)count + 1) * sizeof(int);
+    *A = (Sparse){.size = size, .triangle = triangle};
+    A->start = calloc((size_t)size + 1, sizeof *A->start);
+    int *start = malloc(((size_t)size + 1) * sizeof *start);
+    int *row = calloc(1, bytes), *column = calloc(1, bytes);
+    int *by_row = calloc(1, bytes), *sorted = calloc(1, bytes);
+    A->row = malloc(bytes);
+    Status status = STATUS_OUT_OF_MEMORY;
+    if (!A->start || !start || !row || !column || !by_row || !sorted || !A->row)
+        goto done;
+    for (int t = 0; t < count; t++)
+        stored_place(triplets, triangle, t, row, column);
+    counting_sort(count, size, row, NULL, start, by_row);
+    counting_sort(count, size, column, by_row, start, sorted);
+    number_slots(count, sorted, row, column, A, slot);
+    A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
+    if (A->value)
+        status = STATUS_OK;
+done:
+    free(start);
+    free(row);
+    free(column);
+    free(by_row);
+    free(sorted);
+    return status;
+}
+
+void sparse_free(Sparse *A)
+{
+    if (!A)
+        return;
+    free(A->start);
+    free(A->row);
+    free(A->value);
+    *A = (Sparse){0};
+}
+
+void sparse_clear(Sparse *A)
+{
+    memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
+}
+
+/* Each stored entry off the diagonal counts twice: at (r, c) and (c, r). */
+void sparse_multiply(const Sparse *A, const double *x, double *y)
+{
+    for (int i = 0; i < A->size; i++)
+        y[i] = 0;
+    for (int c = 0; c < A->size; c++)
+        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+            int r = A->row[s];
+            y[r] += A->value[s] * x[c];
+            if (r != c)
+                y[c] += A->value[s] * x[r];
+        }
+}

@@ -1,0 +1,73 @@
+#include "base/status.h"
+
+typedef struct StatusRow {
+    const char *name;
+    const char *text;
+} StatusRow;
+
+static const StatusRow status_rows[STATUS_COUNT] = {
+    [STATUS_OK] = {"ok", "converged"},
+    [STATUS_RUNNING] = {"running", "not at the end yet"},
+    [STATUS_ITERATION_LIMIT] = {"iteration_limit",
+                                "Newton used all its iterations"},
+    [STATUS_LINE_SEARCH_LIMIT] =
+        {"line_search_limit",
+         "the line search found no step that lowers the energy"},
+    [STATUS_NOT_DESCENT] =
+        {"not_descent",
+         "the search direction points uphill and no step along it helps"},
+    [STATUS_ROUNDING_LIMIT] =
+        {"rounding_limit",
+         "rounding hides every further decrease above the tolerance"},
+    [STATUS_NOT_A_MINIMUM] = {"not_a_minimum",
+                              "the gradient vanished, but not at a minimum"},
+    [STATUS_NOT_POSITIVE_DEFINITE] = {"not_positive_definite",
+                                      "the Hessian is not positive definite"},
+    [STATUS_SINGULAR] = {"singular", "the Hessian is singular"},
+    [STATUS_DIVERGED] = {"diverged", "the iterates run off beyond all numbers"},
+    [STATUS_NOT_FINITE] = {"not_finite", "a number became NaN or infinite"},
+    [STATUS_INTERRUPTED] = {"interrupted", "interrupted"},
+    [STATUS_INVALID_INPUT] = {"invalid_input", "the input is out of range"},
+    [STATUS_TOO_LARGE] = {"too_large",
+                          "the matrix is too large for 32-bit indices"},
+    [STATUS_OUT_OF_MEMORY] = {"out_of_memory", "not enough memory"},
+    [STATUS_FILE_FAILED] = {"file_failed", "a file could not be written"},
+    [STATUS_SCREEN_FAILED] = {"screen_failed", "drawing failed"},
+};
+
+/* Row of the table, or NULL where the status is none of ours. */
+static const StatusRow *status_row(Status status)
+{
+    if ((int)status < 0 || status >= STATUS_COUNT)
+        return 0;
+    return &status_rows[status];
+}
+
+const char *status_text(Status status)
+{
+    const StatusRow *row = status_row(status);
+    return row ? row->text : "unknown status";
+}
+
+const char *status_name(Status status)
+{
+    const StatusRow *row = status_row(status);
+    return row ? row->name : "unknown";
+}
+
+bool status_is_unconverged(Status status)
+{
+    switch (status) {
+    case STATUS_ITERATION_LIMIT:
+    case STATUS_LINE_SEARCH_LIMIT:
+    case STATUS_NOT_DESCENT:
+    case STATUS_ROUNDING_LIMIT:
+    case STATUS_NOT_A_MINIMUM:
+    case STATUS_NOT_POSITIVE_DEFINITE:
+    case STATUS_SINGULAR:
+    case STATUS_DIVERGED:
+        return true;
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,225 @@
+#include "bench/bench_claims.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "bench/bench_cost.h"
+#include "bench/bench_work.h"
+#include "bench/plain_newton.h"
+
+enum {
+    CLAIM_STEPS = 10,
+    CLAIM_ROUNDS = 9,
+    CLAIM_BARE_STEPS = 50,
+    CLAIM_BARE_ROUNDS = 31
+};
+
+/* Runs longer than this are not repeated, s; and no limit. */
+static const double unrepeated_pair = 20, no_limit = 1e9;
+
+/* Lagged against newton: at least so many times as fast. */
+typedef struct SpeedClaim {
+    int segments;
+    double ratio;
+} SpeedClaim;
+
+static const SpeedClaim speed_claims[] = {{16, 3}, {32, 6}, {64, 8}, {128, 30}};
+
+/* One line of the table: at_most tells which way the limit counts. */
+static void report_claim(Bench *bench, const char *name, int segments,
+                         double measured, bool at_most, double limit)
+{
+    bool met = at_most ? measured <= limit : measured >= limit;
+    bench_progress(bench, NULL);
+    printf("  %-54s %4d segments: %9.4g, %s %g: %s\n", name, segments, measured,
+           at_most ? "at most" : "at least", limit, met ? "met" : "NOT MET");
+    bench_csv_row(bench, "%s,%d,%.6g,%s,%g,%d", name, segments, measured,
+                  at_most ? "at most" : "at least", limit, met);
+}
+
+/* Which saddle a minimisation passes on which side is decided by rounding, and
+ * with it the number of iterations; so each round starts a billionth apart. */
+static Options round_options(const SpeedClaim *claim, int round)
+{
+    Options options = slides_options(claim->segments);
+    options.stretch += 1e-9 * round;
+    return options;
+}
+
+/* Ten steps with both, in turns; energies in % of that at the start. */
+static Status claim_speed(Bench *bench, const SpeedClaim *claim)
+{
+    double newton[CLAIM_ROUNDS], lagged[CLAIM_ROUNDS], outside[CLAIM_ROUNDS];
+    double excess[CLAIM_ROUNDS], spent = 0;
+    int rounds = 0;
+    for (; rounds < CLAIM_ROUNDS && spent < unrepeated_pair; rounds++) {
+        Options options = round_options(claim, rounds);
+        Cost slow, fast;
+        bench_progress(bench,
+                       "claims: %d segments, newton and lagged, %d of "
+                       "at most %d rounds",
+                       claim->segments, rounds + 1, CLAIM_ROUNDS);
+        Status status =
+            cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS, no_limit, &slow);
+        if (!status)
+            status = cost_measure(&options, SOLVER_LAGGED, CLAIM_STEPS,
+                                  no_limit, &fast);
+        if (status)
+            return status;
+        newton[rounds] = slow.total;
+        lagged[rounds] = fast.total;
+        outside[rounds] = 100 * cost_outside(&slow);
+        excess[rounds] =
+            100 * (fast.energy_end - slow.energy_end) / slow.energy_start;
+        spent += slow.total + fast.total;
+    }
+    report_claim(bench, "newton's time over lagged's", claim->segments,
+                 bench_median(newton, rounds) / bench_median(lagged, rounds),
+                 false, claim->ratio);
+    report_claim(bench, "lagged's energy at the end above newton's in %",
+                 claim->segments, bench_median(excess, rounds), true, 1);
+    if (claim->segments >= 32)
+        report_claim(bench, "newton's time outside factor and solve in %",
+                     claim->segments, bench_median(outside, rounds), true, 10);
+    return STATUS_OK;
+}
+
+/* Default steps, while the square still moves, against nothing but the calls of
+ * CHOLMOD that they make. */
+static Status claim_bare(Bench *bench)
+{
+    Options options = slides_options(4);
+    double ratio[CLAIM_BARE_ROUNDS];
+    for (int i = 0; i < CLAIM_BARE_ROUNDS; i++) {
+        Cost cost;
+        Status status = cost_measure(&options, SOLVER_NEWTON, CLAIM_BARE_STEPS,
+                                     no_limit, &cost);
+        if (status)
+            return status;
+        ratio[i] = cost.total / cost.bare;
+    }
+    report_claim(bench, "a default step's time over its factor and solve calls",
+                 4, bench_median(ratio, CLAIM_BARE_ROUNDS), true, 1.5);
+    return STATUS_OK;
+}
+
+/* The error that is asked for, m. */
+static const double claim_error = 1e-4;
+
+/* Seconds of one step of the plain baseline with this time step. */
+static Status plain_seconds(const Problem *problem, double steps,
+                            double *seconds)
+{
+    const System *system = &problem->simulation.system;
+    double h = problem->motion.time / steps;
+    double tolerance = problem_tolerance(problem, (long)steps, claim_error);
+    int size = 2 * system->nodes, count = problem->segments > 16 ? 8 : 100;
+    PlainCounters counters = {0};
+    double *x = problem->simulation.run[0].x, *v = problem->simulation.run[0].v;
+    for (int i = 0; i < size; i++) {
+        x[i] = problem->x[i];
+        v[i] = problem->v[i];
+    }
+    double start = bench_clock();
+    for (int i = 0; i < count; i++) {
+        Status status =
+            plain_newton_step(system, h, tolerance, 1000, x, v, &counters);
+        if (status && !status_is_unconverged(status))
+            return status;
+    }
+    *seconds = (bench_clock() - start) / count;
+    return STATUS_OK;
+}
+
+/* Steps that backward Euler needs: the error of the finest rung, and from
+ * there on first order. */
+static Status plain_steps(const Bench *bench, const Problem *problem,
+                          double longest, double *steps)
+{
+    Ladder ladder;
+    Status status =
+        ladder_climb(bench, problem, integrator_method("backward-euler"),
+                     SOLVER_LAGGED, longest, claim_error, &ladder);
+    if (status)
+        return status;
+    const RunResult *last = &ladder.rung[ladder.rungs - 1];
+    const RunResult *before = last - (ladder.rungs > 1);
+    *steps = (double)last->steps * last->error / claim_error;
+    bench_progress(bench, NULL);
+    printf("  backward Euler: error %.2e m with %ld steps, %.2e m with %ld; "
+           "extrapolated by first order: %.0f steps for %g m\n",
+           before->error, before->steps, last->error, last->steps, *steps,
+           claim_error);
+    return STATUS_OK;
+}
+
+/* The fastest method for the error, of those that are (not) implicit. */
+static Status best_method(const Bench *bench, const Problem *problem,
+                          bool implicit, double longest, double *seconds)
+{
+    const char *name = "none";
+    *seconds = INFINITY;
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++)
+        for (int s = 0; s < (implicit ? SOLVER_COUNT : 1); s++) {
+            Ladder ladder;
+            if (row->implicit != implicit || (implicit && row->order == 1))
+                continue;
+            Status status = ladder_climb(bench, problem, row, (Solver)s,
+                                         longest, claim_error, &ladder);
+            if (status)
+                return status;
+            if (ladder_seconds(&ladder, claim_error) < *seconds) {
+                *seconds = ladder_seconds(&ladder, claim_error);
+                name = row->name;
+            }
+        }
+    bench_progress(bench, NULL);
+    printf("  best %s method for an error of %g m: %s, %.4g s\n",
+           implicit ? "implicit" : "explicit", claim_error, name, *seconds);
+    return STATUS_OK;
+}
+
+/* Error 1e-4 m: the best method against the plain baseline. */
+static Status claim_precision(Bench *bench, int segments)
+{
+    const Motion motion = {"claims", 1e5, 1.1, 0, 0.05};
+    double longest = bench->quick ? 0.1 : 10, steps = 0, plain = 0;
+    double with = 0, without = 0;
+    Problem problem;
+    bench_progress(bench, "claims: %d segments, reference", segments);
+    Status status = problem_create(&motion, segments, &problem);
+    if (!status)
+        status = plain_steps(bench, &problem, longest, &steps);
+    if (!status)
+        status = plain_seconds(&problem, steps, &plain);
+    if (!status)
+        status = best_method(bench, &problem, true, longest, &with);
+    if (!status)
+        status = best_method(bench, &problem, false, longest, &without);
+    problem_free(&problem);
+    if (status)
+        return status;
+    printf("  backward Euler with CHOLMOD's defaults (plain): %.4g s a step, "
+           "%.4g s in all, extrapolated\n",
+           plain, plain * steps);
+    report_claim(bench, "plain backward Euler's time over the best method's",
+                 segments, plain * steps / fmin(with, without), false, 50);
+    report_claim(bench, "plain backward Euler's time over the best implicit",
+                 segments, plain * steps / with, false, 50);
+    return STATUS_OK;
+}
+
+Status bench_claims(Bench *bench)
+{
+    int speeds = bench->quick ? 1 : 4;
+    Status status = bench_csv_open(bench, "claims",
+                                   "claim,segments,measured,sense,limit,met");
+    if (status)
+        return status;
+    status = claim_bare(bench);
+    if (!status)
+        status = claim_precision(bench, bench->quick ? 8 : 64);
+    for (int i = 0; i < speeds && !status; i++)
+        status = claim_speed(bench, &speed_claims[i]);
+    return bench_csv_close(bench, status);
+}

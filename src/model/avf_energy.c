@@ -1,0 +1,156 @@
+#include "model/avf_energy.h"
+
+#include "model/mass_spring_energy.h"
+
+/* What all integrals of one spring are made of. */
+typedef struct AverageSpring {
+    double d[2], delta[2]; /* m */
+    double s, B, C;        /* strain s + t B + t^2 C */
+} AverageSpring;
+
+static AverageSpring average_spring(const double *x_n, const double *u,
+                                    const int e[2], double l2)
+{
+    const double *xi = x_n + 2 * e[0], *xj = x_n + 2 * e[1];
+    const double *ui = u + 2 * e[0], *uj = u + 2 * e[1];
+    AverageSpring a = {.d = {xi[0] - xj[0], xi[1] - xj[1]},
+                       .delta = {ui[0] - uj[0], ui[1] - uj[1]}};
+    a.s = (a.d[0] * a.d[0] + a.d[1] * a.d[1]) / l2 - 1;
+    a.B = 2 * (a.d[0] * a.delta[0] + a.d[1] * a.delta[1]) / l2;
+    a.C = (a.delta[0] * a.delta[0] + a.delta[1] * a.delta[1]) / l2;
+    return a;
+}
+
+/* sum l2 k/2 [2 s B + (B^2 + 2 s C)/2 + 2 B C/3 + C^2/4] */
+double avf_energy_value(int springs, const double *x_n, const double *u,
+                        const int *e, const double *l2, const double *k)
+{
+    double sum = 0;
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        sum += l2[i] * 0.5 * k[i] *
+               (2 * a.s * a.B + 0.5 * (a.B * a.B + 2 * a.s * a.C) +
+                2 * a.B * a.C / 3 + 0.25 * a.C * a.C);
+    }
+    return sum;
+}
+
+/* integral of 2 k s(t) (d + t delta):
+ * k [(2 s + B + 2C/3) d + (s + 2B/3 + C/2) delta] */
+void avf_energy_gradient(int springs, const double *x_n, const double *u,
+                         const int *e, const double *l2, const double *k,
+                         double scale, double *g)
+{
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        double along_d = scale * k[i] * (2 * a.s + a.B + 2 * a.C / 3);
+        double along_delta = scale * k[i] * (a.s + 2 * a.B / 3 + 0.5 * a.C);
+        double *gi = g + 2 * e[2 * i], *gj = g + 2 * e[2 * i + 1];
+        for (int c = 0; c < 2; c++) {
+            double f = along_d * a.d[c] + along_delta * a.delta[c];
+            gi[c] += f;
+            gj[c] -= f;
+        }
+    }
+}
+
+/* (2k/l2) [d d^T + 2/3 (d delta^T + delta d^T) + delta delta^T/2]
+ * + k (s + 2B/3 + C/2) I */
+static void average_hessian(const AverageSpring *a, double l2, double k,
+                            double H[3])
+{
+    double factor = 2 * k / l2;
+    double round = k * (a->s + 2 * a->B / 3 + 0.5 * a->C);
+    const double *d = a->d, *delta = a->delta;
+    H[0] = factor * (d[0] * d[0] + 4 * d[0] * delta[0] / 3 +
+                     0.5 * delta[0] * delta[0]) +
+           round;
+    H[1] = factor * (d[0] * d[1] + 2 * (d[0] * delta[1] + delta[0] * d[1]) / 3 +
+                     0.5 * delta[0] * delta[1]);
+    H[2] = factor * (d[1] * d[1] + 4 * d[1] * delta[1] / 3 +
+                     0.5 * delta[1] * delta[1]) +
+           round;
+}
+
+int avf_energy_hessian(int springs, const double *x_n, const double *u,
+                       const int *e, const double *l2, const double *k,
+                       double scale, Filter filter, const int *slot,
+                       double *values)
+{
+    int projected = 0;
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        double H[3];
+        average_hessian(&a, l2[i], scale * k[i], H);
+        projected += filter_2x2(filter, H);
+        mass_spring_scatter(H, i, slot, values);
+    }
+    return projected;
+}
+
+void avf_energy_product(int springs, const double *x_n, const double *u,
+                        const int *e, const double *l2, const double *k,
+                        double scale, Filter filter, const double *q, double *y)
+{
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        double H[3];
+        average_hessian(&a, l2[i], scale * k[i], H);
+        filter_2x2(filter, H);
+        mass_spring_multiply(H, e + 2 * i, q, y);
+    }
+}
+
+/* Along p: B + alpha b, C + alpha c1 + alpha^2 c2 with b = 2 d.q/l2,
+ * c1 = 2 delta.q/l2, c2 = |q|^2/l2, q = p_i - p_j, put into Phi. */
+void avf_energy_along(int springs, const double *x_n, const double *u,
+                      const double *p, const int *e, const double *l2,
+                      const double *k, double scale, double q[3])
+{
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        const double *pi = p + 2 * e[2 * i], *pj = p + 2 * e[2 * i + 1];
+        double q0 = pi[0] - pj[0], q1 = pi[1] - pj[1];
+        double w = scale * l2[i] * 0.5 * k[i];
+        double b = 2 * (a.d[0] * q0 + a.d[1] * q1) / l2[i];
+        double c1 = 2 * (a.delta[0] * q0 + a.delta[1] * q1) / l2[i];
+        double c2 = (q0 * q0 + q1 * q1) / l2[i];
+        q[0] += w * (0.5 * b * b + a.s * c2 + 2 * (a.B * c2 + b * c1) / 3 +
+                     0.25 * c1 * c1 + 0.5 * a.C * c2);
+        q[1] += w * (2 * b * c2 / 3 + 0.5 * c1 * c2);
+        q[2] += w * 0.25 * c2 * c2;
+    }
+}
+
+/* Phi = l2 k/2 [(C/2 + 2B/3)^2 + B^2/18 + s (2B + C)], where in the plane B is
+ * linear and C quadratic in a and b. */
+void avf_energy_in_plane(int springs, const double *x_n, const double *u,
+                         const double *p, const double *r, const int *e,
+                         const double *l2, const double *k, double scale,
+                         PlaneQuartic *quartic)
+{
+    PlaneSums sums = {{{0}}};
+    for (int i = 0; i < springs; i++) {
+        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
+        AverageSpring dp = average_spring(x_n, p, e + 2 * i, l2[i]);
+        AverageSpring dr = average_spring(x_n, r, e + 2 * i, l2[i]);
+        const double *q = dp.delta, *t = dr.delta, *delta = a.delta;
+        double w = scale * l2[i] * 0.5 * k[i];
+        double cp = 2 * (delta[0] * q[0] + delta[1] * q[1]) / l2[i];
+        double cr = 2 * (delta[0] * t[0] + delta[1] * t[1]) / l2[i];
+        double cpr = 2 * (q[0] * t[0] + q[1] * t[1]) / l2[i];
+        PlaneQuadratics squares = {{
+            {a.C / 2 + 2 * a.B / 3, a.B},
+            {cp / 2 + 2 * dp.B / 3, dp.B},
+            {cr / 2 + 2 * dr.B / 3, dr.B},
+            {dp.C / 2, 0},
+            {cpr / 2, 0},
+            {dr.C / 2, 0},
+        }};
+        plane_add_squares(&squares, (Lanes){w, w / 18}, &sums);
+        quartic->c[2] += w * a.s * dp.C;
+        quartic->c[3] += w * a.s * cpr;
+        quartic->c[4] += w * a.s * dr.C;
+    }
+    plane_add(&sums, quartic);
+}

@@ -1,0 +1,57 @@
+#include "picture/history.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* Empties it. */
+void history_clear(History *history)
+{
+    history->count = 0;
+    history->stride = 1;
+    history->calls = 0;
+    history->high = 0;
+}
+
+/* Point `to` = point `from`. */
+static void history_move(History *history, int from, int to)
+{
+    history->time[to] = history->time[from];
+    for (int s = 0; s < HISTORY_SERIES; s++)
+        history->value[s][to] = history->value[s][from];
+}
+
+/* Keeps points 0, 2, 4, ... */
+static void history_thin(History *history)
+{
+    for (int i = 1; 2 * i < history->count; i++)
+        history_move(history, 2 * i, i);
+    history->count = (history->count + 1) / 2;
+    history->stride *= 2;
+}
+
+/* Whether every number is finite. */
+static bool history_accepts(double time, const double *value)
+{
+    bool finite = isfinite(time);
+    for (int s = 0; s < HISTORY_SERIES; s++)
+        finite = finite && isfinite(value[s]);
+    return finite;
+}
+
+/* The newest point always stays until the next comes, due or not. */
+void history_add(History *history, double time, const double *value)
+{
+    if (!history_accepts(time, value))
+        return;
+    if (history->count > 0 && (history->calls - 1) % history->stride != 0)
+        history->count--;
+    if (history->count == HISTORY_POINTS)
+        history_thin(history);
+    int last = history->count++;
+    history->calls++;
+    history->time[last] = time;
+    for (int s = 0; s < HISTORY_SERIES; s++) {
+        history->value[s][last] = value[s];
+        history->high = fmax(history->high, value[s]);
+    }
+}

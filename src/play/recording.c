@@ -1,0 +1,175 @@
+#include "play/recording.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "play/png_file.h"
+#include "scenes/scene.h"
+
+/* Remembers the first failure; returns status. */
+static Status recording_note(Recording *recording, Status status,
+                             const char *name)
+{
+    if (status && recording->reason == 0) {
+        recording->reason = status == STATUS_OUT_OF_MEMORY ? ENOMEM
+                            : errno                        ? errno
+                                                           : EIO;
+        snprintf(recording->failed, sizeof recording->failed, "%s", name);
+    }
+    return status;
+}
+
+/* Makes the folder, or finds that it is there. */
+static Status make_folder(const char *name)
+{
+    struct stat info;
+    if (mkdir(name, 0777) == 0)
+        return STATUS_OK;
+    if (errno != EEXIST)
+        return STATUS_FILE_FAILED;
+    if (stat(name, &info) == 0 && S_ISDIR(info.st_mode))
+        return STATUS_OK;
+    errno = ENOTDIR;
+    return STATUS_FILE_FAILED;
+}
+
+/* The lines above the columns. */
+static Status write_headers(Recording *recording)
+{
+    if (recording->states.file &&
+        fputs("step,time,node,x,y,vx,vy\n", recording->states.file) < 0)
+        return recording_note(recording, STATUS_FILE_FAILED,
+                              recording->states.name);
+    if (!recording->log.file)
+        return STATUS_OK;
+    if (fputs("step,iteration,residual,alpha,trials,slope,change,projected,"
+              "factorised,shift,status,seconds",
+              recording->log.file) < 0)
+        return recording_note(recording, STATUS_FILE_FAILED,
+                              recording->log.name);
+    fputs(recording->points ? ",from_x,from_y,to_x,to_y\n" : "\n",
+          recording->log.file);
+    return recording_note(recording, output_check(&recording->log),
+                          recording->log.name);
+}
+
+/* Opens one file of the two, if it has a name. */
+static Status open_table(Recording *recording, const char *name, Output *output)
+{
+    if (!name)
+        return STATUS_OK;
+    return recording_note(recording, output_open(name, output), name);
+}
+
+/* Folder, states, log. */
+Status recording_open(const Options *options, Recording *recording)
+{
+    *recording = (Recording){.folder = options->frames, .last_frame = -1};
+    recording->points = !(options->scene->needs & NEEDS_TIME);
+    Status status = STATUS_OK;
+    if (recording->folder)
+        status = recording_note(recording, make_folder(recording->folder),
+                                recording->folder);
+    if (!status)
+        status = open_table(recording, options->states, &recording->states);
+    if (!status)
+        status = open_table(recording, options->log, &recording->log);
+    if (!status)
+        return write_headers(recording);
+    output_discard(&recording->states); /* what stood there before stays */
+    return status;
+}
+
+/* FOLDER/frame_000012.png */
+Status recording_frame(Recording *recording, const Canvas *canvas, long step)
+{
+    char name[RECORDING_NAME_SIZE];
+    if (!recording->folder)
+        return STATUS_OK;
+    int length = snprintf(name, sizeof name, "%s/frame_%06ld.png",
+                          recording->folder, step);
+    errno = ENAMETOOLONG;
+    Status status = STATUS_FILE_FAILED;
+    if (length > 0 && (size_t)length < sizeof name)
+        status = png_file_write(name, canvas);
+    if (!status && recording->last_frame != step)
+        recording->frames++;
+    recording->last_frame = step;
+    return recording_note(recording, status, name);
+}
+
+/* The rows of one run; its nodes are numbered from `first`. */
+static void write_run(FILE *file, const Simulation *simulation,
+                      const TimeIntegrator *run, int first)
+{
+    double time = simulation_time(simulation);
+    for (int i = 0; i < simulation->system.nodes && !ferror(file); i++) {
+        const double *x = run->x + 2 * (size_t)i, *v = run->v + 2 * (size_t)i;
+        fprintf(file, "%ld,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n",
+                simulation->steps, time, first + i, x[0], x[1], v[0], v[1]);
+    }
+}
+
+/* Run by run. */
+Status recording_states(Recording *recording, const Simulation *simulation)
+{
+    Output *states = &recording->states;
+    if (!states->file)
+        return STATUS_OK;
+    errno = 0;
+    for (int r = 0; r < simulation->runs; r++)
+        write_run(states->file, simulation, &simulation->run[r],
+                  r * simulation->system.nodes);
+    return recording_note(recording, output_check(states), states->name);
+}
+
+/* The numbers of the record, in the order of the header. */
+Status recording_update(Recording *recording, const NewtonRecord *record)
+{
+    Output *log = &recording->log;
+    if (!log->file)
+        return STATUS_OK;
+    errno = 0;
+    fprintf(log->file, "%ld,%d,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g,%s,%.17g",
+            record->step, record->iteration, record->residual, record->alpha,
+            record->trials, record->slope, record->change, record->projected,
+            record->factorised, record->shift, status_name(record->status),
+            record->seconds);
+    if (recording->points)
+        fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
+                record->from[1], record->to[0], record->to[1]);
+    putc('\n', log->file);
+    return recording_note(recording, output_check(log), log->name);
+}
+
+/* Empty tables with headers. */
+Status recording_restart(Recording *recording, const Options *options)
+{
+    recording->points = !(options->scene->needs & NEEDS_TIME);
+    recording->last_frame = -1;
+    Status status =
+        recording_note(recording, output_restart(&recording->states), "states");
+    if (!status)
+        status =
+            recording_note(recording, output_restart(&recording->log), "log");
+    return status ? status : write_headers(recording);
+}
+
+/* Closes one table; after a failed write NAME.part keeps what there is. */
+static Status close_table(Recording *recording, Output *output,
+                          const char *name)
+{
+    char copy[RECORDING_NAME_SIZE];
+    snprintf(copy, sizeof copy, "%s", output->name ? output->name : name);
+    return recording_note(recording, output_close(output, true), copy);
+}
+
+/* Both tables, also if the first fails. */
+Status recording_close(Recording *recording)
+{
+    Status states = close_table(recording, &recording->states, "states");
+    Status log = close_table(recording, &recording->log, "log");
+    return states ? states : log;
+}

@@ -1,0 +1,57 @@
+#include "play/summary.h"
+
+#include "scenes/scene.h"
+
+/* What Newton did; all 0 with explicit methods, which have no matrix. */
+static void print_newton(FILE *file, const Simulation *simulation)
+{
+    NewtonCounters sum = simulation_counters(simulation);
+    long iterations = sum.iterations;
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        iterations = simulation->descent.count;
+    fprintf(file, "Newton iterations   %ld\n", iterations);
+    fprintf(file, "factorisations      %ld\n", sum.factorisations);
+    fprintf(file, "solves              %ld\n", sum.solves);
+    fprintf(file, "springs projected   %ld\n", sum.projected);
+    fprintf(file, "matrix entries      %lld\n",
+            simulation_matrix_entries(simulation));
+}
+
+/* Of the first run; where there are several, with its name. */
+static void print_energies(FILE *file, const Player *player)
+{
+    const Simulation *simulation = &player->simulation;
+    const Energies end = simulation_energies(simulation, 0);
+    const char *name = "", *of = "";
+    if (simulation->runs > 1) {
+        of = ", ";
+        name = simulation->run[0].method->name;
+    }
+    fprintf(file, "energy at start     %.9g J%s%s\n", player->start.total, of,
+            name);
+    fprintf(file, "energy at end       %.9g J%s%s\n", end.total, of, name);
+}
+
+/* One quantity a line. */
+void summary_print(FILE *file, const Player *player)
+{
+    const Simulation *simulation = &player->simulation;
+    fprintf(file, "steps               %ld\n", simulation->steps);
+    if (simulation->scene->needs & NEEDS_TIME)
+        fprintf(file, "simulated time      %g s\n",
+                simulation_time(simulation));
+    fprintf(file, "wall time           %.3f s\n",
+            player_clock() - player->started);
+    print_newton(file, simulation);
+    if (simulation->scene->needs & NEEDS_TIME)
+        print_energies(file, player);
+    if (player->recording.folder)
+        fprintf(file, "frames written      %ld, in %s/\n",
+                player->recording.frames, player->recording.folder);
+    else
+        fprintf(file, "frames written      0\n");
+    fprintf(file, "steps not converged %ld", simulation->unconverged);
+    if (simulation->unconverged > 0)
+        fprintf(file, ", the first: %s", status_name(simulation->first));
+    fputc('\n', file);
+}

@@ -1,0 +1,147 @@
+#include "scenes/landscape_scene.h"
+
+#include <string.h>
+
+enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
+
+static const double LANDSCAPE_MASS = 1;        /* kg */
+static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
+static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
+
+/* x_tilde of the free node, m: where inertia alone would take it. */
+static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
+
+void landscape_defaults(Options *options)
+{
+    options->timestep = 0.2;
+    options->tolerance = 1e-6;
+    options->start[0] = 0.1;
+    options->start[1] = -0.35;
+}
+
+/* Pins at (-1, 0) and (1, 0) m, each with a spring to node 0 that is too long
+ * to lie flat between them: like a buckling column it gives way up or down. */
+static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
+{
+    Status status = system_create(LANDSCAPE_NODES, LANDSCAPE_PINS, system);
+    if (!status)
+        status = system_create_pins(system);
+    if (status)
+        return status;
+    for (int i = 0; i < LANDSCAPE_NODES; i++)
+        system->m[i] = LANDSCAPE_MASS;
+    for (int s = 0; s < LANDSCAPE_PINS; s++) {
+        int pin = s + 1;
+        x[2 * pin] = s == 0 ? -1 : 1;
+        system->pinned[pin] = 1;
+        system->e[2 * s] = 0;
+        system->e[2 * s + 1] = pin;
+        system->l2[s] = LANDSCAPE_LENGTH * LANDSCAPE_LENGTH;
+        system->k[s] = LANDSCAPE_STIFFNESS;
+    }
+    return STATUS_OK;
+}
+
+/* Copies the iterate to where the picture and the states look for it.  Where
+ * the search failed its direction stays to be seen. */
+static void show_node(Simulation *simulation)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    const Newton *newton = run->newton;
+    Descent *descent = &simulation->descent;
+    bool ends = simulation->done && newton->record.alpha > 0;
+    descent->slope = 0;
+    for (int i = 0; i < 2; i++) {
+        run->x[i] = descent->point[i] = newton->x[i];
+        descent->direction[i] = ends ? 0 : newton->p[i];
+        descent->slope += newton->g[i] * descent->direction[i];
+    }
+    descent->value = landscape_value(simulation, run->x[0], run->x[1]);
+}
+
+/* Adds the two positions to the record of an iteration. */
+static bool observe_landscape(void *user, const NewtonRecord *iteration)
+{
+    Simulation *simulation = user;
+    NewtonRecord record = *iteration;
+    record.step = simulation->steps + 1;
+    record.iteration = (int)simulation->steps;
+    memcpy(record.from, simulation->descent.point, sizeof record.from);
+    memcpy(record.to, simulation->run[0].newton->x, sizeof record.to);
+    return simulation_record(simulation, &record);
+}
+
+/* Newton starts at the present iterate: x_n is moved there, x_tilde stays. */
+void aim_landscape(Simulation *simulation)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    size_t size = 2 * LANDSCAPE_NODES * sizeof *run->x;
+    for (int i = 0; i < 2; i++)
+        run->newton->u_tilde[i] = LANDSCAPE_TARGET[i] - run->x[i];
+    memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
+    Status status = newton_start(run->newton, run->new_x, run->h * run->h);
+    simulation->done = status != STATUS_RUNNING;
+    simulation->status = simulation->done ? status : STATUS_OK;
+    show_node(simulation);
+}
+
+Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
+{
+    const Options *options = &simulation->options;
+    double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
+    const double v[2 * LANDSCAPE_NODES] = {0};
+    NewtonSettings own = *settings;
+    own.observer = observe_landscape;
+    own.user = simulation;
+    Status status = fill_landscape(&simulation->system, x);
+    if (status)
+        return status;
+    simulation->runs = 1;
+    status = time_integrator_create(integrator_method("backward-euler"),
+                                    &simulation->system, &own, x, v,
+                                    &simulation->run[0]);
+    if (status)
+        return status;
+    aim_landscape(simulation);
+    return status_is_unconverged(simulation->status) ? STATUS_OK
+                                                     : simulation->status;
+}
+
+Status step_landscape(Simulation *simulation)
+{
+    Status status = newton_iterate(simulation->run[0].newton);
+    simulation->done = status != STATUS_RUNNING;
+    show_node(simulation);
+    return simulation->done ? status : STATUS_OK;
+}
+
+double landscape_value(const Simulation *simulation, double x, double y)
+{
+    const Newton *newton = simulation->run[0].newton;
+    double at[2 * LANDSCAPE_NODES], u[2 * LANDSCAPE_NODES] = {0};
+    memcpy(at, newton->x, sizeof at);
+    at[0] = x;
+    at[1] = y;
+    u[0] = x - newton->E.x_n[0];
+    u[1] = y - newton->E.x_n[1];
+    return incremental_potential_value(&newton->E, u, at);
+}
+
+/* Positive trace and determinant of m I + h^2 sum of H over the springs. */
+bool landscape_is_convex(const Simulation *simulation, double x, double y)
+{
+    const System *system = &simulation->system;
+    const double *pins = simulation->run[0].x;
+    double weight = simulation->run[0].newton->E.weight;
+    double a = system->m[0], b = 0, c = system->m[0];
+    for (int s = 0; s < system->springs; s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {x - pin[0], y - pin[1]};
+        double H[3];
+        spring_hessian(d, system->l2[s], system->k[s], H);
+        a += weight * H[0];
+        b += weight * H[1];
+        c += weight * H[2];
+    }
+    return a + c > 0 && a * c - b * b > 0;
+}

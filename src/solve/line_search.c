@@ -1,0 +1,15 @@
+#include "solve/line_search.h"
+
+Status line_search_backtrack(EnergyDifference difference, const void *function,
+                             double *alpha, int *trials)
+{
+    *alpha = 1;
+    for (*trials = 1; *trials <= LINE_SEARCH_MAX_HALVINGS + 1; ++*trials) {
+        if (difference(function, *alpha) <= 0)
+            return STATUS_OK;
+        *alpha /= 2;
+    }
+    --*trials;
+    *alpha = 0;
+    return STATUS_LINE_SEARCH_LIMIT;
+}

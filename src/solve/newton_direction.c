@@ -1,0 +1,270 @@
+#include "solve/newton_direction.h"
+
+#include <math.h>
+#include <time.h>
+
+/* Updates for which the lagged solver keeps a factor: more iterations against
+ * fewer factorisations; 12 ... 48 measured about the same. */
+enum { MAX_FACTOR_AGE = 32 };
+
+/* Iterations for which projection on demand clamps after it had to. */
+enum { CLAMPS_AFTER_FAILURE = 4 };
+
+double newton_clock(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
+static double newton_residual(const Newton *newton, const double *p)
+{
+    double largest = 0;
+    for (int i = 0; i < 2 * newton->system->nodes; i += 2) {
+        double sum = fabs(p[i]) + fabs(p[i + 1]);
+        if (!(sum <= largest))
+            largest = sum;
+    }
+    return largest / newton->settings.h;
+}
+
+/* The largest residual that a direction with |p|_M = 1 can have: each node has
+ * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+static double residual_per_norm(const Newton *newton)
+{
+    return sqrt(2 / newton->lightest) / newton->settings.h;
+}
+
+/* The projected Hessian is M plus something positive semi-definite, so
+ * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would: no
+ * factorisation is needed.  (On demand, where the Hessian as it is may be less
+ * than M, the test is that of the projected one here.) */
+static double newton_residual_bound(const Newton *newton)
+{
+    return residual_per_norm(newton) *
+           system_inverse_mass_norm(newton->system, newton->g);
+}
+
+/* Assembles and factors the Hessian at x, once. */
+static Status factor_as(Newton *newton, Filter filter, bool definite)
+{
+    NewtonCounters *counters = &newton->counters;
+    double start = newton_clock(), assembled;
+    int projected, tries = 0;
+    Status status =
+        search_direction_assemble(&newton->search, &newton->E, newton->u,
+                                  newton->x, filter, definite, &projected);
+    assembled = newton_clock();
+    if (!status)
+        status = search_direction_factor(&newton->search, &tries);
+    newton->age = status ? -1 : 0;
+    newton->record.factorised = true;
+    newton->record.projected = projected;
+    newton->record.shift = newton->search.shift;
+    counters->projected += projected;
+    counters->factorisations += tries;
+    counters->shifted += newton->search.shift > 0;
+    counters->seconds_assembly += assembled - start;
+    counters->seconds_factor += newton_clock() - assembled;
+    return status;
+}
+
+/* As the filter says.  Projection on demand first tries the Hessian as it is;
+ * after a failure it clamps, and goes on to do so for some iterations. */
+static Status newton_factor(Newton *newton)
+{
+    Filter filter = newton->settings.filter;
+    newton->age = -1;
+    if (filter == FILTER_NONE)
+        return factor_as(newton, FILTER_NONE, false);
+    if (filter != FILTER_ON_DEMAND)
+        return factor_as(newton, filter, true);
+    if (newton->clamps == 0) {
+        Status status = factor_as(newton, FILTER_NONE, true);
+        if (status != STATUS_NOT_POSITIVE_DEFINITE)
+            return status;
+        newton->clamps = CLAMPS_AFTER_FAILURE;
+    }
+    newton->clamps--;
+    return factor_as(newton, FILTER_CLAMP, true);
+}
+
+/* p = -H^-1 g (slide: search_dir). */
+static Status newton_solve(Newton *newton)
+{
+    double start = newton_clock();
+    Status status =
+        search_direction_solve(&newton->search, &newton->E, newton->u,
+                               newton->x, newton->g, newton->p);
+    newton->counters.solves++;
+    newton->counters.seconds_solve += newton_clock() - start;
+    return status;
+}
+
+/* Whether the next test of Algorithm 3 is likely to be passed: in a step after
+ * one without updates, or after a direction that was nearly short enough. */
+static bool expects_convergence(const Newton *newton)
+{
+    if (newton->record.iteration < 0)
+        return newton->resting;
+    return newton->record.residual <= 10 * newton->settings.tolerance;
+}
+
+/* Whether the factor of an earlier iterate is worth a try: the lagged solver
+ * takes its directions from it, and both may decide with it that the test is
+ * passed. */
+static bool factor_may_serve(const Newton *newton)
+{
+    if (newton->settings.filter == FILTER_NONE || newton->age < 0 ||
+        newton->search.kind == CHOLESKY_INDEFINITE || newton->search.shift > 0)
+        return false;
+    if (newton->settings.solver == SOLVER_LAGGED)
+        return newton->age < MAX_FACTOR_AGE;
+    return newton->age <= 1 && expects_convergence(newton);
+}
+
+/* The test of Algorithm 3. */
+static Status newton_test(const Newton *newton)
+{
+    return newton->residual <= newton->settings.tolerance ? STATUS_OK
+                                                          : STATUS_RUNNING;
+}
+
+/* p and its residual with the present factor.  Returns RUNNING, OK (the test
+ * is passed), or a failure. */
+static Status newton_solve_and_test(Newton *newton)
+{
+    Status status = newton_solve(newton);
+    if (status)
+        return status;
+    newton->residual = newton_residual(newton, newton->p);
+    if (!isfinite(newton->residual))
+        return STATUS_NOT_FINITE;
+    return newton_test(newton);
+}
+
+/* Whether a direction with at most this error passes the test or does not,
+ * wherever the exact one is. */
+static bool test_is_decided(const void *user, const double *p, double error)
+{
+    const Newton *newton = user;
+    double away = newton_residual(newton, p) - newton->settings.tolerance;
+    return fabs(away) >= residual_per_norm(newton) * error;
+}
+
+/* The direction with the factor of an earlier iterate.  One that passes the
+ * test is refined until the test can be decided for the Hessian at x, with the
+ * error's bound on both sides.
+ * Returns OK (passed), RUNNING (p can be used), or a failure; *decided is false
+ * where only a new factor can tell. */
+static Status direction_from_old_factor(Newton *newton, bool *decided)
+{
+    Status status = newton_solve_and_test(newton);
+    *decided = status != STATUS_OK;
+    if (status)
+        return status;
+    double error, start = newton_clock();
+    int solves;
+    Filter filter =
+        newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
+    status = search_direction_refine(
+        &newton->search, &newton->E, newton->u, newton->x, filter, newton->g,
+        test_is_decided, newton, newton->p, &error, &solves);
+    newton->counters.solves += solves;
+    newton->counters.seconds_solve += newton_clock() - start;
+    if (status)
+        return status;
+    newton->residual = newton_residual(newton, newton->p);
+    *decided = test_is_decided(newton, newton->p, error);
+    return newton_test(newton);
+}
+
+/* Gradient and direction at x, and the test of Algorithm 3.
+ * Returns OK (converged), RUNNING, or a failure. */
+Status newton_direction(Newton *newton)
+{
+    double start = newton_clock();
+    incremental_potential_gradient(&newton->E, newton->u, newton->x, newton->g);
+    newton->counters.gradients++;
+    newton->counters.seconds_assembly += newton_clock() - start;
+    newton->record.factorised = false;
+    newton->record.projected = 0;
+    newton->record.shift = 0;
+    if (newton->settings.filter != FILTER_NONE) {
+        newton->residual = newton_residual_bound(newton);
+        if (newton->residual <= newton->settings.tolerance) {
+            newton->counters.skipped++;
+            return STATUS_OK;
+        }
+    }
+    if (factor_may_serve(newton)) {
+        bool decided;
+        Status status = direction_from_old_factor(newton, &decided);
+        if (decided && !status)
+            newton->counters.certified++;
+        if (decided && (!status || newton->settings.solver == SOLVER_LAGGED))
+            return status;
+    }
+    Status status = newton_factor(newton);
+    return status ? status : newton_solve_and_test(newton);
+}
+
+/* Whether g is 0 but for rounding, compared with the force of a spring that is
+ * compressed to nothing. */
+static bool gradient_vanishes(const Newton *newton)
+{
+    const System *system = newton->system;
+    double force = 0, largest = 0;
+    for (int s = 0; s < system->springs; s++)
+        force = fmax(force, system->k[s] * sqrt(system->l2[s]));
+    for (int i = 0; i < 2 * system->nodes; i++)
+        largest = fmax(largest, fabs(newton->g[i]));
+    return largest <= 1e-12 * newton->E.weight * force;
+}
+
+/* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
+ * lower eigenvalue of its H; so masses that outweigh these sums make the
+ * Hessian positive definite, without any factorisation.  sum [2n] out */
+static bool masses_outweigh_springs(const Newton *newton, double *sum)
+{
+    const System *system = newton->system;
+    for (int i = 0; i < system->nodes; i++)
+        sum[i] = 0;
+    for (int s = 0; s < system->springs; s++) {
+        int i = system->e[2 * s], j = system->e[2 * s + 1];
+        double dx = newton->x[2 * i] - newton->x[2 * j];
+        double dy = newton->x[2 * i + 1] - newton->x[2 * j + 1];
+        double missing = system->l2[s] - (dx * dx + dy * dy);
+        if (!(missing > 0))
+            continue;
+        double c = newton->E.weight * 2 * system->k[s] / system->l2[s];
+        sum[i] += 2 * c * missing;
+        sum[j] += 2 * c * missing;
+    }
+    for (int i = 0; i < system->nodes; i++)
+        if (!(sum[i] < system->m[i]))
+            return false;
+    return true;
+}
+
+/* Where the gradient vanishes may be a maximum or a saddle, such as all nodes
+ * in one point.  There the Hessian as it is, not projected, has a negative
+ * eigenvalue: a pivot of L D L^T that is not positive. */
+Status newton_check_minimum(Newton *newton)
+{
+    if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
+        masses_outweigh_springs(newton, newton->p))
+        return STATUS_OK;
+    int projected;
+    Status status =
+        search_direction_assemble(&newton->search, &newton->E, newton->u,
+                                  newton->x, FILTER_NONE, false, &projected);
+    if (!status)
+        status = cholesky_factor(newton->search.cholesky);
+    newton->age = -1;
+    newton->counters.factorisations++;
+    if (!status && cholesky_negative_pivots(newton->search.cholesky) > 0)
+        return STATUS_NOT_A_MINIMUM;
+    return status;
+}

@@ -1,0 +1,55 @@
+#include "solve/scalar_newton.h"
+
+#include <math.h>
+
+/* p = -f'(x)/f''(x), and the test */
+Status scalar_newton_start(ScalarNewton *newton)
+{
+    newton->p = -newton->f.first(newton->x) / newton->f.second(newton->x);
+    newton->status = STATUS_RUNNING;
+    if (!isfinite(newton->p))
+        newton->status = STATUS_DIVERGED;
+    else if (fabs(newton->p) <= newton->tolerance)
+        newton->status = STATUS_OK;
+    return newton->status;
+}
+
+/* f(x + alpha p) - f(x), as line_search calls it */
+static double scalar_difference(const void *function, double alpha)
+{
+    const ScalarNewton *newton = function;
+    return newton->f.value(newton->x + alpha * newton->p) -
+           newton->f.value(newton->x);
+}
+
+Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
+{
+    if (newton->status != STATUS_RUNNING)
+        return newton->status;
+    *record = (NewtonRecord){
+        .step = newton->iterations + 1,
+        .iteration = newton->iterations,
+        .residual = fabs(newton->p),
+        .alpha = 1,
+        .slope = newton->f.first(newton->x) * newton->p,
+        .factorised = true,
+        .from = {newton->x, newton->f.value(newton->x)},
+    };
+    Status status = STATUS_OK;
+    if (newton->search == LINE_SEARCH_BACKTRACK)
+        status = line_search_backtrack(scalar_difference, newton,
+                                       &record->alpha, &record->trials);
+    if (status) {
+        record->alpha = 0;
+        newton->status = record->slope > 0 ? STATUS_NOT_DESCENT : status;
+    } else {
+        record->change = scalar_difference(newton, record->alpha);
+        newton->x += record->alpha * newton->p;
+        newton->iterations++;
+        scalar_newton_start(newton);
+    }
+    record->to[0] = newton->x;
+    record->to[1] = newton->f.value(newton->x);
+    record->status = newton->status;
+    return newton->status;
+}

@@ -1,0 +1,271 @@
+#include "solve/search_direction.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
+enum { SHIFT_TRIES = 6 };
+
+/* A shift leaves a handful of directions to correct. */
+enum { CONJUGATE_MAX_ITERATIONS = 60 };
+
+/* More solves than this to refine a direction, and a new factor is cheaper. */
+enum { REFINE_MAX_SOLVES = 6 };
+
+Status search_direction_create(const System *system, SearchDirection *search)
+{
+    *search = (SearchDirection){.system = system};
+    search->b = calloc(2 * (size_t)system->nodes, sizeof *search->b);
+    return search->b ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+/* The matrix, its slots and its factor. */
+static void free_matrix(SearchDirection *search)
+{
+    cholesky_free(search->cholesky);
+    search->cholesky = NULL;
+    sparse_free(&search->A);
+    free(search->slot);
+    search->slot = NULL;
+}
+
+void search_direction_free(SearchDirection *search)
+{
+    if (!search)
+        return;
+    free_matrix(search);
+    free(search->b);
+    free(search->r);
+    *search = (SearchDirection){0};
+}
+
+/* Triplets to compressed columns, and each triplet's slot. */
+static Status create_pattern(SearchDirection *search)
+{
+    const System *system = search->system;
+    Triplets triplets;
+    Status status = incremental_potential_pattern(system, &triplets);
+    if (!status) {
+        search->slot = malloc((size_t)triplets.count * sizeof(int));
+        status = search->slot
+                     ? sparse_create(&triplets, cholesky_triangle(search->kind),
+                                     &search->A, search->slot)
+                     : STATUS_OUT_OF_MEMORY;
+    }
+    triplets_free(&triplets);
+    if (!status)
+        incremental_potential_drop_pinned(system, &search->A, search->slot);
+    return status;
+}
+
+/* Pattern and symbolic analysis: once, and again only when another kind of
+ * factor is wanted. */
+static Status analyse(SearchDirection *search, bool definite)
+{
+    CholeskyKind kind = definite ? CHOLESKY_DEFINITE : CHOLESKY_INDEFINITE;
+    if (search->cholesky && search->kind == kind)
+        return STATUS_OK;
+    free_matrix(search);
+    search->kind = kind;
+    Status status = create_pattern(search);
+    if (!status)
+        status = cholesky_create(
+            &search->A, kind, search->system->order != NULL, &search->cholesky);
+    if (status)
+        free_matrix(search);
+    return status;
+}
+
+Status search_direction_assemble(SearchDirection *search,
+                                 const IncrementalPotential *E, const double *u,
+                                 const double *x, Filter filter, bool definite,
+                                 int *projected)
+{
+    *projected = 0;
+    Status status = analyse(search, definite);
+    if (status)
+        return status;
+    search->filter = filter;
+    *projected = incremental_potential_hessian(E, u, x, filter, search->slot,
+                                               &search->A);
+    return STATUS_OK;
+}
+
+/* The largest entry of the diagonal; its slots come first. */
+static double largest_diagonal(const SearchDirection *search)
+{
+    double largest = 0;
+    for (int t = 0; t < 2 * search->system->nodes; t++)
+        largest = fmax(largest, search->A.value[search->slot[t]]);
+    return largest;
+}
+
+Status search_direction_factor(SearchDirection *search, int *tries)
+{
+    search->shift = 0;
+    *tries = 1;
+    Status status = cholesky_factor(search->cholesky);
+    if (status != STATUS_NOT_POSITIVE_DEFINITE || search->filter == FILTER_NONE)
+        return status;
+    double shift = 1e-15 * largest_diagonal(search);
+    for (int i = 0; i < SHIFT_TRIES && status == STATUS_NOT_POSITIVE_DEFINITE;
+         i++, shift *= 100) {
+        for (int t = 0; t < 2 * search->system->nodes; t++)
+            search->A.value[search->slot[t]] += shift - search->shift;
+        search->shift = shift;
+        ++*tries;
+        status = cholesky_factor(search->cholesky);
+    }
+    return status;
+}
+
+/* z = (H + shift I)^-1 r, both in the order of the nodes. */
+static Status apply_factor(SearchDirection *search, const double *r, double *z)
+{
+    const int *order = search->system->order;
+    double *b = search->b;
+    for (int i = 0; i < search->system->nodes; i++) {
+        int place = order ? order[i] : i;
+        b[2 * place] = r[2 * i];
+        b[2 * place + 1] = r[2 * i + 1];
+    }
+    Status status = cholesky_solve(search->cholesky, b, b);
+    if (status)
+        return status;
+    for (int i = 0; i < search->system->nodes; i++) {
+        int place = order ? order[i] : i;
+        z[2 * i] = b[2 * place];
+        z[2 * i + 1] = b[2 * place + 1];
+    }
+    return STATUS_OK;
+}
+
+/* a . b */
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* Workspaces, the first time they are needed: r, z, q, d in one piece. */
+static Status create_workspaces(SearchDirection *search)
+{
+    size_t size = 2 * (size_t)search->system->nodes;
+    if (search->r)
+        return STATUS_OK;
+    search->r = calloc(4 * size, sizeof *search->r);
+    if (!search->r)
+        return STATUS_OUT_OF_MEMORY;
+    search->z = search->r + size;
+    search->q = search->z + size;
+    search->d = search->q + size;
+    return STATUS_OK;
+}
+
+/* The state of conjugate gradients for H p = -g, preconditioned with a factor
+ * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
+ * r. H is applied spring by spring: that keeps small masses which the assembled
+ * matrix has lost to rounding. */
+typedef struct ConjugateGradients {
+    const IncrementalPotential *E;
+    const double *u, *x;
+    Filter filter;
+    double rz; /* r.z, squared size of the residual; the first is kept */
+    double first;
+} ConjugateGradients;
+
+/* p = 0, r = -g */
+static void conjugate_start(SearchDirection *search, const double *g, double *p)
+{
+    for (int i = 0; i < 2 * search->system->nodes; i++) {
+        p[i] = search->d[i] = 0;
+        search->r[i] = -g[i];
+    }
+}
+
+/* One step along the next direction, z being known.  Returns false where there
+ * is nothing left to gain. */
+static bool conjugate_step(SearchDirection *search, ConjugateGradients *state,
+                           double *p)
+{
+    int n = 2 * search->system->nodes;
+    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double last = state->rz;
+    state->rz = dot(n, r, z);
+    if (last == 0)
+        state->first = state->rz;
+    if (!(state->rz > 1e-28 * state->first))
+        return false;
+    for (int i = 0; i < n; i++)
+        d[i] = z[i] + (last == 0 ? 0 : state->rz / last) * d[i];
+    incremental_potential_product(state->E, state->u, state->x, state->filter,
+                                  d, q);
+    double alpha = state->rz / dot(n, d, q);
+    if (!(alpha > 0))
+        return false;
+    for (int i = 0; i < n; i++) {
+        p[i] += alpha * d[i];
+        r[i] -= alpha * q[i];
+    }
+    return true;
+}
+
+/* With the factor of H + shift I. */
+static Status solve_shifted(SearchDirection *search,
+                            const IncrementalPotential *E, const double *u,
+                            const double *x, const double *g, double *p)
+{
+    ConjugateGradients state = {E, u, x, search->filter, 0, 0};
+    conjugate_start(search, g, p);
+    for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
+        Status status = apply_factor(search, search->r, search->z);
+        if (status)
+            return status;
+        if (!conjugate_step(search, &state, p))
+            break;
+    }
+    return STATUS_OK;
+}
+
+Status search_direction_refine(SearchDirection *search,
+                               const IncrementalPotential *E, const double *u,
+                               const double *x, Filter filter, const double *g,
+                               GoodEnough enough, const void *user, double *p,
+                               double *error, int *solves)
+{
+    ConjugateGradients state = {E, u, x, filter, 0, 0};
+    *solves = 0;
+    Status status = create_workspaces(search);
+    if (status)
+        return status;
+    for (int i = 0; i < 2 * search->system->nodes; i++)
+        search->z[i] = p[i]; /* factor^-1 (-g) already */
+    conjugate_start(search, g, p);
+    while (conjugate_step(search, &state, p)) {
+        *error = system_inverse_mass_norm(search->system, search->r);
+        if (*solves == REFINE_MAX_SOLVES || enough(user, p, *error))
+            return STATUS_OK;
+        ++*solves;
+        status = apply_factor(search, search->r, search->z);
+        if (status)
+            return status;
+    }
+    *error = system_inverse_mass_norm(search->system, search->r);
+    return STATUS_OK;
+}
+
+Status search_direction_solve(SearchDirection *search,
+                              const IncrementalPotential *E, const double *u,
+                              const double *x, const double *g, double *p)
+{
+    if (search->shift > 0) {
+        Status status = create_workspaces(search);
+        return status ? status : solve_shifted(search, E, u, x, g, p);
+    }
+    Status status = apply_factor(search, g, p);
+    for (int i = 0; i < 2 * search->system->nodes; i++)
+        p[i] = -p[i];
+    return status;
+}

@@ -1,0 +1,139 @@
+#include "step/time_integrator.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "step/average_vector_field.h"
+#include "step/backward_euler.h"
+#include "step/explicit_methods.h"
+#include "step/implicit_methods.h"
+
+const IntegratorMethod integrator_methods[] = {
+    {"backward-euler", "backward Euler", 1, true, 0, backward_euler_step},
+    {"forward-euler", "forward Euler", 1, false, 0, forward_euler_step},
+    {"symplectic-euler", "symplectic Euler", 1, false, 0,
+     symplectic_euler_step},
+    {"verlet", "velocity Verlet", 2, false, 1, verlet_step},
+    {"bdf2", "BDF2", 2, true, 2, bdf2_step},
+    {"midpoint", "implicit midpoint", 2, true, 0, midpoint_step},
+    {"sdirk2", "SDIRK2", 2, true, 0, sdirk2_step},
+    {"avf", "average vector field", 2, true, 0, avf_step},
+    {"avf4", "AVF, 4th order", 4, true, 0, avf4_step},
+    {NULL, NULL, 0, false, 0, NULL},
+};
+
+const IntegratorMethod *integrator_method(const char *name)
+{
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++)
+        if (strcmp(row->name, name) == 0)
+            return row;
+    return NULL;
+}
+
+/* A copy of an array, or NULL; with source NULL an array of zeros. */
+static double *copy_array(const double *source, size_t count)
+{
+    double *copy = calloc(count, sizeof *copy);
+    if (copy && source)
+        memcpy(copy, source, count * sizeof *copy);
+    return copy;
+}
+
+/* The Newton object that implicit methods need. */
+static Status create_newton(const NewtonSettings *settings,
+                            TimeIntegrator *integrator)
+{
+    integrator->newton = calloc(1, sizeof *integrator->newton);
+    if (!integrator->newton)
+        return STATUS_OUT_OF_MEMORY;
+    return newton_create(integrator->system, settings, integrator->newton);
+}
+
+/* Velocities and settings are numbers that a step can be made with. */
+static bool start_is_valid(const System *system, const NewtonSettings *settings,
+                           const double *v)
+{
+    for (int i = 0; i < 2 * system->nodes; i++)
+        if (!isfinite(v[i]))
+            return false;
+    return isfinite(settings->h) && settings->h > 0 && settings->tolerance > 0;
+}
+
+Status time_integrator_create(const IntegratorMethod *method,
+                              const System *system,
+                              const NewtonSettings *settings, const double *x,
+                              const double *v, TimeIntegrator *integrator)
+{
+    *integrator =
+        (TimeIntegrator){.method = method, .system = system, .h = settings->h};
+    if (system_check(system, x) || !start_is_valid(system, settings, v))
+        return STATUS_INVALID_INPUT;
+    size_t size = 2 * (size_t)system->nodes;
+    integrator->x = copy_array(x, size);
+    integrator->v = copy_array(v, size);
+    integrator->new_x = copy_array(NULL, size);
+    integrator->new_v = copy_array(NULL, size);
+    if (method->memory > 0)
+        integrator->memory = copy_array(NULL, size * (size_t)method->memory);
+    if (!integrator->x || !integrator->v || !integrator->new_x ||
+        !integrator->new_v || (method->memory > 0 && !integrator->memory))
+        return STATUS_OUT_OF_MEMORY;
+    return method->implicit ? create_newton(settings, integrator) : STATUS_OK;
+}
+
+void time_integrator_free(TimeIntegrator *integrator)
+{
+    if (!integrator)
+        return;
+    newton_free(integrator->newton);
+    free(integrator->newton);
+    free(integrator->x);
+    free(integrator->v);
+    free(integrator->new_x);
+    free(integrator->new_v);
+    free(integrator->memory);
+    *integrator = (TimeIntegrator){0};
+}
+
+Status time_integrator_step(TimeIntegrator *integrator)
+{
+    integrator->status = STATUS_OK;
+    Status failure = integrator->method->step(integrator);
+    if (failure)
+        return integrator->status = failure;
+    integrator->steps++;
+    if (integrator->status)
+        integrator->unconverged++;
+    return integrator->status;
+}
+
+Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
+                                double weight)
+{
+    integrator->newton->step = integrator->steps + 1;
+    Status status = newton_minimise(integrator->newton, x_n, weight);
+    if (!status_is_unconverged(status))
+        return status;
+    integrator->status = status;
+    return STATUS_OK;
+}
+
+Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
+                              const double *new_v)
+{
+    int size = 2 * integrator->system->nodes;
+    double sum = 0;
+    for (int i = 0; i < size; i++)
+        sum += 0 * new_x[i] + 0 * new_v[i];
+    if (!(sum == 0))
+        return STATUS_NOT_FINITE;
+    memcpy(integrator->x, new_x, (size_t)size * sizeof *new_x);
+    memcpy(integrator->v, new_v, (size_t)size * sizeof *new_v);
+    return STATUS_OK;
+}
+
+double time_integrator_time(const TimeIntegrator *integrator)
+{
+    return (double)integrator->steps * integrator->h;
+}

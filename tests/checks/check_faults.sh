@@ -1,0 +1,388 @@
+#!/bin/sh
+# What can go wrong around a run goes wrong: memory, files, signals, streams,
+# locales, screens, command lines.  Each must end as documented: the right exit
+# code, one line that says why, no half file under a final name.  FAULTS=all
+# tries everything (some minutes); else a selection of the slow ones.
+set -u
+failed=0
+elasto=$(realpath "${ELASTO:-build/elasto}")
+all=${FAULTS:-}
+here=$(realpath "$(dirname "$0")")
+
+# verdict NAME TRIED REASONS: one line for a test; reasons empty: it passed.
+verdict() {
+    if [ -z "$3" ]; then
+        echo "ok $1 ($2 tried)"
+    else
+        echo "not ok $1: $(printf '%s' "$3" | head -n 5 | tr '\n' ';')"
+        failed=1
+    fi
+}
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM
+cd "$work" || exit 1
+unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+
+# With sanitizers the faults are linked in, and leaks show; else they are
+# preloaded, and reach into the libraries.
+if [ -n "${SANITIZE:-}" ]; then
+    faulty=$elasto-faults
+    preload=
+else
+    faulty=$elasto
+    preload=$work/faults.so
+    "${CC:-cc}" -std=c11 -D_GNU_SOURCE -O1 -shared -fPIC "$here/faults.c" \
+        -o "$preload" -ldl || preload=
+fi
+
+# run_faulty KIND NUMBER ALL ARGUMENTS...: code in $code, lines in "error".
+run_faulty() {
+    kind=$1 at=$2 every=$3
+    shift 3
+    if [ -n "$every" ]; then
+        FAULT_ALL=1
+        export FAULT_ALL
+    else
+        unset FAULT_ALL
+    fi
+    timeout 60 env FAULT="$kind" FAULT_AT="$at" FAULT_FILE="$work/count" \
+        LD_PRELOAD="$preload" "$faulty" "$@" >out 2>error
+    code=$?
+}
+
+# The tables under their final names: what was there before, or whole ones of
+# so many nodes.
+check_table() { # name first-line nodes-or-0
+    [ -f "$1" ] || return 0
+    [ "$(cat "$1")" != old ] || return 0
+    [ "$(head -n 1 "$1" | cut -d, -f1-2)" = "$2" ] || echo "$1: first line"
+    [ "$(tail -c 1 "$1" | od -An -c | tr -d ' ')" = '\n' ] ||
+        echo "$1: ends within a line"
+    awk -F, -v name="$1" -v nodes="$3" 'NR == 1 { n = NF }
+        NF != n { bad = 1 }
+        END { if (bad || (nodes && (NR - 1) % nodes))
+                  print name ": half a table" }' "$1"
+}
+
+check_pictures() {
+    for picture in frames/*.png; do
+        [ -f "$picture" ] || continue
+        case $(head -c 8 "$picture" | od -An -tx1 | tr -d ' \n')$(tail -c 8 \
+            "$picture" | od -An -tx1 | tr -d ' \n') in
+        89504e470d0a1a0a49454e44ae426082) ;;
+        *) echo "$picture: half a picture" ;;
+        esac
+    done
+}
+
+check_files() {
+    check_table s.csv step,time 9
+    check_table l.csv step,iteration 0
+    check_pictures
+}
+
+begin_files() {
+    rm -rf frames s.csv.part l.csv.part
+    echo old >s.csv
+    echo old >l.csv
+}
+
+# Failure NUMBER of KIND: exit 1 and one line; and if what failed was not
+# needed, exit 0 and silence.
+check_fault() { # kind number all words arguments...
+    what="$1 $2${3:+ and on}"
+    words=$4
+    begin_files
+    kind=$1 number=$2 every=$3
+    shift 4
+    run_faulty "$kind" "$number" "$every" --headless --steps 2 --segments 2 \
+        --quiet --states s.csv --log l.csv "$@"
+    if [ "$code" -eq 1 ] && grep -q '^libgomp: Out of memory' error; then
+        : # its own line
+    elif [ "$code" -eq 1 ]; then
+        [ "$(wc -l <error)" -eq 1 ] ||
+            echo "$what: $(wc -l <error) lines: $(head -n 2 error)"
+        grep -qE "^elasto: .*($words)" error ||
+            echo "$what: $(head -n 1 error)"
+    elif [ "$code" -ne 0 ] || [ -s error ]; then
+        echo "$what: exit $code: $(tail -n 1 error)"
+    fi
+    check_files | sed "s|^|$what: |"
+}
+
+# Each call of a kind in turn.  words: what the one line must say.
+faults_of() { # name kind all words step arguments...
+    name=$1 kind=$2 every=$3 words=$4 stride=$5
+    shift 5
+    if [ -z "$preload" ] && [ -z "${SANITIZE:-}" ]; then
+        verdict "$name" 0 'the library of faults was not built'
+        return
+    fi
+    begin_files
+    run_faulty "$kind" 0 '' --headless --steps 2 --segments 2 --quiet \
+        --states s.csv --log l.csv "$@"
+    total=$(cat count)
+    [ -z "$all" ] || stride=1
+    at=1 tried=0 ended=0
+    : >reasons
+    while [ "$at" -le "$total" ]; do
+        check_fault "$kind" "$at" "$every" "$words" "$@" >>reasons
+        [ "$code" -eq 0 ] || ended=$((ended + 1))
+        at=$((at + stride))
+        tried=$((tried + 1))
+    done
+    [ "$ended" -gt 0 ] || echo "none of $total $kind faults was noticed" \
+        >>reasons
+    verdict "$name" "$tried" "$(cat reasons)"
+}
+
+# SDL reports every failure in the same way; OpenMP ends the program itself.
+memory='not enough memory|Cannot allocate memory|drawing failed'
+space='(s.csv|l.csv|frames/frame_00000..png): (No space left|Input/output)'
+slow=1
+[ -z "${SANITIZE:-}" ] || slow=7
+faults_of memory_fails_once memory '' "$memory" "$slow" --frames frames
+faults_of memory_fails_for_good memory 1 "$memory" "$slow"
+faults_of lagged_memory_fails memory '' "$memory" $((5 * slow)) \
+    --segments 20 --solver lagged
+faults_of files_do_not_open open '' '(s.csv|l.csv|frame_00000..png): Too many' \
+    1 --frames frames
+faults_of writes_fail_once write '' "$space" 1 --frames frames
+faults_of writes_fail_for_good write 1 "$space" "$slow" --frames frames
+faults_of closes_fail close '' "$space" 1 --frames frames
+faults_of renames_fail rename '' "$space" 1 --frames frames
+faults_of folders_cannot_be_made folder '' 'frames: No space left' 1 \
+    --frames frames
+
+# The system's own limit on the size of a file.
+limits() {
+    for size in 0 1 2 4 8; do
+        begin_files
+        (
+            trap '' XFSZ
+            ulimit -f "$size"
+            "$elasto" --headless --steps 40 --segments 2 --quiet \
+                --states s.csv --log l.csv --frames frames
+            echo $?
+        ) 2>&1 | cat >error
+        [ "$(tail -n 1 error)" = 1 ] || echo "limit $size: $(cat error)"
+        [ "$(wc -l <error)" -eq 2 ] || echo "limit $size: $(cat error)"
+        grep -q '^elasto: .*: File too large$' error ||
+            echo "limit $size: $(cat error)"
+        check_files
+    done
+}
+if [ -z "${SANITIZE:-}" ]; then
+    verdict file_size_limits 5 "$(limits)"
+fi
+
+# ---- signals ----------------------------------------------------------------
+milliseconds() {
+    echo $(($(date +%s%N) / 1000000))
+}
+
+# A pause of 0.1 ... LIMIT/1000 s, another one each time.
+random_pause() {
+    pauses=$((${pauses:-0} + 1))
+    sleep "$(awk -v seed="$((pauses * 7919 + $$))" -v limit="$1" \
+        'BEGIN { srand(seed); printf "%.3f", 0.1 + rand() * limit / 1000 }')"
+}
+
+# The slowest of some ends at 128 segments goes to "slowest".
+signals() {
+    : >ends
+    for round in $(seq "$1"); do
+        for name in INT TERM; do
+            rm -f s.csv l.csv
+            "$elasto" --headless --segments 128 --solver lagged --quiet \
+                --steps 100000 --log l.csv 2>error &
+            child=$!
+            random_pause 1500
+            start=$(milliseconds)
+            kill -s "$name" "$child"
+            wait "$child"
+            code=$?
+            echo $(($(milliseconds) - start)) >>ends
+            [ "$code" -eq 0 ] || echo "$name: exit $code: $(cat error)"
+            [ ! -s error ] || echo "$name: $(cat error)"
+            check_table l.csv step,iteration 0
+            [ -f l.csv ] || echo "$name, round $round: no log"
+        done
+    done
+    sort -n ends | awk -v limit="$2" '{ t[NR] = $1 }
+        END { if (t[int((NR + 1) / 2)] > limit)
+                  print "half of all ends take " t[int((NR + 1) / 2)] " ms" }'
+}
+rounds=2 limit=300
+[ -z "$all" ] || rounds=25
+[ -z "${SANITIZE:-}" ] || limit=3000
+verdict signals_end_the_run $((2 * rounds)) "$(signals "$rounds" "$limit")"
+echo "# slowest end: $(sort -n ends | tail -n 1) ms"
+
+# Whatever is killed: what stands under a final name is whole.
+kills() {
+    for round in $(seq "$1"); do
+        begin_files
+        "$elasto" --headless --segments 2 --quiet --steps 100000 \
+            --states s.csv --log l.csv --frames frames >out 2>&1 &
+        child=$!
+        sleep "0.0$((round * 7 % 90 + 10))"
+        kill -s KILL "$child"
+        wait "$child" 2>/dev/null
+        check_files
+    done
+}
+rounds=50
+[ -z "$all" ] || rounds=500
+verdict kills_leave_no_half_file "$rounds" "$(kills "$rounds" 2>/dev/null)"
+
+# ---- streams and locales ----------------------------------------------------
+closed_streams() {
+    run="$elasto --headless --steps 2 --segments 2"
+    $run --quiet <&- >&- 2>&- || echo "all closed, quiet: $?"
+    $run --quiet --states s.csv >&- || echo "output closed, quiet: $?"
+    check_table s.csv step,time 9
+    $run >&- 2>error
+    [ $? -eq 1 ] || echo "output closed: not 1"
+    grep -q '^elasto: standard output: ' error || echo "closed: $(cat error)"
+    rm -f s.csv
+    $run --states s.csv >&- 2>error # the table must not become the output
+    [ $? -eq 1 ] || echo "output closed, with a table: not 1"
+    check_table s.csv step,time 9
+    $run --states - >&- 2>error
+    [ $? -eq 1 ] || echo "states to a closed output: not 1"
+    $run --states s.csv 2>&- >out || echo "error closed: $?"
+    check_table s.csv step,time 9
+    $run --states nowhere/s.csv 2>&- >out
+    [ $? -eq 1 ] || echo "failure with error closed: not 1"
+}
+verdict streams_may_be_closed 7 "$(closed_streams)"
+
+# A parent may have left SIGPIPE ignored.
+reset_pipe=
+! env --default-signal=PIPE true 2>/dev/null ||
+    reset_pipe='env --default-signal=PIPE'
+broken_pipes() {
+    {
+        $reset_pipe "$elasto" --headless --steps 100000 --states - 2>error ||
+            echo $? >code
+    } | head -n 1 >/dev/null
+    [ "$(cat code)" = 1 ] || echo "exit $(cat code)"
+    [ "$(cat error)" = 'elasto: standard output: Broken pipe' ] || cat error
+}
+verdict broken_pipes_end_the_run 1 "$(broken_pipes)"
+
+locales() {
+    expected=$("$elasto" --headless --steps 3 --quiet --states - | cksum)
+    for name in de_DE.UTF-8 de_DE fr_FR.UTF-8 C.UTF-8 tr_TR.UTF-8 nonsense; do
+        got=$(LC_ALL=$name LANG=$name "$elasto" --headless --steps 3 --quiet \
+            --stiffness 1e5 --timestep 0.004 --states - | cksum)
+        [ "$got" = "$expected" ] || echo "$name: other numbers"
+    done
+}
+verdict locales_change_nothing 6 "$(locales)"
+
+# ---- command lines ----------------------------------------------------------
+lines=0
+: >reasons
+bad_line() { # words: each must be in the one line; then -- arguments...
+    words=
+    while [ "$1" != -- ]; do
+        words="$words$1
+"
+        shift
+    done
+    shift
+    lines=$((lines + 1))
+    "$elasto" "$@" >out 2>error
+    code=$?
+    [ "$code" -eq 2 ] || echo "$*: exit $code" >>reasons
+    [ "$(wc -l <error)" -eq 1 ] || echo "$*: $(wc -l <error) lines" >>reasons
+    [ ! -s out ] || echo "$*: something on standard output" >>reasons
+    printf '%s' "$words" | while IFS= read -r word; do
+        grep -qF -e "$word" error ||
+            echo "$*: no '$word' in: $(cat error)" >>reasons
+    done
+}
+
+for value in 0 -1 4097 1e3 1.5 x '' ' 3' '3 ' 0x10 nan inf 3a 3,0 + - \
+    99999999999999999999; do
+    bad_line --segments "'$value'" 'from 1 to 4096' -- --segments "$value"
+done
+for option in side density stiffness timestep tolerance; do
+    for value in 0 -1 -0 nan -nan inf -inf x '' ' 1' '1 ' 1e999 -1e999 1e-999 \
+        1,5 1..5 1e 1e5x 1m -- 0x 1_000 NaN INFINITY; do
+        bad_line "--$option" "'$value'" 'finite number above 0' -- \
+            "--$option=$value"
+    done
+done
+for value in nan inf -inf x '' ' 1' '1 ' 1e999 1,5 1e '1.4 m'; do
+    bad_line --stretch "'$value'" 'finite number' -- "--stretch=$value"
+done
+for value in -1 1.5 x '' 1e3 ' 1' '1 ' nan 99999999999999999999; do
+    bad_line --steps "'$value'" 'whole number of 0 or more' -- \
+        "--steps=$value"
+done
+for option in integrator solver filter line-search; do
+    for value in x '' NEWTON 'clamp ' 0 newton,lagged; do
+        bad_line "--$option" "'$value'" 'none of: ' -- "--$option=$value"
+    done
+done
+for value in x '' 1 '1,' ',1' 1,2,3 nan,1 1,inf '1, 2' '1;2'; do
+    bad_line --start "'$value'" 'X,Y' -- landscape "--start=$value"
+done
+for option in segments side density stiffness timestep stretch tolerance \
+    integrator solver filter line-search steps frames states log; do
+    bad_line "--$option" missing -- "--$option"
+done
+for option in frames states log; do
+    bad_line "--$option" empty -- "--$option="
+done
+for line in --nonsense --segment5 -x --no-headless --SEGMENTS; do
+    bad_line "$line" --help -- "$line"
+done
+for scene in nowhere SQUARE square2 ''; do
+    bad_line "'$scene'" --list -- "$scene"
+done
+bad_line "'circle'" 'one scene' -- square circle
+bad_line --segments "'circle'" 'no square' -- circle --segments 3
+bad_line --filter "'circle'" 'no springs' -- circle --filter none
+bad_line --solver "'overshoot'" 'no springs' -- overshoot --solver lagged
+bad_line --tolerance "'circle'" 'no minimum' -- circle --tolerance 1
+bad_line --line-search "'circle'" 'no minimum' -- circle --line-search none
+bad_line --timestep "'overshoot'" 'no time' -- overshoot --timestep 1
+bad_line --integrator "'landscape'" 'no time' -- landscape --integrator avf
+bad_line --start "'square'" 'no start' -- square --start 1,1
+bad_line --integrator "'overshoot'" 'no time' -- overshoot --integrator bdf2
+bad_line --start "'square'" 'no start' -- --start 1,2
+verdict bad_lines_are_refused "$lines" "$(cat reasons)"
+
+# ---- screens ----------------------------------------------------------------
+no_screen() { # what variable=value...
+    what=$1
+    shift
+    rm -rf frames
+    # Libraries below SDL leak when it looks for a screen.
+    env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" "$@" \
+        timeout 60 "$elasto" --steps 2 --quiet >out 2>error
+    code=$?
+    [ "$code" -eq 0 ] || echo "$what: exit $code"
+    [ "$(grep -c '^no screen: .*frames/$' error)" -eq 1 ] ||
+        echo "$what: $(cat error)"
+    [ "$(wc -l <error)" -eq 1 ] || echo "$what: $(cat error)"
+    [ "$(find frames -name '*.png' | wc -l)" -eq 3 ] || echo "$what: frames"
+    check_pictures
+}
+screens() {
+    no_screen 'no DISPLAY' A=1
+    no_screen 'dead DISPLAY' DISPLAY=:77
+    no_screen 'nonsense DISPLAY' DISPLAY=nonsense
+    no_screen dummy SDL_VIDEODRIVER=dummy
+    no_screen offscreen SDL_VIDEODRIVER=offscreen
+    no_screen 'nonsense driver' SDL_VIDEODRIVER=nonsense
+}
+verdict screens_may_be_missing 6 "$(screens)"
+
+exit $failed

@@ -1,0 +1,176 @@
+#!/bin/sh
+# The sources keep the rules of the house: short functions and lines, headers
+# that compile alone, rooms that look down only, and a table in the README that
+# names what there is.
+set -u
+failed=0
+
+# From the ground up; a room uses itself and those before it.
+rooms='base model solve step scenes picture play bench'
+headers=$(echo include/*/*.h src/*/*.h)
+files=$(echo src/*.c src/*/*.c tests/*/*.[ch])
+files="$headers $files"
+
+. "$(dirname "$0")/verdict.sh"
+
+temporary=$(mktemp -d) || exit 1
+trap 'rm -rf "$temporary"' EXIT
+
+# Function bodies begin and end with a brace in column 1.
+functions_longer_than() { # limit file...
+    limit=$1
+    shift
+    awk -v limit="$limit" '
+        /^[A-Za-z].*\(/ { head = FNR; name = $0 }
+        /^{/ { body = 1; if (!head) head = FNR }
+        /^}/ {
+            if (body && FNR - head + 1 > limit)
+                print FILENAME ": " name " has " FNR - head + 1 " lines"
+            body = 0; head = 0
+        }' "$@"
+}
+
+verdict functions_have_at_most_60_lines \
+    "$(functions_longer_than 60 $files)"
+
+# The same check on a function that is too long.
+{
+    echo 'void long_one(void)'
+    echo '{'
+    yes '    f();' | head -58
+    echo '}'
+} >"$temporary/long.c"
+verdict a_function_of_61_lines_is_found \
+    "$([ -n "$(functions_longer_than 60 "$temporary/long.c")" ] ||
+        echo 'not found')"
+verdict a_function_of_61_lines_may_have_61 \
+    "$(functions_longer_than 61 "$temporary/long.c")"
+
+verdict lines_have_at_most_80_columns "$(awk '
+    length($0) > 80 { print FILENAME ":" FNR ": " length($0) " columns" }
+    ' $files)"
+
+verdict no_tabs_nor_trailing_blanks \
+    "$(grep -nE "$(printf '\t')|[[:space:]]\$" $files | cut -c 1-60)"
+
+# Each header, compiled with nothing before it.
+headers_alone() {
+    for header in $headers; do
+        printf '#include "%s"\n#include "%s"\n' "${header#*/}" "${header#*/}" \
+            >"$temporary/alone.c"
+        # shellcheck disable=SC2086
+        ${CC:-cc} -std=c11 -D_GNU_SOURCE -Wall -Wextra -Werror -Iinclude -Isrc \
+            ${DEP_CFLAGS:-} -fsyntax-only "$temporary/alone.c" \
+            >"$temporary/log" 2>&1 || head -n 1 "$temporary/log"
+    done
+}
+verdict headers_compile_alone "$(headers_alone)"
+
+guards() {
+    for header in $headers; do
+        name=$(basename "$header" .h | tr 'a-z' 'A-Z')
+        grep -q "^#ifndef ELASTO_${name}_H\$" "$header" || echo "$header"
+    done
+}
+verdict headers_have_guards "$(guards)"
+
+# The floor of a file: the number of its room, or of the programs above them.
+floor() { # room/file, or file
+    number=0
+    for room in $rooms; do
+        number=$((number + 1))
+        case $1 in
+        "$room"/*) break ;;
+        esac
+    done
+    case $1 in
+    */*) [ "${1%%/*}" = "$room" ] || number=0 ;;
+    *) number=9 ;;
+    esac
+    echo "$number"
+}
+
+includes_looking_up() {
+    for file in $headers src/*.c src/*/*.c; do
+        own=$(floor "${file#*/}")
+        [ "$own" != 0 ] || echo "$file stands in no room"
+        for used in $(sed -n 's/^#include "\(.*\)"/\1/p' "$file"); do
+            case $used in
+            */*) ;;
+            *) echo "$file includes $used without its room" ;;
+            esac
+            [ "$(floor "$used")" -le "$own" ] || echo "$file includes $used"
+        done
+    done
+}
+verdict no_room_looks_up "$(includes_looking_up)"
+
+# include/ has what other rooms use, or their headers; the rest stays beside
+# its source.
+verdict headers_of_one_room_stay_in_it "$(
+    for header in include/*/*.h; do
+        name=${header#include/}
+        grep -lF "#include \"$name\"" $headers src/*.c src/*/*.c |
+            grep -qvE "^src/${name%%/*}/" || echo "$header"
+    done)"
+
+# The numeric core: no printing, no exit, no SDL, no variables of its own.
+core_files() {
+    for room in base model solve step; do
+        echo src/"$room"/*.c
+    done
+}
+# shellcheck disable=SC2046
+verdict the_core_neither_prints_nor_exits \
+    "$(grep -nE '\b(printf|puts|fprintf|putchar|perror|exit|abort)\(|SDL' \
+        $(core_files))"
+# shellcheck disable=SC2046
+verdict the_core_has_no_globals \
+    "$(grep -nE '^(static )?[A-Za-z_]+ \**[a-z_]+(\[.*\])?( = .*)?;' \
+        $(core_files) | grep -v const)"
+
+# Rows of the README's table: | slide | `file` | `function`, `function` |
+table_rows() {
+    sed -nE 's/^\|[^|]*\| *`([a-z_]+\.[ch])`[^|]*\|([^|]*)\|.*/\1 \2/p' "$1" |
+        tr -d '`,()'
+}
+
+names_missing() {
+    table_rows "$1" | while read -r file names; do
+        path=$(find src include -name "$file")
+        [ -f "$path" ] || echo "$file does not exist, or twice"
+        for name in $names; do
+            grep -qE "(^|[ *])$name\(" "$path" 2>/dev/null ||
+                echo "$file has no $name"
+        done
+    done
+    [ -n "$(table_rows "$1")" ] || echo "no table found"
+}
+if [ -f README.md ]; then
+    verdict the_readme_names_what_there_is "$(names_missing README.md)"
+else
+    verdict the_readme_names_what_there_is "there is no README.md"
+fi
+printf '| slide | `psd.c` | `make_psd`, `make_ppsd` |\n' >"$temporary/README"
+verdict a_wrong_name_in_the_table_is_found \
+    "$([ "$(names_missing "$temporary/README")" = 'psd.c has no make_ppsd' ] ||
+        echo 'not found')"
+
+# Each fault of the list stands in its source exactly once.
+faults_elsewhere() {
+    awk -F ' @@ ?' '!/^#/ && NF > 1 {
+        count = 0
+        while ((getline text < $1) > 0)
+            while ((at = index(text, $2)) > 0) {
+                count++
+                text = substr(text, at + length($2))
+            }
+        close($1)
+        if (count != 1)
+            print $1 ": " $2 ": " count " times"
+    }' "$1"
+}
+verdict mutants_stand_where_the_list_says \
+    "$(faults_elsewhere tests/data/mutants.txt)"
+
+exit $failed

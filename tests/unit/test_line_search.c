@@ -1,0 +1,179 @@
+/* The energy along a line as a quartic, and backtracking on it. */
+#include "testing.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "solve/line_search.h"
+
+/* E(x + alpha p) - E(x), both summed in extended precision. */
+static long double energy_difference(const IncrementalPotential *E,
+                                     const double *u, const double *x,
+                                     const double *p, double alpha)
+{
+    double u_new[MAX_SIZE], x_new[MAX_SIZE];
+    for (int i = 0; i < 2 * E->system->nodes; i++) {
+        u_new[i] = u[i] + alpha * p[i];
+        x_new[i] = x[i] + alpha * p[i];
+    }
+    return exact_energy(E, u_new, x_new, -1, -1).f -
+           exact_energy(E, u, x, -1, -1).f;
+}
+
+/* Coordinates on a grid of 2^-20 and steps of 2^-k: x + alpha p is exact, so
+ * only the sums round.  1e-13 of the largest coefficient: some hundred
+ * roundings. */
+static void check_quartic(SpringState state, bool pinned)
+{
+    Random random = {20 + (uint64_t)state};
+    for (int trial = 0; trial < 50; trial++) {
+        System system;
+        double x[MAX_SIZE], p[MAX_SIZE], u[MAX_SIZE], u_tilde[MAX_SIZE];
+        double g[MAX_SIZE];
+        random_system(&random, state, &system, x);
+        system.omega2 = random_uniform(&random, 0, 3);
+        if (pinned) {
+            system.pinned = calloc((size_t)system.nodes, 1);
+            system.pinned[0] = 1;
+        }
+        for (int i = 0; i < 2 * system.nodes; i++) {
+            x[i] = ldexp(round(ldexp(x[i], 20)), -20);
+            p[i] = ldexp(round(ldexp(random_uniform(&random, -1, 1), 10)), -10);
+            u[i] = ldexp(round(ldexp(random_uniform(&random, -1, 1), 10)), -10);
+            u_tilde[i] = random_uniform(&random, -1, 1);
+            if (pinned && i < 2)
+                p[i] = 0;
+        }
+        IncrementalPotential E = {
+            .system = &system, .weight = 0.7, .x_n = x, .u_tilde = u_tilde};
+        incremental_potential_gradient(&E, u, x, g);
+        Quartic along = incremental_potential_along(&E, u, x, g, p);
+        double scale = fabs(along.q[0]) + fabs(along.q[1]) + fabs(along.q[2]) +
+                       fabs(along.q[3]);
+        for (int i = -2; i < 10; i++) {
+            double alpha = ldexp(1, -i);
+            CHECK_NEAR(quartic_value(&along, alpha),
+                       energy_difference(&E, u, x, p, alpha),
+                       1e-13 * scale * alpha * (1 + pow(alpha, 3)));
+        }
+        system_free(&system);
+    }
+}
+
+static void quartic_is_the_energy_of_stretched_springs(void **unused)
+{
+    (void)unused;
+    check_quartic(SPRINGS_STRETCHED, false);
+}
+
+static void quartic_is_the_energy_of_compressed_springs(void **unused)
+{
+    (void)unused;
+    check_quartic(SPRINGS_COMPRESSED, false);
+    check_quartic(SPRINGS_SHORT, false);
+}
+
+static void quartic_is_the_energy_of_mixed_springs(void **unused)
+{
+    (void)unused;
+    check_quartic(SPRINGS_MIXED, false);
+}
+
+static void quartic_is_the_energy_with_pins(void **unused)
+{
+    (void)unused;
+    check_quartic(SPRINGS_MIXED, true);
+}
+
+static void quartic_value_is_the_polynomial(void **unused)
+{
+    (void)unused;
+    const Quartic quartic = {{1, -2, 3, -5}};
+    CHECK(quartic_value(&quartic, 0) == 0);
+    CHECK(quartic_value(&quartic, 1) == -3);
+    CHECK(quartic_value(&quartic, 2) == 2 - 8 + 24 - 80);
+    CHECK(quartic_value(&quartic, -0.5) == -0.5 - 0.5 - 0.375 - 0.3125);
+}
+
+/* What a search saw. */
+typedef struct Probe {
+    double limit; /* alphas below it do not raise the energy */
+    double at_limit;
+    int calls;
+    double last;
+} Probe;
+
+static double probe_difference(const void *function, double alpha)
+{
+    Probe *probe = *(Probe *const *)function;
+    probe->calls++;
+    probe->last = alpha;
+    return alpha <= probe->limit ? probe->at_limit : 1;
+}
+
+/* The first of 1, 1/2, 1/4, ... that does not raise the energy. */
+static void backtracking_takes_the_first_halving(void **unused)
+{
+    (void)unused;
+    for (int halvings = 0; halvings <= LINE_SEARCH_MAX_HALVINGS; halvings++)
+        for (int equal = 0; equal < 2; equal++) {
+            Probe probe = {ldexp(1, -halvings), equal ? 0 : -1, 0, 0};
+            Probe *pointer = &probe;
+            double alpha;
+            int trials;
+            CHECK_STATUS(line_search_backtrack(probe_difference, &pointer,
+                                               &alpha, &trials),
+                         STATUS_OK);
+            CHECK(alpha == ldexp(1, -halvings) && probe.last == alpha);
+            CHECK(trials == halvings + 1 && probe.calls == trials);
+        }
+}
+
+static void backtracking_gives_up(void **unused)
+{
+    (void)unused;
+    Probe probe = {ldexp(1, -65), -1, 0, 0};
+    Probe *pointer = &probe;
+    double alpha;
+    int trials;
+    CHECK_STATUS(
+        line_search_backtrack(probe_difference, &pointer, &alpha, &trials),
+        STATUS_LINE_SEARCH_LIMIT);
+    CHECK(alpha == 0 && trials == 65 && probe.calls == 65);
+    CHECK(probe.last == ldexp(1, -64));
+}
+
+/* NaN for alpha > 1/4, and always. */
+static double nan_difference(const void *function, double alpha)
+{
+    return alpha > *(const double *)function ? NAN : -1;
+}
+
+static void nan_is_not_lower(void **unused)
+{
+    (void)unused;
+    double limit = 0.25, alpha;
+    int trials;
+    CHECK_STATUS(line_search_backtrack(nan_difference, &limit, &alpha, &trials),
+                 STATUS_OK);
+    CHECK(alpha == 0.25 && trials == 3);
+    limit = 0;
+    CHECK_STATUS(line_search_backtrack(nan_difference, &limit, &alpha, &trials),
+                 STATUS_LINE_SEARCH_LIMIT);
+    CHECK(alpha == 0 && trials == 65);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quartic_is_the_energy_of_stretched_springs),
+        cmocka_unit_test(quartic_is_the_energy_of_compressed_springs),
+        cmocka_unit_test(quartic_is_the_energy_of_mixed_springs),
+        cmocka_unit_test(quartic_is_the_energy_with_pins),
+        cmocka_unit_test(quartic_value_is_the_polynomial),
+        cmocka_unit_test(backtracking_takes_the_first_halving),
+        cmocka_unit_test(backtracking_gives_up),
+        cmocka_unit_test(nan_is_not_lower),
+    };
+    return cmocka_run_group_tests_name("line search", tests, NULL, NULL);
+}

@@ -1,0 +1,172 @@
+/* The program against the slides' own: six trajectories of the lecture's
+ * Python code, in tests/data/reference.
+ */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 400 };
+
+/* One file of Newton updates, and our own beside it. */
+typedef struct Updates {
+    int count;
+    long step[ROWS];
+    int iteration[ROWS];
+    double residual[ROWS], alpha[ROWS];
+} Updates;
+
+static FILE *reference_file(const char *name, const char *kind)
+{
+    char path[128], header[128];
+    snprintf(path, sizeof path, "tests/data/reference/%s.%s.csv", name, kind);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        print_error("%s: run this from the top of the project\n", path);
+    CHECK(file != NULL);
+    CHECK(fgets(header, sizeof header, file) != NULL);
+    return file;
+}
+
+static void read_updates(const char *name, Updates *updates)
+{
+    FILE *file = reference_file(name, "newton");
+    int i = 0;
+    while (i < ROWS && fscanf(file, "%ld,%d,%lf,%lf", &updates->step[i],
+                              &updates->iteration[i], &updates->residual[i],
+                              &updates->alpha[i]) == 4)
+        i++;
+    CHECK(i > 0 && i < ROWS && feof(file));
+    updates->count = i;
+    fclose(file);
+}
+
+static bool record_update(void *user, const NewtonRecord *record)
+{
+    Updates *updates = user;
+    int i = updates->count < ROWS ? updates->count++ : ROWS - 1;
+    updates->step[i] = record->step;
+    updates->iteration[i] = record->iteration;
+    updates->residual[i] = record->residual;
+    updates->alpha[i] = record->alpha;
+    return true;
+}
+
+/* The same updates in the same steps with the same alpha; residuals to 1e-8:
+ * those near the end of a step are differences of nearly equal numbers. */
+static void check_updates(const Updates *got, const Updates *expected)
+{
+    CHECK_NEAR(got->count, expected->count, 0);
+    for (int i = 0; i < got->count; i++) {
+        CHECK_NEAR(got->step[i], expected->step[i], 0);
+        CHECK_NEAR(got->iteration[i], expected->iteration[i], 0);
+        CHECK_NEAR(got->alpha[i], expected->alpha[i], 0);
+        CHECK_NEAR(got->residual[i], expected->residual[i],
+                   1e-8 * expected->residual[i]);
+    }
+}
+
+/* A disturbance of 1e-12 grows about tenfold: 1e-9 m is what another order of
+ * the sums may do, not another algorithm.  Velocities: 1e-9 of the largest. */
+static void check_states(FILE *file, const Simulation *simulation,
+                         double largest_v)
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    for (int i = 0; i < run->system->nodes; i++) {
+        long step;
+        int node;
+        double t, x[2], v[2];
+        CHECK(fscanf(file, "%ld,%lf,%d,%lf,%lf,%lf,%lf", &step, &t, &node,
+                     &x[0], &x[1], &v[0], &v[1]) == 7);
+        CHECK(step == simulation->steps && node == i);
+        CHECK_NEAR(simulation_time(simulation), t, 1e-12);
+        for (int axis = 0; axis < 2; axis++) {
+            CHECK_NEAR(run->x[2 * i + axis], x[axis], 1e-9);
+            CHECK_NEAR(run->v[2 * i + axis], v[axis], 1e-9 * largest_v);
+        }
+    }
+}
+
+/* The largest component of a velocity in the file. */
+static double largest_velocity(const char *name)
+{
+    FILE *file = reference_file(name, "states");
+    double largest = 0, v[2];
+    while (fscanf(file, "%*d,%*f,%*d,%*f,%*f,%lf,%lf", &v[0], &v[1]) == 2)
+        largest = fmax(largest, fmax(fabs(v[0]), fabs(v[1])));
+    CHECK(largest > 0 && feof(file));
+    fclose(file);
+    return largest;
+}
+
+static void check_case(const char *name, const char *line, int steps)
+{
+    static Updates got, expected;
+    Simulation simulation;
+    got.count = 0;
+    read_updates(name, &expected);
+    double largest_v = largest_velocity(name);
+    FILE *file = reference_file(name, "states");
+    simulation_from_line(line, record_update, &got, &simulation);
+    check_states(file, &simulation, largest_v);
+    for (int step = 0; step < steps; step++) {
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        check_states(file, &simulation, largest_v);
+    }
+    CHECK(fscanf(file, " %*c") == EOF); /* nothing is left */
+    check_updates(&got, &expected);
+    CHECK(simulation_counters(&simulation).iterations == expected.count);
+    fclose(file);
+    simulation_free(&simulation);
+}
+
+static void default_scene(void **unused)
+{
+    (void)unused;
+    check_case("default", "square", 50);
+}
+
+static void one_cell(void **unused)
+{
+    (void)unused;
+    check_case("one_cell", "--segments 1", 60);
+}
+
+static void gentle_8(void **unused)
+{
+    (void)unused;
+    check_case("gentle_8", "--segments 8 --stretch 1.1", 25);
+}
+
+static void compressed(void **unused)
+{
+    (void)unused;
+    check_case("compressed", "--stretch 0.5 --timestep 0.02", 25);
+}
+
+static void stiff_large_step(void **unused)
+{
+    (void)unused;
+    check_case("stiff_large_step",
+               "--segments 3 --stiffness 1e8 --stretch 2.5 --timestep 0.1", 20);
+}
+
+static void squashed(void **unused)
+{
+    (void)unused;
+    check_case("squashed",
+               "--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3",
+               15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(default_scene), cmocka_unit_test(one_cell),
+        cmocka_unit_test(gentle_8),      cmocka_unit_test(compressed),
+        cmocka_unit_test(squashed),      cmocka_unit_test(stiff_large_step),
+    };
+    return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
+}

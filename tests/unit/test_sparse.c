@@ -1,0 +1,335 @@
+/* Triplets, compressed columns and the slot map, against dense matrices; and
+ * the assembly of the Hessian through them.
+ */
+#include "testing.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "model/mass_spring_energy.h"
+
+enum { SIZE = 9, TRIPLETS = 60 };
+
+/* Random places and values; row and column 4 stay empty.  The dense matrix
+ * gets the mirror image of what is off the diagonal. */
+static void random_triplets(Random *random, Triplets *triplets, double *value,
+                            double *dense)
+{
+    CHECK_STATUS(triplets_create(SIZE, TRIPLETS, triplets), STATUS_OK);
+    for (int i = 0; i < SIZE * SIZE; i++)
+        dense[i] = 0;
+    while (triplets->count < TRIPLETS) {
+        int r = random_below(random, SIZE), c = random_below(random, SIZE);
+        if (r == 4 || c == 4)
+            continue;
+        /* small whole numbers: sums are exact in any order */
+        double v = random_below(random, 100) - 50;
+        value[triplets->count] = v;
+        triplets_add(triplets, r, c);
+        dense[SIZE * r + c] += v;
+        if (r != c)
+            dense[SIZE * c + r] += v;
+    }
+}
+
+static void check_structure(const Sparse *A)
+{
+    CHECK(A->start[0] == 0 && A->start[A->size] == A->entries);
+    for (int c = 0; c < A->size; c++) {
+        CHECK(A->start[c] <= A->start[c + 1]);
+        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+            CHECK(A->triangle == TRIANGLE_LOWER ? A->row[s] >= c
+                                                : A->row[s] <= c);
+            CHECK(s == A->start[c] || A->row[s] > A->row[s - 1]);
+        }
+    }
+}
+
+static void check_random_triangle(Triangle triangle)
+{
+    Random random = {(uint64_t)triangle + 1};
+    for (int trial = 0; trial < 50; trial++) {
+        Triplets triplets;
+        Sparse A;
+        int slot[TRIPLETS];
+        double value[TRIPLETS], dense[SIZE * SIZE], got[SIZE * SIZE];
+        random_triplets(&random, &triplets, value, dense);
+        CHECK_STATUS(sparse_create(&triplets, triangle, &A, slot), STATUS_OK);
+        CHECK(A.size == SIZE && A.triangle == triangle);
+        check_structure(&A);
+        CHECK(A.start[4] == A.start[5]);
+        for (int t = 0; t < TRIPLETS; t++)
+            A.value[slot[t]] += value[t];
+        dense_from_sparse(&A, got);
+        CHECK_SAME_BITS(got, dense, SIZE * SIZE);
+        sparse_free(&A);
+        triplets_free(&triplets);
+    }
+}
+
+static void lower_triangle_is_the_dense_matrix(void **unused)
+{
+    (void)unused;
+    check_random_triangle(TRIANGLE_LOWER);
+}
+
+static void upper_triangle_is_the_dense_matrix(void **unused)
+{
+    (void)unused;
+    check_random_triangle(TRIANGLE_UPPER);
+}
+
+static void multiply_is_dense_multiply(void **unused)
+{
+    (void)unused;
+    Random random = {3};
+    for (int triangle = 0; triangle < 2; triangle++) {
+        Triplets triplets;
+        Sparse A;
+        int slot[TRIPLETS];
+        double value[TRIPLETS], dense[SIZE * SIZE], x[SIZE], y[SIZE];
+        random_triplets(&random, &triplets, value, dense);
+        sparse_create(&triplets, (Triangle)triangle, &A, slot);
+        for (int t = 0; t < TRIPLETS; t++)
+            A.value[slot[t]] += value[t];
+        for (int i = 0; i < SIZE; i++)
+            x[i] = random_below(&random, 100) - 50;
+        sparse_multiply(&A, x, y);
+        for (int r = 0; r < SIZE; r++) {
+            double sum = 0; /* whole numbers: exact */
+            for (int c = 0; c < SIZE; c++)
+                sum += dense[SIZE * r + c] * x[c];
+            CHECK_NEAR(y[r], sum, 0);
+        }
+        sparse_clear(&A);
+        for (int s = 0; s <= A.entries; s++)
+            CHECK(A.value[s] == 0);
+        sparse_free(&A);
+        triplets_free(&triplets);
+    }
+}
+
+static void duplicates_share_a_slot(void **unused)
+{
+    (void)unused;
+    Triplets triplets;
+    Sparse A;
+    int slot[5];
+    CHECK_STATUS(triplets_create(3, 5, &triplets), STATUS_OK);
+    triplets_add(&triplets, 2, 0);
+    triplets_add(&triplets, 0, 2);
+    triplets_add(&triplets, 1, 1);
+    triplets_add(&triplets, 2, 0);
+    triplets_add(&triplets, 0, 0);
+    CHECK_STATUS(sparse_create(&triplets, TRIANGLE_LOWER, &A, slot), STATUS_OK);
+    CHECK(A.entries == 3);
+    CHECK(slot[0] == slot[1] && slot[0] == slot[3]);
+    CHECK(slot[4] == 0 && slot[0] == 1 && slot[2] == 2);
+    sparse_free(&A);
+    triplets_free(&triplets);
+}
+
+static void empty_matrix_is_possible(void **unused)
+{
+    (void)unused;
+    Triplets triplets;
+    Sparse A;
+    int slot[1];
+    CHECK_STATUS(triplets_create(4, 1, &triplets), STATUS_OK);
+    CHECK_STATUS(sparse_create(&triplets, TRIANGLE_UPPER, &A, slot), STATUS_OK);
+    CHECK(A.entries == 0 && A.start[4] == 0);
+    sparse_free(&A);
+    triplets_free(&triplets);
+}
+
+static void too_large_is_refused(void **unused)
+{
+    (void)unused;
+    Triplets triplets;
+    CHECK_STATUS(triplets_create(4, INT_MAX, &triplets), STATUS_TOO_LARGE);
+    triplets_free(&triplets);
+    CHECK_STATUS(triplets_create(4, 1LL << 40, &triplets), STATUS_TOO_LARGE);
+    triplets_free(&triplets);
+    CHECK_STATUS(triplets_create(4, 0, &triplets), STATUS_TOO_LARGE);
+    triplets_free(&triplets);
+    CHECK_STATUS(triplets_create(0, 4, &triplets), STATUS_TOO_LARGE);
+    triplets_free(&triplets);
+    System system = {.nodes = 4, .springs = INT_MAX / SPRING_ENTRIES};
+    CHECK_STATUS(incremental_potential_pattern(&system, &triplets),
+                 STATUS_TOO_LARGE);
+    triplets_free(&triplets);
+    triplets_free(NULL);
+    sparse_free(NULL);
+}
+
+/* A Hessian of random springs, assembled through slots. */
+typedef struct Assembly {
+    System system;
+    double x[MAX_SIZE];
+    int slot[MAX_SIZE + SPRING_ENTRIES * MAX_SPRINGS];
+    Triplets triplets;
+    Sparse A;
+    IncrementalPotential E;
+} Assembly;
+
+static void assembly_create(Random *random, bool ordered, int pinned,
+                            Triangle triangle, Assembly *assembly)
+{
+    System *system = &assembly->system;
+    random_system(random, SPRINGS_MIXED, system, assembly->x);
+    system->omega2 = 2;
+    size_t n = (size_t)system->nodes;
+    if (ordered) { /* 1, 2, ..., 0 */
+        system->order = calloc(n, sizeof *system->order);
+        for (int i = 0; i < system->nodes; i++)
+            system->order[i] = (i + 1) % system->nodes;
+    }
+    if (pinned >= 0) {
+        system->pinned = calloc(n, 1);
+        system->pinned[pinned] = 1;
+    }
+    assembly->E = (IncrementalPotential){.system = system, .weight = 0.5};
+    CHECK_STATUS(incremental_potential_pattern(system, &assembly->triplets),
+                 STATUS_OK);
+    CHECK(assembly->triplets.count ==
+          2 * system->nodes + SPRING_ENTRIES * system->springs);
+    CHECK_STATUS(sparse_create(&assembly->triplets, triangle, &assembly->A,
+                               assembly->slot),
+                 STATUS_OK);
+    incremental_potential_drop_pinned(system, &assembly->A, assembly->slot);
+}
+
+static void assembly_free(Assembly *assembly)
+{
+    triplets_free(&assembly->triplets);
+    sparse_free(&assembly->A);
+    system_free(&assembly->system);
+}
+
+/* Entry (row, column) of the dense Hessian, found through the order. */
+static double assembled(const Assembly *assembly, const double *dense, int row,
+                        int column)
+{
+    const int *order = assembly->system.order;
+    int size = assembly->A.size;
+    if (order) {
+        row = 2 * order[row / 2] + row % 2;
+        column = 2 * order[column / 2] + column % 2;
+    }
+    return dense[size * row + column];
+}
+
+/* 1e-14 of the largest entry: sums of at most forty terms. */
+static void check_assembly(bool ordered, Filter filter, Triangle triangle)
+{
+    Random random = {5 + (uint64_t)filter};
+    for (int trial = 0; trial < 20; trial++) {
+        Assembly a;
+        double dense[MAX_SIZE * MAX_SIZE];
+        long double exact[MAX_SIZE * MAX_SIZE], largest = 0;
+        assembly_create(&random, ordered, -1, triangle, &a);
+        int size = a.A.size, short_springs = 0;
+        for (int s = 0; s < a.system.springs; s++) {
+            const double *xi = a.x + 2 * a.system.e[2 * s];
+            const double *xj = a.x + 2 * a.system.e[2 * s + 1];
+            short_springs +=
+                pow(xi[0] - xj[0], 2) + pow(xi[1] - xj[1], 2) < a.system.l2[s];
+        }
+        int projected =
+            incremental_potential_hessian(&a.E, a.x, a.x, filter, a.slot, &a.A);
+        CHECK(projected == (filter == FILTER_CLAMP ? short_springs : 0));
+        dense_from_sparse(&a.A, dense);
+        exact_hessian(&a.E, a.x, filter == FILTER_CLAMP, exact);
+        for (int i = 0; i < size * size; i++)
+            largest = fmaxl(largest, fabsl(exact[i]));
+        for (int i = 0; i < size * size; i++)
+            CHECK_NEAR(assembled(&a, dense, i / size, i % size), exact[i],
+                       1e-14L * largest);
+        assembly_free(&a);
+    }
+}
+
+static void assembly_is_the_formula(void **unused)
+{
+    (void)unused;
+    check_assembly(false, FILTER_NONE, TRIANGLE_UPPER);
+    check_assembly(false, FILTER_CLAMP, TRIANGLE_LOWER);
+    check_assembly(true, FILTER_NONE, TRIANGLE_LOWER);
+    check_assembly(true, FILTER_CLAMP, TRIANGLE_UPPER);
+}
+
+/* slot NULL: entry t of the triplets; summed by hand at its row and column. */
+static void plain_triplets_sum_to_the_same(void **unused)
+{
+    (void)unused;
+    Random random = {8};
+    for (int trial = 0; trial < 10; trial++) {
+        Assembly a;
+        double by_hand[MAX_SIZE * MAX_SIZE] = {0};
+        double dense[MAX_SIZE * MAX_SIZE];
+        double value[SPRING_ENTRIES * MAX_SPRINGS] = {0};
+        assembly_create(&random, trial % 2, -1, TRIANGLE_UPPER, &a);
+        int size = a.A.size;
+        const System *system = &a.system;
+        mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
+                                   system->k, 1, FILTER_CLAMP, NULL, value);
+        for (int t = 0; t < SPRING_ENTRIES * system->springs; t++) {
+            int r = a.triplets.row[size + t], c = a.triplets.column[size + t];
+            by_hand[size * r + c] += value[t];
+            if (r != c)
+                by_hand[size * c + r] += value[t];
+        }
+        mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
+                                   system->k, 1, FILTER_CLAMP, a.slot + size,
+                                   a.A.value);
+        dense_from_sparse(&a.A, dense);
+        for (int i = 0; i < size * size; i++) /* another order of the sum */
+            CHECK_NEAR(dense[i], by_hand[i], 1e-13 * (1 + fabs(by_hand[i])));
+        assembly_free(&a);
+    }
+}
+
+/* A pinned node keeps its mass and its place in the central field, and loses
+ * every spring; the others lose only what couples them to it. */
+static void pinned_nodes_are_dropped(void **unused)
+{
+    (void)unused;
+    Random random = {9};
+    for (int trial = 0; trial < 10; trial++) {
+        Assembly a;
+        double dense[MAX_SIZE * MAX_SIZE];
+        long double exact[MAX_SIZE * MAX_SIZE];
+        int pinned = random_below(&random, 3);
+        assembly_create(&random, trial % 2, pinned, TRIANGLE_UPPER, &a);
+        int size = a.A.size;
+        incremental_potential_hessian(&a.E, a.x, a.x, FILTER_NONE, a.slot,
+                                      &a.A);
+        dense_from_sparse(&a.A, dense);
+        exact_hessian(&a.E, a.x, false, exact);
+        for (int i = 0; i < size * size; i++) {
+            int r = i / size, c = i % size;
+            if (r / 2 == pinned || c / 2 == pinned)
+                exact[i] = r == c ? a.system.m[pinned] * 2 : 0;
+            CHECK_NEAR(assembled(&a, dense, r, c), exact[i],
+                       1e-12L * (1 + fabsl(exact[i])));
+        }
+        assembly_free(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lower_triangle_is_the_dense_matrix),
+        cmocka_unit_test(upper_triangle_is_the_dense_matrix),
+        cmocka_unit_test(multiply_is_dense_multiply),
+        cmocka_unit_test(duplicates_share_a_slot),
+        cmocka_unit_test(empty_matrix_is_possible),
+        cmocka_unit_test(too_large_is_refused),
+        cmocka_unit_test(assembly_is_the_formula),
+        cmocka_unit_test(plain_triplets_sum_to_the_same),
+        cmocka_unit_test(pinned_nodes_are_dropped),
+    };
+    return cmocka_run_group_tests_name("sparse", tests, NULL, NULL);
+}

@@ -1,0 +1,487 @@
+/* A short run of what `make stress` does for minutes, and proofs that its
+ * judge sees a broken promise.
+ */
+#include "stress.h"
+
+#include <math.h>
+#include <string.h>
+
+static void named_cases_keep_the_promise(void **unused)
+{
+    (void)unused;
+    for (const StressCase *row = stress_cases; row->name; row++) {
+        char reason[512] = "";
+        Tally tally = {0};
+        if (row->slow)
+            continue;
+        bool good = row->run(&tally, reason);
+        if (!good)
+            print_error("%s: %s\n", row->name, reason);
+        CHECK(good);
+        CHECK(tally.wrong == 0);
+    }
+}
+
+static void random_scenes_keep_the_promise(void **unused)
+{
+    (void)unused;
+    Tally tally = {0};
+    for (long i = 0; i < 1000; i++) {
+        Wild wild;
+        char reason[512] = "";
+        wild_create(1, i, &wild);
+        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
+            print_error("build/stress --seed 1 --case %ld: %s\n", i, reason);
+    }
+    CHECK(tally.cases == 1000 && tally.wrong == 0);
+    /* and they are scenes that can be solved, not excuses */
+    CHECK(tally.steps[VERDICT_CONVERGED] > 10 * tally.steps[VERDICT_REPORTED]);
+    CHECK(tally.judged > 2000 && tally.blurred * 20 < tally.judged);
+}
+
+/* Where plane search and Newton once raised E by what rounding had hidden. */
+static void scenes_that_failed_once_do_not_fail(void **unused)
+{
+    (void)unused;
+    const long once[] = {833, 11919, 17537, 19600, 20087, 3826};
+    for (int i = 0; i < 6; i++) {
+        Wild wild;
+        Tally tally = {0};
+        char reason[512] = "";
+        wild_create(1, once[i], &wild);
+        wild.filter = i < 5 ? FILTER_CLAMP : FILTER_NONE;
+        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
+            print_error("build/stress --seed 1 --case %ld: %s\n", once[i],
+                        reason);
+        CHECK(tally.wrong == 0);
+    }
+}
+
+/* The wide formulas against those of the other suites. */
+static void two_exact_formulas_agree(void **unused)
+{
+    (void)unused;
+    Random random = {3};
+    for (int round = 0; round < 20; round++) {
+        System system;
+        double x[MAX_SIZE], u[MAX_SIZE], target[MAX_SIZE], at[MAX_SIZE];
+        random_system(&random, SPRINGS_MIXED, &system, x);
+        int n = 2 * system.nodes, negative;
+        for (int i = 0; i < n; i++) {
+            u[i] = random_uniform(&random, -0.1, 0.1);
+            target[i] = random_uniform(&random, -0.1, 0.1);
+            at[i] = x[i] + u[i];
+            x[i] = at[i] - u[i]; /* so that x + u is at, nearly */
+        }
+        IncrementalPotential E = {&system, 0.3, x, target, false};
+        Wide g[MAX_SIZE], H[MAX_SIZE * MAX_SIZE], h[MAX_SIZE];
+        long double g2[MAX_SIZE], H2[MAX_SIZE * MAX_SIZE];
+        wide_derivatives(&E, u, FILTER_CLAMP, g, H);
+        exact_derivatives(&E, u, at, g2, NULL);
+        exact_hessian(&E, at, true, H2);
+        for (int i = 0; i < n; i++) {
+            CHECK_NEAR((long double)g[i], g2[i], 1e-9L);
+            h[i] = g[i];
+            for (int j = 0; j < n; j++)
+                CHECK_NEAR((long double)H[n * i + j], H2[n * i + j],
+                           1e-7L * (1 + fabsl(H2[n * i + j])));
+        }
+        CHECK(wide_factor(n, H, &negative) && negative == 0);
+        wide_solve(n, H, h);
+        wide_derivatives(&E, u, FILTER_CLAMP, g, H);
+        for (int i = 0; i < n; i++) {
+            Wide sum = -g[i];
+            for (int j = 0; j < n; j++)
+                sum += H[n * i + j] * h[j];
+            CHECK_NEAR((long double)sum, 0, 1e-15L);
+        }
+        system_free(&system);
+    }
+}
+
+/* H q spring by spring is H q by the dense Hessian, with every term, filter
+ * and pin there is. */
+static void products_are_those_of_the_matrix(void **unused)
+{
+    (void)unused;
+    Random random = {6};
+    for (int round = 0; round < 24; round++) {
+        System system;
+        double x[MAX_SIZE], u[MAX_SIZE], q[MAX_SIZE], y[MAX_SIZE];
+        random_system(&random, SPRINGS_MIXED, &system, x);
+        int n = 2 * system.nodes;
+        Filter filter = (Filter)(round % 3); /* clamp, none, abs */
+        CHECK_STATUS(system_create_pins(&system), STATUS_OK);
+        system.pinned[1] = 1;
+        system.omega2 = round / 3 % 2 ? 2.5 : 0;
+        for (int i = 0; i < n; i++) {
+            u[i] = random_uniform(&random, -0.1, 0.1);
+            q[i] = i / 2 == 1 ? 0 : random_uniform(&random, -1, 1);
+        }
+        IncrementalPotential E = {&system, 0.3, x, u, round / 6 % 2 == 1};
+        Wide g[MAX_SIZE], H[MAX_SIZE * MAX_SIZE];
+        double moved[MAX_SIZE];
+        for (int i = 0; i < n; i++)
+            moved[i] = x[i] + u[i];
+        wide_derivatives(&E, u, filter, g, H);
+        incremental_potential_product(&E, u, moved, filter, q, y);
+        for (int i = 0; i < n; i++) {
+            long double sum = 0, size = 0;
+            for (int j = 0; j < n; j++) {
+                sum += (long double)H[n * i + j] * q[j];
+                size += fabsl((long double)H[n * i + j] * q[j]);
+            }
+            CHECK_NEAR(y[i], i / 2 == 1 ? 0 : sum, 1e-12L * (1 + size));
+        }
+        system_free(&system);
+    }
+}
+
+/* One light node that moves along the diagonal: its |p_x| + |p_y| is all that
+ * the bound allows. */
+static void light_nodes_are_not_overlooked(void **unused)
+{
+    (void)unused;
+    Wild wild = {.nodes = 2,
+                 .springs = 1,
+                 .steps = 1,
+                 .max_iterations = 10,
+                 .e = {0, 1},
+                 .m = {1, 1e6},
+                 .x = {0, 0, 1, 0},
+                 .v = {1, 1},
+                 .l2 = {1},
+                 .k = {1e-6},
+                 .h = 0.01,
+                 .tolerance = 1.9};
+    for (int solver = 0; solver < SOLVER_COUNT; solver++) {
+        Tally tally = {0};
+        char reason[512] = "";
+        wild.solver = (Solver)solver;
+        Verdict verdict = wild_run(&wild, &tally, reason);
+        if (verdict != VERDICT_CONVERGED)
+            print_error("%s\n", reason);
+        CHECK(verdict == VERDICT_CONVERGED);
+    }
+}
+
+/* An error of at most this. */
+static bool error_is_small(const void *user, const double *p, double error)
+{
+    (void)p;
+    return error <= *(const double *)user;
+}
+
+/* With the factor of the very Hessian one step of conjugate gradients is all
+ * there is to do. */
+static void refining_with_the_right_factor_is_one_step(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3", NULL, NULL, &simulation);
+    Newton *newton = simulation.run[0].newton;
+    double error;
+    int solves, n = 2 * simulation.system.nodes;
+    CHECK_STATUS(newton_start(newton, simulation.run[0].x, 16e-6),
+                 STATUS_RUNNING);
+    double size = system_inverse_mass_norm(&simulation.system, newton->g);
+    double p[2 * 16], accuracy = 1e-10 * size;
+    CHECK(n == 2 * 16);
+    memcpy(p, newton->p, sizeof p);
+    CHECK_STATUS(search_direction_refine(&newton->search, &newton->E, newton->u,
+                                         newton->x, FILTER_CLAMP, newton->g,
+                                         error_is_small, &accuracy, p, &error,
+                                         &solves),
+                 STATUS_OK);
+    CHECK(solves == 0);
+    CHECK_AT_MOST(error, 1e-12 * size);
+    for (int i = 0; i < n; i++)
+        CHECK_NEAR(p[i], newton->p[i], 1e-12);
+    simulation_free(&simulation);
+}
+
+/* The largest shift of all records. */
+static bool keep_shift(void *user, const NewtonRecord *record)
+{
+    double *largest = user;
+    *largest = fmax(*largest, record->shift);
+    return true;
+}
+
+static void shifts_are_small(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double shift = 0, scale = 16e-6 * 1e30; /* h^2 k */
+    simulation_from_line("--segments 3 --stiffness 1e30", keep_shift, &shift,
+                         &simulation);
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(shift > 0);
+    CHECK_AT_MOST(shift, 1e-10 * scale);
+    simulation_free(&simulation);
+}
+
+/* A square that only flies and turns: forces that the masses alone resist,
+ * while the shift is some 1e12 masses. */
+static void shifted_solves_find_the_masses(void **unused)
+{
+    (void)unused;
+    enum { N = 2 * 9 }; /* nodes at multiples of 1/2: no strain at all */
+    Simulation simulation;
+    simulation_from_line("--segments 2 --stretch 1 --stiffness 1e30", NULL,
+                         NULL, &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    Newton *newton = run->newton;
+    for (int i = 0; i < N; i += 2) {
+        newton->u_tilde[i] = 1e-3 * (3 - run->x[i + 1]);
+        newton->u_tilde[i + 1] = 1e-3 * (run->x[i] - 2);
+    }
+    CHECK_STATUS(newton_start(newton, run->x, 16e-6), STATUS_RUNNING);
+    CHECK(newton->search.shift > 1e6 * simulation.system.m[0]);
+    Wide g[N], H[N * N];
+    int negative;
+    wide_derivatives(&newton->E, newton->u, FILTER_CLAMP, g, H);
+    CHECK(wide_factor(N, H, &negative) && negative == 0);
+    wide_solve(N, H, g);
+    for (int i = 0; i < N; i++)
+        CHECK_NEAR(newton->p[i], -(long double)g[i], 1e-9);
+    simulation_free(&simulation);
+}
+
+/* Averaged: its gradient is the slope of its energy. */
+static void averaged_formulas_agree(void **unused)
+{
+    (void)unused;
+    Random random = {4};
+    System system;
+    double x[MAX_SIZE], u[MAX_SIZE] = {0}, target[MAX_SIZE] = {0};
+    random_system(&random, SPRINGS_MIXED, &system, x);
+    IncrementalPotential E = {&system, 0.3, x, target, true};
+    Wide g[MAX_SIZE];
+    for (int i = 0; i < 2 * system.nodes; i++)
+        u[i] = random_uniform(&random, -0.5, 0.5);
+    wide_derivatives(&E, u, FILTER_CLAMP, g, NULL);
+    for (int i = 0; i < 2 * system.nodes; i++) {
+        double step = 0x1p-20, middle = u[i];
+        u[i] = middle + step;
+        long double above = wide_energy(&E, u);
+        u[i] = middle - step;
+        long double below = wide_energy(&E, u);
+        u[i] = middle;
+        CHECK_NEAR((above - below) / (2 * step), (long double)g[i],
+                   1e-6L * (1 + fabsl((long double)g[i])));
+    }
+    system_free(&system);
+}
+
+/* Steps that break one promise each, and else are those of the slides. */
+static Status add_momentum(TimeIntegrator *run)
+{
+    Status status = integrator_methods[0].step(run);
+    run->v[0] += 1e-9;
+    return status;
+}
+
+static Status make_nan(TimeIntegrator *run)
+{
+    Status status = integrator_methods[0].step(run);
+    run->x[3] = NAN;
+    return status;
+}
+
+static Status move_and_fail(TimeIntegrator *run)
+{
+    run->x[0] += 1;
+    return STATUS_NOT_FINITE;
+}
+
+static Status fail_for_nothing(TimeIntegrator *run)
+{
+    (void)run;
+    return STATUS_NOT_FINITE;
+}
+
+static Status run_out_of_memory(TimeIntegrator *run)
+{
+    (void)run;
+    return STATUS_OUT_OF_MEMORY;
+}
+
+static Status return_nonsense(TimeIntegrator *run)
+{
+    (void)run;
+    return (Status)77;
+}
+
+static Status stay_and_lie(TimeIntegrator *run)
+{
+    Status status = integrator_methods[0].step(run);
+    for (int i = 0; i < 2 * run->system->nodes; i++)
+        run->newton->u[i] *= 0.9;
+    return status;
+}
+
+static Status gain_energy(TimeIntegrator *run)
+{
+    Status status = integrator_methods[0].step(run);
+    for (int i = 0; i < 2 * run->system->nodes; i++)
+        run->v[i] *= 3;
+    return status;
+}
+
+static Status skip_an_iteration(TimeIntegrator *run)
+{
+    NewtonRecord record = {.iteration = 5};
+    run->newton->settings.observer(run->newton->settings.user, &record);
+    return integrator_methods[0].step(run);
+}
+
+/* What the judge says about this step function. */
+static void check_blamed(Status (*step)(TimeIntegrator *), const char *why)
+{
+    Simulation simulation;
+    Watch watch;
+    simulation_from_line("--segments 2 --tolerance 1e-6", NULL, NULL,
+                         &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    IntegratorMethod method = *run->method;
+    CHECK(watch_create(run, &watch));
+    CHECK(watch_step(&watch) == VERDICT_CONVERGED);
+    method.step = step;
+    run->method = &method;
+    bool seen = watch_step(&watch) == VERDICT_WRONG &&
+                strstr(watch.reason, why) != NULL;
+    if (!seen)
+        print_error("'%s' was not noticed; reason: %s\n", why, watch.reason);
+    CHECK(seen);
+    watch_free(&watch);
+    simulation_free(&simulation);
+}
+
+static void broken_promises_are_noticed(void **unused)
+{
+    (void)unused;
+    check_blamed(add_momentum, "momentum");
+    check_blamed(make_nan, "not finite");
+    check_blamed(move_and_fail, "moved");
+    check_blamed(fail_for_nothing, "nothing is near overflow");
+    check_blamed(run_out_of_memory, "fails with out_of_memory");
+    check_blamed(return_nonsense, "has no name");
+    check_blamed(stay_and_lie, "E rises");
+    check_blamed(gain_energy, "kinetic and elastic");
+    check_blamed(skip_an_iteration, "record 5");
+}
+
+/* A tolerance that grows behind the judge's back. */
+static Status be_content(TimeIntegrator *run)
+{
+    double tolerance = run->newton->settings.tolerance;
+    run->newton->settings.tolerance = 1;
+    Status status = integrator_methods[0].step(run);
+    run->newton->settings.tolerance = tolerance;
+    return status;
+}
+
+static void false_convergence_is_noticed(void **unused)
+{
+    (void)unused;
+    check_blamed(be_content, "the residual is");
+}
+
+/* Caps are looked at through the records of a real minimisation. */
+static void too_many_iterations_are_noticed(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    Watch watch;
+    simulation_from_line("--segments 3", NULL, NULL, &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    CHECK(watch_create(run, &watch));
+    run->newton->settings.max_iterations = 0; /* one is made all the same */
+    CHECK(watch_step(&watch) == VERDICT_WRONG);
+    CHECK(strstr(watch.reason, "more than allowed") != NULL);
+    watch_free(&watch);
+    simulation_free(&simulation);
+}
+
+/* Fails where a heavy node has a stiff spring. */
+static bool heavy_and_stiff(const Wild *wild, void *user)
+{
+    ++*(int *)user;
+    for (int s = 0; s < wild->springs; s++)
+        if (wild->k[s] > 7 && wild->m[wild->e[2 * s]] > 3)
+            return true;
+    return false;
+}
+
+static void failures_shrink(void **unused)
+{
+    (void)unused;
+    int shrunk = 0, calls = 0;
+    for (long i = 0; i < 50; i++) {
+        Wild wild;
+        wild_create(5, i, &wild);
+        if (!heavy_and_stiff(&wild, &calls))
+            continue;
+        wild_shrink(&wild, heavy_and_stiff, &calls);
+        CHECK(heavy_and_stiff(&wild, &calls));
+        CHECK(wild.springs == 1 && wild.nodes == 2 && wild.steps == 1);
+        CHECK(wild.method == 0 && wild.solver == SOLVER_NEWTON);
+        CHECK(wild.filter == FILTER_CLAMP);
+        CHECK(wild.h == 1 && wild.l2[0] == 1 && wild.tolerance == 1);
+        for (int c = 0; c < 4; c++)
+            CHECK(wild.x[c] == 0 && wild.v[c] == 0);
+        shrunk++;
+    }
+    CHECK(shrunk > 5);
+}
+
+/* The picture in the README is drawn from a table; cells of it, computed
+ * again, are what it says. */
+static void envelope_is_up_to_date(void **unused)
+{
+    (void)unused;
+    static Envelope envelope;
+    Random random = {11};
+    Tally tally = {0};
+    CHECK(envelope_read("tests/data/envelope.csv", &envelope));
+    for (int i = 0; i < 200; i++) {
+        Solver solver = (Solver)random_below(&random, SOLVER_COUNT);
+        int s = random_below(&random, ENVELOPE_STRETCH);
+        int k = random_below(&random, ENVELOPE_K);
+        int h = random_below(&random, ENVELOPE_H);
+        char reason[600] = "", expected = envelope.verdict[solver][s][k][h];
+        char got = envelope_cell(solver, s, k, h, &tally, reason);
+        if (got != expected || got == 'w')
+            print_error("solver %d, stretch %g, k %g, h %g: %c, in the "
+                        "picture %c; make envelope draws it anew; %s\n",
+                        solver, envelope_stretch(s), envelope_k(k),
+                        envelope_h(h), got, expected, reason);
+        CHECK(got == expected && got != 'w');
+    }
+    for (int solver = 0; solver < SOLVER_COUNT; solver++)
+        CHECK(envelope_share(&envelope, (Solver)solver) >= 0.99);
+    CHECK(memchr(&envelope, 'w', sizeof envelope) == NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_exact_formulas_agree),
+        cmocka_unit_test(averaged_formulas_agree),
+        cmocka_unit_test(products_are_those_of_the_matrix),
+        cmocka_unit_test(refining_with_the_right_factor_is_one_step),
+        cmocka_unit_test(shifts_are_small),
+        cmocka_unit_test(shifted_solves_find_the_masses),
+        cmocka_unit_test(light_nodes_are_not_overlooked),
+        cmocka_unit_test(broken_promises_are_noticed),
+        cmocka_unit_test(false_convergence_is_noticed),
+        cmocka_unit_test(too_many_iterations_are_noticed),
+        cmocka_unit_test(failures_shrink),
+        cmocka_unit_test(named_cases_keep_the_promise),
+        cmocka_unit_test(random_scenes_keep_the_promise),
+        cmocka_unit_test(scenes_that_failed_once_do_not_fail),
+        cmocka_unit_test(envelope_is_up_to_date),
+    };
+    return cmocka_run_group_tests_name("stress", tests, NULL, NULL);
+}

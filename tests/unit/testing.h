@@ -1,0 +1,110 @@
+/* testing.h - what all suites share: checks that print what they saw, seeded
+ * random numbers and springs, and the formulas of the slides once more in
+ * extended precision, written without a look at the sources.
+ */
+#ifndef ELASTO_TESTING_H
+#define ELASTO_TESTING_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "scenes/simulation.h"
+
+/* |got - expected| <= tolerance; NaN fails. */
+#define CHECK_NEAR(got, expected, tolerance)                                   \
+    check_near(#got, (got), (expected), (tolerance), __FILE__, __LINE__)
+
+/* got <= limit; NaN fails. */
+#define CHECK_AT_MOST(got, limit)                                              \
+    check_at_most(#got, (got), (limit), __FILE__, __LINE__)
+
+/* count numbers are equal to the last bit. */
+#define CHECK_SAME_BITS(got, expected, count)                                  \
+    check_same_bits(#got, (got), (expected), (count), __FILE__, __LINE__)
+
+#define CHECK_STATUS(got, expected)                                            \
+    check_status(#got, (got), (expected), __FILE__, __LINE__)
+
+/* got > 0 and the like, with both numbers in the message. */
+#define CHECK(condition) check_true((condition), #condition, __FILE__, __LINE__)
+
+void check_near(const char *what, long double got, long double expected,
+                long double tolerance, const char *file, int line);
+void check_at_most(const char *what, long double got, long double limit,
+                   const char *file, int line);
+void check_same_bits(const char *what, const double *got,
+                     const double *expected, int count, const char *file,
+                     int line);
+void check_status(const char *what, Status got, Status expected,
+                  const char *file, int line);
+void check_true(bool condition, const char *what, const char *file, int line);
+
+/* Random numbers, the same on every machine (SplitMix64). */
+typedef struct Random {
+    uint64_t state; /* the seed */
+} Random;
+
+double random_uniform(Random *random, double low, double high);
+double random_logarithmic(Random *random, double low, double high);
+int random_below(Random *random, int limit);
+
+/* How long random springs are, against their rest length. */
+typedef enum SpringState {
+    SPRINGS_STRETCHED,  /* 1.05 ... 2 */
+    SPRINGS_COMPRESSED, /* 0.3 ... 0.95 */
+    SPRINGS_SHORT,      /* 0.1 ... 0.3: both eigenvalues are negative */
+    SPRINGS_MIXED,      /* 0.1 ... 2 */
+    SPRINGS_NEAR_ZERO,  /* 1e-9 ... 1e-7 */
+    SPRING_STATES
+} SpringState;
+
+enum { MAX_NODES = 12, MAX_SIZE = 2 * MAX_NODES, MAX_SPRINGS = 40 };
+
+/* Random springs between random pairs of at most MAX_NODES nodes; masses and
+ * stiffnesses over four powers of ten.
+ *   system  out; free it with system_free
+ *   x       [MAX_SIZE] out */
+void random_system(Random *random, SpringState state, System *system,
+                   double *x);
+
+/* Sums, products and with them both derivatives of a polynomial, exactly:
+ * a + b e1 + c e2 + d e1 e2 with e1^2 = e2^2 = 0. */
+typedef struct Dual {
+    long double f, d1, d2, d12;
+} Dual;
+
+Dual dual_add(Dual a, Dual b);
+Dual dual_multiply(Dual a, Dual b);
+
+/* sum m/2 |u - u_tilde|^2 (left out where u is NULL)
+ *   + w (sum k/(2 l2) (|d|^2 - l2)^2 + omega2 sum m/2 |x|^2),
+ * with derivatives along coordinates i and j (-1: none). */
+Dual exact_energy(const IncrementalPotential *E, const double *u,
+                  const double *x, int i, int j);
+
+/* Gradient [2n] and full Hessian [2n 2n] of the above; H may be NULL. */
+void exact_derivatives(const IncrementalPotential *E, const double *u,
+                       const double *x, long double *g, long double *H);
+
+/* M + w (sum over springs of the block, negative eigenvalues replaced by 0 if
+ * clamp), [2n 2n]. */
+void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
+                   long double *H);
+
+/* b = A^-1 b by Gaussian elimination with pivots; A [n n] is destroyed.
+ * Returns false where A is singular. */
+bool dense_solve(int n, long double *A, long double *b);
+
+/* Full matrix [size size] of a sparse one. */
+void dense_from_sparse(const Sparse *A, double *dense);
+
+/* The simulation that this command line sets up, words separated by single
+ * spaces; free it with simulation_free. */
+void simulation_from_line(const char *line, NewtonObserver observer, void *user,
+                          Simulation *simulation);
+
+#endif
