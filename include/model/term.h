@@ -1,0 +1,127 @@
+/* term.h - one summand of the potential: P(x) = sum of a scene's terms.
+ *
+ * A scene's System holds a list of terms; what a scene lacks is not in its
+ * list.  Every function goes over whole arrays: a term costs one indirect call
+ * and its loop stays tight.  A term is one source file with one row of
+ * functions (a TermKind); a function that is NULL has nothing to add there.
+ * Terms need not look at pins: whoever calls them takes the gradient of pinned
+ * nodes out of g and their entries out of the Hessian.
+ *
+ *   at  where: positions at the start of the step, displacement, and their sum
+ *   w   s^2, factor on all that is added (h^2 for implicit Euler)
+ */
+#ifndef ELASTO_TERM_H
+#define ELASTO_TERM_H
+
+#include "base/sparse.h"
+#include "model/psd.h"
+
+typedef struct System System;
+typedef struct Term Term;
+
+typedef struct Place {
+    const System *system;
+    const double *x_n; /* [2n] m, start of the step */
+    const double *u;   /* [2n] m, displacement from there */
+    const double *x;   /* [2n] m, x_n + u */
+} Place;
+
+typedef struct TermKind {
+    const char *name; /* in the energy ledger and in messages: "springs" */
+
+    /* P(x), J. */
+    double (*value)(const Term *term, const Place *at);
+
+    /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
+     * and at->x alone (x_n = x, u = 0). */
+    void (*gradient)(const Term *term, const Place *at, double w, double *g);
+
+    /* The entries of the Hessian, the same ones at every x: how many, and the
+     * triplets in rows and columns of the matrix (term_add_block). */
+    long long (*entries)(const Term *term, const System *system);
+    void (*pattern)(const Term *term, const System *system, Triplets *triplets);
+
+    /* values[slot[t]] += w entry t of the Hessian at x, each block filtered:
+     * with CLAMP and ABS what is added must be positive semi-definite; NONE and
+     * ON_DEMAND mean the Hessian as it is.  Returns how many blocks were
+     * changed by the filter. */
+    int (*hessian)(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values);
+
+    /* y += w (filtered) Hessian q, without a matrix.  q [2n] in, y [2n] in/out.
+     * It must agree with the assembled one to rounding. */
+    void (*product)(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y);
+
+    /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
+     * 1: the slope of all terms together is g.p.
+     *   along      adds the exact coefficients of alpha^2, alpha^3, alpha^4 to
+     *              q [3].  A term that is no polynomial adds here the part of
+     *              it that is one, and may note (behind its data pointer) what
+     *              is live for 0 < alpha <= reach.
+     *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
+     *              - alpha grad P.p] without cancellation, minus what along
+     *              gave; asked once for each trial.  NULL: a polynomial. */
+    void (*along)(const Term *term, const Place *at, const double *p, double w,
+                  double reach, double q[3]);
+    double (*remainder)(const Term *term, const Place *at, const double *p,
+                        double w, double alpha);
+
+    /* The largest alpha that p may be followed, > 0 (contact, cells); NULL:
+     * any.  Backtracking starts at the smallest of all terms and 1. */
+    double (*reach)(const Term *term, const Place *at, const double *p);
+
+    /* Whether x is a place where the energy exists: every distance and area
+     * > 0.  Asked after rounding, for starts and for updates; NULL: always. */
+    bool (*allowed)(const Term *term, const Place *at);
+
+    /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
+     * of friction).  After a step to x, v [2n] was accepted: what it changes
+     * for good (plastic lengths, broken springs); it books what that cost in
+     * term->lost.  Returns whether arrays of the system or of a term have
+     * changed; factors and bounds that were made with them are then dropped. */
+    void (*begin)(Term *term, System *system, const double *x_n,
+                  const double *v_n, double h);
+    bool (*end)(Term *term, System *system, const double *x, const double *v,
+                double h);
+
+    /* The same term averaged along the straight way from x_n to x_n + u, for
+     * the average vector field methods: its gradient is the integral of
+     * grad P(x_n + t u) over t = 0 ... 1.  NULL: those methods refuse it. */
+    const struct TermKind *averaged;
+
+    /* J/m^2, a bound of the curvature's size at rest; and J/m, the size of a
+     * force that a vanishing gradient is compared with. */
+    double (*stiffest)(const Term *term, const System *system);
+    double (*force)(const Term *term, const System *system);
+
+    /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive
+     * semi-definite; sum [n], one for both coordinates.  NULL: not known, and a
+     * factorisation tells. */
+    void (*concave)(const Term *term, const Place *at, double w, double *sum);
+
+    /* Where this term stands alone: the minimiser u of
+     * |u - u_tilde|_M^2/2 + w P in closed form, [2n] out.  NULL: there is none;
+     * Newton's method finds it. */
+    void (*closed_form)(const Term *term, const Place *at, double w,
+                        const double *u_tilde, double *u);
+
+    void (*free)(void *data); /* NULL: the term does not own its data */
+
+    bool internal;    /* its forces add up to 0: the centre of mass is free */
+    bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
+                         backward Euler; other methods refuse it by name */
+} TermKind;
+
+struct Term {
+    const TermKind *kind;
+    void *data;  /* the kind's own arrays */
+    double lost; /* J, what it has taken out of the system for good */
+};
+
+/* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal
+ * (i = j) only xx xy yy. */
+enum { BLOCK_ENTRIES = 4, DIAGONAL_ENTRIES = 3 };
+void term_add_block(const System *system, int i, int j, Triplets *triplets);
+
+#endif
