@@ -68,6 +68,10 @@ try() { { printf '#include <%b>\n' stddef.h stdio.h "$$2"; \
 pc() { pkg-config --cflags --libs $$1 2>/dev/null || echo "$$2"; }; \
 sdl() { try "$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')" SDL.h \
     '&SDL_RenderGeometry'; }; \
+ttf() { try "$$(pc SDL2_ttf '-I/usr/include/SDL2 -lSDL2_ttf -lSDL2')" \
+    SDL_ttf.h '&TTF_RenderGlyph32_Blended'; }; \
+font() { [ "$$ELASTO_FONT" ] || ! command -v apt-get >/dev/null 2>&1 || \
+  [ -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf ]; }; \
 png() { try "$$(pc libpng -lpng)" png.h '&png_image_write_to_stdio'; }; \
 cmocka() { \
   headers='stdarg.h>\n#include <stdint.h>\n#include <setjmp.h>'; \
@@ -84,11 +88,14 @@ install_packages() { \
   echo "elasto needs these packages: $$1"; \
   if ! command -v apt-get >/dev/null 2>&1; then \
     echo "Please install them:"; \
-    echo "  Fedora:  dnf install SDL2-devel suitesparse-devel \\"; \
-    echo "             openblas-devel libpng-devel libcmocka-devel pkgconf"; \
-    echo "  Arch:    pacman -S sdl2 suitesparse openblas libpng cmocka \\"; \
-    echo "             pkgconf"; \
-    echo "  macOS:   brew install sdl2 suite-sparse libpng cmocka pkg-config"; \
+    echo "  Fedora:  dnf install SDL2-devel SDL2_ttf-devel \\"; \
+    echo "             dejavu-sans-fonts dejavu-sans-mono-fonts \\"; \
+    echo "             suitesparse-devel openblas-devel libpng-devel \\"; \
+    echo "             libcmocka-devel pkgconf"; \
+    echo "  Arch:    pacman -S sdl2 sdl2_ttf ttf-dejavu suitesparse \\"; \
+    echo "             openblas libpng cmocka pkgconf"; \
+    echo "  macOS:   brew install sdl2 sdl2_ttf font-dejavu \\"; \
+    echo "             suite-sparse libpng cmocka pkg-config"; \
     return 1; fi; \
   as=; [ "$$(id -u)" = 0 ] || as=sudo; \
   if [ "$$as" ] && ! command -v sudo >/dev/null 2>&1; then \
@@ -106,15 +113,19 @@ $(CONFIG): Makefile
 	missing=; \
 	command -v pkg-config >/dev/null 2>&1 || missing="$$missing pkg-config"; \
 	sdl || missing="$$missing libsdl2-dev"; \
+	ttf || missing="$$missing libsdl2-ttf-dev"; \
+	font || missing="$$missing fonts-dejavu-core"; \
 	png || missing="$$missing libpng-dev"; \
 	cholmod_flags >/dev/null || \
 	  missing="$$missing libsuitesparse-dev libopenblas0"; \
 	if [ "$$missing" ]; then install_packages "$$missing" || exit 1; fi; \
-	sdl && png && cholmod=$$(cholmod_flags) || \
+	sdl && ttf && png && cholmod=$$(cholmod_flags) || \
 	  { cat build/try.log; exit 1; }; \
 	flags="$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
-	flags="$$flags $$(pc libpng -lpng) $$cholmod"; \
+	flags="$$flags $$(pc SDL2_ttf -lSDL2_ttf) $$(pc libpng -lpng)"; \
+	flags="$$flags $$cholmod"; \
 	c=; l=; for f in $$flags; do \
+	  case "$$c $$l " in *" $$f "*) continue;; esac; \
 	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \
 	{ echo "DEP_CFLAGS :=$$c"; echo "DEP_LIBS :=$$l -ldl -lm"; } >$@.new; \
 	rm -f build/try build/try.log; mv $@.new $@

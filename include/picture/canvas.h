@@ -25,6 +25,11 @@ typedef struct Canvas {
     uint32_t *pixels;  /* [width height] row by row, no gaps */
 } Canvas;
 
+/* A rectangle in pixels. */
+typedef struct Box {
+    int x, y, width, height;
+} Box;
+
 /* White.  width, height 1 ... CANVAS_MAX_SIZE; canvas out.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status canvas_create(int width, int height, Canvas *canvas);

@@ -4,7 +4,7 @@
 #ifndef ELASTO_FONT_H
 #define ELASTO_FONT_H
 
-#include "picture/canvas.h"
+#include "picture/text.h"
 
 enum {
     FONT_COLUMNS = 6, /* width of a letter with the gap after it, dots */
@@ -16,9 +16,6 @@ typedef struct Font {
     int width, height; /* of a letter, pixels */
     uint8_t *mask;     /* [FONT_GLYPHS height width] coverage 0 ... 255 */
 } Font;
-
-/* Which point of the text the given x is. */
-typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
 
 /* Whether dot (column, row) of this character is set; outside: no. */
 bool font_dot(unsigned char character, int column, int row);

@@ -6,23 +6,31 @@
 #ifndef ELASTO_HISTORY_H
 #define ELASTO_HISTORY_H
 
-enum { HISTORY_SERIES = 3, HISTORY_POINTS = 1024 };
+enum { HISTORY_SERIES = 12, HISTORY_POINTS = 1024 };
 
 typedef struct History {
-    int count;   /* points, the newest included */
+    int series;                       /* rows in use, at most HISTORY_SERIES */
+    const char *name[HISTORY_SERIES]; /* of each, not owned; the first is the
+                                         total where there is one */
+    int count;                        /* points, the newest included */
     long stride; /* every stride-th call of history_add is kept */
     long calls;  /* of history_add since it was empty */
-    double high; /* largest value that was ever added, at least 0 */
+    double low;  /* smallest value that was ever added, at most 0 */
+    double high; /* largest, at least 0 */
     double time[HISTORY_POINTS];                  /* s, ascending */
     double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
 } History;
 
-/* Empties it. */
+/* Empties it; names stay. */
 void history_clear(History *history);
 
 /* Appends a point; nothing happens if a number is not finite.
  *   time   s, in: above the one before
- *   value  [HISTORY_SERIES] in */
+ *   value  [series] in */
 void history_add(History *history, double time, const double *value);
+
+/* Forgets what is later than this time, for a run that goes on from an old
+ * state. */
+void history_cut(History *history, double time);
 
 #endif

@@ -17,11 +17,6 @@ typedef struct Paper {
     double unit; /* pixels */
 } Paper;
 
-/* A rectangle in pixels, y down. */
-typedef struct Box {
-    int x, y, width, height;
-} Box;
-
 /* From metres, y up, to pixels, y down. */
 typedef struct Mapping {
     double scale;  /* pixels a metre */

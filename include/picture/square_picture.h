@@ -5,12 +5,7 @@
 #define ELASTO_SQUARE_PICTURE_H
 
 #include "picture/hud.h"
-#include "picture/paper.h"
-
-/* Springs drawn, and those left out because they would be below 2 pixels. */
-typedef struct SpringCount {
-    long drawn, skipped;
-} SpringCount;
+#include "picture/picture.h"
 
 /* Draws run 0 so that the square as it starts (a squeezed one: as far as it
  * will spring) fills 57 % of the paper, and discs of radius 0.1 side/segments

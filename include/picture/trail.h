@@ -17,4 +17,7 @@ void trail_clear(Trail *trail);
  *   point  [2 runs] m, in; runs at most TRAIL_RUNS */
 void trail_add(Trail *trail, int runs, const double *point);
 
+/* Forgets the newest `steps` steps. */
+void trail_cut(Trail *trail, int steps);
+
 #endif

@@ -11,13 +11,13 @@
 #include "scenes/simulation.h"
 
 /* How the picture layer shows a scene. */
-typedef enum Picture {
+typedef enum PictureKind {
     PICTURE_SQUARE,    /* springs and discs, energies over time */
     PICTURE_CIRCLE,    /* trails around the exact circle, radius over time */
     PICTURE_CURVE,     /* f(x), its quadratic model, the iterates */
     PICTURE_LANDSCAPE, /* contours of E, the Newton path */
     PICTURE_COUNT
-} Picture;
+} PictureKind;
 
 /* What a scene makes use of; options about anything else are refused. */
 enum SceneNeeds {
@@ -31,7 +31,7 @@ enum SceneNeeds {
 typedef struct Scene {
     const char *name;     /* as on the command line */
     const char *sentence; /* for --list and the window, at most 60 letters */
-    Picture picture;
+    PictureKind picture;
     unsigned needs; /* of enum SceneNeeds */
     /* Changes the default options, before the command line is applied; NULL:
      * the slides' numbers are right. */

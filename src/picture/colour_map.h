@@ -24,6 +24,15 @@
 #define COLOUR_KINETIC  0xffd55e00u
 #define COLOUR_ELASTIC  0xff0072b2u
 
+/* The slides' letters, the same wherever they stand; each means one thing. */
+#define COLOUR_X        0xff0000ffu /* x: positions, springs */
+#define COLOUR_X_TILDE  0xff8e3fb0u /* where inertia alone leads */
+#define COLOUR_P        0xffc96a00u /* the search direction */
+#define COLOUR_ALPHA    0xff00796bu /* step lengths */
+#define COLOUR_PROJECT  0xffd3156bu /* springs whose block was changed */
+#define COLOUR_GHOST    0xffb08d57u /* the outcome with other settings */
+#define COLOUR_RULE     0xffdadadau /* between zones */
+
 /* From COLOUR_COMPRESS at -range over COLOUR_REST at 0 to COLOUR_STRETCH at
  * range > 0; strains outside get the colour of the end, NaN that of rest. */
 Colour colour_map_strain(double strain, double range);

@@ -9,14 +9,14 @@ void history_clear(History *history)
     history->count = 0;
     history->stride = 1;
     history->calls = 0;
-    history->high = 0;
+    history->low = history->high = 0;
 }
 
 /* Point `to` = point `from`. */
 static void history_move(History *history, int from, int to)
 {
     history->time[to] = history->time[from];
-    for (int s = 0; s < HISTORY_SERIES; s++)
+    for (int s = 0; s < history->series; s++)
         history->value[s][to] = history->value[s][from];
 }
 
@@ -30,10 +30,11 @@ static void history_thin(History *history)
 }
 
 /* Whether every number is finite. */
-static bool history_accepts(double time, const double *value)
+static bool history_accepts(const History *history, double time,
+                            const double *value)
 {
     bool finite = isfinite(time);
-    for (int s = 0; s < HISTORY_SERIES; s++)
+    for (int s = 0; s < history->series; s++)
         finite = finite && isfinite(value[s]);
     return finite;
 }
@@ -41,7 +42,7 @@ static bool history_accepts(double time, const double *value)
 /* The newest point always stays until the next comes, due or not. */
 void history_add(History *history, double time, const double *value)
 {
-    if (!history_accepts(time, value))
+    if (!history_accepts(history, time, value))
         return;
     if (history->count > 0 && (history->calls - 1) % history->stride != 0)
         history->count--;
@@ -50,8 +51,27 @@ void history_add(History *history, double time, const double *value)
     int last = history->count++;
     history->calls++;
     history->time[last] = time;
-    for (int s = 0; s < HISTORY_SERIES; s++) {
+    for (int s = 0; s < history->series; s++) {
         history->value[s][last] = value[s];
+        history->low = fmin(history->low, value[s]);
         history->high = fmax(history->high, value[s]);
     }
+}
+
+/* The range is that of the points which are left. */
+void history_cut(History *history, double time)
+{
+    int count = history->count;
+    while (count > 0 && history->time[count - 1] > time)
+        count--;
+    if (count == history->count)
+        return;
+    history->count = count;
+    history->calls = count > 0 ? (count - 1) * history->stride + 1 : 0;
+    history->low = history->high = 0;
+    for (int s = 0; s < history->series; s++)
+        for (int i = 0; i < count; i++) {
+            history->low = fmin(history->low, history->value[s][i]);
+            history->high = fmax(history->high, history->value[s][i]);
+        }
 }

@@ -19,6 +19,7 @@ void hud_restart(Hud *hud)
     hud->trouble_step = 0;
     hud->note[0] = '\0';
     hud->energies = (Energies){0};
+    hud->history.series = 3;
     history_clear(&hud->history);
     trail_clear(&hud->trail);
 }
@@ -84,7 +85,7 @@ static void sample_circle(Hud *hud, const Simulation *simulation)
 /* By what the picture of the scene shows. */
 void hud_sample(Hud *hud, const Simulation *simulation)
 {
-    Picture picture = simulation->scene->picture;
+    PictureKind picture = simulation->scene->picture;
     if (picture == PICTURE_SQUARE && hud->text)
         sample_energies(hud, simulation);
     if (picture == PICTURE_CIRCLE)

@@ -271,7 +271,7 @@ void panels_draw_note(Paper *paper, const Simulation *simulation,
 /* The keys that work in this scene. */
 static void add_key_lines(TextBlock *block, const Simulation *simulation)
 {
-    Picture picture = simulation->scene->picture;
+    PictureKind picture = simulation->scene->picture;
     int count = 0;
     while (scenes[count].name)
         count++;

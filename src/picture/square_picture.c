@@ -188,9 +188,9 @@ static void draw_energy_plot(Paper *paper, const Simulation *simulation,
     Axis energy = {0, plot_round_axis(high / unit.joule), label};
     Plot plot = plot_create(paper, outer, time, energy);
     plot.y.high *= unit.joule;
-    const Colour colour[HISTORY_SERIES] = {COLOUR_TOTAL, COLOUR_KINETIC,
+    const Colour colour[] = {COLOUR_TOTAL, COLOUR_KINETIC,
                                            COLOUR_ELASTIC};
-    for (int s = 0; s < HISTORY_SERIES; s++)
+    for (int s = 0; s < history->series; s++)
         plot_curve(paper, &plot, history->count, history->time,
                    history->value[s], colour[s]);
 }

@@ -22,3 +22,8 @@ void trail_add(Trail *trail, int runs, const double *point)
                sizeof trail->point[r][0]);
     trail->count++;
 }
+
+void trail_cut(Trail *trail, int steps)
+{
+    trail->count = steps < trail->count ? trail->count - steps : 0;
+}

@@ -340,7 +340,7 @@ static void strain_has_its_colours(void **unused)
 static void history_spans_the_run(void **unused)
 {
     (void)unused;
-    static History history;
+    static History history = {.series = 3};
     history_clear(&history);
     for (int i = 0; i < 100000; i++) {
         const double value[HISTORY_SERIES] = {i, 2.0 * i, -i};
@@ -357,7 +357,17 @@ static void history_spans_the_run(void **unused)
     int count = history.count;
     history_add(&history, 1e9, bad);
     CHECK(history.count == count);
-    CHECK(history.high == 2.0 * 99999);
+    CHECK(history.high == 2.0 * 99999 && history.low == -99999);
+    history_cut(&history, 100);
+    CHECK(history.time[history.count - 1] <= 100 && history.time[0] == 0);
+    CHECK(history.high == 4 * history.time[history.count - 1]);
+    const double next[HISTORY_SERIES] = {1, 2, 3};
+    history_add(&history, 200, next);
+    history_add(&history, 201, next);
+    CHECK(history.time[history.count - 1] == 201);
+    CHECK(history.time[history.count - 2] <= 200);
+    history_cut(&history, -1);
+    CHECK(history.count == 0 && history.high == 0);
 }
 
 static void axes_end_at_round_numbers(void **unused)

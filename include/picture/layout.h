@@ -1,0 +1,127 @@
+/* layout.h - where everything in the window is: a function of its size alone
+ * and of what is open, never of the numbers shown, so that zones stay put.
+ *
+ *     +------------------------------------------------------+
+ *     | strip: topic, sentence                  method, state |
+ *     +----------------------------------+-------------------+
+ *     | stage: one to six panes          | column: cards, or |
+ *     |                                  | one page (help,   |
+ *     |                                  | code)             |
+ *     +----------------------------------+-------------------+
+ *     | row of settings                                      |
+ *     | time line                                            |
+ *     | last line: chips, or a message                       |
+ *     +------------------------------------------------------+
+ *
+ * Small windows fold: first the column goes, then the settings, then the last
+ * line.  Bare: the stage fills the window and nothing else is there.  Pixels
+ * are those of the canvas, y down.
+ */
+#ifndef ELASTO_LAYOUT_H
+#define ELASTO_LAYOUT_H
+
+#include "picture/canvas.h"
+
+enum {
+    LAYOUT_PANES = 6,
+    LAYOUT_CARDS = 8,
+    LAYOUT_SETTINGS = 16,
+    LAYOUT_CHIPS = 16
+};
+
+/* What is to be placed. */
+typedef struct LayoutWish {
+    bool bare; /* the stage alone */
+    int panes; /* 1 ... LAYOUT_PANES pictures side by side */
+    int cards;
+    double weight[LAYOUT_CARDS]; /* share of the column's height, > 0 */
+    unsigned closed;             /* bit c: card c is closed */
+    int large;    /* this card has most of the column; -1: none */
+    bool page;    /* the column is one page instead of cards */
+    int settings; /* letters: room for name and longest value */
+    int setting_letters[LAYOUT_SETTINGS];
+    int chips;
+    int chip_letters[LAYOUT_CHIPS];
+} LayoutWish;
+
+/* A box without width is not there. */
+typedef struct Layout {
+    int width, height; /* pixels of the whole */
+    double em;         /* pixels, size of the texts */
+    Box strip, stage, column, row, time, last;
+    int panes, cards, settings, chips;
+    Box pane[LAYOUT_PANES]; /* inside the stage */
+    Box card[LAYOUT_CARDS]; /* inside the column */
+    Box setting[LAYOUT_SETTINGS];
+    Box chip[LAYOUT_CHIPS];
+    Box bars; /* inside time: where the bars of the steps are */
+} Layout;
+
+typedef enum Zone {
+    ZONE_NONE,
+    ZONE_STRIP,
+    ZONE_STAGE,      /* index: the pane */
+    ZONE_CARD,       /* index: the card */
+    ZONE_CARD_CLOSE, /* index: the card; its cross was hit */
+    ZONE_PAGE,       /* help or code */
+    ZONE_SETTING,    /* index: the setting */
+    ZONE_TIME,
+    ZONE_CHIP /* index: the chip */
+} Zone;
+
+typedef struct Hit {
+    Zone zone;
+    int index;
+} Hit;
+
+/* Places everything.  width, height >= 1. */
+Layout layout_create(int width, int height, const LayoutWish *wish);
+
+/* What is at this pixel. */
+Hit layout_hit(const Layout *layout, double x, double y);
+
+/* The cross that closes a card. */
+Box layout_close_box(const Layout *layout, int card);
+
+/* 0 ... 1: how far along the bars of the time line x is; clamped. */
+double layout_time_part(const Layout *layout, double x);
+
+/* Boxes side by side: part `index` of `count` of the box, `gap` between. */
+Box box_column(Box box, int index, int count, int gap);
+Box box_inset(Box box, int margin);
+bool box_contains(Box box, double x, double y);
+
+/* ---- stage and world ---------------------------------------------------- */
+
+/* From the world (metres, y up; in the curve x and f) to pixels, y down:
+ * pixel = origin + (scale[0] x, -scale[1] y). */
+typedef struct Camera {
+    double scale[2];  /* pixels a metre, > 0 */
+    double origin[2]; /* pixels, where (0, 0) is */
+} Camera;
+
+/* What the user did with the camera; {1, {0, 0}} fits. */
+typedef struct Lens {
+    double zoom;   /* > 1: closer */
+    double pan[2]; /* how far the middle was moved, in parts of the width and
+                      height that fit */
+} Lens;
+
+extern const Lens LENS_FITS;
+
+/* The camera that shows bounds [4] (left, bottom, right, top; m) in the middle
+ * of the box, then looked at through the lens.
+ *   stretched  x and y have scales of their own, and fill the box */
+Camera camera_create(Box box, const double bounds[4], bool stretched,
+                     const Lens *lens);
+void camera_pixel(const Camera *camera, const double world[2], double pixel[2]);
+void camera_world(const Camera *camera, double x, double y, double world[2]);
+
+/* Zooms by a factor so that the point under pixel (x, y) stays there; moves by
+ * (dx, dy) pixels.  Box, bounds and stretched as above; lens in/out.  The zoom
+ * stays in 1e-3 ... 1e6. */
+void lens_zoom(Lens *lens, Box box, const double bounds[4], bool stretched,
+               double x, double y, double factor);
+void lens_move(Lens *lens, Box box, double dx, double dy);
+
+#endif

@@ -1,0 +1,63 @@
+/* picture.h - a kind of picture is a row of functions, and so is a card.
+ *
+ * A scene names the row it wants; to add a kind of picture is one source file
+ * and one row in picture.c.  Nothing else in the program asks what kind it is.
+ */
+#ifndef ELASTO_PICTURE_H
+#define ELASTO_PICTURE_H
+
+#include "picture/paper.h"
+#include "picture/show.h"
+
+/* Where a pane is drawn and how. */
+typedef struct Stage {
+    Box box;
+    Camera camera;
+    int pane;  /* index in the show */
+    bool text; /* there is room for words */
+} Stage;
+
+/* Springs drawn, and those left out because they would be below 2 pixels. */
+typedef struct SpringCount {
+    long drawn, skipped;
+} SpringCount;
+
+/* A card in the column. */
+typedef struct Card {
+    const char *name;  /* as tables and scripts call it: "listing" */
+    const char *title; /* markup */
+    double weight;     /* share of the column's height */
+    bool closed;       /* at the start */
+    /* Draws what is inside, below the title. */
+    void (*draw)(Paper *paper, Box inside, const Show *show);
+} Card;
+
+typedef struct Picture {
+    const char *name;
+    const Card *const *cards; /* NULL at the end */
+    bool stretched;           /* x and y have scales of their own */
+    /* The part of the world that fits the stage: left, bottom, right, top. */
+    void (*bounds)(const Show *show, int pane, double bounds[4]);
+    SpringCount (*draw)(Paper *paper, const Stage *stage, const Show *show);
+    /* What is under pixel (x, y). */
+    Pick (*pick)(const Show *show, const Stage *stage, double x, double y);
+    /* The small card beside what the mouse is over; may be NULL. */
+    void (*hover)(Paper *paper, const Stage *stage, const Show *show);
+    /* What is kept of each state for plots; may be NULL. */
+    void (*sample)(const Simulation *simulation, History *history,
+                   Trail *trail);
+} Picture;
+
+/* The row of a scene. */
+const Picture *picture_of(const struct Scene *scene);
+
+/* How many cards it has, and the index of the one with this name; -1: it has
+ * none. */
+int picture_cards(const Picture *picture);
+int picture_card(const Picture *picture, const char *name);
+
+/* Draws all of the paper: stage, cards, strip, row, time line, last line.
+ * Returns what became of the springs. */
+SpringCount show_draw(Paper *paper, const Show *show);
+
+#endif

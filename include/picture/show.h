@@ -1,0 +1,227 @@
+/* show.h - all that a frame shows, in one struct: filled by whoever plays,
+ * read by the pictures and cards.
+ *
+ * A frame is a function of the Show and of the size of the paper, nothing
+ * else: the same Show gives the same pixels.  Pointers are not owned and must
+ * live while a frame is drawn; NULL means "there is none", and everything that
+ * would need it is left out.  A zeroed Show with one pane is a valid one.
+ *
+ * Texts are UTF-8, and in the markup of text.h: "{x}^{i+1}" is an x in the
+ * colour of x with a superscript.
+ */
+#ifndef ELASTO_SHOW_H
+#define ELASTO_SHOW_H
+
+#include "picture/history.h"
+#include "picture/layout.h"
+#include "picture/trail.h"
+#include "scenes/simulation.h"
+
+enum {
+    SHOW_TEXT = 160,   /* bytes of a sentence */
+    SHOW_VALUE = 32,   /* bytes of a setting's value */
+    SHOW_TOUCHED = 64, /* springs or nodes listed one by one */
+    SHOW_CODE_LINES = 400
+};
+
+/* ---- Algorithm 3 -------------------------------------------------------- */
+
+/* Where in the listing the run stands.  Everything up to this line is done:
+ * LINE_SOLVE: p is known and drawn; LINE_SEARCH: alpha is. */
+typedef enum Line {
+    LINE_NONE,    /* between two steps; no line is lit */
+    LINE_START,   /* 1  x^i <- x^n */
+    LINE_DO,      /* 2  do */
+    LINE_PROJECT, /* 3  P <- SPDProjection(Hessian E(x^i)) */
+    LINE_SOLVE,   /* 4  p <- -P^-1 grad E(x^i) */
+    LINE_SEARCH,  /* 5  alpha <- BackTrackingLineSearch(x^i, p) */
+    LINE_UPDATE,  /* 6  x^i <- x^i + alpha p */
+    LINE_TEST,    /* 7  while |p|/h > epsilon */
+    LINE_END,     /* 8  x^n+1 <- x^i, v^n+1 <- (x^n+1 - x^n)/h */
+    LINE_COUNT
+} Line;
+
+/* A minimisation as far as it has come: that of the step being made, or of the
+ * last one. */
+typedef struct Trace {
+    Line line;
+    int updates;                /* records of this step; more than fit in */
+    const NewtonRecord *record; /* memory: the last of them */
+    int updates_before;         /* of the step before, drawn in grey */
+    const NewtonRecord *record_before;
+    /* The present update, from line 3 on. */
+    int iteration;   /* 0, 1, ... */
+    const double *x; /* [2n] m, x^i, where p was made */
+    const double *p; /* [2n] m, from line 4 on; NULL before */
+    double residual; /* of p, m/s */
+    double slope;    /* grad E . p, J s^2 */
+    int projected;   /* springs; < 0: not known */
+    /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */
+    EnergyDifference difference;
+    const void *function; /* its first argument */
+    double first;         /* alpha that the search begins with; 0 means 1 */
+    int trials;    /* shown so far: first, first/2, ...; the last one is */
+    bool accepted; /* taken, else it was refused like those before */
+    const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
+} Trace;
+
+/* ---- panes -------------------------------------------------------------- */
+
+/* One picture on the stage. */
+typedef struct Pane {
+    const Simulation *simulation; /* the scene, its settings and state */
+    const double *x;     /* [2n] m, positions to draw; NULL: those of run 0 */
+    const double *ghost; /* [2n] m, the outcome with other settings */
+    const char *ghost_label; /* "without projection" */
+    const History *history;  /* energies (or radii) over time */
+    const Trail *trail;      /* of node 0 of each run */
+    const Trace *trace;
+    const char *label; /* over the pane where there are several */
+    int folded;        /* cells that have turned over; < 0: not counted */
+    Status trouble;    /* how the shown step ended */
+} Pane;
+
+/* What the mouse is over, or holds. */
+typedef enum PickKind {
+    PICK_NONE,
+    PICK_NODE,   /* index: the node */
+    PICK_SPRING, /* index: the spring */
+    PICK_EDGE,   /* index: 0 left, 1 right edge: sets the stretch */
+    PICK_START,  /* the iterate that can be dragged, in curve and landscape */
+    PICK_PLACE   /* any other point of a map or curve: a click starts there */
+} PickKind;
+
+typedef struct Pick {
+    PickKind kind;
+    int pane, index;
+    double point[2]; /* m, where the mouse is in the world */
+} Pick;
+
+/* The spring between the grabbed node and the mouse. */
+typedef struct Hand {
+    bool on;
+    int pane, node;
+    double target[2]; /* m, the mouse */
+    double force;     /* N, for the text; 0: none shown */
+} Hand;
+
+/* ---- around the stage --------------------------------------------------- */
+
+/* A number or a choice in the row. */
+typedef struct Setting {
+    const char *name;       /* markup: "h", "stretch", "projection" */
+    char value[SHOW_VALUE]; /* "0.02 s", "backward Euler" */
+    int letters;            /* the longest value has; 0: as long as now */
+    bool changed;           /* differs from the scene's default */
+    bool off;               /* a method that is switched off */
+} Setting;
+
+/* A key and what it does now. */
+typedef struct Chip {
+    const char *key;   /* "Space", "\u2190" */
+    const char *label; /* "play" */
+    bool lit;          /* the one to press next */
+} Chip;
+
+/* A step in the time line. */
+typedef struct StepBar {
+    int updates;
+    bool unconverged;
+} StepBar;
+
+/* Text beside the stage in the place of the cards. */
+typedef enum PageKind {
+    PAGE_NONE, /* cards */
+    PAGE_HELP, /* all keys */
+    PAGE_CODE  /* a function's text */
+} PageKind;
+
+typedef struct Page {
+    PageKind kind;
+    const char *title; /* "src/lecture.c: step_forward" */
+    int lines;         /* of text, at most SHOW_CODE_LINES are drawn */
+    const char *const *line;
+    int from, to; /* lines lit, 0-based, from <= line < to */
+    int top;      /* first line shown */
+} Page;
+
+/* Help is a table: a key and what it does; a key without text is a heading. */
+typedef struct HelpRow {
+    const char *key, *text;
+} HelpRow;
+
+typedef struct Show {
+    int panes; /* 1 ... LAYOUT_PANES */
+    Pane pane[LAYOUT_PANES];
+    int active; /* the pane whose numbers the cards show */
+
+    /* The strip. */
+    const char *topic;        /* "Algorithm 3: projected Newton" */
+    char sentence[SHOW_TEXT]; /* one sentence that follows the state */
+    char method[SHOW_TEXT];   /* "backward Euler" */
+    char state[SHOW_VALUE];   /* "paused", "at rest"; "" means running */
+    bool paused;
+
+    /* The row. */
+    int settings;
+    Setting setting[LAYOUT_SETTINGS];
+    int selected; /* by Tab; -1: none */
+
+    /* The time line: steps 1 ... bars; `step` is the one shown. */
+    long bars;
+    const StepBar *bar;
+    long step;
+    char time_text[SHOW_TEXT]; /* "step 12   t = 0.24 s   real time x 0.5" */
+
+    /* The last line. */
+    int chips;
+    Chip chip[LAYOUT_CHIPS];
+    char message[SHOW_TEXT]; /* in the place of the chips; "": none */
+    bool warning;            /* the message is one */
+
+    /* Cards. */
+    unsigned closed; /* bit c: the picture's card c is closed */
+    int large;       /* the enlarged one; -1: none */
+    Page page;
+    int help_rows;
+    const HelpRow *help;
+
+    /* The stage. */
+    Lens lens;
+    Pick hover; /* what the mouse is over */
+    Hit over;   /* and which part of the window */
+    Hand hand;
+    bool strain; /* springs coloured by strain */
+    bool bare;   /* the picture of the slide and nothing else */
+    bool arrows; /* p and forces as arrows also while running */
+} Show;
+
+/* Nothing selected, everything fits, one pane that shows the simulation. */
+void show_create(const Simulation *simulation, Show *show);
+
+/* Where everything of it is on a paper of this size. */
+Layout show_layout(const Show *show, int width, int height);
+
+/* The camera of a pane. */
+Camera show_camera(const Show *show, const Layout *layout, int pane);
+
+/* What is at this pixel of the stage; PICK_NONE elsewhere. */
+Pick show_pick(const Show *show, const Layout *layout, double x, double y);
+
+/* Wheel and middle button: see lens_zoom, lens_move. */
+void show_zoom(Show *show, const Layout *layout, double x, double y,
+               double factor);
+void show_move(Show *show, const Layout *layout, int pane, double dx,
+               double dy);
+
+/* The step whose bar is under x; 0 ... bars. */
+long show_step_at(const Show *show, const Layout *layout, double x);
+
+/* Positions that a pane shows, [2n] m. */
+const double *pane_x(const Pane *pane);
+
+/* Takes what histories and trails of this scene's picture keep of the state
+ * now; once for each drawn state, in the order of time.  trail may be NULL. */
+void show_sample(const Simulation *simulation, History *history, Trail *trail);
+
+#endif

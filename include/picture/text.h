@@ -1,0 +1,51 @@
+/* text.h - words and formulas: SDL2_ttf with DejaVu Sans.
+ *
+ * Fonts are opened and letters drawn once for each size; after that a letter
+ * costs as much as its pixels.  Texts are UTF-8.  Marks such as U+0303 stand
+ * over the middle of the letter before them.  In markup
+ *     ^{...} and _{...}     are superscripts and subscripts,
+ *     {x} {xt} {p} {alpha}  the slides' letters in their colours (xt: x with a
+ *                           tilde); any other brace is itself.
+ */
+#ifndef ELASTO_TEXT_H
+#define ELASTO_TEXT_H
+
+#include "picture/canvas.h"
+
+typedef enum Face { FACE_REGULAR, FACE_BOLD, FACE_MONO, FACE_COUNT } Face;
+
+/* Which point of the text the given x is. */
+typedef enum Align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } Align;
+
+typedef struct TextStyle {
+    Face face;
+    double size; /* pixels an em; below 5 nothing is drawn, at most 400 */
+    Colour colour;
+} TextStyle;
+
+typedef struct Text Text;
+
+/* Looks for the fonts: $ELASTO_FONT (a .ttf file; empty: no text at all), then
+ * where systems keep DejaVu Sans.
+ *   text  out; NULL if no font was found, which is no failure: every function
+ *         here accepts NULL, draws nothing and measures as if the letters
+ *         were 0.6 em wide
+ * Returns OK, OUT_OF_MEMORY. */
+Status text_create(Text **text);
+void text_free(Text *text);
+
+/* Pixels from the upper edge of a line to that of the next. */
+double text_line(double size);
+
+/* Width in pixels. */
+int text_width(Text *text, const TextStyle *style, const char *markup);
+
+/* One line; y is its upper edge.  Returns the width. */
+int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
+              double y, Align align, const char *markup);
+
+/* The same without markup: every character is itself. */
+int text_draw_plain(Text *text, Canvas *canvas, const TextStyle *style,
+                    double x, double y, const char *string);
+
+#endif

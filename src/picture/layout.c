@@ -1,0 +1,333 @@
+#include "picture/layout.h"
+
+#include <math.h>
+
+/* Sizes in ems, the size of the texts. */
+static const double STRIP = 3.1, ROW = 2.6, TIME = 5.6, LAST = 3.0;
+static const double GAP = 0.9;          /* between the zones' contents */
+static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
+static const double LETTER = 0.56;      /* a letter is wide, on average */
+static const double SETTING_GAP = 1.9;  /* between settings */
+static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
+static const double BARS = 2.9;         /* the bars of the time line are high */
+static const double COLUMN_LEAST = 27;
+
+/* The column's part of the width. */
+static const double COLUMN_PART = 0.38;
+
+/* At 800 pixels of height an em has 14, and never less than 9. */
+static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
+                    EM_LEAST = 9;
+
+static int pixels(const Layout *layout, double ems)
+{
+    return (int)floor(ems * layout->em + 0.5);
+}
+
+Box box_column(Box box, int index, int count, int gap)
+{
+    int room = box.width - (count - 1) * gap;
+    int left = (int)((long)room * index / count) + index * gap;
+    int right = (int)((long)room * (index + 1) / count) + index * gap;
+    return (Box){box.x + left, box.y, right - left, box.height};
+}
+
+Box box_inset(Box box, int margin)
+{
+    Box inner = {box.x + margin, box.y + margin, box.width - 2 * margin,
+                 box.height - 2 * margin};
+    inner.width = inner.width < 0 ? 0 : inner.width;
+    inner.height = inner.height < 0 ? 0 : inner.height;
+    return inner;
+}
+
+bool box_contains(Box box, double x, double y)
+{
+    return x >= box.x && x < box.x + box.width && y >= box.y &&
+           y < box.y + box.height;
+}
+
+/* Takes a strip off the lower edge of `rest`. */
+static Box cut_bottom(Box *rest, int height)
+{
+    rest->height -= height;
+    return (Box){rest->x, rest->y + rest->height, rest->width, height};
+}
+
+/* Takes a strip off its upper edge. */
+static Box cut_top(Box *rest, int height)
+{
+    Box top = {rest->x, rest->y, rest->width, height};
+    rest->y += height;
+    rest->height -= height;
+    return top;
+}
+
+/* The settings in lines from the left; the lines they need, at most `most`:
+ * the rest is left out.  Place them in layout->row, if it is there. */
+static int place_settings(const LayoutWish *wish, Layout *layout, int most)
+{
+    int gap = pixels(layout, SETTING_GAP), line = 0;
+    int left = pixels(layout, GAP + 0.5), x = left;
+    int right = layout->width - pixels(layout, GAP);
+    int height = pixels(layout, ROW - 0.4);
+    layout->settings = 0;
+    for (int i = 0; i < wish->settings && i < LAYOUT_SETTINGS; i++) {
+        int width = pixels(layout, wish->setting_letters[i] * LETTER + 0.8);
+        if (x + width > right && x > left) {
+            line++;
+            x = left;
+        }
+        if (line >= most)
+            return most;
+        layout->setting[layout->settings++] =
+            (Box){x, layout->row.y + pixels(layout, 0.2) + line * height, width,
+                  height};
+        x += width + gap;
+    }
+    return line + 1;
+}
+
+/* As many chips as fit, from the left. */
+static void place_chips(const LayoutWish *wish, Layout *layout)
+{
+    int x = pixels(layout, GAP), gap = pixels(layout, 0.6);
+    int right = layout->width - x;
+    Box inner = layout->last;
+    inner.y += pixels(layout, 0.35);
+    inner.height -= 2 * pixels(layout, 0.35);
+    for (int i = 0; i < wish->chips && i < LAYOUT_CHIPS; i++) {
+        int width = pixels(layout, wish->chip_letters[i] * LETTER * 0.92 +
+                                       CHIP_PADDING);
+        if (x + width > right)
+            return;
+        layout->chip[layout->chips++] = (Box){x, inner.y, width, inner.height};
+        x += width + gap;
+    }
+}
+
+/* Strip, row, time line, last line off the whole; what is left is returned. */
+static Box place_zones(const LayoutWish *wish, Layout *layout)
+{
+    Box rest = {0, 0, layout->width, layout->height};
+    double high = layout->height / layout->em;
+    if (wish->bare || high < 16)
+        return rest;
+    bool roomy = high >= 40;
+    layout->strip = cut_top(&rest, pixels(layout, roomy ? STRIP : 2.2));
+    if (high >= 20)
+        layout->last = cut_bottom(&rest, pixels(layout, roomy ? LAST : 2.5));
+    layout->time = cut_bottom(&rest, pixels(layout, roomy ? TIME : 2));
+    if (roomy && wish->settings > 0) {
+        int lines = place_settings(wish, layout, 2);
+        int height = pixels(layout, ROW + (lines - 1) * (ROW - 0.4));
+        layout->row = cut_bottom(&rest, height);
+        place_settings(wish, layout, 2);
+    }
+    layout->bars = box_inset(layout->time, 0);
+    layout->bars.x += pixels(layout, GAP);
+    layout->bars.width -= 2 * pixels(layout, GAP);
+    if (roomy) {
+        int height = pixels(layout, BARS);
+        layout->bars.y += layout->time.height - height - pixels(layout, 0.5);
+        layout->bars.height = height;
+    }
+    if (layout->bars.width < 1)
+        layout->bars.width = 1;
+    place_chips(wish, layout);
+    return rest;
+}
+
+/* Open cards share the height by their weights; of closed ones, and of the
+ * others beside a large one, the title is seen. */
+static void place_cards(const LayoutWish *wish, Layout *layout)
+{
+    int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
+    Box inner = box_inset(layout->column, pixels(layout, GAP));
+    int room = inner.height, y = inner.y;
+    double weights = 0;
+    bool bars[LAYOUT_CARDS];
+    layout->cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
+    for (int i = 0; i < layout->cards; i++) {
+        bool large = wish->large >= 0 && wish->large < layout->cards;
+        bars[i] = (wish->closed >> i & 1) || (large && i != wish->large);
+        room -= bars[i] ? bar : 0;
+        weights += bars[i] ? 0 : wish->weight[i];
+    }
+    room -= (layout->cards - 1) * gap;
+    for (int i = 0; i < layout->cards; i++) {
+        int height = bars[i] ? bar : (int)(room * wish->weight[i] / weights);
+        height = height < bar ? bar : height;
+        layout->card[i] = (Box){inner.x, y, inner.width, height};
+        y += height + gap;
+    }
+}
+
+/* One beside the other, in one, two or three columns. */
+static void place_panes(const LayoutWish *wish, Layout *layout)
+{
+    int count = wish->panes < 1 ? 1 : wish->panes;
+    count = count > LAYOUT_PANES ? LAYOUT_PANES : count;
+    int columns = 1, gap = pixels(layout, 0.3);
+    double best = 0;
+    for (int c = 1; c <= count; c++) { /* the most room for squares */
+        int rows = (count + c - 1) / c;
+        double side = fmin((double)layout->stage.width / c,
+                           (double)layout->stage.height / rows);
+        if (side > best * 1.001) {
+            best = side;
+            columns = c;
+        }
+    }
+    int rows = (count + columns - 1) / columns;
+    for (int i = 0; i < count; i++) {
+        Box column = box_column(layout->stage, i % columns, columns, gap);
+        int top = layout->stage.height * (i / columns) / rows;
+        int bottom = layout->stage.height * (i / columns + 1) / rows;
+        column.y += top;
+        column.height = bottom - top - (count > 1 ? gap : 0);
+        layout->pane[i] = column;
+    }
+    layout->panes = count;
+}
+
+Layout layout_create(int width, int height, const LayoutWish *wish)
+{
+    Layout layout = {.width = width, .height = height};
+    double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
+    layout.em = fmax(size, EM_LEAST);
+    layout.stage = place_zones(wish, &layout);
+    double wide = width / layout.em, high = height / layout.em;
+    if (!wish->bare && wide >= 60 && high >= 36 &&
+        (wish->page || wish->cards > 0)) {
+        int column = pixels(&layout, fmax(COLUMN_PART * wide, COLUMN_LEAST));
+        layout.column = layout.stage;
+        layout.column.width = column;
+        layout.column.x += layout.stage.width - column;
+        layout.stage.width -= column;
+        if (!wish->page)
+            place_cards(wish, &layout);
+    } else if (!wish->bare && wish->page) { /* over the stage */
+        layout.column = layout.stage;
+    }
+    place_panes(wish, &layout);
+    return layout;
+}
+
+Box layout_close_box(const Layout *layout, int card)
+{
+    Box box = layout->card[card];
+    int side = pixels(layout, TITLE_BAR);
+    return (Box){box.x + box.width - side, box.y, side,
+                 box.height < side ? box.height : side};
+}
+
+static Hit hit_first(const Box *boxes, int count, Zone zone, double x, double y)
+{
+    for (int i = 0; i < count; i++)
+        if (box_contains(boxes[i], x, y))
+            return (Hit){zone, i};
+    return (Hit){ZONE_NONE, 0};
+}
+
+Hit layout_hit(const Layout *layout, double x, double y)
+{
+    if (box_contains(layout->column, x, y)) {
+        Hit hit = hit_first(layout->card, layout->cards, ZONE_CARD, x, y);
+        if (layout->cards == 0)
+            return (Hit){ZONE_PAGE, 0};
+        if (hit.zone == ZONE_CARD &&
+            box_contains(layout_close_box(layout, hit.index), x, y))
+            hit.zone = ZONE_CARD_CLOSE;
+        return hit;
+    }
+    if (box_contains(layout->stage, x, y))
+        return hit_first(layout->pane, layout->panes, ZONE_STAGE, x, y);
+    if (box_contains(layout->row, x, y))
+        return hit_first(layout->setting, layout->settings, ZONE_SETTING, x, y);
+    if (box_contains(layout->last, x, y))
+        return hit_first(layout->chip, layout->chips, ZONE_CHIP, x, y);
+    if (box_contains(layout->time, x, y))
+        return (Hit){ZONE_TIME, 0};
+    if (box_contains(layout->strip, x, y))
+        return (Hit){ZONE_STRIP, 0};
+    return (Hit){ZONE_NONE, 0};
+}
+
+double layout_time_part(const Layout *layout, double x)
+{
+    const Box *bars = &layout->bars;
+    if (bars->width < 1)
+        return 0;
+    return fmin(fmax((x - bars->x) / bars->width, 0), 1);
+}
+
+/* ---- stage and world ---------------------------------------------------- */
+
+const Lens LENS_FITS = {1, {0, 0}};
+
+static const double ZOOM_LEAST = 1e-3, ZOOM_MOST = 1e6;
+
+/* Pixels a metre that fit; one for both directions unless stretched. */
+static void fitting_scale(Box box, const double bounds[4], bool stretched,
+                          double scale[2])
+{
+    double wide = fmax(bounds[2] - bounds[0], 1e-300);
+    double high = fmax(bounds[3] - bounds[1], 1e-300);
+    scale[0] = fmax(box.width, 1) / wide;
+    scale[1] = fmax(box.height, 1) / high;
+    if (!stretched)
+        scale[0] = scale[1] = fmin(scale[0], scale[1]);
+}
+
+Camera camera_create(Box box, const double bounds[4], bool stretched,
+                     const Lens *lens)
+{
+    Camera camera;
+    double fit[2];
+    double zoom = lens->zoom > 0 ? lens->zoom : 1;
+    fitting_scale(box, bounds, stretched, fit);
+    double middle[2] = {box.x + 0.5 * box.width, box.y + 0.5 * box.height};
+    double size[2] = {box.width, -(double)box.height};
+    for (int k = 0; k < 2; k++) {
+        double centre = 0.5 * (bounds[k] + bounds[k + 2]);
+        camera.scale[k] = fit[k] * zoom;
+        double sign = k == 0 ? 1 : -1;
+        camera.origin[k] = middle[k] + lens->pan[k] * size[k] * zoom -
+                           sign * camera.scale[k] * centre;
+    }
+    return camera;
+}
+
+void camera_pixel(const Camera *camera, const double world[2], double pixel[2])
+{
+    pixel[0] = camera->origin[0] + camera->scale[0] * world[0];
+    pixel[1] = camera->origin[1] - camera->scale[1] * world[1];
+}
+
+void camera_world(const Camera *camera, double x, double y, double world[2])
+{
+    world[0] = (x - camera->origin[0]) / camera->scale[0];
+    world[1] = (camera->origin[1] - y) / camera->scale[1];
+}
+
+/* pan is kept for zoom 1, so that the fitting view may change below it. */
+void lens_zoom(Lens *lens, Box box, const double bounds[4], bool stretched,
+               double x, double y, double factor)
+{
+    Camera camera = camera_create(box, bounds, stretched, lens);
+    double world[2], after[2];
+    double zoom = lens->zoom > 0 ? lens->zoom : 1;
+    camera_world(&camera, x, y, world);
+    lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
+    camera = camera_create(box, bounds, stretched, lens);
+    camera_pixel(&camera, world, after);
+    lens_move(lens, box, x - after[0], y - after[1]);
+}
+
+void lens_move(Lens *lens, Box box, double dx, double dy)
+{
+    double zoom = lens->zoom > 0 ? lens->zoom : 1;
+    lens->pan[0] += dx / (zoom * fmax(box.width, 1));
+    lens->pan[1] -= dy / (zoom * fmax(box.height, 1));
+}

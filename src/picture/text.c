@@ -1,0 +1,441 @@
+#include "picture/text.h"
+
+#include <SDL_ttf.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "picture/colour_map.h"
+
+enum {
+    TEXT_FONTS = 24,    /* open at a time: sizes times faces */
+    TEXT_GLYPHS = 2048, /* kept at a time, a power of two */
+    TEXT_NAME = 512,
+    TEXT_DEPTH = 3, /* superscripts of superscripts */
+    LEAST_SIZE = 5,
+    MOST_SIZE = 400
+};
+
+static const double SCRIPT_SIZE = 0.7;   /* of the letter it belongs to */
+static const double RAISE = 0.36;        /* ems up, a superscript */
+static const double LOWER = 0.18;        /* ems down, a subscript */
+static const double ASCENT = 0.93;       /* ems, upper edge to baseline */
+static const double LINE_HEIGHT = 1.3;   /* ems */
+static const double GUESSED_WIDTH = 0.6; /* ems a letter, without a font */
+
+/* A letter, drawn once. */
+typedef struct Glyph {
+    uint64_t key;           /* 0: a free place */
+    int left, top, advance; /* pixels, of the mask from pen and baseline */
+    int width, height;
+    uint8_t *mask; /* [height width] coverage, or NULL: nothing to draw */
+} Glyph;
+
+typedef struct OpenFont {
+    Face face;
+    int size;
+    TTF_Font *font;
+} OpenFont;
+
+struct Text {
+    char file[FACE_COUNT][TEXT_NAME];
+    bool bold_by_style, began; /* no bold file; TTF_Init succeeded */
+    int fonts, glyphs;
+    OpenFont font[TEXT_FONTS];
+    Glyph glyph[TEXT_GLYPHS]; /* hashed by key */
+};
+
+/* ---- where the fonts are ------------------------------------------------ */
+
+static const char *const font_folders[] = {
+    "/usr/share/fonts/truetype/dejavu",   /* Debian, Ubuntu */
+    "/usr/share/fonts/dejavu-sans-fonts", /* Fedora */
+    "/usr/share/fonts/dejavu",            /* older Fedora, Gentoo */
+    "/usr/share/fonts/TTF",               /* Arch */
+    "/usr/share/fonts/truetype",          /* openSUSE */
+    "/usr/local/share/fonts/dejavu",      /* BSD */
+    "/Library/Fonts",                     /* macOS */
+    "/opt/homebrew/share/fonts",
+    "/usr/local/share/fonts",
+};
+
+static const char *const font_home_folders[] = {"Library/Fonts",
+                                                ".local/share/fonts", ".fonts"};
+
+static const char *const face_files[FACE_COUNT] = {
+    "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
+
+/* folder/between/name, if it is a file that can be read. */
+static bool try_file(char *file, const char *folder, const char *between,
+                     const char *name)
+{
+    int length = snprintf(file, TEXT_NAME, "%s%s%s/%s", folder,
+                          between[0] ? "/" : "", between, name);
+    return length > 0 && length < TEXT_NAME && access(file, R_OK) == 0;
+}
+
+/* A face of DejaVu in one of the folders; file "" if there is none. */
+static bool find_face(Face face, char *file)
+{
+    const char *home = getenv("HOME"), *name = face_files[face];
+    for (size_t i = 0; i < sizeof font_folders / sizeof *font_folders; i++)
+        if (try_file(file, font_folders[i], "", name))
+            return true;
+    for (size_t i = 0;
+         home && i < sizeof font_home_folders / sizeof *font_home_folders; i++)
+        if (try_file(file, home, font_home_folders[i], name))
+            return true;
+    file[0] = '\0';
+    return false;
+}
+
+/* Fills text->file.  Returns false if there is no regular font. */
+static bool find_fonts(Text *text)
+{
+    const char *given = getenv("ELASTO_FONT");
+    if (given && given[0] == '\0')
+        return false;
+    for (int face = 0; face < FACE_COUNT; face++)
+        find_face((Face)face, text->file[face]);
+    if (given && strlen(given) < TEXT_NAME && access(given, R_OK) == 0) {
+        strcpy(text->file[FACE_REGULAR], given);
+        text->file[FACE_BOLD][0] = '\0';
+    }
+    if (!text->file[FACE_REGULAR][0])
+        return false;
+    text->bold_by_style = !text->file[FACE_BOLD][0];
+    if (text->bold_by_style)
+        strcpy(text->file[FACE_BOLD], text->file[FACE_REGULAR]);
+    if (!text->file[FACE_MONO][0])
+        strcpy(text->file[FACE_MONO], text->file[FACE_REGULAR]);
+    return true;
+}
+
+Status text_create(Text **text)
+{
+    *text = NULL;
+    Text *made = calloc(1, sizeof *made);
+    if (!made)
+        return STATUS_OUT_OF_MEMORY;
+    made->began = find_fonts(made) && TTF_Init() == 0;
+    if (made->began)
+        *text = made;
+    else
+        free(made);
+    return STATUS_OK;
+}
+
+static void forget_glyphs(Text *text)
+{
+    for (int i = 0; i < TEXT_GLYPHS; i++)
+        free(text->glyph[i].mask);
+    memset(text->glyph, 0, sizeof text->glyph);
+    text->glyphs = 0;
+}
+
+void text_free(Text *text)
+{
+    if (!text)
+        return;
+    forget_glyphs(text);
+    for (int i = 0; i < text->fonts; i++)
+        TTF_CloseFont(text->font[i].font);
+    if (text->began)
+        TTF_Quit();
+    free(text);
+}
+
+/* ---- letters ------------------------------------------------------------ */
+
+/* The font of this face and size, opened if it is not; NULL: it cannot be. */
+static TTF_Font *open_font(Text *text, Face face, int size)
+{
+    for (int i = 0; i < text->fonts; i++)
+        if (text->font[i].face == face && text->font[i].size == size)
+            return text->font[i].font;
+    if (text->fonts == TEXT_FONTS) /* many sizes were used: the oldest goes */
+    {
+        TTF_CloseFont(text->font[0].font);
+        memmove(text->font, text->font + 1,
+                (TEXT_FONTS - 1) * sizeof *text->font);
+        text->fonts--;
+    }
+    TTF_Font *font = TTF_OpenFont(text->file[face], size);
+    if (!font)
+        return NULL;
+    TTF_SetFontHinting(font, TTF_HINTING_LIGHT);
+    if (face == FACE_BOLD && text->bold_by_style)
+        TTF_SetFontStyle(font, TTF_STYLE_BOLD);
+    text->font[text->fonts++] = (OpenFont){face, size, font};
+    return font;
+}
+
+/* Rows and columns of the surface that hold ink. */
+static SDL_Rect ink_of(const SDL_Surface *surface)
+{
+    int left = surface->w, right = 0, top = surface->h, bottom = 0;
+    for (int j = 0; j < surface->h; j++) {
+        const uint8_t *row =
+            (const uint8_t *)surface->pixels + (size_t)j * surface->pitch;
+        for (int i = 0; i < surface->w; i++) {
+            uint32_t pixel;
+            memcpy(&pixel, row + 4 * (size_t)i, sizeof pixel);
+            if (!(pixel >> 24))
+                continue;
+            left = i < left ? i : left;
+            right = i + 1 > right ? i + 1 : right;
+            top = j < top ? j : top;
+            bottom = j + 1;
+        }
+    }
+    return (SDL_Rect){left, top, right - left, bottom - top};
+}
+
+/* Keeps the opacity of the surface's ink as the mask of the glyph. */
+static void keep_mask(Glyph *glyph, const SDL_Surface *surface, int ascent)
+{
+    SDL_Rect ink = ink_of(surface);
+    if (ink.w <= 0 || ink.h <= 0)
+        return;
+    glyph->mask = malloc((size_t)ink.w * (size_t)ink.h);
+    if (!glyph->mask)
+        return;
+    glyph->width = ink.w;
+    glyph->height = ink.h;
+    glyph->top = ink.y - ascent;
+    for (int j = 0; j < ink.h; j++)
+        for (int i = 0; i < ink.w; i++) {
+            uint32_t pixel;
+            memcpy(&pixel,
+                   (const uint8_t *)surface->pixels +
+                       (size_t)(ink.y + j) * surface->pitch +
+                       4 * (size_t)(ink.x + i),
+                   sizeof pixel);
+            glyph->mask[(size_t)j * (size_t)ink.w + (size_t)i] =
+                (uint8_t)(pixel >> 24);
+        }
+}
+
+/* Draws the letter.  One that cannot be drawn keeps its room. */
+static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
+{
+    Glyph glyph = {.advance = (int)(GUESSED_WIDTH * size)};
+    TTF_Font *font = open_font(text, face, size);
+    int left = 0, right = 0, bottom = 0, top = 0;
+    if (!font || TTF_GlyphMetrics32(font, letter, &left, &right, &bottom, &top,
+                                    &glyph.advance))
+        return glyph;
+    glyph.left = left;
+    SDL_Surface *drawn = TTF_RenderGlyph32_Blended(
+        font, letter, (SDL_Color){255, 255, 255, 255});
+    if (!drawn)
+        return glyph;
+    if (drawn->format->BytesPerPixel == 4)
+        keep_mask(&glyph, drawn, TTF_FontAscent(font));
+    SDL_FreeSurface(drawn);
+    return glyph;
+}
+
+/* From the cache, or drawn. */
+static const Glyph *find_glyph(Text *text, Face face, int size, uint32_t letter)
+{
+    uint64_t key =
+        (uint64_t)letter << 16 | (uint64_t)size << 4 | ((uint64_t)face + 1);
+    if (text->glyphs > TEXT_GLYPHS / 2)
+        forget_glyphs(text);
+    size_t place = (size_t)(key * 0x9e3779b97f4a7c15u >> 40) % TEXT_GLYPHS;
+    while (text->glyph[place].key && text->glyph[place].key != key)
+        place = (place + 1) % TEXT_GLYPHS;
+    Glyph *glyph = &text->glyph[place];
+    if (!glyph->key) {
+        *glyph = make_glyph(text, face, size, letter);
+        glyph->key = key;
+        text->glyphs++;
+    }
+    return glyph;
+}
+
+/* The next character of UTF-8; a wrong byte is U+FFFD. */
+static uint32_t next_letter(const char **string)
+{
+    const unsigned char *s = (const unsigned char *)*string;
+    int more = s[0] < 0x80   ? 0
+               : s[0] < 0xc2 ? -1
+               : s[0] < 0xe0 ? 1
+               : s[0] < 0xf0 ? 2
+               : s[0] < 0xf5 ? 3
+                             : -1;
+    uint32_t letter = more <= 0 ? s[0] : s[0] & (0x3fu >> more);
+    for (int i = 1; i <= more; i++) {
+        if ((s[i] & 0xc0) != 0x80) {
+            more = -1;
+            break;
+        }
+        letter = letter << 6 | (s[i] & 0x3f);
+    }
+    *string += more < 0 ? 1 : more + 1;
+    return more < 0 ? 0xfffd : letter;
+}
+
+/* ---- lines -------------------------------------------------------------- */
+
+/* A pen that moves along a line; canvas NULL: it only measures. */
+typedef struct Pen {
+    Text *text;
+    Canvas *canvas;
+    TextStyle style;
+    double x, baseline;
+    int mark_left, mark_width, mark_top; /* ink of the last letter */
+} Pen;
+
+/* One letter; a mark is centred over the one before. */
+static void pen_letter(Pen *pen, uint32_t letter)
+{
+    int size = (int)(pen->style.size + 0.5);
+    bool mark = letter >= 0x300 && letter < 0x370;
+    if (!pen->text) {
+        pen->x += mark ? 0 : GUESSED_WIDTH * pen->style.size;
+        return;
+    }
+    const Glyph *glyph = find_glyph(pen->text, pen->style.face, size, letter);
+    int x = (int)floor(pen->x + 0.5) + glyph->left;
+    int y = (int)floor(pen->baseline + 0.5) + glyph->top;
+    if (mark) {
+        int gap = (size + 8) / 16;
+        int low = (int)floor(pen->baseline + 0.5) + pen->mark_top - gap;
+        x = pen->mark_left + (pen->mark_width - glyph->width) / 2;
+        y = y + glyph->height > low ? low - glyph->height : y;
+    }
+    if (pen->canvas && glyph->mask)
+        canvas_stencil(pen->canvas, x, y, glyph->width, glyph->height,
+                       glyph->mask, pen->style.colour);
+    if (mark)
+        return;
+    pen->mark_left = x;
+    pen->mark_width = glyph->width;
+    pen->mark_top = glyph->top;
+    pen->x += glyph->advance;
+}
+
+static void pen_string(Pen *pen, const char *string, const char *end)
+{
+    while (string < end && *string)
+        pen_letter(pen, next_letter(&string));
+}
+
+/* The letters that have a colour. */
+typedef struct Coloured {
+    const char *name, *shown;
+    Colour colour;
+} Coloured;
+
+static const Coloured coloured[] = {
+    {"{x}", "x", COLOUR_X},
+    {"{xt}", "x\u0303", COLOUR_X_TILDE},
+    {"{p}", "p", COLOUR_P},
+    {"{alpha}", "\u03b1", COLOUR_ALPHA},
+};
+
+/* Draws one of these if the string begins with it, and returns its length. */
+static size_t pen_coloured(Pen *pen, const char *string)
+{
+    for (size_t i = 0; i < sizeof coloured / sizeof *coloured; i++) {
+        size_t length = strlen(coloured[i].name);
+        if (strncmp(string, coloured[i].name, length) != 0)
+            continue;
+        Colour before = pen->style.colour;
+        pen->style.colour = coloured[i].colour;
+        pen_string(pen, coloured[i].shown,
+                   coloured[i].shown + strlen(coloured[i].shown));
+        pen->style.colour = before;
+        return length;
+    }
+    return 0;
+}
+
+/* The brace that closes the one before `string`, or the end. */
+static const char *closing_brace(const char *string, const char *end)
+{
+    int depth = 1;
+    for (; string < end; string++) {
+        depth += *string == '{';
+        depth -= *string == '}';
+        if (depth == 0)
+            return string;
+    }
+    return end;
+}
+
+static void pen_markup(Pen *pen, const char *string, const char *end, int depth)
+{
+    while (string < end) {
+        bool script = (*string == '^' || *string == '_') && string[1] == '{';
+        size_t length = *string == '{' ? pen_coloured(pen, string) : 0;
+        if (script && depth < TEXT_DEPTH) {
+            Pen before = *pen;
+            const char *inner = string + 2;
+            const char *close = closing_brace(inner, end);
+            pen->baseline +=
+                before.style.size * (*string == '^' ? -RAISE : LOWER);
+            pen->style.size *= SCRIPT_SIZE;
+            pen_markup(pen, inner, close, depth + 1);
+            pen->style = before.style;
+            pen->baseline = before.baseline;
+            string = close < end ? close + 1 : end;
+        } else if (length) {
+            string += length;
+        } else {
+            pen_letter(pen, next_letter(&string));
+        }
+    }
+}
+
+/* Whether letters of this size can be seen. */
+static bool style_draws(const TextStyle *style)
+{
+    return style->size >= LEAST_SIZE && style->size <= MOST_SIZE;
+}
+
+double text_line(double size)
+{
+    return LINE_HEIGHT * size;
+}
+
+int text_width(Text *text, const TextStyle *style, const char *markup)
+{
+    Pen pen = {.text = text, .style = *style};
+    if (!style_draws(style))
+        return 0;
+    pen_markup(&pen, markup, markup + strlen(markup), 0);
+    return (int)ceil(pen.x);
+}
+
+/* Letters start at whole pixels. */
+int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
+              double y, Align align, const char *markup)
+{
+    if (!text || !style_draws(style))
+        return text_width(text, style, markup);
+    int width = align == ALIGN_LEFT ? 0 : text_width(text, style, markup);
+    double start = align == ALIGN_LEFT     ? x
+                   : align == ALIGN_CENTRE ? x - 0.5 * width
+                                           : x - width;
+    Pen pen = {
+        text, canvas, *style, floor(start + 0.5), y + ASCENT * style->size,
+        0,    0,      0};
+    pen_markup(&pen, markup, markup + strlen(markup), 0);
+    return (int)ceil(pen.x - start);
+}
+
+int text_draw_plain(Text *text, Canvas *canvas, const TextStyle *style,
+                    double x, double y, const char *string)
+{
+    Pen pen = {text, canvas, *style, floor(x + 0.5), y + ASCENT * style->size,
+               0,    0,      0};
+    if (!style_draws(style))
+        return 0;
+    pen_string(&pen, string, string + strlen(string));
+    return (int)ceil(pen.x - x);
+}

@@ -1,0 +1,283 @@
+/* Where everything in the window is, and its texts. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/layout.h"
+#include "picture/text.h"
+#include "testing.h"
+
+static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
+                               {3840, 2160}, {400, 300},  {200, 200},
+                               {1, 1},       {300, 4000}, {4000, 200}};
+enum { SIZES = sizeof sizes / sizeof *sizes };
+
+static LayoutWish full_wish(void)
+{
+    LayoutWish wish = {.panes = 1, .cards = 4, .large = -1, .settings = 9};
+    for (int i = 0; i < wish.cards; i++)
+        wish.weight[i] = 1 + i;
+    for (int i = 0; i < wish.settings; i++)
+        wish.setting_letters[i] = 5 + 2 * i;
+    wish.chips = 9;
+    for (int i = 0; i < wish.chips; i++)
+        wish.chip_letters[i] = 8 + i;
+    return wish;
+}
+
+static bool boxes_overlap(Box a, Box b)
+{
+    return a.width > 0 && b.width > 0 && a.x < b.x + b.width &&
+           b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+static bool box_inside(Box inner, Box outer)
+{
+    return inner.width <= 0 ||
+           (inner.x >= outer.x && inner.y >= outer.y &&
+            inner.x + inner.width <= outer.x + outer.width &&
+            inner.y + inner.height <= outer.y + outer.height);
+}
+
+/* Boxes of one kind lie in their zone and apart from each other. */
+static void check_boxes(const Box *boxes, int count, Box zone)
+{
+    for (int i = 0; i < count; i++) {
+        CHECK(boxes[i].width > 0 && box_inside(boxes[i], zone));
+        for (int j = 0; j < i; j++)
+            CHECK(!boxes_overlap(boxes[i], boxes[j]));
+    }
+}
+
+/* Zones tile the window: areas add up, nothing overlaps; parts lie inside. */
+static void zones_tile_every_size(void **unused)
+{
+    (void)unused;
+    for (int s = 0; s < SIZES; s++)
+        for (int panes = 1; panes <= LAYOUT_PANES; panes++) {
+            LayoutWish wish = full_wish();
+            wish.panes = panes;
+            Layout l = layout_create(sizes[s][0], sizes[s][1], &wish);
+            const Box zones[] = {l.strip, l.stage, l.column,
+                                 l.row,   l.time,  l.last};
+            const Box window = {0, 0, l.width, l.height};
+            long area = 0;
+            for (int i = 0; i < 6; i++) {
+                CHECK(box_inside(zones[i], window));
+                area += (long)zones[i].width * zones[i].height;
+                for (int j = 0; j < i; j++)
+                    CHECK(!boxes_overlap(zones[i], zones[j]));
+            }
+            CHECK(area == (long)l.width * l.height);
+            CHECK(l.panes == panes);
+            if (l.width >= 200)
+                check_boxes(l.pane, l.panes, l.stage);
+            check_boxes(l.card, l.cards, l.column);
+            check_boxes(l.setting, l.settings, l.row);
+            check_boxes(l.chip, l.chips, l.last);
+            CHECK(box_inside(l.bars, window));
+        }
+}
+
+/* What a lecture's screen must have, and what a stamp must not. */
+static void sizes_fold(void **unused)
+{
+    (void)unused;
+    LayoutWish wish = full_wish();
+    for (int s = 0; s < 4; s++) {
+        Layout l = layout_create(sizes[s][0], sizes[s][1], &wish);
+        CHECK(l.cards == 4 && l.settings == 9 && l.chips >= 6);
+        CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
+    }
+    Layout small = layout_create(400, 300, &wish);
+    CHECK(small.cards == 0 && small.settings == 0 && small.chips >= 1);
+    CHECK(small.stage.width == 400 && small.stage.height > 200);
+    wish.bare = true;
+    Layout bare = layout_create(900, 900, &wish);
+    CHECK(bare.stage.width == 900 && bare.stage.height == 900);
+    CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
+}
+
+/* The middle of every box is hit as that box. */
+static void hits_are_what_is_there(void **unused)
+{
+    (void)unused;
+    LayoutWish wish = full_wish();
+    wish.panes = 5;
+    wish.closed = 2;
+    Layout l = layout_create(1280, 800, &wish);
+    const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
+    const int counts[] = {l.panes, l.cards, l.settings, l.chips};
+    const Zone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < counts[k]; i++) {
+            const Box *box = &lists[k][i];
+            Hit hit = layout_hit(&l, box->x + 0.5 * box->width,
+                                 box->y + 0.5 * box->height);
+            CHECK(hit.zone == zones[k] && hit.index == i);
+        }
+    CHECK(l.card[1].height < l.card[0].height);
+    for (int i = 0; i < l.cards; i++) {
+        Box close = layout_close_box(&l, i);
+        Hit hit = layout_hit(&l, close.x + 2, close.y + 2);
+        CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
+    }
+    CHECK(layout_hit(&l, 640, 5).zone == ZONE_STRIP);
+    CHECK(layout_hit(&l, 640, l.time.y + 1).zone == ZONE_TIME);
+    CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
+    CHECK(layout_time_part(&l, l.bars.x) == 0);
+    CHECK(layout_time_part(&l, l.bars.x + l.bars.width) == 1);
+    CHECK(layout_time_part(&l, 1e9) == 1 && layout_time_part(&l, -1e9) == 0);
+}
+
+/* A large card has the room; a page has it all. */
+static void cards_share_the_column(void **unused)
+{
+    (void)unused;
+    LayoutWish wish = full_wish();
+    Layout even = layout_create(1280, 800, &wish);
+    CHECK(even.card[3].height > even.card[0].height);
+    wish.large = 0;
+    Layout large = layout_create(1280, 800, &wish);
+    for (int i = 1; i < 4; i++)
+        CHECK(large.card[0].height > 5 * large.card[i].height);
+    wish.page = true;
+    Layout page = layout_create(1280, 800, &wish);
+    CHECK(page.cards == 0 && page.column.width == even.column.width);
+    CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==
+          ZONE_PAGE);
+}
+
+/* There and back; zooming keeps the point under the mouse. */
+static void lenses_keep_the_point(void **unused)
+{
+    (void)unused;
+    const Box box = {100, 50, 700, 500};
+    const double bounds[4] = {-1, -2, 3, 2};
+    for (int stretched = 0; stretched < 2; stretched++) {
+        Lens lens = LENS_FITS;
+        Camera camera = camera_create(box, bounds, stretched, &lens);
+        double world[2] = {1, 0}, pixel[2], after[2];
+        camera_pixel(&camera, world, pixel);
+        CHECK_NEAR(pixel[0], 450, 1e-12);
+        CHECK_NEAR(pixel[1], 300, 1e-12);
+        CHECK(stretched == (camera.scale[0] != camera.scale[1]));
+        camera_world(&camera, 333, 222, world);
+        for (int i = 0; i < 5; i++) {
+            lens_zoom(&lens, box, bounds, stretched, 333, 222, 1.7);
+            camera = camera_create(box, bounds, stretched, &lens);
+            camera_pixel(&camera, world, after);
+            CHECK_NEAR(after[0], 333, 1e-9);
+            CHECK_NEAR(after[1], 222, 1e-9);
+        }
+        CHECK_NEAR(lens.zoom, 14.19857, 1e-6);
+        lens_move(&lens, box, 10, -20);
+        camera = camera_create(box, bounds, stretched, &lens);
+        camera_pixel(&camera, world, after);
+        CHECK_NEAR(after[0], 343, 1e-9);
+        CHECK_NEAR(after[1], 202, 1e-9);
+    }
+}
+
+/* ---- texts -------------------------------------------------------------- */
+
+static double ink(const Canvas *canvas)
+{
+    double sum = 0;
+    for (int i = 0; i < canvas->width * canvas->height; i++)
+        sum += 255 - (canvas->pixels[i] & 255);
+    return sum;
+}
+
+/* Mathematics adds what it should: scripts are small, marks take no room,
+ * letters have their colours, braces that mean nothing stay. */
+static void markup_is_set(void **unused)
+{
+    (void)unused;
+    Text *text = NULL;
+    Canvas canvas;
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000};
+    assert_int_equal(text_create(&text), 0);
+    assert_int_equal(canvas_create(400, 60, &canvas), 0);
+    int x = text_width(text, &style, "x");
+    CHECK(x > 0 && text_width(text, &style, "xx") == 2 * x);
+    CHECK(text_width(text, &style, "x\u0303") == x);
+    CHECK(text_width(text, &style, "{xt}") == x);
+    int script = text_width(text, &style, "x^{x}");
+    CHECK(script > x + x / 2 && script < 2 * x);
+    CHECK(text_width(text, &style, "x_{x^{x}}") > script);
+    CHECK(text_width(text, &style, "{a}") > 2 * x);
+    CHECK(text_width(text, &style, "x^{") == x);
+    CHECK(text_draw_plain(text, &canvas, &style, 0, 0, "{x}") > 2 * x);
+    if (text) {
+        canvas_clear(&canvas, 0xffffffff);
+        text_draw(text, &canvas, &style, 0, 0, ALIGN_LEFT, "{p}");
+        double blue = 0, red = 0;
+        for (int i = 0; i < 400 * 60; i++) {
+            blue += 255 - (canvas.pixels[i] & 255);
+            red += 255 - (canvas.pixels[i] >> 16 & 255);
+        }
+        CHECK(blue > 2 * red && red > 0); /* orange keeps its red */
+    }
+    canvas_free(&canvas);
+    text_free(text);
+}
+
+/* Clipped at every edge; wrong UTF-8 and sizes that cannot be are harmless. */
+static void texts_are_clipped(void **unused)
+{
+    (void)unused;
+    Text *text = NULL;
+    Canvas canvas;
+    assert_int_equal(text_create(&text), 0);
+    assert_int_equal(canvas_create(50, 20, &canvas), 0);
+    for (double size = 4; size < 500; size *= 3) {
+        TextStyle style = {FACE_BOLD, size, 0xff000000};
+        for (int y = -30; y <= 20; y += 10)
+            for (int x = -300; x <= 60; x += 30) {
+                text_draw(text, &canvas, &style, x, y, (Align)((x + 300) % 3),
+                          "wrong \xff\xc3 \xe2\x82 ^{_{}}}{ \xf5");
+                text_draw(text, &canvas, &style, x, y, ALIGN_RIGHT, "");
+            }
+    }
+    text_free(text);
+    canvas_free(&canvas);
+}
+
+/* Without a font nothing is drawn, and everything has a width. */
+static void no_font_is_no_failure(void **unused)
+{
+    (void)unused;
+    const char *was = getenv("ELASTO_FONT");
+    char *kept = was ? strdup(was) : NULL;
+    Text *text = (Text *)1;
+    Canvas canvas;
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000};
+    assert_int_equal(canvas_create(100, 40, &canvas), 0);
+    setenv("ELASTO_FONT", "", 1);
+    CHECK_STATUS(text_create(&text), STATUS_OK);
+    CHECK(text == NULL);
+    CHECK(text_draw(text, &canvas, &style, 0, 0, ALIGN_LEFT, "abc") == 36);
+    CHECK(ink(&canvas) == 0);
+    text_free(text);
+    if (kept)
+        setenv("ELASTO_FONT", kept, 1);
+    else
+        unsetenv("ELASTO_FONT");
+    free(kept);
+    canvas_free(&canvas);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zones_tile_every_size),
+        cmocka_unit_test(sizes_fold),
+        cmocka_unit_test(hits_are_what_is_there),
+        cmocka_unit_test(cards_share_the_column),
+        cmocka_unit_test(lenses_keep_the_point),
+        cmocka_unit_test(markup_is_set),
+        cmocka_unit_test(texts_are_clipped),
+        cmocka_unit_test(no_font_is_no_failure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
