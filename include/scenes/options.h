@@ -32,16 +32,27 @@ typedef struct Options {
     const char *log;    /* file for the Newton log, or NULL */
     bool quiet;
     bool help, version, list; /* print that and stop */
+    int panes;                /* side by side, 1: no lists of values */
 } Options;
 
-/* argv into options; argv may be reordered.
+enum { OPTIONS_MAX_PANES = 6 };
+
+/* argv into options, whose texts point into argv.
  *   options  out
- *   message  [size] out, one line without newline after INVALID_INPUT
+ *   message  [size] out, one line without newline after INVALID_INPUT: the
+ *            option, its value and its range stand in it, whole if 512 bytes
+ *            are there
  * Returns OK or INVALID_INPUT.  Prints nothing. */
 Status options_parse(int argc, char **argv, Options *options, char *message,
                      size_t size);
 
-/* The text of --help; fits 80 columns and 24 lines. */
+/* The same where options of scene and method may be lists: "--timestep
+ * 0.004,0.04 --filter clamp,none" are four panes, options->panes says so, and
+ * this fills the options of pane 0, 1, ... */
+Status options_parse_pane(int argc, char **argv, int pane, Options *options,
+                          char *message, size_t size);
+
+/* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
 
 /* The name of a value as on the command line. */

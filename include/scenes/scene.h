@@ -21,11 +21,12 @@ typedef enum PictureKind {
 
 /* What a scene makes use of; options about anything else are refused. */
 enum SceneNeeds {
-    NEEDS_MESH = 1,     /* segments, side, density, stiffness, stretch */
-    NEEDS_TIME = 2,     /* an integrator */
-    NEEDS_START = 4,    /* a point to start from */
-    NEEDS_SPRINGS = 8,  /* solver and filter of their Hessian */
-    NEEDS_MINIMUM = 16, /* tolerance and line search */
+    NEEDS_MESH = 1,        /* segments, side, density, stiffness, stretch */
+    NEEDS_TIME = 2,        /* an integrator */
+    NEEDS_START = 4,       /* a point to start from */
+    NEEDS_SPRINGS = 8,     /* solver and filter of their Hessian */
+    NEEDS_MINIMUM = 16,    /* tolerance and line search */
+    NEEDS_ONE_NUMBER = 32, /* of the start: its x is enough */
 };
 
 typedef struct Scene {

@@ -242,7 +242,7 @@ static Status restart_run(Player *player)
  * Returns false if there is no such scene. */
 static bool find_options(const Options *given, int number, Options *options)
 {
-    char program[] = "elasto", name[64], message[128];
+    char program[] = "elasto", name[64], message[512];
     char *arguments[] = {program, name, NULL};
     int known = 0;
     while (scenes[known].name)

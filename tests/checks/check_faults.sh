@@ -307,22 +307,28 @@ bad_line() { # words: each must be in the one line; then -- arguments...
     done
 }
 
-for value in 0 -1 4097 1e3 1.5 x '' ' 3' '3 ' 0x10 nan inf 3a 3,0 + - \
+for value in 0 -1 4097 1e4 1.5 x '' ' 3' '3 ' 0x10 nan inf 3a 3,0 + - \
     99999999999999999999; do
     bad_line --segments "'$value'" 'from 1 to 4096' -- --segments "$value"
 done
-for option in side density stiffness timestep tolerance; do
+for option in side density stiffness timestep; do
     for value in 0 -1 -0 nan -nan inf -inf x '' ' 1' '1 ' 1e999 -1e999 1e-999 \
-        1,5 1..5 1e 1e5x 1m -- 0x 1_000 NaN INFINITY; do
-        bad_line "--$option" "'$value'" 'finite number above 0' -- \
+        1,5 1..5 1e 1e5x 1m -- 0x 0x1p3 1_000 NaN INFINITY 1e-31 1e31 1e-320 \
+        1e308; do
+        bad_line "--$option" "'$value'" 'a number from 1e-30 to 1e30' -- \
             "--$option=$value"
     done
 done
-for value in nan inf -inf x '' ' 1' '1 ' 1e999 1,5 1e '1.4 m'; do
-    bad_line --stretch "'$value'" 'finite number' -- "--stretch=$value"
+for value in nan inf -inf x '' ' 1' '1 ' 1e999 1,5 1e '1.4 m' 1e201; do
+    bad_line --stretch "'$value'" 'a number from -1e200 to 1e200' -- \
+        "--stretch=$value"
 done
-for value in -1 1.5 x '' 1e3 ' 1' '1 ' nan 99999999999999999999; do
-    bad_line --steps "'$value'" 'whole number of 0 or more' -- \
+for value in 0 -1 nan 1e-301 1e301 '1e-2 m/s'; do
+    bad_line --tolerance "'$value'" 'a number from 1e-300 to 1e300' -- \
+        "--tolerance=$value"
+done
+for value in -1 1.5 x '' 1e-3 ' 1' '1 ' nan 99999999999999999999; do
+    bad_line --steps "'$value'" 'a whole number from 0 to 1e18' -- \
         "--steps=$value"
 done
 for option in integrator solver filter line-search; do
@@ -340,9 +346,12 @@ done
 for option in frames states log; do
     bad_line "--$option" empty -- "--$option="
 done
-for line in --nonsense --segment5 -x --no-headless --SEGMENTS; do
-    bad_line "$line" --help -- "$line"
+for line in --nonsense -y --=3 ---; do
+    bad_line "no option ${line%%=*}" --help -- "$line"
 done
+bad_line --segment5 'did you mean --segments?' -- --segment5
+bad_line --SEGMENTS 'did you mean --segments?' -- --SEGMENTS
+bad_line --no-headless 'did you mean --headless?' -- --no-headless
 for scene in nowhere SQUARE square2 ''; do
     bad_line "'$scene'" --list -- "$scene"
 done

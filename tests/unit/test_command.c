@@ -97,7 +97,7 @@ static void help_goes_to_standard_output(void **unused)
     run("--help");
     check_code(0);
     CHECK(strstr(result.out, "--segments") != NULL);
-    CHECK(count_lines(result.out) <= 24 && result.error[0] == '\0');
+    CHECK(count_lines(result.out) > 20 && result.error[0] == '\0');
     run("--help --segments 3");
     check_code(0);
 }
@@ -137,7 +137,7 @@ static void bad_lines_exit_with_2(void **unused)
     check_refused(2, "--segments", "'0'", "1 to 4096");
     CHECK(result.out[0] == '\0');
     run("--timestep nan --headless");
-    check_refused(2, "--timestep", "'nan'", "above 0");
+    check_refused(2, "--timestep", "'nan'", "1e-30 to 1e30");
     run("--filter absolute");
     check_refused(2, "--filter", "'absolute'", "clamp, none");
     run("--steps");
@@ -147,7 +147,7 @@ static void bad_lines_exit_with_2(void **unused)
     run("nowhere");
     check_refused(2, "'nowhere'", "--list", "");
     run("--side ''");
-    check_refused(2, "--side", "''", "above 0");
+    check_refused(2, "--side", "''", "1e-30 to 1e30");
 }
 
 static void summaries_tell_what_was_done(void **unused)

@@ -5,13 +5,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/one_line.h"
 #include "scenes/options.h"
 #include "scenes/scene.h"
 
 /* Words of a line, separated by single spaces; "''" is an empty one. */
 static Status parse(const char *line, Options *options, char *message)
 {
-    static char copy[256];
+    static char copy[1024];
     char *argv[32] = {(char[]){"elasto"}};
     int argc = 1;
     snprintf(copy, sizeof copy, "%s", line);
@@ -21,13 +22,13 @@ static Status parse(const char *line, Options *options, char *message)
         argv[argc++] = word;
     }
     message[0] = '\0';
-    return options_parse(argc, argv, options, message, 256);
+    return options_parse(argc, argv, options, message, 512);
 }
 
 static Options parse_good(const char *line)
 {
     Options options;
-    char message[256];
+    char message[512];
     Status status = parse(line, &options, message);
     if (status)
         print_error("%s: %s\n", line, message);
@@ -141,44 +142,44 @@ static const BadLine bad_numbers[] = {
     {"--segments x", {"--segments", "'x'", "1 to 4096"}},
     {"--segments ''", {"--segments", "''", "1 to 4096"}},
     {"--segments 0x10", {"--segments", "'0x10'", "1 to 4096"}},
-    {"--segments 1e2", {"--segments", "'1e2'", "1 to 4096"}},
+    {"--segments 1.5e0", {"--segments", "'1.5e0'", "1 to 4096"}},
     {"--segments 99999999999999999999", {"--segments", "'9999", "1 to 4096"}},
     {"--segments 4294967300", {"--segments", "'4294967300'", "1 to 4096"}},
-    {"--steps -1", {"--steps", "'-1'", "0 or more"}},
-    {"--steps 1.0", {"--steps", "'1.0'", "0 or more"}},
-    {"--steps 9223372036854775808", {"--steps", "'92233", "0 or more"}},
-    {"--steps ten", {"--steps", "'ten'", "0 or more"}},
-    {"--steps \t5", {"--steps", "'?5'", "0 or more"}},
-    {"--steps \n5", {"--steps", "'?5'", "0 or more"}},
-    {"--side 0", {"--side", "'0'", "above 0"}},
-    {"--side -1", {"--side", "'-1'", "above 0"}},
-    {"--side nan", {"--side", "'nan'", "finite"}},
-    {"--side inf", {"--side", "'inf'", "finite"}},
-    {"--side -0", {"--side", "'-0'", "above 0"}},
-    {"--side 1m", {"--side", "'1m'", "above 0"}},
-    {"--side 1,5", {"--side", "'1,5'", "above 0"}},
-    {"--density 0", {"--density", "'0'", "above 0"}},
-    {"--density -5", {"--density", "'-5'", "above 0"}},
-    {"--density ''", {"--density", "''", "above 0"}},
-    {"--density 1e999", {"--density", "'1e999'", "finite"}},
-    {"--stiffness 0", {"--stiffness", "'0'", "above 0"}},
-    {"--stiffness -1e5", {"--stiffness", "'-1e5'", "above 0"}},
-    {"--stiffness 1e5J", {"--stiffness", "'1e5J'", "above 0"}},
-    {"--stiffness infinity", {"--stiffness", "'infinity'", "finite"}},
-    {"--stretch nan", {"--stretch", "'nan'", "finite"}},
-    {"--stretch -inf", {"--stretch", "'-inf'", "finite"}},
-    {"--stretch 1.4.1", {"--stretch", "'1.4.1'", "finite"}},
-    {"--stretch -", {"--stretch", "'-'", "finite"}},
-    {"--stretch e5", {"--stretch", "'e5'", "finite"}},
-    {"--timestep 0", {"--timestep", "'0'", "above 0"}},
-    {"--timestep -0.1", {"--timestep", "'-0.1'", "above 0"}},
-    {"--timestep 1e-400", {"--timestep", "'1e-400'", "above 0"}},
-    {"--timestep NAN", {"--timestep", "'NAN'", "finite"}},
-    {"--timestep 0.004s", {"--timestep", "'0.004s'", "above 0"}},
-    {"--tolerance 0", {"--tolerance", "'0'", "above 0"}},
-    {"--tolerance -1", {"--tolerance", "'-1'", "above 0"}},
-    {"--tolerance +-1", {"--tolerance", "'+-1'", "above 0"}},
-    {"--tolerance nan(1)", {"--tolerance", "'nan(1)'", "finite"}},
+    {"--steps -1", {"--steps", "'-1'", "0 to 1e18"}},
+    {"--steps 1.5", {"--steps", "'1.5'", "0 to 1e18"}},
+    {"--steps 9223372036854775808", {"--steps", "'92233", "0 to 1e18"}},
+    {"--steps ten", {"--steps", "'ten'", "0 to 1e18"}},
+    {"--steps \t5", {"--steps", "'?5'", "0 to 1e18"}},
+    {"--steps \n5", {"--steps", "'?5'", "0 to 1e18"}},
+    {"--side 0", {"--side", "'0'", "1e-30 to 1e30"}},
+    {"--side -1", {"--side", "'-1'", "1e-30 to 1e30"}},
+    {"--side nan", {"--side", "'nan'", "1e-30 to 1e30"}},
+    {"--side inf", {"--side", "'inf'", "1e-30 to 1e30"}},
+    {"--side -0", {"--side", "'-0'", "1e-30 to 1e30"}},
+    {"--side 1m", {"--side", "'1m'", "1e-30 to 1e30"}},
+    {"--side 1,5", {"--side", "'1,5'", "1e-30 to 1e30"}},
+    {"--density 0", {"--density", "'0'", "1e-30 to 1e30"}},
+    {"--density -5", {"--density", "'-5'", "1e-30 to 1e30"}},
+    {"--density ''", {"--density", "''", "1e-30 to 1e30"}},
+    {"--density 1e999", {"--density", "'1e999'", "1e-30 to 1e30"}},
+    {"--stiffness 0", {"--stiffness", "'0'", "1e-30 to 1e30"}},
+    {"--stiffness -1e5", {"--stiffness", "'-1e5'", "1e-30 to 1e30"}},
+    {"--stiffness 1e5J", {"--stiffness", "'1e5J'", "1e-30 to 1e30"}},
+    {"--stiffness infinity", {"--stiffness", "'infinity'", "1e-30 to 1e30"}},
+    {"--stretch nan", {"--stretch", "'nan'", "-1e200 to 1e200"}},
+    {"--stretch -inf", {"--stretch", "'-inf'", "-1e200 to 1e200"}},
+    {"--stretch 1.4.1", {"--stretch", "'1.4.1'", "-1e200 to 1e200"}},
+    {"--stretch -", {"--stretch", "'-'", "-1e200 to 1e200"}},
+    {"--stretch e5", {"--stretch", "'e5'", "-1e200 to 1e200"}},
+    {"--timestep 0", {"--timestep", "'0'", "1e-30 to 1e30"}},
+    {"--timestep -0.1", {"--timestep", "'-0.1'", "1e-30 to 1e30"}},
+    {"--timestep 1e-400", {"--timestep", "'1e-400'", "1e-30 to 1e30"}},
+    {"--timestep NAN", {"--timestep", "'NAN'", "1e-30 to 1e30"}},
+    {"--timestep 0.004s", {"--timestep", "'0.004s'", "1e-30 to 1e30"}},
+    {"--tolerance 0", {"--tolerance", "'0'", "1e-300 to 1e300"}},
+    {"--tolerance -1", {"--tolerance", "'-1'", "1e-300 to 1e300"}},
+    {"--tolerance +-1", {"--tolerance", "'+-1'", "1e-300 to 1e300"}},
+    {"--tolerance nan(1)", {"--tolerance", "'nan(1)'", "1e-300 to 1e300"}},
 };
 
 static const BadLine bad_words[] = {
@@ -196,8 +197,8 @@ static const BadLine bad_words[] = {
     {"--segments", {"--segments", "missing", ""}},
     {"--log", {"--log", "missing", ""}},
     {"--quiet --frames", {"--frames", "missing", ""}},
-    {"--unknown", {"--unknown", "--help", ""}},
-    {"-x", {"-x", "--help", ""}},
+    {"--unheard-of", {"--unheard-of", "--help", ""}},
+    {"-y", {"-y", "--help", ""}},
     {"--headless=yes", {"--headless", "", ""}},
     {"circles", {"'circles'", "--list", ""}},
     {"Square", {"'Square'", "--list", ""}},
@@ -208,14 +209,98 @@ static const BadLine bad_words[] = {
     {"--segments 4 nothing --side 2", {"'nothing'", "--list", ""}},
 };
 
+/* What people type who have not read the manual, and what they are told. */
+static const BadLine hopeful_lines[] = {
+    {"--dt 0.01", {"no option --dt;", "did you mean --timestep?", ""}},
+    {"--dt=0.01", {"no option --dt;", "did you mean --timestep?", ""}},
+    {"-dt 0.01", {"no option -dt;", "did you mean --timestep?", ""}},
+    {"--h 0.01", {"no option --h;", "did you mean --timestep?", ""}},
+    {"--time-step 0.01", {"--time-step;", "did you mean --timestep?", ""}},
+    {"--timestpe 0.01", {"--timestpe;", "did you mean --timestep?", ""}},
+    {"--step-size 1", {"--step-size;", "did you mean --timestep?", ""}},
+    {"--n 8", {"no option --n;", "did you mean --segments?", ""}},
+    {"-n 8", {"no option -n;", "did you mean --segments?", ""}},
+    {"--n_seg 8", {"no option --n_seg;", "did you mean --segments?", ""}},
+    {"--resolution 8", {"--resolution;", "did you mean --segments?", ""}},
+    {"--sgements 8", {"--sgements;", "did you mean --segments?", ""}},
+    {"--segment5", {"--segment5;", "did you mean --segments?", ""}},
+    {"--SEGMENTS 8", {"--SEGMENTS;", "did you mean --segments?", ""}},
+    {"-segments 8", {"no option -segments;", "did you mean --segments?", ""}},
+    {"--side_len 2", {"--side_len;", "did you mean --side?", ""}},
+    {"--length 2", {"--length;", "did you mean --side?", ""}},
+    {"--rho 500", {"no option --rho;", "did you mean --density?", ""}},
+    {"--mass 500", {"no option --mass;", "did you mean --density?", ""}},
+    {"--k 1e5", {"no option --k;", "did you mean --stiffness?", ""}},
+    {"-k 1e5", {"no option -k;", "did you mean --stiffness?", ""}},
+    {"--youngs-modulus 1", {"--youngs-", "did you mean --stiffness?", ""}},
+    {"--stifness 1e5", {"--stifness;", "did you mean --stiffness?", ""}},
+    {"--initial_stretch 2", {"--initial_", "did you mean --stretch?", ""}},
+    {"--TOL 1e-3", {"--TOL;", "did you mean --tolerance?", ""}},
+    {"--tolerence 1e-3", {"--tolerence;", "did you mean --tolerance?", ""}},
+    {"--eps 1e-3", {"no option --eps;", "did you mean --tolerance?", ""}},
+    {"--method bdf2", {"no option --method", "did you mean --integrator?", ""}},
+    {"--scheme bdf2", {"no option --scheme", "did you mean --integrator?", ""}},
+    {"--verlet", {"no option --verlet;", "did you mean --integrator verlet?"}},
+    {"--be", {"no option --be;", "did you mean --integrator backward-euler?"}},
+    {"--projection none", {"--projection;", "did you mean --filter?", ""}},
+    {"--no-projection", {"did you mean --filter none?", "", ""}},
+    {"--linesearch none", {"--linesearch;", "did you mean --line-search?", ""}},
+    {"--no-line-search", {"did you mean --line-search none?", "", ""}},
+    {"--num-steps 5", {"--num-steps;", "did you mean --steps?", ""}},
+    {"--iterations 5", {"--iterations;", "did you mean --steps?", ""}},
+    {"--no-window", {"--no-window;", "did you mean --headless?", ""}},
+    {"--no-gui", {"no option --no-gui;", "did you mean --headless?", ""}},
+    {"--head-less", {"--head-less;", "did you mean --headless?", ""}},
+    {"-o out.csv", {"no option -o;", "did you mean --states?", ""}},
+    {"--output out.csv", {"--output;", "did you mean --states?", ""}},
+    {"--png d", {"no option --png;", "did you mean --frames?", ""}},
+    {"--log-file l", {"--log-file;", "did you mean --log?", ""}},
+    {"-q", {"no option -q;", "did you mean --quiet?", ""}},
+    {"--silent", {"no option --silent;", "did you mean --quiet?", ""}},
+    {"--usage", {"no option --usage;", "did you mean --help?", ""}},
+    {"--scenes", {"no option --scenes;", "did you mean --list?", ""}},
+    {"--scene circle", {"no option --scene;", "did you mean --list?", ""}},
+    {"--circle", {"no option --circle;", "elasto circle?", ""}},
+    {"circles", {"'circles'", "did you mean circle?", "--list"}},
+    {"sqare", {"'sqare'", "did you mean square?", "--list"}},
+    {"Square", {"'Square'", "did you mean square?", "--list"}},
+    {"land", {"'land'", "did you mean landscape?", "--list"}},
+    {"0", {"'0'", "from 1 to ", "--list"}},
+    {"99", {"'99'", "from 1 to ", "--list"}},
+    {"--segments 8 0.01", {"'0.01'", "--list", ""}},
+    {"segments 8", {"'segments'", "did you mean --segments?", ""}},
+    {"n_seg=8", {"'n_seg=8'", "did you mean --segments 8?", ""}},
+    {"h=0.01", {"'h=0.01'", "did you mean --timestep 0.01?", ""}},
+    {"bdf2", {"'bdf2'", "did you mean --integrator bdf2?", ""}},
+    {"implicit-euler", {"did you mean --integrator backward-euler?", "", ""}},
+    {"--integrator euler", {"'euler'", "did you mean backward-euler?", ""}},
+    {"--integrator BE", {"'BE'", "did you mean backward-euler?", ""}},
+    {"--integrator Verlet", {"'Verlet'", "did you mean verlet?", ""}},
+    {"--integrator sympletic-euler", {"did you mean symplectic-euler?"}},
+    {"--filter off", {"'off'", "did you mean none?", ""}},
+    {"--filter psd", {"'psd'", "did you mean clamp?", ""}},
+    {"--filter on_demand", {"'on_demand'", "did you mean on-demand?", ""}},
+    {"--line-search armijo", {"'armijo'", "did you mean backtrack?", ""}},
+    {"--line-search false", {"'false'", "did you mean none?", ""}},
+    {"--solver newtons", {"'newtons'", "did you mean newton?", ""}},
+    {"--st 1", {"--stiffness", "--stretch", "--states"}},
+    {"--s=1", {"no option --s;", "did you mean --stretch?", ""}},
+    {"--headless=1", {"--headless=1", "takes no value", ""}},
+    {"-h=1", {"-h=1", "takes no value", ""}},
+    {"--steps --headless", {"--steps", "missing", ""}},
+    {"--log --quiet", {"--log", "missing", ""}},
+    {"landscape --start 3", {"--start", "'3'", "X,Y"}},
+    {"overshoot --start x", {"--start", "'x'", "-1e300 to 1e300"}},
+};
+
 static void check_bad_line(const BadLine *bad)
 {
     Options options;
-    char message[256];
+    char message[512];
     Status status = parse(bad->line, &options, message);
     bool names = message[0] != '\0' && !strchr(message, '\n');
     for (int i = 0; i < 3; i++)
-        names = names && strstr(message, bad->names[i]);
+        names = names && (!bad->names[i] || strstr(message, bad->names[i]));
     if (status != STATUS_INVALID_INPUT || !names)
         print_error("%s: %s, '%s'\n", bad->line, status_name(status), message);
     CHECK_STATUS(status, STATUS_INVALID_INPUT);
@@ -236,22 +321,121 @@ static void bad_words_are_refused(void **unused)
         check_bad_line(&bad_words[i]);
 }
 
-/* A value that does not fit the buffer is cut, and the buffer ends there. */
+static void hopeful_lines_are_answered(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < sizeof hopeful_lines / sizeof *hopeful_lines; i++)
+        check_bad_line(&hopeful_lines[i]);
+}
+
+static void other_words_are_understood(void **unused)
+{
+    (void)unused;
+    static const char *const words[][2] = {
+        {"implicit-euler", "backward-euler"}, {"be", "backward-euler"},
+        {"explicit-euler", "forward-euler"},  {"fe", "forward-euler"},
+        {"se", "symplectic-euler"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "--integrator %s", words[i][0]);
+        assert_string_equal(parse_good(line).integrator->name, words[i][1]);
+    }
+    for (int i = 0; scenes[i].name; i++) {
+        char line[16];
+        snprintf(line, sizeof line, "%d", i + 1);
+        CHECK(parse_good(line).scene == &scenes[i]);
+    }
+    CHECK(parse_good("-h").help && parse_good("-v").version);
+    CHECK(parse_good("--segments 1e2").segments == 100);
+    CHECK(parse_good("--steps 1e3").steps == 1000);
+    CHECK(parse_good("--steps 4.0").steps == 4);
+    CHECK(parse_good("--steps 999999999999999999").steps == 999999999999999999);
+    CHECK(parse_good("--seg 3 --quie").segments == 3);
+    Options options = parse_good("overshoot --start 3");
+    CHECK(options.start[0] == 3 && options.start[1] == 0);
+    options = parse_good("overshoot --start 3,4");
+    CHECK(options.start[0] == 3 && options.start[1] == 4);
+    options = parse_good("--stretch -1.5 --log -x");
+    CHECK(options.stretch == -1.5);
+    assert_string_equal(options.log, "-x");
+}
+
+/* A value of any length and of any bytes: one line, and the range is there. */
 static void long_values_are_cut(void **unused)
 {
     (void)unused;
     static char value[5000];
-    char program[] = "elasto", option[] = "--side", message[40];
+    char program[] = "elasto", option[] = "--side", message[512];
     char *argv[] = {program, option, value, NULL};
     Options options;
-    memset(value, 'x', sizeof value - 1);
+    for (int length = 1; length < 4999; length += length < 700 ? 1 : 500) {
+        for (int i = 0; i < length; i++)
+            value[i] = (char)("x\n\033\302\233\303\244"[i % 7]);
+        value[length] = '\0';
+        memset(message, 'y', sizeof message);
+        CHECK_STATUS(options_parse(3, argv, &options, message, sizeof message),
+                     STATUS_INVALID_INPUT);
+        CHECK(strlen(message) < 200 && strstr(message, "--side"));
+        CHECK(strstr(message, "a number from 1e-30 to 1e30, in m"));
+        CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
+    }
     memset(message, 'y', sizeof message);
     CHECK_STATUS(options_parse(3, argv, &options, message, 20),
                  STATUS_INVALID_INPUT);
     CHECK(strlen(message) == 19 && message[20] == 'y');
 }
 
-/* 24 rows of 80, and every option of the contract. */
+/* What a message may show of a text. */
+static void texts_become_one_line(void **unused)
+{
+    (void)unused;
+    char line[12];
+    one_line("a\nb\tc\177\033", line, sizeof line);
+    assert_string_equal(line, "a?b?c??");
+    one_line("0123456789012", line, sizeof line);
+    assert_string_equal(line, "0123...9012");
+    one_line("01234567890", line, sizeof line);
+    assert_string_equal(line, "01234567890");
+    one_line("012\303\274456789\303\274\303\274", line, sizeof line);
+    assert_string_equal(line, "012...\303\274\303\274"); /* whole letters */
+    one_line("\302\205", line, sizeof line);
+    assert_string_equal(line, "??");
+    one_line(NULL, line, sizeof line);
+    assert_string_equal(line, "");
+}
+
+/* Options of pane 0, 1, ... of a line with lists. */
+static void lists_are_side_by_side(void **unused)
+{
+    (void)unused;
+    char *argv[] = {"elasto", "--timestep", "0.1,0.2", "--filter",
+                    "clamp,none"};
+    const double h[] = {0.1, 0.1, 0.2, 0.2};
+    char message[512];
+    Options options;
+    for (int pane = 0; pane < 4; pane++) {
+        CHECK_STATUS(options_parse_pane(5, argv, pane, &options, message,
+                                        sizeof message),
+                     STATUS_OK);
+        CHECK(options.panes == 4 && options.timestep == h[pane]);
+        CHECK(options.filter == (pane % 2 ? FILTER_NONE : FILTER_CLAMP));
+    }
+    CHECK_STATUS(options_parse(5, argv, &options, message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    argv[2] = "1,2,3,4";
+    CHECK_STATUS(
+        options_parse_pane(5, argv, 0, &options, message, sizeof message),
+        STATUS_INVALID_INPUT);
+    CHECK(strstr(message, "more than 6 side by side") != NULL);
+    argv[2] = "1,,2";
+    CHECK_STATUS(
+        options_parse_pane(5, argv, 2, &options, message, sizeof message),
+        STATUS_INVALID_INPUT);
+    CHECK(strstr(message, "--timestep: ''") != NULL);
+}
+
+/* Rows of 80, and every option of the contract. */
 static void help_fits_a_terminal(void **unused)
 {
     (void)unused;
@@ -260,8 +444,9 @@ static void help_fits_a_terminal(void **unused)
         "--stretch S",  "--timestep H", "--tolerance T",   "--integrator I",
         "--solver S",   "--filter F",   "--line-search L", "--steps N",
         "--headless",   "--frames DIR", "--states FILE",   "--log FILE",
-        "--quiet",      "--help",       "--version",       "--list",
-        "SCENE",
+        "--quiet",      "--help, -h",   "--version, -v",   "--list",
+        "SCENE",        "--start X",    "1 ... 4096 [4]",  "J/m^2 [1e5]",
+        "clamp, none",  "[0.004]",
     };
     const char *help = options_help();
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
@@ -276,9 +461,10 @@ static void help_fits_a_terminal(void **unused)
         const char *end = strchr(line, '\n');
         CHECK(end != NULL);
         CHECK_AT_MOST(end - line, 80);
+        CHECK(end > line && end[-1] != ' ');
         line = end + 1;
     }
-    CHECK_AT_MOST(lines, 24);
+    CHECK(lines > 20 && strcmp(help, options_help()) == 0);
 }
 
 int main(void)
@@ -291,7 +477,11 @@ int main(void)
         cmocka_unit_test(scenes_stand_anywhere),
         cmocka_unit_test(bad_numbers_are_refused),
         cmocka_unit_test(bad_words_are_refused),
+        cmocka_unit_test(hopeful_lines_are_answered),
+        cmocka_unit_test(other_words_are_understood),
         cmocka_unit_test(long_values_are_cut),
+        cmocka_unit_test(texts_become_one_line),
+        cmocka_unit_test(lists_are_side_by_side),
         cmocka_unit_test(help_fits_a_terminal),
     };
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

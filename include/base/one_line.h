@@ -1,0 +1,15 @@
+/* one_line.h - texts from outside, made fit for a line of a message.
+ */
+#ifndef ELASTO_ONE_LINE_H
+#define ELASTO_ONE_LINE_H
+
+#include <stddef.h>
+
+/* Copies a text: each control byte, and each control character of UTF-8,
+ * becomes '?', so that a message stays one line and a terminal obeys nothing.
+ * A text that does not fit loses its middle: "abc...xyz".
+ *   text  in, or NULL: ""
+ *   line  [size] out, ends with '\0'; may be the text itself */
+void one_line(const char *text, char *line, size_t size);
+
+#endif

@@ -1,0 +1,332 @@
+#include "scenes/option_row.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/nearest.h"
+
+/* Whether a word is an option, rightly spelt or not. */
+static bool is_option(const char *word)
+{
+    return word[0] == '-' && word[1] != '\0';
+}
+
+/* The letters of an option without its dashes and without "=VALUE". */
+static Text option_letters(const char *word)
+{
+    Text letters = typed(word + strspn(word, "-"));
+    letters.text[strcspn(letters.text, "=")] = '\0';
+    return letters;
+}
+
+/* The row that a wrong name most likely means, or NULL. */
+static const OptionRow *likely_row(const char *name)
+{
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->name[0] &&
+            (strcmp(row->name, name) == 0 || is_one_of(row->words, name)))
+            return row;
+    return nearest_row(option_rows, sizeof *option_rows, name);
+}
+
+/* "no option --dt; did you mean --timestep?" */
+static Status complain_unknown(const char *word, const Complaint *complaint)
+{
+    Text letters = option_letters(word), shown = typed(word);
+    shown.text[strcspn(shown.text, "=")] = '\0';
+    const OptionRow *row = likely_row(letters.text);
+    const IntegratorMethod *method = integrator_meant(letters.text);
+    if (scene_find(letters.text))
+        return complain(complaint,
+                        "no option %s; did you mean the scene: elasto %s?",
+                        shown.text, letters.text);
+    if (method)
+        return complain(complaint,
+                        "no option %s; did you mean --integrator %s?",
+                        shown.text, method->name);
+    if (row)
+        return complain(
+            complaint, "no option %s; did you mean --%s%s?", shown.text,
+            row->name,
+            row->names && strncmp(letters.text, "no-", 3) == 0 ? " none" : "");
+    return complain(complaint, "no option %s; see elasto --help", shown.text);
+}
+
+/* The row of "--name", "--name=value", of an abbreviation that only one option
+ * has, or of a letter: "-h". */
+static Status find_option(const char *word, const OptionRow **found,
+                          const Complaint *complaint)
+{
+    Text list = {""};
+    int matches = 0;
+    *found = NULL;
+    bool is_long = word[1] == '-';
+    const char *name = word + 1 + is_long;
+    size_t length = strcspn(name, "=");
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        bool match = is_long ? strncmp(row->name, name, length) == 0
+                             : row->letter == name[0] && length == 1;
+        if (!match || length == 0 || !row->name[0])
+            continue;
+        *found = row;
+        if (is_long && row->name[length] == '\0')
+            return STATUS_OK;
+        Text long_name;
+        snprintf(long_name.text, sizeof long_name.text, "--%s", row->name);
+        add_name(&list, long_name.text);
+        matches++;
+    }
+    if (matches == 1)
+        return STATUS_OK;
+    const OptionRow *likely = likely_row(option_letters(word).text);
+    if (matches > 1 &&
+        !(likely && is_one_of(likely->words, option_letters(word).text)))
+        return complain(complaint, "%s can be %s: write a few letters more",
+                        typed(word).text, list.text);
+    return complain_unknown(word, complaint);
+}
+
+/* The words of a command line, one by one. */
+typedef struct Words {
+    int argc;
+    char **argv;
+    int at;
+    bool plain; /* after "--" no word is an option */
+} Words;
+
+/* One word: an option with its value, or anything else. */
+typedef struct Word {
+    const OptionRow *row; /* NULL: no option */
+    const char *text;     /* the option's value, or the word; "" if neither */
+} Word;
+
+/* Moves to the next word; at the end word->text is NULL. */
+static Status next_word(Words *words, Word *word, const Complaint *complaint)
+{
+    *word = (Word){NULL, NULL};
+    if (words->at < words->argc && !words->plain &&
+        strcmp(words->argv[words->at], "--") == 0) {
+        words->plain = true;
+        words->at++;
+    }
+    if (words->at >= words->argc)
+        return STATUS_OK;
+    const char *text = word->text = words->argv[words->at++];
+    if (words->plain || !is_option(text))
+        return STATUS_OK;
+    Status status = find_option(text, &word->row, complaint);
+    if (status)
+        return status;
+    const char *value = strchr(text, '=');
+    word->text = value ? value + 1 : "";
+    if (word->row->kind == KIND_SWITCH) {
+        if (value)
+            return complain(complaint, "%s: --%s takes no value",
+                            typed(text).text, word->row->name);
+    } else if (!value) {
+        const OptionRow *next = NULL;
+        char unread[2];
+        Complaint unheard = {unread, sizeof unread};
+        bool there = words->at < words->argc;
+        if (there && strncmp(words->argv[words->at], "--", 2) == 0)
+            there = find_option(words->argv[words->at], &next, &unheard) != 0;
+        if (!there)
+            return complain(complaint, "--%s: the value is missing: --%s %s",
+                            word->row->name, word->row->name, word->row->value);
+        word->text = words->argv[words->at++];
+    }
+    return STATUS_OK;
+}
+
+/* A word that is no scene may be an option without its dashes. */
+static Status complain_scene(const char *word, const Complaint *complaint)
+{
+    Text left = typed(word);
+    char *equals = strchr(left.text, '=');
+    const char *right = equals ? equals + 1 : "";
+    if (equals)
+        *equals = '\0';
+    const OptionRow *option = NULL;
+    for (const OptionRow *row = option_rows; row->name && !option; row++)
+        if (row->name[0] && (strcmp(row->name, left.text) == 0 ||
+                             is_one_of(row->words, left.text)))
+            option = row;
+    const IntegratorMethod *method = integrator_meant(word);
+    const Scene *scene = nearest_row(scenes, sizeof *scene, word);
+    Text hint = {""};
+    if (method)
+        snprintf(hint.text, sizeof hint.text, "did you mean --integrator %s?",
+                 method->name);
+    else if (scene)
+        snprintf(hint.text, sizeof hint.text, "did you mean %s? ", scene->name);
+    else if (option)
+        snprintf(hint.text, sizeof hint.text, "did you mean --%s%s%.40s?",
+                 option->name, equals ? " " : "", right);
+    return complain(complaint, "there is no scene '%s'; %s%s", typed(word).text,
+                    hint.text,
+                    method || (option && !scene) ? "" : "see elasto --list");
+}
+
+/* A scene by its name or its number in the list. */
+static Status find_scene(const char *word, Options *options,
+                         const Complaint *complaint)
+{
+    int count = 0;
+    while (scenes[count].name)
+        count++;
+    options->scene = scene_find(word);
+    if (options->scene)
+        return STATUS_OK;
+    if (word[0] != '\0' && word[strspn(word, "0123456789")] == '\0') {
+        long number = strlen(word) < 6 ? strtol(word, NULL, 10) : 0;
+        if (number < 1 || number > count)
+            return complain(complaint,
+                            "there is no scene '%s': from 1 to %d, or a name "
+                            "of elasto --list",
+                            typed(word).text, count);
+        options->scene = &scenes[number - 1];
+        return STATUS_OK;
+    }
+    return complain_scene(word, complaint);
+}
+
+/* What the first look at a line finds. */
+typedef struct Line {
+    const char *list[OPTION_MOST]; /* values to be compared, or NULL */
+} Line;
+
+static int count_values(const char *list)
+{
+    int count = 1;
+    for (; *list; list++)
+        count += *list == ',';
+    return count;
+}
+
+/* Value number i of a list, or the last; at most 63 letters of it. */
+static Text list_value(const char *list, int i)
+{
+    Text value;
+    for (; i > 0 && strchr(list, ','); i--)
+        list = strchr(list, ',') + 1;
+    snprintf(value.text, 64, "%.*s", (int)strcspn(list, ","), list);
+    return value;
+}
+
+/* Words that are wrong whatever they mean; the scene; the lists. */
+static Status read_line(int argc, char **argv, bool compare, Options *options,
+                        Line *line, const Complaint *complaint)
+{
+    Words words = {argc, argv, 1, false};
+    Word word;
+    Status status = next_word(&words, &word, complaint);
+    *line = (Line){0};
+    options->scene = NULL;
+    for (; !status && word.text; status = next_word(&words, &word, complaint)) {
+        if (word.row) {
+            int i = (int)(word.row - option_rows);
+            if (compare && word.row->compared)
+                line->list[i] = strchr(word.text, ',') ? word.text : NULL;
+        } else if (options->scene) {
+            return complain(complaint, "'%s': one scene at a time, please",
+                            typed(word.text).text);
+        } else if (find_scene(word.text, options, complaint)) {
+            return STATUS_INVALID_INPUT;
+        }
+    }
+    if (!options->scene)
+        options->scene = &scenes[0];
+    return status;
+}
+
+/* The number of combinations; which value of each list this pane has.  The
+ * last list changes fastest. */
+static Status choose_values(const Line *line, int pane, int *chosen,
+                            Options *options, const Complaint *complaint)
+{
+    for (int i = OPTION_MOST - 1; i >= 0; i--) {
+        int count = line->list[i] ? count_values(line->list[i]) : 1;
+        chosen[i] = pane % count;
+        pane /= count;
+        options->panes *= count;
+        if (options->panes > OPTIONS_MAX_PANES)
+            return complain(complaint,
+                            "--%s: '%s' makes more than %d side by side",
+                            option_rows[i].name, typed(line->list[i]).text,
+                            OPTIONS_MAX_PANES);
+    }
+    return STATUS_OK;
+}
+
+/* Refuses an option that says something about what the scene lacks. */
+static Status check_need(const OptionRow *row, const Scene *scene,
+                         const Complaint *complaint)
+{
+    const char *lacks = row->needs & NEEDS_MESH      ? "square"
+                        : row->needs == NEEDS_TIME   ? "time steps"
+                        : row->needs & NEEDS_TIME    ? "time"
+                        : row->needs & NEEDS_SPRINGS ? "springs"
+                        : row->needs & NEEDS_START   ? "start to choose"
+                                                     : "minimum to find";
+    if (row->needs == 0 || (row->needs & scene->needs))
+        return STATUS_OK;
+    return complain(complaint, "--%s: the scene '%s' has no %s", row->name,
+                    scene->name, lacks);
+}
+
+/* Second look: the values, on top of the scene's own numbers. */
+static Status apply_line(int argc, char **argv, const Line *line,
+                         const int *chosen, Options *options,
+                         const Complaint *complaint)
+{
+    Words words = {argc, argv, 1, false};
+    Word word;
+    Status status = next_word(&words, &word, complaint);
+    for (; !status && word.text; status = next_word(&words, &word, complaint)) {
+        if (!word.row)
+            continue;
+        int i = (int)(word.row - option_rows);
+        status = check_need(word.row, options->scene, complaint);
+        if (!status && line->list[i])
+            status =
+                option_apply(word.row, list_value(word.text, chosen[i]).text,
+                             options, complaint);
+        else if (!status)
+            status = option_apply(word.row, word.text, options, complaint);
+        if (status)
+            return status;
+    }
+    return status;
+}
+
+/* Options of one pane; lists are read as such or refused. */
+static Status parse_line(int argc, char **argv, int pane, bool compare,
+                         Options *options, const Complaint *complaint)
+{
+    Line line;
+    int chosen[OPTION_MOST];
+    *options = option_defaults();
+    Status status = read_line(argc, argv, compare, options, &line, complaint);
+    if (!status)
+        status = choose_values(&line, pane, chosen, options, complaint);
+    if (status)
+        return status;
+    if (options->scene->defaults)
+        options->scene->defaults(options);
+    return apply_line(argc, argv, &line, chosen, options, complaint);
+}
+
+Status options_parse(int argc, char **argv, Options *options, char *message,
+                     size_t size)
+{
+    Complaint complaint = {message, size};
+    return parse_line(argc, argv, 0, false, options, &complaint);
+}
+
+Status options_parse_pane(int argc, char **argv, int pane, Options *options,
+                          char *message, size_t size)
+{
+    Complaint complaint = {message, size};
+    return parse_line(argc, argv, pane, true, options, &complaint);
+}
