@@ -8,7 +8,7 @@
 #ifndef ELASTO_LANDSCAPE_SCENE_H
 #define ELASTO_LANDSCAPE_SCENE_H
 
-#include "scenes/simulation.h"
+#include "scenes/scene.h"
 
 /* h = 0.2 s, and a start from which Newton without projection goes uphill. */
 void landscape_defaults(Options *options);
@@ -24,6 +24,20 @@ void aim_landscape(Simulation *simulation);
 
 /* E at position (x, y) of the free node, J s^2. */
 double landscape_value(const Simulation *simulation, double x, double y);
+
+/* Of E only the parts that are named (enum LandscapePart), J s^2. */
+double landscape_part_value(const Simulation *simulation, unsigned parts,
+                            double x, double y);
+
+/* Handle 0 is x_tilde, handle 1 the iterate: Newton starts anew from there. */
+int landscape_handles(const Simulation *simulation,
+                      double at[SCENE_MAX_HANDLES][2]);
+void landscape_drag(Simulation *simulation, int handle, double x, double y);
+
+/* Inertia and elasticity on the map; one of them at least is on. */
+int landscape_switches(const Simulation *simulation,
+                       Switch out[SCENE_MAX_SWITCHES]);
+void landscape_flip(Simulation *simulation, int number);
 
 /* Whether the Hessian of E, not projected, is positive definite there: then
  * Newton's direction is downhill with and without projection. */

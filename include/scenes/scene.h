@@ -16,6 +16,12 @@ typedef enum PictureKind {
     PICTURE_CIRCLE,    /* trails around the exact circle, radius over time */
     PICTURE_CURVE,     /* f(x), its quadratic model, the iterates */
     PICTURE_LANDSCAPE, /* contours of E, the Newton path */
+    PICTURE_MASS,      /* one mass and the arrows of a step */
+    PICTURE_TANGENT,   /* g and its tangents above E and its parabolas */
+    PICTURE_DIAL,      /* the landscape's minimiser for every h */
+    PICTURE_SPRING,    /* one spring, its energies and eigenvalues */
+    PICTURE_RACE,      /* error over run time */
+    PICTURE_ENVELOPE,  /* a cell for each time step and stiffness */
     PICTURE_COUNT
 } PictureKind;
 
@@ -27,7 +33,18 @@ enum SceneNeeds {
     NEEDS_SPRINGS = 8,     /* solver and filter of their Hessian */
     NEEDS_MINIMUM = 16,    /* tolerance and line search */
     NEEDS_ONE_NUMBER = 32, /* of the start: its x is enough */
+    NEEDS_STEP = 64,       /* a time step h, but no integrator */
 };
+
+/* Points of the stage that the mouse can drag, and parts of the picture that it
+ * can switch off, at most. */
+enum { SCENE_MAX_HANDLES = 4, SCENE_MAX_SWITCHES = 4 };
+
+/* A part of the picture that can be switched off. */
+typedef struct Switch {
+    const char *label;
+    bool on;
+} Switch;
 
 typedef struct Scene {
     const char *name;     /* as on the command line */
@@ -44,6 +61,17 @@ typedef struct Scene {
     /* The next direction again, after filter or line search changed; NULL:
      * the next step takes notice by itself. */
     void (*aim)(Simulation *simulation);
+    /* The points that can be dragged, m: at out.  Returns how many; NULL:
+     * none.  drag moves one of them, and all that hangs on it, to (x, y); it is
+     * left alone where (x, y) is no place for it. */
+    int (*handles)(const Simulation *simulation,
+                   double at[SCENE_MAX_HANDLES][2]);
+    void (*drag)(Simulation *simulation, int handle, double x, double y);
+    /* The parts that can be switched; out.  Returns how many; NULL: none.
+     * flip switches one of them. */
+    int (*switches)(const Simulation *simulation,
+                    Switch out[SCENE_MAX_SWITCHES]);
+    void (*flip)(Simulation *simulation, int number);
 } Scene;
 
 /* The table; the first row is the default; it ends with a NULL name. */

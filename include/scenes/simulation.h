@@ -10,6 +10,8 @@
 #include "solve/scalar_newton.h"
 #include "model/square_mesh.h"
 
+#include "scenes/exhibit.h"
+
 struct Scene;
 
 enum { SIMULATION_MAX_RUNS = 3, DESCENT_MAX = 256 };
@@ -33,6 +35,8 @@ typedef struct Simulation {
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Descent descent;         /* zeroed in scenes that move through time */
+    Exhibit exhibit;         /* zeroed in scenes without one */
+    Prediction prediction;   /* of where the next step leads */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
@@ -88,6 +92,15 @@ bool simulation_has_filter(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 void simulation_set_filter(Simulation *simulation, Filter filter);
 void simulation_set_line_search(Simulation *simulation, LineSearch search);
+
+/* The point that a scene is about, m: the iterate, or node 0 of run 0; at [2]
+ * out.  Returns how many of its coordinates count: 1 where a minimum in one
+ * variable is searched, 0 where there is no single point. */
+int simulation_point(const Simulation *simulation, double at[2]);
+
+/* The guess that the next step leads to (x, y), m; nothing where a scene has no
+ * single point or has ended. */
+void simulation_predict(Simulation *simulation, double x, double y);
 
 /* Strain of spring s of a run: |d|/l - 1. */
 double simulation_strain(const Simulation *simulation, int run, int s);

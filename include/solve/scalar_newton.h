@@ -8,10 +8,16 @@
 #include "solve/newton.h"
 
 typedef struct ScalarFunction {
-    double (*value)(double x);
-    double (*first)(double x);  /* f' */
-    double (*second)(double x); /* f'' */
+    double (*value)(const void *data, double x);
+    double (*first)(const void *data, double x);  /* f' */
+    double (*second)(const void *data, double x); /* f'' */
+    const void *data; /* what f depends on beside x, or NULL */
 } ScalarFunction;
+
+/* f, f' and f'' at x. */
+double scalar_value(const ScalarFunction *f, double x);
+double scalar_first(const ScalarFunction *f, double x);
+double scalar_second(const ScalarFunction *f, double x);
 
 typedef struct ScalarNewton {
     ScalarFunction f;

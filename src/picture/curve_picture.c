@@ -36,9 +36,9 @@ static ModelUpdate last_update(const Descent *descent)
         if (record->alpha > 0)
             update.p = (record->to[0] - record->from[0]) / record->alpha;
     }
-    update.f = scalar->f.value(update.x0);
-    update.first = scalar->f.first(update.x0);
-    update.second = scalar->f.second(update.x0);
+    update.f = scalar_value(&scalar->f, update.x0);
+    update.first = scalar_first(&scalar->f, update.x0);
+    update.second = scalar_second(&scalar->f, update.x0);
     return update;
 }
 
@@ -57,7 +57,7 @@ static void draw_function(Paper *paper, const Plot *plot,
     double from[2] = {0, 0};
     for (int i = 0; i <= CURVE_POINTS; i++) {
         double x = CURVE_REACH * (2.0 * i / CURVE_POINTS - 1);
-        const double to[2] = {x, model ? model_value(model, x) : f->value(x)};
+        const double to[2] = {x, model ? model_value(model, x) : scalar_value(f, x)};
         if (i > 0)
             plot_line(paper, plot, from, to, 1.5, colour);
         from[0] = to[0];
@@ -72,7 +72,7 @@ static void draw_model_minimum(Paper *paper, const Plot *plot,
 {
     double x1 = model->x0 + model->p, at[2];
     const double low[2] = {x1, model_value(model, x1)};
-    const double high[2] = {x1, f->value(x1)};
+    const double high[2] = {x1, scalar_value(f, x1)};
     bool right = x1 > CURVE_REACH;
     char words[64];
     if (plot_disc(paper, plot, low, 4, COLOUR_STRETCH))
@@ -94,7 +94,7 @@ static void draw_refused(Paper *paper, const Plot *plot,
     double alpha = 1;
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * update->p;
-        const double at[2] = {x, f->value(x)};
+        const double at[2] = {x, scalar_value(f, x)};
         plot_disc(paper, plot, at, 3, COLOUR_CONTOUR);
     }
 }
@@ -125,7 +125,7 @@ static void draw_iterates(Paper *paper, const Plot *plot,
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = last ? descent->scalar.x : descent->record[i].from[0];
-        const double point[2] = {x, descent->scalar.f.value(x)};
+        const double point[2] = {x, scalar_value(&descent->scalar.f, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_COMPRESS;
         double at[2];
         plot_place(plot, point[0], point[1], at);

@@ -77,7 +77,7 @@ void aim_landscape(Simulation *simulation)
     TimeIntegrator *run = &simulation->run[0];
     size_t size = 2 * LANDSCAPE_NODES * sizeof *run->x;
     for (int i = 0; i < 2; i++)
-        run->newton->u_tilde[i] = LANDSCAPE_TARGET[i] - run->x[i];
+        run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
     memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
     Status status = newton_start(run->newton, run->new_x, run->h * run->h);
     simulation->done = status != STATUS_RUNNING;
@@ -94,6 +94,9 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
     own.observer = observe_landscape;
     own.user = simulation;
     Status status = fill_landscape(&simulation->system, x);
+    memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
+           sizeof LANDSCAPE_TARGET);
+    simulation->exhibit.parts = PART_BOTH;
     if (status)
         return status;
     simulation->runs = 1;
@@ -113,6 +116,67 @@ Status step_landscape(Simulation *simulation)
     simulation->done = status != STATUS_RUNNING;
     show_node(simulation);
     return simulation->done ? status : STATUS_OK;
+}
+
+/* The free node at (x, y), the pins where they are.  at [2 nodes] out */
+static void place_node(const Simulation *simulation, double x, double y,
+                       double *at)
+{
+    memcpy(at, simulation->run[0].x, 2 * LANDSCAPE_NODES * sizeof *at);
+    at[0] = x;
+    at[1] = y;
+}
+
+double landscape_part_value(const Simulation *simulation, unsigned parts,
+                            double x, double y)
+{
+    const System *system = &simulation->system;
+    const double *target = simulation->exhibit.target;
+    double at[2 * LANDSCAPE_NODES], value = 0, h = simulation->run[0].h;
+    double dx = x - target[0], dy = y - target[1];
+    place_node(simulation, x, y, at);
+    if (parts & PART_INERTIA)
+        value += 0.5 * system->m[0] * (dx * dx + dy * dy);
+    if (parts & PART_ELASTICITY)
+        value += h * h * system_potential(system, at);
+    return value;
+}
+
+int landscape_handles(const Simulation *simulation,
+                      double at[SCENE_MAX_HANDLES][2])
+{
+    memcpy(at[0], simulation->exhibit.target, sizeof at[0]);
+    memcpy(at[1], simulation->run[0].x, sizeof at[1]);
+    return 2;
+}
+
+/* x_tilde, or the iterate: Newton then starts from there. */
+void landscape_drag(Simulation *simulation, int handle, double x, double y)
+{
+    double *moved = handle == 0 ? simulation->exhibit.target
+                                : simulation->run[0].x;
+    moved[0] = x;
+    moved[1] = y;
+    simulation->descent.count = 0;
+    simulation->steps = simulation->unconverged = 0;
+    simulation->prediction = (Prediction){0};
+    aim_landscape(simulation);
+}
+
+int landscape_switches(const Simulation *simulation,
+                       Switch out[SCENE_MAX_SWITCHES])
+{
+    unsigned parts = simulation->exhibit.parts;
+    out[0] = (Switch){"inertia", (parts & PART_INERTIA) != 0};
+    out[1] = (Switch){"elasticity", (parts & PART_ELASTICITY) != 0};
+    return 2;
+}
+
+/* One part at least stays. */
+void landscape_flip(Simulation *simulation, int number)
+{
+    unsigned parts = simulation->exhibit.parts ^ (1U << number);
+    simulation->exhibit.parts = parts ? parts : PART_BOTH ^ (1U << number);
 }
 
 double landscape_value(const Simulation *simulation, double x, double y)

@@ -3,20 +3,28 @@
 #include <math.h>
 
 /* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow */
-static double log_two_cosh(double x)
+static double log_two_cosh(const void *unused, double x)
 {
+    (void)unused;
     return fabs(x) + log1p(exp(-2 * fabs(x)));
 }
 
-/* tanh' = 1/cosh^2 */
-static double inverse_cosh_squared(double x)
+static double tanh_of(const void *unused, double x)
 {
+    (void)unused;
+    return tanh(x);
+}
+
+/* tanh' = 1/cosh^2 */
+static double inverse_cosh_squared(const void *unused, double x)
+{
+    (void)unused;
     double c = cosh(x);
     return 1 / (c * c);
 }
 
-const ScalarFunction overshoot_function = {log_two_cosh, tanh,
-                                           inverse_cosh_squared};
+const ScalarFunction overshoot_function = {log_two_cosh, tanh_of,
+                                           inverse_cosh_squared, NULL};
 
 void overshoot_defaults(Options *options)
 {
@@ -31,18 +39,34 @@ static void show_iterate(Simulation *simulation)
     Descent *descent = &simulation->descent;
     double x = descent->scalar.x, p = descent->scalar.p;
     bool ends = simulation->done || !isfinite(p);
-    descent->value = overshoot_function.value(x);
+    descent->value = scalar_value(&descent->scalar.f, x);
     descent->point[0] = simulation->run[0].x[0] = x;
     descent->point[1] = simulation->run[0].x[1] = descent->value;
     descent->direction[0] = ends ? 0 : p;
-    descent->slope = overshoot_function.first(x) * descent->direction[0];
+    descent->slope =
+        scalar_first(&descent->scalar.f, x) * descent->direction[0];
 }
 
-Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
+void scalar_scene_restart(Simulation *simulation, double x)
+{
+    ScalarNewton *scalar = &simulation->descent.scalar;
+    scalar->x = x;
+    scalar->iterations = 0;
+    Status status = scalar_newton_start(scalar);
+    simulation->done = status != STATUS_RUNNING;
+    simulation->status = simulation->done ? status : STATUS_OK;
+    simulation->steps = simulation->unconverged = 0;
+    simulation->descent.count = 0;
+    simulation->prediction = (Prediction){0};
+    show_iterate(simulation);
+}
+
+Status scalar_scene_create(Simulation *simulation,
+                           const NewtonSettings *settings,
+                           const ScalarFunction *f)
 {
     const double v[2] = {0, 0};
     double x[2] = {simulation->options.start[0], 0};
-    ScalarNewton *scalar = &simulation->descent.scalar;
     Status status = system_create(1, 0, &simulation->system);
     if (status)
         return status;
@@ -53,15 +77,15 @@ Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
                                     &simulation->run[0]);
     if (status)
         return status;
-    *scalar = (ScalarNewton){.f = overshoot_function,
-                             .tolerance = settings->tolerance,
-                             .search = settings->search,
-                             .x = x[0]};
-    status = scalar_newton_start(scalar);
-    simulation->done = status != STATUS_RUNNING;
-    simulation->status = simulation->done ? status : STATUS_OK;
-    show_iterate(simulation);
+    simulation->descent.scalar = (ScalarNewton){
+        .f = *f, .tolerance = settings->tolerance, .search = settings->search};
+    scalar_scene_restart(simulation, x[0]);
     return STATUS_OK;
+}
+
+Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
+{
+    return scalar_scene_create(simulation, settings, &overshoot_function);
 }
 
 Status step_overshoot(Simulation *simulation)
@@ -75,4 +99,20 @@ Status step_overshoot(Simulation *simulation)
     if (!simulation_record(simulation, &record))
         return STATUS_INTERRUPTED;
     return simulation->done ? status : STATUS_OK;
+}
+
+int overshoot_handles(const Simulation *simulation,
+                      double at[SCENE_MAX_HANDLES][2])
+{
+    at[0][0] = simulation->descent.point[0];
+    at[0][1] = simulation->descent.value;
+    return 1;
+}
+
+void overshoot_drag(Simulation *simulation, int handle, double x, double y)
+{
+    (void)handle;
+    (void)y;
+    if (isfinite(x))
+        scalar_scene_restart(simulation, x);
 }

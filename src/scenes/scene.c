@@ -3,9 +3,15 @@
 #include <string.h>
 
 #include "scenes/circle_scene.h"
+#include "scenes/dial_scene.h"
+#include "scenes/envelope_scene.h"
 #include "scenes/landscape_scene.h"
+#include "scenes/mass_scene.h"
 #include "scenes/overshoot_scene.h"
+#include "scenes/race_scene.h"
+#include "scenes/spring_scene.h"
 #include "scenes/square_scenes.h"
+#include "scenes/tangent_scene.h"
 
 const Scene scenes[] = {
     {.name = "square",
@@ -25,7 +31,9 @@ const Scene scenes[] = {
      .needs = NEEDS_START | NEEDS_ONE_NUMBER | NEEDS_MINIMUM,
      .defaults = overshoot_defaults,
      .create = create_overshoot,
-     .step = step_overshoot},
+     .step = step_overshoot,
+     .handles = overshoot_handles,
+     .drag = overshoot_drag},
     {.name = "landscape",
      .sentence = "without projection Newton may go uphill; clamped, never",
      .picture = PICTURE_LANDSCAPE,
@@ -33,13 +41,69 @@ const Scene scenes[] = {
      .defaults = landscape_defaults,
      .create = create_landscape,
      .step = step_landscape,
-     .aim = aim_landscape},
+     .aim = aim_landscape,
+     .handles = landscape_handles,
+     .drag = landscape_drag,
+     .switches = landscape_switches,
+     .flip = landscape_flip},
     {.name = "unprojected",
      .sentence = "the squeezed square: without projection Newton is stuck",
      .picture = PICTURE_SQUARE,
      .needs = NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM,
      .defaults = unprojected_defaults,
      .create = create_square},
+    {.name = "mass",
+     .sentence = "one mass on a spring: the arrows of three Euler steps",
+     .picture = PICTURE_MASS,
+     .needs = NEEDS_TIME | NEEDS_START,
+     .defaults = mass_defaults,
+     .create = create_mass,
+     .handles = mass_handles,
+     .drag = mass_drag},
+    {.name = "tangent",
+     .sentence = "Newton in one dimension: tangents of g, parabolas of E",
+     .picture = PICTURE_TANGENT,
+     .needs =
+         NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
+     .defaults = tangent_defaults,
+     .create = create_tangent,
+     .step = step_overshoot,
+     .handles = tangent_handles,
+     .drag = tangent_drag},
+    {.name = "dial",
+     .sentence = "a longer time step: from x_tilde to the rest shape",
+     .picture = PICTURE_DIAL,
+     .needs = NEEDS_STEP,
+     .defaults = dial_defaults,
+     .create = create_dial,
+     .step = step_dial,
+     .handles = dial_handles,
+     .drag = dial_drag,
+     .switches = landscape_switches,
+     .flip = landscape_flip},
+    {.name = "spring",
+     .sentence = "one spring: energy, force, eigenvalues; drag its end",
+     .picture = PICTURE_SPRING,
+     .needs = NEEDS_TIME | NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     .defaults = spring_defaults,
+     .create = create_spring,
+     .handles = spring_handles,
+     .drag = spring_drag,
+     .switches = spring_switches,
+     .flip = spring_flip},
+    {.name = "race",
+     .sentence = "run time against error, measured now",
+     .picture = PICTURE_RACE,
+     .needs = NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     .defaults = race_defaults,
+     .create = create_race,
+     .step = step_race},
+    {.name = "envelope",
+     .sentence = "where the square converges: h across, k upwards",
+     .picture = PICTURE_ENVELOPE,
+     .needs = NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     .create = create_envelope,
+     .step = step_envelope},
     {.name = NULL},
 };
 

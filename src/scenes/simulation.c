@@ -54,6 +54,42 @@ static Status step_runs(Simulation *simulation)
     return worst;
 }
 
+int simulation_point(const Simulation *simulation, double at[2])
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    bool single = simulation->system.nodes == 1 || simulation->scene->aim;
+    bool scalar = simulation->descent.scalar.f.value;
+    if (!single || !run->x)
+        return 0;
+    at[0] = run->x[0];
+    at[1] = run->x[1];
+    return scalar ? 1 : 2;
+}
+
+void simulation_predict(Simulation *simulation, double x, double y)
+{
+    double at[2];
+    if (simulation->done || !simulation_point(simulation, at))
+        return;
+    simulation->prediction = (Prediction){.made = true, .at = {x, y}};
+}
+
+/* A guess that was made is held against where the step led; one that was
+ * compared before is forgotten. */
+static void compare_prediction(Simulation *simulation)
+{
+    Prediction *prediction = &simulation->prediction;
+    if (prediction->shown)
+        *prediction = (Prediction){0};
+    if (!prediction->made)
+        return;
+    int count = simulation_point(simulation, prediction->came);
+    double dx = prediction->came[0] - prediction->at[0];
+    double dy = count > 1 ? prediction->came[1] - prediction->at[1] : 0;
+    prediction->distance = hypot(dx, dy);
+    prediction->shown = true;
+}
+
 Status simulation_step(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
@@ -64,6 +100,7 @@ Status simulation_step(Simulation *simulation)
     if (simulation->status && !status_is_unconverged(simulation->status))
         return simulation->status;
     simulation->steps++;
+    compare_prediction(simulation);
     if (simulation->status && simulation->unconverged++ == 0)
         simulation->first = simulation->status;
     return simulation->status;

@@ -2,10 +2,25 @@
 
 #include <math.h>
 
+double scalar_value(const ScalarFunction *f, double x)
+{
+    return f->value(f->data, x);
+}
+
+double scalar_first(const ScalarFunction *f, double x)
+{
+    return f->first(f->data, x);
+}
+
+double scalar_second(const ScalarFunction *f, double x)
+{
+    return f->second(f->data, x);
+}
+
 /* p = -f'(x)/f''(x), and the test */
 Status scalar_newton_start(ScalarNewton *newton)
 {
-    newton->p = -newton->f.first(newton->x) / newton->f.second(newton->x);
+    newton->p = -scalar_first(&newton->f, newton->x) / scalar_second(&newton->f, newton->x);
     newton->status = STATUS_RUNNING;
     if (!isfinite(newton->p))
         newton->status = STATUS_DIVERGED;
@@ -18,8 +33,8 @@ Status scalar_newton_start(ScalarNewton *newton)
 static double scalar_difference(const void *function, double alpha)
 {
     const ScalarNewton *newton = function;
-    return newton->f.value(newton->x + alpha * newton->p) -
-           newton->f.value(newton->x);
+    return scalar_value(&newton->f, newton->x + alpha * newton->p) -
+           scalar_value(&newton->f, newton->x);
 }
 
 Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
@@ -31,9 +46,9 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
         .iteration = newton->iterations,
         .residual = fabs(newton->p),
         .alpha = 1,
-        .slope = newton->f.first(newton->x) * newton->p,
+        .slope = scalar_first(&newton->f, newton->x) * newton->p,
         .factorised = true,
-        .from = {newton->x, newton->f.value(newton->x)},
+        .from = {newton->x, scalar_value(&newton->f, newton->x)},
     };
     Status status = STATUS_OK;
     if (newton->search == LINE_SEARCH_BACKTRACK)
@@ -49,7 +64,7 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
         scalar_newton_start(newton);
     }
     record->to[0] = newton->x;
-    record->to[1] = newton->f.value(newton->x);
+    record->to[1] = scalar_value(&newton->f, newton->x);
     record->status = newton->status;
     return newton->status;
 }

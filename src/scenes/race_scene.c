@@ -1,0 +1,112 @@
+#include "scenes/race_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "scenes/square_scenes.h"
+
+/* Steps of the longest time step and of the reference. */
+enum { RACE_FIRST_STEPS = 8, RACE_FINER = 16 };
+
+/* Tight enough that Newton's error is below that of every time step. */
+static const double RACE_TOLERANCE = 1e-8; /* m/s */
+
+void race_defaults(Options *options)
+{
+    options->stretch = 1.1;
+    options->tolerance = RACE_TOLERANCE;
+}
+
+const IntegratorMethod *race_method(int i)
+{
+    static const char *const names[RACE_METHODS] = {
+        "forward-euler", "symplectic-euler", "verlet",
+        "backward-euler", "midpoint", "avf4"};
+    return integrator_method(names[i]);
+}
+
+static double race_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* From the start to RACE_TIME in this many steps.
+ *   from  in: the start; run out, free it in any case */
+static Status run_to_end(const Simulation *simulation,
+                         const IntegratorMethod *method, long steps,
+                         TimeIntegrator *run)
+{
+    const TimeIntegrator *from = &simulation->run[0];
+    const NewtonSettings settings = {
+        .h = RACE_TIME / (double)steps,
+        .tolerance = simulation->options.tolerance,
+        .solver = simulation->options.solver,
+        .filter = simulation->options.filter,
+        .max_iterations = 1000};
+    Status status = time_integrator_create(
+        method, &simulation->system, &settings, from->x, from->v, run);
+    for (long i = 0; i < steps && !status; i++) {
+        status = time_integrator_step(run);
+        if (status_is_unconverged(status))
+            status = STATUS_OK; /* its error will tell */
+    }
+    return status;
+}
+
+/* Run 1 is the reference: it stands at its end. */
+Status create_race(Simulation *simulation, const NewtonSettings *settings)
+{
+    long finest = (long)RACE_FIRST_STEPS << (RACE_STEP_SIZES - 1);
+    Status status = create_square(simulation, settings);
+    if (status)
+        return status;
+    status = run_to_end(simulation, integrator_method("verlet"),
+                        RACE_FINER * finest, &simulation->run[1]);
+    if (status == STATUS_NOT_FINITE) { /* nothing to compare with */
+        simulation->done = true;
+        simulation->status = status;
+        return STATUS_OK;
+    }
+    return status;
+}
+
+/* m, of the node that is farthest from where it belongs */
+static double largest_error(int nodes, const double *x, const double *exact)
+{
+    double largest = 0;
+    for (int i = 0; i < 2 * nodes; i += 2)
+        largest = fmax(largest,
+                       hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
+    return largest;
+}
+
+Status step_race(Simulation *simulation)
+{
+    Race *race = &simulation->exhibit.race;
+    const IntegratorMethod *method = race_method(race->count % RACE_METHODS);
+    long steps = (long)RACE_FIRST_STEPS << (race->count / RACE_METHODS);
+    TimeIntegrator run = {0};
+    double start = race_clock();
+    Status status = run_to_end(simulation, method, steps, &run);
+    RacePoint *point = &race->point[race->count];
+    *point = (RacePoint){.method = method,
+                         .h = RACE_TIME / (double)steps,
+                         .steps = steps,
+                         .error = NAN,
+                         .seconds = race_clock() - start,
+                         .updates =
+                             run.newton ? run.newton->counters.iterations : 0};
+    if (!status)
+        point->error = largest_error(simulation->system.nodes, run.x,
+                                     simulation->run[1].x);
+    time_integrator_free(&run);
+    if (status && status != STATUS_NOT_FINITE)
+        return status;
+    race->count++;
+    simulation->done = race->count == RACE_METHODS * RACE_STEP_SIZES;
+    return STATUS_OK;
+}
