@@ -23,8 +23,7 @@ Status step_dial(Simulation *simulation);
 void dial_minimise(const Simulation *simulation, double h, double point[2]);
 
 /* Handle 0 is x_tilde: the whole walk follows. */
-int dial_handles(const Simulation *simulation,
-                 double at[SCENE_MAX_HANDLES][2]);
+int dial_handles(const Simulation *simulation, double at[SCENE_MAX_HANDLES][2]);
 void dial_drag(Simulation *simulation, int handle, double x, double y);
 
 #endif

@@ -32,8 +32,7 @@ Status create_mass(Simulation *simulation, const NewtonSettings *settings);
 bool mass_next_step(const Simulation *simulation, int run, MassStep *step);
 
 /* Handle 0 is the mass, handle 1 the tip of v: all runs begin anew there. */
-int mass_handles(const Simulation *simulation,
-                 double at[SCENE_MAX_HANDLES][2]);
+int mass_handles(const Simulation *simulation, double at[SCENE_MAX_HANDLES][2]);
 void mass_drag(Simulation *simulation, int handle, double x, double y);
 
 #endif

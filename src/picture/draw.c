@@ -32,6 +32,13 @@ static SpringCount draw_picture(Paper *paper, const Simulation *simulation,
     case PICTURE_LANDSCAPE:
         landscape_picture_draw(paper, simulation, text);
         break;
+    case PICTURE_MASS:
+    case PICTURE_TANGENT:
+    case PICTURE_DIAL:
+    case PICTURE_SPRING:
+    case PICTURE_RACE:
+    case PICTURE_ENVELOPE:
+        break; /* texts alone */
     default:
         count = square_picture_draw(paper, simulation, range);
         if (text)

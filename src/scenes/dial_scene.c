@@ -6,6 +6,9 @@
 /* h from 1e-3 to 10 s, twenty to a power of ten. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 20;
 
+/* m: a shorter p changes E by less than E's rounding, and is taken whole. */
+static const double DIAL_NEAR = 1e-6;
+
 enum { DIAL_UPDATES = 100, DIAL_HALVINGS = 40 };
 
 void dial_defaults(Options *options)
@@ -60,7 +63,8 @@ void dial_minimise(const Simulation *simulation, double h, double point[2])
         const double p[2] = {(H[1] * g[1] - H[2] * g[0]) / determinant,
                              (H[1] * g[0] - H[0] * g[1]) / determinant};
         double E = dial_value(simulation, h, point[0], point[1]);
-        for (int i = 0; i < DIAL_HALVINGS; i++, alpha /= 2)
+        bool near = hypot(p[0], p[1]) <= DIAL_NEAR;
+        for (int i = 0; i < DIAL_HALVINGS && !near; i++, alpha /= 2)
             if (dial_value(simulation, h, point[0] + alpha * p[0],
                            point[1] + alpha * p[1]) <= E)
                 break;

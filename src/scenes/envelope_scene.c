@@ -48,9 +48,9 @@ static Status open_cell(Simulation *simulation, int column, int row)
     time_integrator_free(&simulation->run[0]);
     simulation->run[0] = (TimeIntegrator){0};
     if (!status)
-        status = time_integrator_create(&integrator_methods[0],
-                                        &simulation->system, &settings, x, v,
-                                        &simulation->run[0]);
+        status =
+            time_integrator_create(&integrator_methods[0], &simulation->system,
+                                   &settings, x, v, &simulation->run[0]);
     free(x);
     free(v);
     return status;
@@ -85,9 +85,9 @@ Status create_envelope(Simulation *simulation, const NewtonSettings *settings)
     Status status = create_square(simulation, settings);
     if (status)
         return status;
-    return envelope_visit(
-        simulation, nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
-        nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
+    return envelope_visit(simulation,
+                          nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
+                          nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
 }
 
 /* The cell that was shown before is shown again after it. */

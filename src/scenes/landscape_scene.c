@@ -153,8 +153,8 @@ int landscape_handles(const Simulation *simulation,
 /* x_tilde, or the iterate: Newton then starts from there. */
 void landscape_drag(Simulation *simulation, int handle, double x, double y)
 {
-    double *moved = handle == 0 ? simulation->exhibit.target
-                                : simulation->run[0].x;
+    double *moved =
+        handle == 0 ? simulation->exhibit.target : simulation->run[0].x;
     moved[0] = x;
     moved[1] = y;
     simulation->descent.count = 0;

@@ -69,8 +69,7 @@ void mass_drag(Simulation *simulation, int handle, double x, double y)
     double new_x[2], new_v[2];
     for (int i = 0; i < 2; i++) {
         new_x[i] = handle == 0 ? point[i] : first[i];
-        new_v[i] =
-            handle == 0 ? simulation->run[0].v[i] : point[i] - first[i];
+        new_v[i] = handle == 0 ? simulation->run[0].v[i] : point[i] - first[i];
     }
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];

@@ -8,7 +8,7 @@
 #include "scenes/square_scenes.h"
 
 /* Steps of the longest time step and of the reference. */
-enum { RACE_FIRST_STEPS = 8, RACE_FINER = 16 };
+enum { RACE_FIRST_STEPS = 8, RACE_FINER = 64 };
 
 /* Tight enough that Newton's error is below that of every time step. */
 static const double RACE_TOLERANCE = 1e-8; /* m/s */
@@ -22,8 +22,8 @@ void race_defaults(Options *options)
 const IntegratorMethod *race_method(int i)
 {
     static const char *const names[RACE_METHODS] = {
-        "forward-euler", "symplectic-euler", "verlet",
-        "backward-euler", "midpoint", "avf4"};
+        "forward-euler",  "symplectic-euler", "verlet",
+        "backward-euler", "midpoint",         "avf4"};
     return integrator_method(names[i]);
 }
 
@@ -41,14 +41,14 @@ static Status run_to_end(const Simulation *simulation,
                          TimeIntegrator *run)
 {
     const TimeIntegrator *from = &simulation->run[0];
-    const NewtonSettings settings = {
-        .h = RACE_TIME / (double)steps,
-        .tolerance = simulation->options.tolerance,
-        .solver = simulation->options.solver,
-        .filter = simulation->options.filter,
-        .max_iterations = 1000};
-    Status status = time_integrator_create(
-        method, &simulation->system, &settings, from->x, from->v, run);
+    const NewtonSettings settings = {.h = RACE_TIME / (double)steps,
+                                     .tolerance = simulation->options.tolerance,
+                                     .solver = simulation->options.solver,
+                                     .filter = simulation->options.filter,
+                                     .search = simulation->options.line_search,
+                                     .max_iterations = 1000};
+    Status status = time_integrator_create(method, &simulation->system,
+                                           &settings, from->x, from->v, run);
     for (long i = 0; i < steps && !status; i++) {
         status = time_integrator_step(run);
         if (status_is_unconverged(status))
@@ -79,8 +79,8 @@ static double largest_error(int nodes, const double *x, const double *exact)
 {
     double largest = 0;
     for (int i = 0; i < 2 * nodes; i += 2)
-        largest = fmax(largest,
-                       hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
+        largest =
+            fmax(largest, hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
     return largest;
 }
 

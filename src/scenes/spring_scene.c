@@ -67,9 +67,9 @@ Status create_spring(Simulation *simulation, const NewtonSettings *settings)
     system->l2[0] = SPRING_LENGTH * SPRING_LENGTH;
     system->k[0] = SPRING_STIFFNESS;
     simulation->runs = 1;
-    return time_integrator_create(
-        options->integrator ? options->integrator : &integrator_methods[0],
-        system, settings, x, v, &simulation->run[0]);
+    return time_integrator_create(options->integrator ? options->integrator
+                                                      : &integrator_methods[0],
+                                  system, settings, x, v, &simulation->run[0]);
 }
 
 int spring_handles(const Simulation *simulation,

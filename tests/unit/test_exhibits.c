@@ -1,0 +1,565 @@
+/* The lecture's small scenes, held to formulas written here once more. */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/dial_scene.h"
+#include "scenes/envelope_scene.h"
+#include "scenes/mass_scene.h"
+#include "scenes/race_scene.h"
+#include "scenes/spring_scene.h"
+#include "scenes/tangent_scene.h"
+
+/* ---- one mass ----------------------------------------------------------- */
+
+/* The arrows that are drawn before a step are what the integrators then do:
+ * equal but for a few roundings of numbers below 10. */
+static void mass_arrows_are_the_next_step(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("arrows --timestep 0.37 --start 0.8,-0.4", NULL, NULL,
+                         &simulation);
+    CHECK(simulation.runs == 3);
+    for (int n = 0; n < 20; n++) {
+        MassStep step[3];
+        for (int run = 0; run < 3; run++)
+            CHECK(mass_next_step(&simulation, run, &step[run]));
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        for (int run = 0; run < 3; run++)
+            for (int i = 0; i < 2; i++) {
+                const TimeIntegrator *now = &simulation.run[run];
+                double scale = 1 + hypot(now->x[0], now->x[1]);
+                CHECK_NEAR(now->x[i], step[run].new_x[i], 1e-14 * scale);
+                CHECK_NEAR(now->v[i], step[run].new_v[i], 1e-14 * scale);
+                CHECK_NEAR(step[run].a[i], -step[run].x[i], 0);
+                CHECK_NEAR(step[run].new_a[i], -step[run].new_x[i], 0);
+            }
+    }
+    simulation_free(&simulation);
+}
+
+/* The three formulas, by hand, from (1, 0) with v = (0, 1) and h = 0.5:
+ * forward (1, 0.5); symplectic: v' = (-0.5, 1), x' = (0.75, 0.5); backward:
+ * x' = (x + h v)/1.25 = (0.8, 0.4), v' = (x' - x)/h = (-0.4, 0.8). */
+static void mass_steps_are_the_slides(void **unused)
+{
+    (void)unused;
+    static const double x[3][2] = {{1, 0.5}, {0.75, 0.5}, {0.8, 0.4}};
+    static const double v[3][2] = {{-0.5, 1}, {-0.5, 1}, {-0.4, 0.8}};
+    Simulation simulation;
+    simulation_from_line("arrows", NULL, NULL, &simulation);
+    for (int run = 0; run < 3; run++) {
+        MassStep step;
+        CHECK(mass_next_step(&simulation, run, &step));
+        for (int i = 0; i < 2; i++) {
+            CHECK_NEAR(step.new_x[i], x[run][i], 1e-15);
+            CHECK_NEAR(step.new_v[i], v[run][i], 1e-15);
+        }
+    }
+    simulation_free(&simulation);
+    simulation_from_line("arrows --integrator verlet", NULL, NULL, &simulation);
+    MassStep step;
+    CHECK(!mass_next_step(&simulation, 0, &step));
+    simulation_free(&simulation);
+}
+
+/* Dragging the mass keeps its velocity, dragging the tip its place; all runs
+ * follow. */
+static void mass_is_dragged(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double at[SCENE_MAX_HANDLES][2];
+    simulation_from_line("arrows", NULL, NULL, &simulation);
+    simulation_step(&simulation);
+    mass_drag(&simulation, 0, 0.25, -0.5);
+    mass_drag(&simulation, 1, 0.25 + 2, -0.5 + 3);
+    CHECK(mass_handles(&simulation, at) == 2);
+    CHECK_NEAR(at[0][0], 0.25, 0);
+    CHECK_NEAR(at[1][1], 2.5, 0);
+    for (int run = 0; run < 3; run++) {
+        const double x[2] = {0.25, -0.5}, v[2] = {2, 3};
+        CHECK_SAME_BITS(simulation.run[run].x, x, 2);
+        CHECK_SAME_BITS(simulation.run[run].v, v, 2);
+    }
+    simulation_free(&simulation);
+}
+
+/* ---- Newton in one dimension -------------------------------------------- */
+
+/* E and g of the header's formula, in extended precision. */
+static long double line_E(const LineEnergy *line, long double x)
+{
+    long double s = x * x / line->l2 - 1, d = x - line->target;
+    return line->m * d * d / 2 +
+           (long double)line->h * line->h * line->l2 * line->k / 2 * s * s;
+}
+
+static long double line_g(const LineEnergy *line, long double x)
+{
+    return line->m * (x - line->target) + 2 * (long double)line->h * line->h *
+                                              line->k * x *
+                                              (x * x / line->l2 - 1);
+}
+
+/* g is the derivative of E and E'' that of g: central differences of a quartic
+ * with step e have an error of e^2 f'''/6, f''' < 100 here. */
+static void tangent_derivatives_are_right(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("tangent", NULL, NULL, &simulation);
+    const ScalarFunction *f = &simulation.descent.scalar.f;
+    const LineEnergy *line = &simulation.exhibit.line;
+    const long double e = 1e-5L;
+    for (double x = -2; x <= 2.5; x += 0.125) {
+        long double by_E = (line_E(line, x + e) - line_E(line, x - e)) / 2 / e;
+        long double by_g = (line_g(line, x + e) - line_g(line, x - e)) / 2 / e;
+        CHECK_NEAR(scalar_value(f, x), line_E(line, x), 1e-13);
+        CHECK_NEAR(scalar_first(f, x), by_E, 2e-9);
+        CHECK_NEAR(scalar_second(f, x), by_g, 2e-9);
+    }
+    simulation_free(&simulation);
+}
+
+/* The next iterate is where the tangent of g is zero; the limit is a root. */
+static void tangent_follows_tangents(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("tangent", NULL, NULL, &simulation);
+    const LineEnergy *line = &simulation.exhibit.line;
+    while (!simulation.done) {
+        double x = simulation.descent.point[0];
+        double slope = scalar_second(&simulation.descent.scalar.f, x);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        long double zero = x - line_g(line, x) / slope;
+        CHECK_NEAR(simulation.descent.point[0], zero, 1e-14);
+    }
+    CHECK(simulation.steps == 6 || simulation.steps == 7);
+    /* |p| <= 1e-10 and g = -E'' p with E'' < 10 */
+    CHECK_NEAR(line_g(line, simulation.descent.point[0]), 0, 1e-9);
+    simulation_free(&simulation);
+}
+
+/* A dragged start or x_tilde begins anew, with the same E elsewhere. */
+static void tangent_is_dragged(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double at[SCENE_MAX_HANDLES][2];
+    simulation_from_line("tangent", NULL, NULL, &simulation);
+    while (!simulation.done)
+        simulation_step(&simulation);
+    tangent_drag(&simulation, 1, -1.5, 7);
+    CHECK(simulation.steps == 0 && !simulation.done);
+    CHECK_NEAR(simulation.exhibit.line.target, -1.5, 0);
+    tangent_drag(&simulation, 0, -2.25, 7);
+    CHECK(tangent_handles(&simulation, at) == 2);
+    CHECK_NEAR(at[0][0], -2.25, 0);
+    CHECK_NEAR(at[0][1], line_E(&simulation.exhibit.line, -2.25), 1e-13);
+    CHECK_NEAR(at[1][0], -1.5, 0);
+    while (!simulation.done)
+        simulation_step(&simulation);
+    CHECK_NEAR(line_g(&simulation.exhibit.line, simulation.run[0].x[0]), 0,
+               1e-9);
+    CHECK(simulation.run[0].x[0] < 0);
+    tangent_drag(&simulation, 0, NAN, 0);
+    CHECK(isfinite(simulation.run[0].x[0]));
+    simulation_free(&simulation);
+}
+
+/* ---- the dial ----------------------------------------------------------- */
+
+/* |grad E| of the landscape's free node by the formula, in extended
+ * precision. */
+static long double dial_gradient(const Simulation *simulation, double h,
+                                 const double point[2])
+{
+    long double g[2];
+    for (int i = 0; i < 2; i++)
+        g[i] = point[i] - (long double)simulation->exhibit.target[i];
+    for (int pin = -1; pin <= 1; pin += 2) {
+        long double d[2] = {point[0] - pin, point[1]};
+        long double s = (d[0] * d[0] + d[1] * d[1]) / 2.25L - 1;
+        for (int i = 0; i < 2; i++)
+            g[i] += (long double)h * h * 200 * s * d[i];
+    }
+    return hypotl(g[0], g[1]);
+}
+
+/* Each point of the walk is a minimiser: its gradient is rounding of numbers
+ * about h^2 k = 1e4 and 1. */
+static void dial_walks_over_minimisers(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("dial", NULL, NULL, &simulation);
+    for (int drag = 0; drag < 2; drag++) {
+        const Walk *walk = &simulation.exhibit.walk;
+        for (int i = 0; i < WALK_POINTS; i++) {
+            double h = walk->h[i];
+            CHECK_AT_MOST(dial_gradient(&simulation, h, walk->point[i]),
+                          1e-13 * (1 + 100 * h * h));
+            CHECK(i == 0 || h > walk->h[i - 1]);
+            double step =
+                i == 0 ? 0
+                       : hypot(walk->point[i][0] - walk->point[i - 1][0],
+                               walk->point[i][1] - walk->point[i - 1][1]);
+            CHECK_AT_MOST(step, 0.2); /* it walks and does not jump */
+        }
+        dial_drag(&simulation, 0, -0.5, 0.9);
+    }
+    simulation_free(&simulation);
+}
+
+/* From x_tilde to rest: there the free node is 1.5 m from both pins. */
+static void dial_turns_from_target_to_rest(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("dial --timestep 1e-6", NULL, NULL, &simulation);
+    CHECK_NEAR(simulation.run[0].x[0], 0.2, 1e-9);
+    CHECK_NEAR(simulation.run[0].x[1], 0.3, 1e-9);
+    simulation_free(&simulation);
+    simulation_from_line("dial", NULL, NULL, &simulation);
+    double h = simulation.options.timestep;
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK_NEAR(simulation.options.timestep, h * pow(10, 0.05), 1e-15);
+    while (!simulation.done)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK_NEAR(simulation.options.timestep, 10, 0);
+    /* inertia still pulls: by 1 / (h^2 k) = 1e-4 of its distance */
+    CHECK_NEAR(simulation.run[0].x[0], 0, 1e-4);
+    CHECK_NEAR(simulation.run[0].x[1], sqrt(1.25), 1e-4);
+    CHECK_AT_MOST(dial_gradient(&simulation, 10, simulation.run[0].x), 1e-9);
+    simulation_free(&simulation);
+}
+
+/* ---- inertia and elasticity on the map ---------------------------------- */
+
+static void landscape_has_two_parts(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    Switch out[SCENE_MAX_SWITCHES];
+    simulation_from_line("landscape", NULL, NULL, &simulation);
+    for (double x = -1.5; x < 1.6; x += 0.31) {
+        double y = 0.7 * x + 0.1;
+        double inertia = landscape_part_value(&simulation, PART_INERTIA, x, y);
+        double elastic =
+            landscape_part_value(&simulation, PART_ELASTICITY, x, y);
+        CHECK_NEAR(inertia,
+                   0.5 * ((x - 0.2) * (x - 0.2) + (y - 0.3) * (y - 0.3)),
+                   1e-15);
+        CHECK_NEAR(inertia + elastic, landscape_value(&simulation, x, y),
+                   1e-13);
+    }
+    CHECK(landscape_switches(&simulation, out) == 2 && out[0].on && out[1].on);
+    landscape_flip(&simulation, 0);
+    CHECK(simulation.exhibit.parts == PART_ELASTICITY);
+    landscape_flip(&simulation, 1); /* the last one: the other comes back */
+    CHECK(simulation.exhibit.parts == PART_INERTIA);
+    landscape_flip(&simulation, 1);
+    CHECK(simulation.exhibit.parts == PART_BOTH);
+    simulation_free(&simulation);
+}
+
+/* Newton begins anew where the iterate is dragged to, or with another target:
+ * as a scene that was started there. */
+static void landscape_is_dragged(void **unused)
+{
+    (void)unused;
+    Simulation dragged, fresh;
+    simulation_from_line("landscape", NULL, NULL, &dragged);
+    simulation_from_line("landscape --start 0.9,-0.8", NULL, NULL, &fresh);
+    while (!dragged.done)
+        simulation_step(&dragged);
+    landscape_drag(&dragged, 1, 0.9, -0.8);
+    CHECK(!dragged.done && dragged.steps == 0 && dragged.descent.count == 0);
+    CHECK_NEAR(dragged.descent.slope, fresh.descent.slope,
+               1e-12 * fabs(fresh.descent.slope));
+    while (!dragged.done && !fresh.done) {
+        simulation_step(&dragged);
+        simulation_step(&fresh);
+        CHECK_NEAR(dragged.run[0].x[0], fresh.run[0].x[0], 1e-12);
+        CHECK_NEAR(dragged.run[0].x[1], fresh.run[0].x[1], 1e-12);
+    }
+    CHECK(dragged.done && fresh.done);
+    landscape_drag(&dragged, 0, 0.3, -1.3);
+    while (!dragged.done)
+        simulation_step(&dragged);
+    CHECK_STATUS(dragged.status, STATUS_OK);
+    CHECK_AT_MOST(dial_gradient(&dragged, 0.2, dragged.run[0].x), 1e-5);
+    simulation_free(&dragged);
+    simulation_free(&fresh);
+}
+
+/* ---- one spring --------------------------------------------------------- */
+
+static long double spring_P(long double x, long double y)
+{
+    long double s = x * x + y * y - 1;
+    return 50 * s * s;
+}
+
+/* All of the facts by differences of P in extended precision; the error of a
+ * second difference is e^2 P''''/12 < 1e-7. */
+static void spring_facts_are_derivatives(void **unused)
+{
+    (void)unused;
+    const long double e = 1e-5L;
+    Random random = {15};
+    for (int i = 0; i < 200; i++) {
+        double angle = random_uniform(&random, 0, 6.28);
+        double r = random_uniform(&random, 0.05, 2);
+        const double d[2] = {r * cos(angle), r * sin(angle)};
+        const long double a[2] = {cosl(angle), sinl(angle)};
+        SpringFacts facts;
+        spring_facts(d, 1, 100, &facts);
+        long double x = d[0], y = d[1], P = spring_P(x, y);
+        CHECK_NEAR(facts.length, r, 1e-15);
+        CHECK_NEAR(facts.energy, P, 1e-12);
+        CHECK_NEAR(facts.force[0],
+                   (spring_P(x - e, y) - spring_P(x + e, y)) / 2 / e, 1e-6);
+        CHECK_NEAR(facts.force[1],
+                   (spring_P(x, y - e) - spring_P(x, y + e)) / 2 / e, 1e-6);
+        CHECK_NEAR(facts.along,
+                   (spring_P(x + e * a[0], y + e * a[1]) +
+                    spring_P(x - e * a[0], y - e * a[1]) - 2 * P) /
+                       (e * e),
+                   1e-5);
+        CHECK_NEAR(facts.across,
+                   (spring_P(x - e * a[1], y + e * a[0]) +
+                    spring_P(x + e * a[1], y - e * a[0]) - 2 * P) /
+                       (e * e),
+                   1e-5);
+    }
+}
+
+/* The four eigenvalues are those of the 4x4 block, before and after make_psd:
+ * traces of the matrix and of its square tell. */
+static void spring_eigenvalues_are_those_of_the_block(void **unused)
+{
+    (void)unused;
+    for (double r = 0.05; r < 2; r += 0.07) {
+        const double d[2] = {0.6 * r, 0.8 * r};
+        double H[3], a[16];
+        SpringFacts facts;
+        spring_facts(d, 1, 100, &facts);
+        spring_hessian(d, 1, 100, H);
+        for (int i = 0; i < 16; i++) {
+            int row = i / 4, column = i % 4;
+            double sign = row / 2 == column / 2 ? 1 : -1;
+            a[i] = sign * H[row % 2 + column % 2];
+        }
+        for (int pass = 0; pass < 2; pass++) {
+            const double *value = pass ? facts.projected : facts.block;
+            double trace = 0, square = 0, sum = 0, squares = 0;
+            for (int i = 0; i < 16; i++) {
+                trace += i % 5 == 0 ? a[i] : 0;
+                square += a[i] * a[i];
+            }
+            for (int i = 0; i < 4; i++) {
+                sum += value[i];
+                squares += value[i] * value[i];
+                CHECK(i == 0 || value[i] >= value[i - 1]);
+                CHECK(!pass || value[i] >= 0);
+            }
+            CHECK_NEAR(trace, sum, 1e-11 * (1 + fabs(sum)));
+            CHECK_NEAR(square, squares, 1e-11 * (1 + squares));
+            make_psd(a);
+        }
+    }
+}
+
+/* As stiff at rest, and without a bound below beside it. */
+static void spring_with_a_square_root_is_worse(void **unused)
+{
+    (void)unused;
+    SpringFacts rest, near;
+    spring_facts((double[2]){1, 0}, 1, 100, &rest);
+    CHECK_NEAR(rest.along, 400, 0);
+    CHECK_NEAR(rest.root_along, 400, 0);
+    CHECK_NEAR(rest.across, 0, 0);
+    CHECK_NEAR(rest.root_across, 0, 0);
+    CHECK_NEAR(rest.root_energy, rest.energy, 0);
+    spring_facts((double[2]){1e-3, 0}, 1, 100, &near);
+    CHECK_NEAR(near.across, -200, 1e-3);
+    CHECK_NEAR(near.root_across, -399600, 1e-6);
+    spring_facts((double[2]){0, 0}, 1, 100, &near);
+    CHECK_NEAR(near.across, -200, 0);
+    CHECK_NEAR(near.along, -200, 0);
+    CHECK_NEAR(near.force[0], 0, 0);
+    CHECK(near.root_across == -INFINITY);
+}
+
+static void spring_is_dragged(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    double at[SCENE_MAX_HANDLES][2];
+    simulation_from_line("spring", NULL, NULL, &simulation);
+    for (int i = 0; i < 5; i++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    spring_drag(&simulation, 0, 0.2, 0.1);
+    CHECK(spring_handles(&simulation, at) == 1);
+    CHECK_NEAR(at[0][0], 0.2, 0);
+    CHECK_NEAR(simulation.run[0].v[1], 0, 0);
+    for (int i = 0; i < 200; i++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK_NEAR(simulation.run[0].x[2], 0, 0); /* held */
+    /* backward Euler has taken nearly all of the energy of 45 J */
+    CHECK_AT_MOST(simulation_energies(&simulation, 0).total, 1);
+    simulation_free(&simulation);
+}
+
+/* ---- run time against error --------------------------------------------- */
+
+/* Halving a small time step divides the error by 2 to the power of the order
+ * of the method: within a quarter, for the terms of higher order. */
+static void race_shows_the_orders(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("race", NULL, NULL, &simulation);
+    const Race *race = &simulation.exhibit.race;
+    while (!simulation.done)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(race->count == RACE_METHODS * RACE_STEP_SIZES);
+    for (int i = race->count - RACE_METHODS; i < race->count; i++) {
+        const RacePoint *point = &race->point[i];
+        while (point->error < 1e-8) /* where tolerance and reference are seen */
+            point -= RACE_METHODS;
+        const RacePoint *before = point - RACE_METHODS;
+        double factor = pow(2, point->method->order);
+        CHECK(point->method == before->method);
+        CHECK_NEAR(point->h, before->h / 2, 1e-18);
+        CHECK(point->seconds > 0 && point->seconds < 10);
+        CHECK((point->updates > 0) == point->method->implicit);
+        CHECK_NEAR(before->error / point->error, factor, 0.25 * factor);
+    }
+    simulation_free(&simulation);
+}
+
+/* Where no method has an answer to be compared with, the scene ends. */
+static void race_may_have_no_answer(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("race --stiffness 1e16", NULL, NULL, &simulation);
+    CHECK(simulation.done);
+    CHECK_STATUS(simulation.status, STATUS_NOT_FINITE);
+    simulation_free(&simulation);
+}
+
+/* ---- the envelope ------------------------------------------------------- */
+
+/* A cell is the run that its command line makes. */
+static void envelope_cells_are_runs(void **unused)
+{
+    (void)unused;
+    static const int cells[4][2] = {{13, 11}, {20, 8}, {24, 21}, {0, 0}};
+    Simulation map, run;
+    char line[256];
+    simulation_from_line("envelope", NULL, NULL, &map);
+    for (int i = 0; i < 4; i++) {
+        Status worst = STATUS_OK;
+        CHECK_STATUS(envelope_visit(&map, cells[i][0], cells[i][1]), STATUS_OK);
+        const EnvelopeCell *cell =
+            &map.exhibit.map.cell[cells[i][1]][cells[i][0]];
+        envelope_line(&map, cells[i][0], cells[i][1], line, sizeof line);
+        simulation_from_line(line, NULL, NULL, &run);
+        CHECK_NEAR(run.options.timestep, envelope_timestep(cells[i][0]), 0);
+        CHECK_NEAR(run.options.stiffness, envelope_stiffness(cells[i][1]), 0);
+        for (int step = 0; step < ENVELOPE_STEPS; step++) {
+            Status status = simulation_step(&run);
+            worst = status ? status : worst;
+        }
+        CHECK(cell->known);
+        CHECK_STATUS(cell->worst, worst);
+        CHECK(cell->updates == simulation_counters(&run).iterations);
+        CHECK_SAME_BITS(map.run[0].x, run.run[0].x, 2 * run.system.nodes);
+        simulation_free(&run);
+    }
+    simulation_free(&map);
+}
+
+/* A row a step; the cell that is shown stays the one that was. */
+static void envelope_fills_row_by_row(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    const EnvelopeMap *map = &simulation.exhibit.map;
+    simulation_from_line("envelope", NULL, NULL, &simulation);
+    CHECK_NEAR(envelope_stiffness(map->row), 1e5, 1e-9);
+    CHECK_NEAR(log10(envelope_timestep(map->column)), log10(0.004), 0.25);
+    int column = map->column, row = map->row, known = 0;
+    while (!simulation.done)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    for (int i = 0; i < ENVELOPE_ROWS; i++)
+        for (int j = 0; j < ENVELOPE_COLUMNS; j++)
+            known += map->cell[i][j].known;
+    CHECK(known == ENVELOPE_ROWS * ENVELOPE_COLUMNS);
+    CHECK(simulation.steps == ENVELOPE_ROWS);
+    CHECK(map->column == column && map->row == row);
+    simulation_free(&simulation);
+}
+
+/* ---- predict, then show ------------------------------------------------- */
+
+static void predictions_are_compared(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("arrows --integrator forward-euler", NULL, NULL,
+                         &simulation);
+    simulation_predict(&simulation, 1.3, 0.9); /* it will be (1, 0.5) */
+    CHECK(simulation.prediction.made && !simulation.prediction.shown);
+    simulation_step(&simulation);
+    CHECK(simulation.prediction.shown);
+    CHECK_NEAR(simulation.prediction.distance, 0.5, 1e-15);
+    simulation_step(&simulation);
+    CHECK(!simulation.prediction.made && !simulation.prediction.shown);
+    simulation_free(&simulation);
+    /* along x alone: from 2 to 2 - sinh(4)/2 */
+    simulation_from_line("overshoot", NULL, NULL, &simulation);
+    simulation_predict(&simulation, -11, 123);
+    simulation_step(&simulation);
+    CHECK_NEAR(simulation.prediction.distance, 0.644958598563875, 1e-12);
+    simulation_free(&simulation);
+    /* a square is no single point */
+    simulation_from_line("square", NULL, NULL, &simulation);
+    simulation_predict(&simulation, 1, 1);
+    CHECK(!simulation.prediction.made);
+    simulation_free(&simulation);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mass_arrows_are_the_next_step),
+        cmocka_unit_test(mass_steps_are_the_slides),
+        cmocka_unit_test(mass_is_dragged),
+        cmocka_unit_test(tangent_derivatives_are_right),
+        cmocka_unit_test(tangent_follows_tangents),
+        cmocka_unit_test(tangent_is_dragged),
+        cmocka_unit_test(dial_walks_over_minimisers),
+        cmocka_unit_test(dial_turns_from_target_to_rest),
+        cmocka_unit_test(landscape_has_two_parts),
+        cmocka_unit_test(landscape_is_dragged),
+        cmocka_unit_test(spring_facts_are_derivatives),
+        cmocka_unit_test(spring_eigenvalues_are_those_of_the_block),
+        cmocka_unit_test(spring_with_a_square_root_is_worse),
+        cmocka_unit_test(spring_is_dragged),
+        cmocka_unit_test(race_shows_the_orders),
+        cmocka_unit_test(race_may_have_no_answer),
+        cmocka_unit_test(envelope_cells_are_runs),
+        cmocka_unit_test(envelope_fills_row_by_row),
+        cmocka_unit_test(predictions_are_compared),
+    };
+    return cmocka_run_group_tests_name("exhibits", tests, NULL, NULL);
+}
