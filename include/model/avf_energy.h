@@ -15,8 +15,11 @@
 #ifndef ELASTO_AVF_ENERGY_H
 #define ELASTO_AVF_ENERGY_H
 
-#include "model/psd.h"
 #include "base/quartic.h"
+#include "model/term.h"
+
+/* The averaged twin of the springs (mass_spring_energy). */
+extern const TermKind avf_energy;
 
 /* Phi(u), J; 0 for u = 0. */
 double avf_energy_value(int springs, const double *x_n, const double *u,

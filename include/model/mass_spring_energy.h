@@ -11,7 +11,10 @@
 #ifndef ELASTO_MASS_SPRING_ENERGY_H
 #define ELASTO_MASS_SPRING_ENERGY_H
 
-#include "model/psd.h"
+#include "model/term.h"
+
+/* The springs of the system as a term; it needs no data. */
+extern const TermKind mass_spring_energy;
 
 /* P(x), J. */
 double mass_spring_energy_value(int springs, const double *x, const int *e,
@@ -41,6 +44,21 @@ int mass_spring_energy_hessian(int springs, const double *x, const int *e,
 void mass_spring_energy_product(int springs, const double *x, const int *e,
                                 const double *l2, const double *k, double scale,
                                 Filter filter, const double *q, double *y);
+
+/* Coefficients of alpha^2, alpha^3, alpha^4 in P(x + alpha p), times scale,
+ * added to q.  p [2n] m, in; q [3] in/out. */
+void mass_spring_energy_along(int springs, const double *x, const double *p,
+                              const int *e, const double *l2, const double *k,
+                              double scale, double q[3]);
+
+/* Number and triplets of the Hessian's entries: 10 for each spring. */
+long long mass_spring_entries(const Term *term, const System *system);
+void mass_spring_pattern(const Term *term, const System *system,
+                         Triplets *triplets);
+
+/* max k, J/m^2, and max k sqrt(l2), J/m: of a spring compressed to nothing. */
+double mass_spring_stiffest(const Term *term, const System *system);
+double mass_spring_force(const Term *term, const System *system);
 
 /* y += [[H, -H], [-H, H]] q for the spring between nodes e[0] and e[1]: with
  * t = H (q_i - q_j), y_i += t and y_j -= t. */

@@ -1,27 +1,35 @@
-/* system.h - what is simulated: masses, springs, a central field, pins.
+/* system.h - what is simulated: masses, springs, gravity, pins, and the list
+ * of energy terms.
  *
- * Its potential is P(x) = sum of the terms it has; a term that a scene lacks
- * costs nothing.  All arrays are constant while time runs.
+ * Its potential is P(x) = sum of the terms in its list (term.h); one that a
+ * scene lacks costs nothing.  Gravity is none of them: an implicit step takes
+ * it into its target u_tilde, an explicit one adds it to the acceleration, and
+ * so free fall is exact in both.  Arrays change only between steps, in a term's
+ * begin and end.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
 
-#include "model/psd.h"
-#include "base/status.h"
+#include "model/term.h"
 
-typedef struct System {
+enum { SYSTEM_MAX_TERMS = 12 };
+
+struct System {
     int nodes;             /* n */
     int springs;           /* 0: no springs */
     int *e;                /* [2 springs] nodes of each spring */
     double *m;             /* [n] kg, > 0 */
     double *l2;            /* [springs] m^2, rest length squared, > 0 */
     double *k;             /* [springs] J/m^2, stiffness, > 0 */
-    double omega2;         /* 1/s^2, central field a = -omega2 x; 0: none */
+    double gravity[2];     /* m/s^2, acceleration of every node */
     unsigned char *pinned; /* [n] 1: the node never moves; NULL: no pins */
     int *order;            /* [n] elimination order, or NULL */
-} System;
+    int terms;
+    Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
+};
 
-/* Allocates the arrays (pinned and order stay NULL), all zero.
+/* Allocates the arrays (pinned and order stay NULL), all zero; the list has the
+ * springs' term where there are springs.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
@@ -31,29 +39,52 @@ Status system_create_pins(System *system);
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);
 
+/* Appends a term, which then owns data if its kind has a free function.
+ * Returns the term, or NULL: the list is full. */
+Term *system_add_term(System *system, const TermKind *kind, void *data);
+
+/* The first term of this kind, or NULL. */
+Term *system_find_term(const System *system, const TermKind *kind);
+
+/* Takes it out of the list and frees its data; nothing where there is none. */
+void system_remove_term(System *system, const TermKind *kind);
+
 /* Checks what the struct promises: every number finite and in its range, every
- * spring between two different nodes.  x [2n] m, in: must be finite.
+ * spring between two different nodes, every term valid.  x [2n] m, in: must be
+ * finite and a place that all terms allow.
  * Returns OK or INVALID_INPUT. */
 Status system_check(const System *system, const double *x);
 
-/* P(x), J.  x [2n] m, in. */
+/* P(x), J, with gravity's -sum m g.x.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
-/* g += scale * grad P(x); 0 for pinned nodes.  x [2n] m in, g [2n] in/out. */
-void system_gradient(const System *system, const double *x, double scale,
-                     double *g);
+/* Its second part alone, J, and whether there is any. */
+bool system_has_gravity(const System *system);
+double system_gravity_potential(const System *system, const double *x);
 
 /* g = 0 for pinned nodes.  g [2n] in/out. */
 void system_clear_pinned(const System *system, double *g);
 
-/* a = -M^-1 grad P(x), m/s^2.  x [2n] m in, a [2n] out. */
+/* a = gravity - M^-1 grad P(x), m/s^2; 0 for pinned nodes.  x [2n] m in, a [2n]
+ * out. */
 void system_acceleration(const System *system, const double *x, double *a);
 
-/* Whether only springs act: they cannot move the centre of mass. */
+/* Whether only gravity and internal forces act: the centre of mass falls
+ * freely. */
 bool system_is_free(const System *system);
 
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
+
+/* Largest bound of the terms' curvature, J/m^2, and of their forces, J/m. */
+double system_stiffest(const System *system);
+double system_force(const System *system);
+
+/* Before a step and after it: begin and end of all terms.  end returns whether
+ * arrays have changed. */
+void system_begin(System *system, const double *x_n, const double *v_n,
+                  double h);
+bool system_end(System *system, const double *x, const double *v, double h);
 
 /* |g|_(M^-1) = sqrt(sum |g_i|^2 / m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);

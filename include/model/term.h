@@ -29,7 +29,10 @@ typedef struct Place {
 typedef struct TermKind {
     const char *name; /* in the energy ledger and in messages: "springs" */
 
-    /* P(x), J. */
+    /* Whether its numbers are finite and in their ranges; NULL: always. */
+    bool (*valid)(const Term *term, const System *system);
+
+    /* P(x), J.  Where averaged: along the way from x_n, 0 for u = 0. */
     double (*value)(const Term *term, const Place *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1

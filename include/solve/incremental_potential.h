@@ -18,8 +18,21 @@ typedef struct IncrementalPotential {
     double weight;         /* w, s^2 */
     const double *x_n;     /* [2n] m, positions at the start of the step */
     const double *u_tilde; /* [2n] m, x_tilde - x_n */
-    bool averaged;         /* Phi (avf_energy.h) in the place of P */
+    bool averaged;         /* the averaged twins of all terms */
 } IncrementalPotential;
+
+/* What travels together through a minimisation; arrays of [2n]. */
+typedef struct Iterate {
+    IncrementalPotential E;
+    double *u; /* m, displacement from x_n */
+    double *x; /* m, x_n + u */
+    double *g; /* grad E(x), kg m; 0 for pinned nodes */
+    double *p; /* m, search direction; 0 for pinned nodes */
+} Iterate;
+
+/* The row of functions that stands for term t of the system in E. */
+const TermKind *incremental_potential_kind(const IncrementalPotential *E,
+                                           int t);
 
 /* E(x), J s^2.  u [2n] m, in: x - x_n; x [2n] m, in: x_n + u. */
 double incremental_potential_value(const IncrementalPotential *E,
@@ -31,43 +44,62 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     double *g);
 
 /* A number that E's rounding errors are in proportion to: inertia plus
- * w P(x), J s^2. */
+ * w |P(x)|, J s^2. */
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
-/* The triplets of the Hessian: 2n diagonal entries of the mass matrix (and of
- * the central field), then 10 for each spring.  Rows in elimination order if
- * the system has one.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status incremental_potential_pattern(const System *system, Triplets *triplets);
+/* The Hessian's pattern: triplets, 2n diagonal entries of the mass matrix
+ * first, then those of each term; rows in elimination order if the system has
+ * one.
+ *   triangle  which one A stores
+ *   A         out; free it with sparse_free, also after a failure
+ *   slot      out, [count] place of each triplet in A; those of pinned nodes go
+ *             to the last value of A, which nobody reads, and only their mass
+ *             stays, on the diagonal.  To be freed by the caller
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status incremental_potential_pattern(const System *system, Triangle triangle,
+                                     Sparse *A, int **slot);
 
-/* slot [count] in/out: entries of pinned nodes go to the last value of A,
- * which nobody reads; only their mass stays, on the diagonal. */
-void incremental_potential_drop_pinned(const System *system, const Sparse *A,
-                                       int *slot);
+/* A = Hessian of E at u, x, filtered.  slot as above.
+ * Returns how many blocks of terms the filter changed. */
+int incremental_potential_hessian(const Iterate *at, Filter filter,
+                                  const int *slot, Sparse *A);
 
-/* A = Hessian of E, filtered.  u, x as above; slot [count] in, A in/out.
- * Returns how many springs were projected. */
-int incremental_potential_hessian(const IncrementalPotential *E,
-                                  const double *u, const double *x,
-                                  Filter filter, const int *slot, Sparse *A);
+/* y = (filtered) Hessian of E at u, x times q, without a matrix.
+ *   q  [2n] in, 0 for pinned nodes; y [2n] out */
+void incremental_potential_product(const Iterate *at, Filter filter,
+                                   const double *q, double *y);
 
-/* y = (filtered) Hessian of E times q, without a matrix.
- *   u, x  [2n] in, as above; q [2n] in, 0 for pinned nodes; y [2n] out */
-void incremental_potential_product(const IncrementalPotential *E,
-                                   const double *u, const double *x,
-                                   Filter filter, const double *q, double *y);
+/* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
+ * none. */
+typedef struct Along {
+    Quartic smooth;
+    const Iterate *at;
+    int rough; /* terms with a remainder */
+} Along;
 
-/* E(x + alpha p) - E(x) as an exact polynomial in alpha.
- *   u, x, g  [2n] in, as above; g = grad E(x)
- *   p        [2n] m, in, 0 for pinned nodes */
-Quartic incremental_potential_along(const IncrementalPotential *E,
-                                    const double *u, const double *x,
-                                    const double *g, const double *p);
+/* For alpha in 0 ... reach; at->u, x, g, p in. */
+Along incremental_potential_along(const Iterate *at, double reach);
 
-/* E(x + a p + b r) - E(x) as an exact polynomial in a and b; p, r [2n] m in. */
-PlaneQuartic incremental_potential_in_plane(const IncrementalPotential *E,
-                                            const double *u, const double *x,
-                                            const double *g, const double *p,
-                                            const double *r);
+/* The difference at alpha, as line_search_backtrack calls it. */
+double along_difference(const void *along, double alpha);
+
+/* The largest alpha, at most 1, that every term lets p be followed. */
+double incremental_potential_reach(const Iterate *at);
+
+/* Whether any term is to be asked that; whether all allow u, x [2n]. */
+bool incremental_potential_is_limited(const IncrementalPotential *E);
+bool incremental_potential_allowed(const IncrementalPotential *E,
+                                   const double *u, const double *x);
+
+/* Whether the masses outweigh all that bends down in the terms, so that the
+ * Hessian as it is is positive definite without any factorisation.
+ *   sum  [n] out */
+bool incremental_potential_is_convex(const Iterate *at, double *sum);
+
+/* E(x + a p + b r) - E(x) as an exact polynomial in a and b, for the lagged
+ * solver; only springs and a central field are known in it.  r [2n] m in. */
+PlaneQuartic incremental_potential_in_plane(const Iterate *at, const double *r);
+bool incremental_potential_has_plane(const System *system);
 
 #endif

@@ -46,6 +46,7 @@ typedef struct NewtonSettings {
     Solver solver;           /* how the minimiser is found */
     Filter filter;           /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
+    bool averaged;           /* terms averaged over the step (avf) */
     int max_iterations;      /* then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
     void *user;              /* passed to the observer */
@@ -77,20 +78,15 @@ typedef struct Newton {
     double residual;     /* of p at the present iterate, m/s */
     double best;         /* smallest residual of this minimisation, m/s */
     int stagnant;        /* iterations since it was the smallest */
-    IncrementalPotential E;
-    bool averaged;   /* set by the integrator: Phi in the place of P */
-    double *u;       /* [2n] m, displacement from x_n */
-    double *x;       /* [2n] m, x_n + u */
-    double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
-    double *g;       /* [2n] grad E at x */
-    double *p;       /* [2n] m, search direction at x */
-    double *r;       /* [2n] m, last update; only the lagged solver's */
-    int clamps;      /* iterations that on-demand projection still clamps */
-    bool resting;    /* the last minimisation needed no update */
-    int age;         /* updates since the factor was made; < 0: none yet */
+    Iterate at;          /* E, u, x, g, p */
+    double *u_tilde;     /* [2n] m, what the integrator writes: x_tilde - x_n */
+    double *r;    /* [2n] m, workspace; the lagged solver's last update */
+    int clamps;   /* iterations that on-demand projection still clamps */
+    bool resting; /* the last minimisation needed no update */
+    int age;      /* updates since the factor was made; < 0: none yet */
     const System *system;
     double lightest;        /* kg, the smallest mass */
-    double stiffest;        /* J/m^2, the largest k */
+    double stiffest;        /* J/m^2, the largest curvature of a term */
     double start;           /* J s^2, E at x_n, and */
     double energy;          /* at the iterate; only where it is checked */
     double margin;          /* J s^2, E may rise by; < 0: is not checked */
@@ -110,6 +106,11 @@ void newton_free(Newton *newton);
  * Returns RUNNING, OK (x_n is the minimiser), or how it failed. */
 Status newton_start(Newton *newton, const double *x_n, double weight);
 
+/* The same from another displacement (prescribed motion: pinned nodes keep
+ * theirs).  u [2n] m, in; NULL: 0. */
+Status newton_start_from(Newton *newton, const double *x_n, const double *u,
+                         double weight);
+
 /* One iteration: step length, update, next direction, test.
  * Returns RUNNING, OK (converged), or how it failed; u and x are then the last
  * iterate, where E is not higher than at the start. */
@@ -121,7 +122,18 @@ Status newton_iterate(Newton *newton);
  * a failure. */
 void newton_finish(Newton *newton);
 
-/* newton_start, newton_iterate until the end, newton_finish. */
+/* newton_start, newton_iterate until the end, newton_finish; from u = 0, or
+ * from another displacement. */
 Status newton_minimise(Newton *newton, const double *x_n, double weight);
+Status newton_minimise_from(Newton *newton, const double *x_n, const double *u,
+                            double weight);
+
+/* After stiffnesses, lengths or numbers of terms have changed: bounds are
+ * computed again, and the factor is not used any more. */
+void newton_forget(Newton *newton);
+
+/* After the list of terms or the pins have changed: the Hessian's pattern and
+ * its analysis are made again, too, with the next factor. */
+void newton_rebuild(Newton *newton);
 
 #endif

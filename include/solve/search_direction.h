@@ -29,15 +29,16 @@ typedef struct SearchDirection {
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
 
+/* The next assembly makes the pattern and its analysis again. */
+void search_direction_rebuild(SearchDirection *search);
+
 /* Makes A and its analysis, unless it has them for this kind, and fills A with
  * the Hessian of E at u, x.
  *   definite   false: a factor L D L^T, which allows negative eigenvalues
  *   projected  out, springs projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status search_direction_assemble(SearchDirection *search,
-                                 const IncrementalPotential *E, const double *u,
-                                 const double *x, Filter filter, bool definite,
-                                 int *projected);
+Status search_direction_assemble(SearchDirection *search, const Iterate *at,
+                                 Filter filter, bool definite, int *projected);
 
 /* Factors A, with a shift if it must: only a filtered A is known to be
  * semi-definite but for rounding, so only that is shifted.  tries out,
@@ -45,13 +46,10 @@ Status search_direction_assemble(SearchDirection *search,
  * OUT_OF_MEMORY. */
 Status search_direction_factor(SearchDirection *search, int *tries);
 
-/* p = -H^-1 g with the last factor.  Where that has a shift, E, u and x must
- * be those it was assembled for.
- *   g  [2n] in; p [2n] out
+/* at->p = -H^-1 at->g with the last factor.  Where that has a shift, E, u and x
+ * must be those it was assembled for.
  * Returns OK, NOT_FINITE, SINGULAR, OUT_OF_MEMORY. */
-Status search_direction_solve(SearchDirection *search,
-                              const IncrementalPotential *E, const double *u,
-                              const double *x, const double *g, double *p);
+Status search_direction_solve(SearchDirection *search, const Iterate *at);
 
 /* Whether p, at most error away from what it should be, is good enough. */
 typedef bool (*GoodEnough)(const void *user, const double *p, double error);
@@ -62,14 +60,12 @@ typedef bool (*GoodEnough)(const void *user, const double *p, double error);
  * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
  *   filter  CLAMP or ABS
  *   enough  ends the iteration; some iterations without it end it too
- *   p       [2n] in/out
+ *   at      p is in/out
  *   error   out, kg^(1/2) m
  *   solves  out
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
-Status search_direction_refine(SearchDirection *search,
-                               const IncrementalPotential *E, const double *u,
-                               const double *x, Filter filter, const double *g,
-                               GoodEnough enough, const void *user, double *p,
-                               double *error, int *solves);
+Status search_direction_refine(SearchDirection *search, const Iterate *at,
+                               Filter filter, GoodEnough enough,
+                               const void *user, double *error, int *solves);
 
 #endif

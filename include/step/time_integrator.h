@@ -16,24 +16,26 @@ typedef struct IntegratorMethod {
     const char *label; /* as in the window */
     int order;         /* of accuracy */
     bool implicit;     /* needs Newton */
+    bool averaged;     /* needs the averaged twins of all terms */
+    bool at_end;       /* x_(n+1) is the minimiser itself: all terms will do */
     int memory;        /* arrays [2n] kept between steps */
     Status (*step)(TimeIntegrator *);
 } IntegratorMethod;
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    const System *system; /* not owned */
-    double h;             /* s */
-    long steps;           /* done so far; t_n = steps * h */
-    long unconverged;     /* steps that ended without convergence */
-    Status status;        /* of the last step */
-    double *x;            /* [2n] m */
-    double *v;            /* [2n] m/s */
-    double *new_x;        /* [2n] m, workspace of step functions */
-    double *new_v;        /* [2n] m/s, workspace of step functions */
-    double *memory;       /* [memory * 2n] what the method remembers */
-    bool remembers;       /* memory holds something */
-    Newton *newton;       /* NULL for explicit methods */
+    System *system;   /* not owned; its terms may change it */
+    double h;         /* s */
+    long steps;       /* done so far; t_n = steps * h */
+    long unconverged; /* steps that ended without convergence */
+    Status status;    /* of the last step */
+    double *x;        /* [2n] m */
+    double *v;        /* [2n] m/s */
+    double *new_x;    /* [2n] m, workspace of step functions */
+    double *new_v;    /* [2n] m/s, workspace of step functions */
+    double *memory;   /* [memory * 2n] what the method remembers */
+    bool remembers;   /* memory holds something */
+    Newton *newton;   /* NULL for explicit methods */
 };
 
 /* The table; it ends with a row whose name is NULL. */
@@ -42,12 +44,16 @@ extern const IntegratorMethod integrator_methods[];
 /* The row with this name, or NULL. */
 const IntegratorMethod *integrator_method(const char *name);
 
+/* The first term that the method is not right for, or NULL. */
+const Term *integrator_method_refuses(const IntegratorMethod *method,
+                                      const System *system);
+
 /* Allocates for the system and copies the start.
  *   settings  of Newton, with h; explicit methods use only h
  *   x, v      [2n] in, positions and velocities at time 0
- * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (system_check). */
-Status time_integrator_create(const IntegratorMethod *method,
-                              const System *system,
+ * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (system_check, or the method has a
+ * term it cannot serve). */
+Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *integrator);
 void time_integrator_free(TimeIntegrator *integrator);
@@ -56,11 +62,19 @@ void time_integrator_free(TimeIntegrator *integrator);
  * was made with the best iterate; or a failure: x, v are those of t_n. */
 Status time_integrator_step(TimeIntegrator *integrator);
 
-/* For step functions: minimises with newton->u_tilde as target.  Returns OK
+/* For step functions: minimises with newton->u_tilde as target, to which it
+ * adds weight times gravity: completing the square,
+ *   |u - u_tilde|_M^2/2 - weight m g.u
+ *       = |u - (u_tilde + weight g)|_M^2/2 + constant.
+ * Returns OK
  * where newton->u can be used (a step that did not converge is remembered in
  * integrator->status), or a failure. */
 Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
                                 double weight);
+
+/* After arrays of the system, or (rebuild) its list of terms or its pins, were
+ * changed from outside: nothing computed from them is used again. */
+void time_integrator_forget(TimeIntegrator *integrator, bool rebuild);
 
 /* For step functions: x = new_x, v = new_v unless one is not finite: then
  * nothing changes and NOT_FINITE is returned.  new_x, new_v [2n] in. */

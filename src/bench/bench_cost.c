@@ -50,7 +50,7 @@ static Status measure_bare(Newton *newton, Cost *cost)
         status = cholesky_factor(cholesky);
         double factored = bench_clock();
         if (!status)
-            status = cholesky_solve(cholesky, newton->g, newton->p);
+            status = cholesky_solve(cholesky, newton->at.g, newton->at.p);
         solve[i] = bench_clock() - factored;
         factor[i] = factored - start;
     }

@@ -1,6 +1,9 @@
 #include "model/avf_energy.h"
 
+#include <math.h>
+
 #include "model/mass_spring_energy.h"
+#include "model/system.h"
 
 /* What all integrals of one spring are made of. */
 typedef struct AverageSpring {
@@ -154,3 +157,80 @@ void avf_energy_in_plane(int springs, const double *x_n, const double *u,
     }
     plane_add(&sums, quartic);
 }
+
+/* The Hessian is the integral of t H(x_n + t u), so what a spring lacks in
+ * length is at most half of what it lacks where it is shortest on its way. */
+static void concave(const Term *term, const Place *at, double w, double *sum)
+{
+    (void)term;
+    const System *system = at->system;
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        AverageSpring a = average_spring(at->x_n, at->u, e, system->l2[s]);
+        double t = a.C > 0 ? fmin(fmax(-a.B / (2 * a.C), 0), 1) : 0;
+        double missing = -(a.s + t * (a.B + t * a.C));
+        if (!(missing > 0))
+            continue;
+        sum[e[0]] += 2 * w * system->k[s] * missing;
+        sum[e[1]] += 2 * w * system->k[s] * missing;
+    }
+}
+
+static double value(const Term *term, const Place *at)
+{
+    (void)term;
+    const System *system = at->system;
+    return avf_energy_value(system->springs, at->x_n, at->u, system->e,
+                            system->l2, system->k);
+}
+
+static void gradient(const Term *term, const Place *at, double w, double *g)
+{
+    (void)term;
+    const System *system = at->system;
+    avf_energy_gradient(system->springs, at->x_n, at->u, system->e, system->l2,
+                        system->k, w, g);
+}
+
+static int hessian(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values)
+{
+    (void)term;
+    const System *system = at->system;
+    return avf_energy_hessian(system->springs, at->x_n, at->u, system->e,
+                              system->l2, system->k, w, filter, slot, values);
+}
+
+static void product(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y)
+{
+    (void)term;
+    const System *system = at->system;
+    avf_energy_product(system->springs, at->x_n, at->u, system->e, system->l2,
+                       system->k, w, filter, q, y);
+}
+
+static void along(const Term *term, const Place *at, const double *p, double w,
+                  double reach, double q[3])
+{
+    (void)term;
+    (void)reach;
+    const System *system = at->system;
+    avf_energy_along(system->springs, at->x_n, at->u, p, system->e, system->l2,
+                     system->k, w, q);
+}
+
+const TermKind avf_energy = {
+    .name = "springs",
+    .value = value,
+    .gradient = gradient,
+    .entries = mass_spring_entries,
+    .pattern = mass_spring_pattern,
+    .hessian = hessian,
+    .product = product,
+    .along = along,
+    .stiffest = mass_spring_stiffest,
+    .force = mass_spring_force,
+    .concave = concave,
+    .internal = true,
+};

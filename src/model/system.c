@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "model/inertia_energy.h"
 #include "model/mass_spring_energy.h"
 
 Status system_create(int nodes, int springs, System *system)
@@ -24,6 +23,7 @@ Status system_create(int nodes, int springs, System *system)
     system->k = calloc(count, sizeof *system->k);
     if (!system->e || !system->l2 || !system->k)
         return STATUS_OUT_OF_MEMORY;
+    system_add_term(system, &mass_spring_energy, NULL);
     return STATUS_OK;
 }
 
@@ -31,6 +31,12 @@ Status system_create_pins(System *system)
 {
     system->pinned = calloc((size_t)system->nodes, sizeof *system->pinned);
     return system->pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+static void free_data(Term *term)
+{
+    if (term->kind->free)
+        term->kind->free(term->data);
 }
 
 void system_free(System *system)
@@ -43,7 +49,37 @@ void system_free(System *system)
     free(system->k);
     free(system->pinned);
     free(system->order);
+    for (int t = 0; t < system->terms; t++)
+        free_data(&system->term[t]);
     *system = (System){0};
+}
+
+Term *system_add_term(System *system, const TermKind *kind, void *data)
+{
+    if (system->terms == SYSTEM_MAX_TERMS)
+        return NULL;
+    Term *term = &system->term[system->terms++];
+    *term = (Term){.kind = kind, .data = data};
+    return term;
+}
+
+Term *system_find_term(const System *system, const TermKind *kind)
+{
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind == kind)
+            return (Term *)&system->term[t];
+    return NULL;
+}
+
+void system_remove_term(System *system, const TermKind *kind)
+{
+    Term *term = system_find_term(system, kind);
+    if (!term)
+        return;
+    free_data(term);
+    Term *end = system->term + --system->terms;
+    for (; term < end; term++)
+        term[0] = term[1];
 }
 
 /* A normal number > 0: not 0, denormal, infinite or NaN. */
@@ -61,9 +97,23 @@ static bool spring_is_valid(const System *system, int s)
            is_positive(system->k[s] / system->l2[s]);
 }
 
+/* At x, at rest since the start of a step. */
+static Place place_at(const System *system, const double *x)
+{
+    return (Place){system, x, NULL, x};
+}
+
+static bool term_is_valid(const System *system, const Term *term,
+                          const double *x)
+{
+    Place at = place_at(system, x);
+    return (!term->kind->valid || term->kind->valid(term, system)) &&
+           (!term->kind->allowed || term->kind->allowed(term, &at));
+}
+
 Status system_check(const System *system, const double *x)
 {
-    if (!isfinite(system->omega2) || system->omega2 < 0)
+    if (!isfinite(system->gravity[0]) || !isfinite(system->gravity[1]))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < system->nodes; i++)
         if (!is_positive(system->m[i]) || !isfinite(x[2 * i]) ||
@@ -72,35 +122,35 @@ Status system_check(const System *system, const double *x)
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_valid(system, s))
             return STATUS_INVALID_INPUT;
+    for (int t = 0; t < system->terms; t++)
+        if (!term_is_valid(system, &system->term[t], x))
+            return STATUS_INVALID_INPUT;
     return STATUS_OK;
 }
 
-/* Springs, and omega2/2 sum m |x|^2 for the central field. */
-double system_potential(const System *system, const double *x)
+bool system_has_gravity(const System *system)
 {
-    double sum = mass_spring_energy_value(system->springs, x, system->e,
-                                          system->l2, system->k);
-    if (system->omega2 > 0)
-        sum += system->omega2 * system_kinetic(system, x);
+    return system->gravity[0] != 0 || system->gravity[1] != 0;
+}
+
+double system_gravity_potential(const System *system, const double *x)
+{
+    const double *a = system->gravity;
+    double sum = 0;
+    if (!system_has_gravity(system))
+        return 0;
+    for (int i = 0; i < system->nodes; i++)
+        sum -= system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
     return sum;
 }
 
-/* Adds scale omega2 m x, the gradient of the central field's energy. */
-static void central_gradient(const System *system, const double *x,
-                             double scale, double *g)
+double system_potential(const System *system, const double *x)
 {
-    for (int i = 0; i < 2 * system->nodes; i++)
-        g[i] += scale * system->omega2 * system->m[i / 2] * x[i];
-}
-
-void system_gradient(const System *system, const double *x, double scale,
-                     double *g)
-{
-    mass_spring_energy_gradient(system->springs, x, system->e, system->l2,
-                                system->k, scale, g);
-    if (system->omega2 > 0)
-        central_gradient(system, x, scale, g);
-    system_clear_pinned(system, g);
+    Place at = place_at(system, x);
+    double sum = system_gravity_potential(system, x);
+    for (int t = 0; t < system->terms; t++)
+        sum += system->term[t].kind->value(&system->term[t], &at);
+    return sum;
 }
 
 void system_clear_pinned(const System *system, double *g)
@@ -114,16 +164,76 @@ void system_clear_pinned(const System *system, double *g)
 
 bool system_is_free(const System *system)
 {
-    return !system->pinned && !(system->omega2 > 0);
+    for (int t = 0; t < system->terms; t++)
+        if (!system->term[t].kind->internal)
+            return false;
+    return !system->pinned;
 }
 
 void system_acceleration(const System *system, const double *x, double *a)
 {
+    Place at = place_at(system, x);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
-    system_gradient(system, x, -1, a);
+    for (int t = 0; t < system->terms; t++)
+        system->term[t].kind->gradient(&system->term[t], &at, -1, a);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] /= system->m[i / 2];
+    if (system_has_gravity(system))
+        for (int i = 0; i < 2 * system->nodes; i++)
+            a[i] += system->gravity[i % 2];
+    system_clear_pinned(system, a);
+}
+
+double system_stiffest(const System *system)
+{
+    double stiffest = 0;
+    for (int t = 0; t < system->terms; t++) {
+        const Term *term = &system->term[t];
+        if (term->kind->stiffest)
+            stiffest = fmax(stiffest, term->kind->stiffest(term, system));
+    }
+    return stiffest;
+}
+
+double system_force(const System *system)
+{
+    double force = 0;
+    for (int t = 0; t < system->terms; t++) {
+        const Term *term = &system->term[t];
+        if (term->kind->force)
+            force = fmax(force, term->kind->force(term, system));
+    }
+    return force;
+}
+
+void system_begin(System *system, const double *x_n, const double *v_n,
+                  double h)
+{
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->begin)
+            system->term[t].kind->begin(&system->term[t], system, x_n, v_n, h);
+}
+
+bool system_end(System *system, const double *x, const double *v, double h)
+{
+    bool changed = false;
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->end)
+            changed |=
+                system->term[t].kind->end(&system->term[t], system, x, v, h);
+    return changed;
+}
+
+void term_add_block(const System *system, int i, int j, Triplets *triplets)
+{
+    const int *order = system->order;
+    int r = order ? order[i] : i, c = order ? order[j] : j;
+    triplets_add(triplets, 2 * r, 2 * c);
+    triplets_add(triplets, 2 * r, 2 * c + 1);
+    if (r != c)
+        triplets_add(triplets, 2 * r + 1, 2 * c);
+    triplets_add(triplets, 2 * r + 1, 2 * c + 1);
 }
 
 /* sum m_i |v_i|^2 / 2 */

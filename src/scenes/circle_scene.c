@@ -1,5 +1,7 @@
 #include "scenes/circle_scene.h"
 
+#include "model/central_field.h"
+
 static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
 
 void circle_defaults(Options *options)
@@ -17,7 +19,8 @@ Status create_circle(Simulation *simulation, const NewtonSettings *settings)
     if (status)
         return status;
     simulation->system.m[0] = 1;
-    simulation->system.omega2 = CIRCLE_OMEGA * CIRCLE_OMEGA;
+    status =
+        central_field_set(&simulation->system, CIRCLE_OMEGA * CIRCLE_OMEGA);
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     for (int i = 0; i < SIMULATION_MAX_RUNS && i < simulation->runs && !status;
          i++)

@@ -52,9 +52,9 @@ static void show_node(Simulation *simulation)
     bool ends = simulation->done && newton->record.alpha > 0;
     descent->slope = 0;
     for (int i = 0; i < 2; i++) {
-        run->x[i] = descent->point[i] = newton->x[i];
-        descent->direction[i] = ends ? 0 : newton->p[i];
-        descent->slope += newton->g[i] * descent->direction[i];
+        run->x[i] = descent->point[i] = newton->at.x[i];
+        descent->direction[i] = ends ? 0 : newton->at.p[i];
+        descent->slope += newton->at.g[i] * descent->direction[i];
     }
     descent->value = landscape_value(simulation, run->x[0], run->x[1]);
 }
@@ -67,7 +67,7 @@ static bool observe_landscape(void *user, const NewtonRecord *iteration)
     record.step = simulation->steps + 1;
     record.iteration = (int)simulation->steps;
     memcpy(record.from, simulation->descent.point, sizeof record.from);
-    memcpy(record.to, simulation->run[0].newton->x, sizeof record.to);
+    memcpy(record.to, simulation->run[0].newton->at.x, sizeof record.to);
     return simulation_record(simulation, &record);
 }
 
@@ -183,12 +183,12 @@ double landscape_value(const Simulation *simulation, double x, double y)
 {
     const Newton *newton = simulation->run[0].newton;
     double at[2 * LANDSCAPE_NODES], u[2 * LANDSCAPE_NODES] = {0};
-    memcpy(at, newton->x, sizeof at);
+    memcpy(at, newton->at.x, sizeof at);
     at[0] = x;
     at[1] = y;
-    u[0] = x - newton->E.x_n[0];
-    u[1] = y - newton->E.x_n[1];
-    return incremental_potential_value(&newton->E, u, at);
+    u[0] = x - newton->at.E.x_n[0];
+    u[1] = y - newton->at.E.x_n[1];
+    return incremental_potential_value(&newton->at.E, u, at);
 }
 
 /* Positive trace and determinant of m I + h^2 sum of H over the springs. */
@@ -196,7 +196,7 @@ bool landscape_is_convex(const Simulation *simulation, double x, double y)
 {
     const System *system = &simulation->system;
     const double *pins = simulation->run[0].x;
-    double weight = simulation->run[0].newton->E.weight;
+    double weight = simulation->run[0].newton->at.E.weight;
     double a = system->m[0], b = 0, c = system->m[0];
     for (int s = 0; s < system->springs; s++) {
         const double *pin = pins + 2 * system->e[2 * s + 1];

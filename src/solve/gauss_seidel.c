@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/central_field.h"
 #include "solve/line_search.h"
 
 /* More sweeps, fewer iterations: there and back once took the least time, if
@@ -195,7 +196,8 @@ static inline void add_spring(const SpringLanes *spring, const double *x,
 static void move_node(const IncrementalPotential *E, int i, int lane,
                       const Block *sum, double *u, double *x)
 {
-    double w = E->weight, m = E->system->m[i], field = w * E->system->omega2;
+    double w = E->weight, m = E->system->m[i],
+           field = w * central_field_omega2(E->system);
     double *ui = u + 2 * i, *xi = x + 2 * i;
     const double *target = E->u_tilde + 2 * i;
     double g0 = w * sum->g0[lane] + m * (ui[0] - target[0] + field * xi[0]);
@@ -254,10 +256,11 @@ int gauss_seidel_smooth(const GaussSeidel *smoother,
         u[i] = start;
         x[i] = E->x_n[i] + start;
     }
-    Quartic along = incremental_potential_along(E, u, x, g, s);
-    if (line_search_backtrack(quartic_difference, &along, &alpha, &trials))
+    Iterate at = {*E, u, x, (double *)g, s};
+    Along along = incremental_potential_along(&at, 1);
+    if (line_search_backtrack(along_difference, &along, &alpha, &trials))
         alpha = 0;
-    *change = alpha > 0 ? quartic_value(&along, alpha) : 0;
+    *change = alpha > 0 ? along_difference(&along, alpha) : 0;
     for (int i = 0; i < size; i++) {
         s[i] = alpha > 0 ? alpha * s[i] : 0;
         u[i] += s[i];

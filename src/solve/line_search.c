@@ -3,7 +3,6 @@
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {
-    *alpha = 1;
     for (*trials = 1; *trials <= LINE_SEARCH_MAX_HALVINGS + 1; ++*trials) {
         if (difference(function, *alpha) <= 0)
             return STATUS_OK;

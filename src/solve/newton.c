@@ -17,17 +17,11 @@ enum { UPDATES_WITHOUT_SMOOTHING = 2 };
 Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton)
 {
-    *newton = (Newton){.settings = *settings,
-                       .system = system,
-                       .lightest = INFINITY,
-                       .age = -1};
-    for (int i = 0; i < system->nodes; i++)
-        newton->lightest = fmin(newton->lightest, system->m[i]);
-    for (int s = 0; s < system->springs; s++)
-        newton->stiffest = fmax(newton->stiffest, system->k[s]);
+    *newton = (Newton){.settings = *settings, .system = system};
+    newton_forget(newton);
     size_t size = 2 * (size_t)system->nodes;
-    double **vectors[] = {&newton->u, &newton->x, &newton->u_tilde,
-                          &newton->g, &newton->p, &newton->r};
+    double **vectors[] = {&newton->at.u, &newton->at.x, &newton->u_tilde,
+                          &newton->at.g, &newton->at.p, &newton->r};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         *vectors[i] = calloc(size, sizeof(double));
         if (!*vectors[i])
@@ -42,36 +36,67 @@ void newton_free(Newton *newton)
         return;
     search_direction_free(&newton->search);
     gauss_seidel_free(&newton->smoother);
-    free(newton->u);
-    free(newton->x);
+    free(newton->at.u);
+    free(newton->at.x);
     free(newton->u_tilde);
-    free(newton->g);
-    free(newton->p);
+    free(newton->at.g);
+    free(newton->at.p);
     free(newton->r);
     *newton = (Newton){0};
+}
+
+void newton_forget(Newton *newton)
+{
+    const System *system = newton->system;
+    newton->lightest = INFINITY;
+    for (int i = 0; i < system->nodes; i++)
+        newton->lightest = fmin(newton->lightest, system->m[i]);
+    newton->stiffest = system_stiffest(system);
+    newton->age = -1;
+    newton->resting = false;
+    gauss_seidel_free(&newton->smoother);
+}
+
+void newton_rebuild(Newton *newton)
+{
+    newton_forget(newton);
+    search_direction_rebuild(&newton->search);
 }
 
 /* The lagged solver looks for its step in a plane. */
 static bool uses_plane(const Newton *newton)
 {
     return newton->settings.solver == SOLVER_LAGGED &&
-           newton->settings.search == LINE_SEARCH_BACKTRACK;
+           newton->settings.search == LINE_SEARCH_BACKTRACK &&
+           incremental_potential_has_plane(newton->system);
 }
 
-/* Without springs E is quadratic and its Hessian diagonal: the minimiser is
- * u = (u_tilde - w x_n) / (1 + w), w = weight omega2 (averaged: 1 + w/2), and
- * no matrix is needed. */
-static Status minimise_without_springs(Newton *newton)
+/* No term, or a single one that knows its minimiser: no matrix is needed. */
+static bool has_closed_form(const Newton *newton)
 {
     const System *system = newton->system;
-    double w = newton->E.weight * system->omega2;
-    double stiffness = newton->averaged ? 1 + 0.5 * w : 1 + w, sum = 0;
+    if (system->terms == 0)
+        return true;
+    return system->terms == 1 &&
+           incremental_potential_kind(&newton->at.E, 0)->closed_form;
+}
+
+static Status minimise_in_closed_form(Newton *newton)
+{
+    const System *system = newton->system;
+    const IncrementalPotential *E = &newton->at.E;
+    Place at = {system, E->x_n, newton->at.u, newton->at.x};
+    double sum = 0;
+    memcpy(newton->at.p, newton->u_tilde,
+           2 * (size_t)system->nodes * sizeof *newton->at.p);
+    if (system->terms > 0)
+        incremental_potential_kind(E, 0)->closed_form(
+            &system->term[0], &at, E->weight, newton->u_tilde, newton->at.p);
     for (int i = 0; i < 2 * system->nodes; i++) {
-        double x_n = newton->E.x_n[i];
         if (!system->pinned || !system->pinned[i / 2])
-            newton->u[i] = (newton->u_tilde[i] - w * x_n) / stiffness;
-        newton->x[i] = x_n + newton->u[i];
-        sum += 0 * newton->x[i];
+            newton->at.u[i] = newton->at.p[i];
+        newton->at.x[i] = E->x_n[i] + newton->at.u[i];
+        sum += 0 * newton->at.x[i];
     }
     newton->residual = 0;
     return sum == 0 ? STATUS_OK : STATUS_NOT_FINITE;
@@ -82,32 +107,43 @@ static Status minimise_without_springs(Newton *newton)
  * each update is held to what E really is, and nothing is smoothed. */
 static void prepare_check(Newton *newton)
 {
-    const IncrementalPotential *E = &newton->E;
+    const IncrementalPotential *E = &newton->at.E;
     newton->margin = -1;
     if (E->weight * newton->stiffest <= 1e16 * newton->lightest)
         return;
-    newton->start = incremental_potential_value(E, newton->u, newton->x);
+    newton->start = incremental_potential_value(E, newton->at.u, newton->at.x);
     newton->energy = newton->start;
     newton->margin =
-        1e-12 * incremental_potential_scale(E, newton->u, newton->x);
+        1e-12 * incremental_potential_scale(E, newton->at.u, newton->at.x);
 }
 
 Status newton_start(Newton *newton, const double *x_n, double weight)
 {
+    return newton_start_from(newton, x_n, NULL, weight);
+}
+
+Status newton_start_from(Newton *newton, const double *x_n, const double *u,
+                         double weight)
+{
     size_t size = 2 * (size_t)newton->system->nodes;
     memcpy(newton->r, newton->u_tilde, size * sizeof *newton->r);
-    newton->E = (IncrementalPotential){newton->system, weight, x_n,
-                                       newton->u_tilde, newton->averaged};
-    memset(newton->u, 0, size * sizeof *newton->u);
-    memcpy(newton->x, x_n, size * sizeof *newton->x);
+    newton->at.E =
+        (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde,
+                               newton->settings.averaged};
+    memset(newton->at.u, 0, size * sizeof *newton->at.u);
+    memcpy(newton->at.x, x_n, size * sizeof *newton->at.x);
+    for (size_t i = 0; u && i < size; i++) {
+        newton->at.u[i] = u[i];
+        newton->at.x[i] = x_n[i] + u[i];
+    }
     newton->resting = newton->record.iteration < 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->best = INFINITY;
     newton->stagnant = 0;
     newton->counters.minimisations++;
     prepare_check(newton);
-    if (newton->system->springs == 0)
-        return newton->status = minimise_without_springs(newton);
+    if (has_closed_form(newton))
+        return newton->status = minimise_in_closed_form(newton);
     long skipped = newton->counters.skipped;
     newton->status = newton_direction(newton);
     if (newton->counters.skipped > skipped)
@@ -118,24 +154,51 @@ Status newton_start(Newton *newton, const double *x_n, double weight)
 /* What rounding can make of a decrease: a few units in the last place of E. */
 static bool hidden_by_rounding(const Newton *newton, double change)
 {
-    double E = incremental_potential_scale(&newton->E, newton->u, newton->x);
+    double E =
+        incremental_potential_scale(&newton->at.E, newton->at.u, newton->at.x);
     return isfinite(E) && fabs(change) <= 4 * 2.220446049250313e-16 * E;
 }
 
-/* Step length along p (Algorithm 2). */
+/* Whether the terms allow u + alpha p; rounding may say no where the reach of
+ * p said yes.  Writes over r. */
+static bool is_allowed(Newton *newton, double alpha)
+{
+    const Iterate *at = &newton->at;
+    if (!incremental_potential_is_limited(&at->E))
+        return true;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        newton->r[i] = at->u[i] + alpha * at->p[i];
+        at->x[i] = at->E.x_n[i] + newton->r[i];
+    }
+    bool allowed = incremental_potential_allowed(&at->E, newton->r, at->x);
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        at->x[i] = at->E.x_n[i] + at->u[i];
+    return allowed;
+}
+
+/* Step length along p (Algorithm 2), from the largest one on that all terms
+ * allow. */
 static Status search_line(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    Quartic along = incremental_potential_along(
-        &newton->E, newton->u, newton->x, newton->g, newton->p);
+    record->alpha = incremental_potential_reach(&newton->at);
+    Along along = incremental_potential_along(&newton->at, record->alpha);
     Status status = STATUS_OK;
-    record->slope = along.q[0];
-    record->alpha = 1;
+    record->slope = along.smooth.q[0];
     record->trials = 0;
-    if (newton->settings.search == LINE_SEARCH_BACKTRACK)
-        status = line_search_backtrack(quartic_difference, &along,
-                                       &record->alpha, &record->trials);
-    record->change = quartic_value(&along, record->alpha);
+    for (bool allowed = false; !allowed && !status;) {
+        int trials = 0;
+        if (newton->settings.search == LINE_SEARCH_BACKTRACK)
+            status = line_search_backtrack(along_difference, &along,
+                                           &record->alpha, &trials);
+        record->trials += trials;
+        allowed = status || is_allowed(newton, record->alpha);
+        if (!allowed)
+            record->alpha /= 2;
+        if (!allowed && record->alpha < 1e-300)
+            status = STATUS_LINE_SEARCH_LIMIT;
+    }
+    record->change = along_difference(&along, record->alpha);
     return status;
 }
 
@@ -145,8 +208,7 @@ static Status search_plane(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     double at[2];
-    PlaneQuartic plane = incremental_potential_in_plane(
-        &newton->E, newton->u, newton->x, newton->g, newton->p, newton->r);
+    PlaneQuartic plane = incremental_potential_in_plane(&newton->at, newton->r);
     Status status = plane_minimise(&plane, at, &record->trials);
     record->slope = plane.c[0];
     record->alpha = at[0];
@@ -159,7 +221,7 @@ static Status search_plane(Newton *newton)
         at[1] = 0;
     }
     for (int i = 0; i < 2 * newton->system->nodes; i++)
-        newton->r[i] = at[0] * newton->p[i] + at[1] * newton->r[i];
+        newton->r[i] = at[0] * newton->at.p[i] + at[1] * newton->r[i];
     return status;
 }
 
@@ -190,10 +252,11 @@ static bool energy_holds(Newton *newton, const double *way, double alpha,
     if (newton->margin < 0)
         return true;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
-        newton->g[i] = newton->u[i] + alpha * way[i];
-        spare[i] = newton->E.x_n[i] + newton->g[i];
+        newton->at.g[i] = newton->at.u[i] + alpha * way[i];
+        spare[i] = newton->at.E.x_n[i] + newton->at.g[i];
     }
-    double energy = incremental_potential_value(&newton->E, newton->g, spare);
+    double energy =
+        incremental_potential_value(&newton->at.E, newton->at.g, spare);
     if (!(energy <= newton->energy + newton->margin))
         return false;
     newton->energy = energy;
@@ -205,21 +268,21 @@ static bool energy_holds(Newton *newton, const double *way, double alpha,
 static Status newton_update(Newton *newton)
 {
     bool plane = uses_plane(newton);
-    const double *way = plane ? newton->r : newton->p;
+    const double *way = plane ? newton->r : newton->at.p;
     double alpha = plane ? 1 : newton->record.alpha, sum = 0;
     int size = 2 * newton->system->nodes;
     for (int i = 0; i < size; i++)
-        sum += 0 * (newton->E.x_n[i] + (newton->u[i] + alpha * way[i]));
+        sum += 0 * (newton->at.E.x_n[i] + (newton->at.u[i] + alpha * way[i]));
     if (!(sum == 0))
         return STATUS_NOT_FINITE;
     if (newton->settings.search == LINE_SEARCH_BACKTRACK &&
-        !energy_holds(newton, way, alpha, plane ? newton->p : newton->r)) {
+        !energy_holds(newton, way, alpha, plane ? newton->at.p : newton->r)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
     for (int i = 0; i < size; i++) {
-        newton->u[i] += alpha * way[i];
-        newton->x[i] = newton->E.x_n[i] + newton->u[i];
+        newton->at.u[i] += alpha * way[i];
+        newton->at.x[i] = newton->at.E.x_n[i] + newton->at.u[i];
     }
     newton->counters.iterations++;
     if (newton->age >= 0)
@@ -232,8 +295,8 @@ static Status newton_update(Newton *newton)
  * is a part of the last update. */
 static Status newton_smooth(Newton *newton)
 {
-    if (!uses_plane(newton) || newton->averaged || newton->margin >= 0 ||
-        newton->settings.filter == FILTER_NONE ||
+    if (!uses_plane(newton) || newton->settings.averaged ||
+        newton->margin >= 0 || newton->settings.filter == FILTER_NONE ||
         newton->record.iteration < UPDATES_WITHOUT_SMOOTHING)
         return STATUS_OK;
     double start = newton_clock(), change;
@@ -242,11 +305,13 @@ static Status newton_smooth(Newton *newton)
         if (status)
             return status;
     }
-    incremental_potential_gradient(&newton->E, newton->u, newton->x, newton->g);
-    int trials = gauss_seidel_smooth(&newton->smoother, &newton->E, newton->g,
-                                     newton->u, newton->x, newton->p, &change);
+    incremental_potential_gradient(&newton->at.E, newton->at.u, newton->at.x,
+                                   newton->at.g);
+    int trials =
+        gauss_seidel_smooth(&newton->smoother, &newton->at.E, newton->at.g,
+                            newton->at.u, newton->at.x, newton->at.p, &change);
     for (int i = 0; i < 2 * newton->system->nodes; i++)
-        newton->r[i] += newton->p[i];
+        newton->r[i] += newton->at.p[i];
     newton->record.change += change;
     newton->record.trials += trials;
     newton->counters.trials += trials;
@@ -305,12 +370,12 @@ static void move_centre(Newton *newton)
     for (int i = 0; i < system->nodes; i++) {
         mass += system->m[i];
         for (int c = 0; c < 2; c++)
-            missing[c] += system->m[i] *
-                          (newton->u_tilde[2 * i + c] - newton->u[2 * i + c]);
+            missing[c] += system->m[i] * (newton->u_tilde[2 * i + c] -
+                                          newton->at.u[2 * i + c]);
     }
     for (int i = 0; i < 2 * system->nodes; i++) {
-        newton->u[i] += missing[i % 2] / mass;
-        newton->x[i] = newton->E.x_n[i] + newton->u[i];
+        newton->at.u[i] += missing[i % 2] / mass;
+        newton->at.x[i] = newton->at.E.x_n[i] + newton->at.u[i];
     }
 }
 
@@ -327,19 +392,25 @@ void newton_finish(Newton *newton)
         return;
     for (int i = 0; i < 2; i++)
         move_centre(newton);
-    if (newton->margin < 0 ||
-        incremental_potential_value(&newton->E, newton->u, newton->x) <=
-            newton->start + newton->margin)
+    if (newton->margin < 0 || incremental_potential_value(
+                                  &newton->at.E, newton->at.u, newton->at.x) <=
+                                  newton->start + newton->margin)
         return;
     for (int i = 0; i < 2 * newton->system->nodes; i++)
-        newton->u[i] = 0;
+        newton->at.u[i] = 0;
     move_centre(newton);
     newton->status = STATUS_ROUNDING_LIMIT;
 }
 
 Status newton_minimise(Newton *newton, const double *x_n, double weight)
 {
-    Status status = newton_start(newton, x_n, weight);
+    return newton_minimise_from(newton, x_n, NULL, weight);
+}
+
+Status newton_minimise_from(Newton *newton, const double *x_n, const double *u,
+                            double weight)
+{
+    Status status = newton_start_from(newton, x_n, u, weight);
     while (status == STATUS_RUNNING)
         status = newton_iterate(newton);
     newton_finish(newton);

@@ -43,7 +43,7 @@ static double residual_per_norm(const Newton *newton)
 static double newton_residual_bound(const Newton *newton)
 {
     return residual_per_norm(newton) *
-           system_inverse_mass_norm(newton->system, newton->g);
+           system_inverse_mass_norm(newton->system, newton->at.g);
 }
 
 /* Assembles and factors the Hessian at x, once. */
@@ -52,9 +52,8 @@ static Status factor_as(Newton *newton, Filter filter, bool definite)
     NewtonCounters *counters = &newton->counters;
     double start = newton_clock(), assembled;
     int projected, tries = 0;
-    Status status =
-        search_direction_assemble(&newton->search, &newton->E, newton->u,
-                                  newton->x, filter, definite, &projected);
+    Status status = search_direction_assemble(&newton->search, &newton->at,
+                                              filter, definite, &projected);
     assembled = newton_clock();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
@@ -94,9 +93,7 @@ static Status newton_factor(Newton *newton)
 static Status newton_solve(Newton *newton)
 {
     double start = newton_clock();
-    Status status =
-        search_direction_solve(&newton->search, &newton->E, newton->u,
-                               newton->x, newton->g, newton->p);
+    Status status = search_direction_solve(&newton->search, &newton->at);
     newton->counters.solves++;
     newton->counters.seconds_solve += newton_clock() - start;
     return status;
@@ -138,7 +135,7 @@ static Status newton_solve_and_test(Newton *newton)
     Status status = newton_solve(newton);
     if (status)
         return status;
-    newton->residual = newton_residual(newton, newton->p);
+    newton->residual = newton_residual(newton, newton->at.p);
     if (!isfinite(newton->residual))
         return STATUS_NOT_FINITE;
     return newton_test(newton);
@@ -168,15 +165,14 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
     int solves;
     Filter filter =
         newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
-    status = search_direction_refine(
-        &newton->search, &newton->E, newton->u, newton->x, filter, newton->g,
-        test_is_decided, newton, newton->p, &error, &solves);
+    status = search_direction_refine(&newton->search, &newton->at, filter,
+                                     test_is_decided, newton, &error, &solves);
     newton->counters.solves += solves;
     newton->counters.seconds_solve += newton_clock() - start;
     if (status)
         return status;
-    newton->residual = newton_residual(newton, newton->p);
-    *decided = test_is_decided(newton, newton->p, error);
+    newton->residual = newton_residual(newton, newton->at.p);
+    *decided = test_is_decided(newton, newton->at.p, error);
     return newton_test(newton);
 }
 
@@ -185,7 +181,8 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
 Status newton_direction(Newton *newton)
 {
     double start = newton_clock();
-    incremental_potential_gradient(&newton->E, newton->u, newton->x, newton->g);
+    incremental_potential_gradient(&newton->at.E, newton->at.u, newton->at.x,
+                                   newton->at.g);
     newton->counters.gradients++;
     newton->counters.seconds_assembly += newton_clock() - start;
     newton->record.factorised = false;
@@ -215,37 +212,10 @@ Status newton_direction(Newton *newton)
 static bool gradient_vanishes(const Newton *newton)
 {
     const System *system = newton->system;
-    double force = 0, largest = 0;
-    for (int s = 0; s < system->springs; s++)
-        force = fmax(force, system->k[s] * sqrt(system->l2[s]));
+    double largest = 0;
     for (int i = 0; i < 2 * system->nodes; i++)
-        largest = fmax(largest, fabs(newton->g[i]));
-    return largest <= 1e-12 * newton->E.weight * force;
-}
-
-/* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
- * lower eigenvalue of its H; so masses that outweigh these sums make the
- * Hessian positive definite, without any factorisation.  sum [2n] out */
-static bool masses_outweigh_springs(const Newton *newton, double *sum)
-{
-    const System *system = newton->system;
-    for (int i = 0; i < system->nodes; i++)
-        sum[i] = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = system->e[2 * s], j = system->e[2 * s + 1];
-        double dx = newton->x[2 * i] - newton->x[2 * j];
-        double dy = newton->x[2 * i + 1] - newton->x[2 * j + 1];
-        double missing = system->l2[s] - (dx * dx + dy * dy);
-        if (!(missing > 0))
-            continue;
-        double c = newton->E.weight * 2 * system->k[s] / system->l2[s];
-        sum[i] += 2 * c * missing;
-        sum[j] += 2 * c * missing;
-    }
-    for (int i = 0; i < system->nodes; i++)
-        if (!(sum[i] < system->m[i]))
-            return false;
-    return true;
+        largest = fmax(largest, fabs(newton->at.g[i]));
+    return largest <= 1e-12 * newton->at.E.weight * system_force(system);
 }
 
 /* Where the gradient vanishes may be a maximum or a saddle, such as all nodes
@@ -254,12 +224,11 @@ static bool masses_outweigh_springs(const Newton *newton, double *sum)
 Status newton_check_minimum(Newton *newton)
 {
     if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
-        masses_outweigh_springs(newton, newton->p))
+        incremental_potential_is_convex(&newton->at, newton->at.p))
         return STATUS_OK;
     int projected;
-    Status status =
-        search_direction_assemble(&newton->search, &newton->E, newton->u,
-                                  newton->x, FILTER_NONE, false, &projected);
+    Status status = search_direction_assemble(&newton->search, &newton->at,
+                                              FILTER_NONE, false, &projected);
     if (!status)
         status = cholesky_factor(newton->search.cholesky);
     newton->age = -1;

@@ -39,23 +39,9 @@ void search_direction_free(SearchDirection *search)
     *search = (SearchDirection){0};
 }
 
-/* Triplets to compressed columns, and each triplet's slot. */
-static Status create_pattern(SearchDirection *search)
+void search_direction_rebuild(SearchDirection *search)
 {
-    const System *system = search->system;
-    Triplets triplets;
-    Status status = incremental_potential_pattern(system, &triplets);
-    if (!status) {
-        search->slot = malloc((size_t)triplets.count * sizeof(int));
-        status = search->slot
-                     ? sparse_create(&triplets, cholesky_triangle(search->kind),
-                                     &search->A, search->slot)
-                     : STATUS_OUT_OF_MEMORY;
-    }
-    triplets_free(&triplets);
-    if (!status)
-        incremental_potential_drop_pinned(system, &search->A, search->slot);
-    return status;
+    free_matrix(search);
 }
 
 /* Pattern and symbolic analysis: once, and again only when another kind of
@@ -67,7 +53,8 @@ static Status analyse(SearchDirection *search, bool definite)
         return STATUS_OK;
     free_matrix(search);
     search->kind = kind;
-    Status status = create_pattern(search);
+    Status status = incremental_potential_pattern(
+        search->system, cholesky_triangle(kind), &search->A, &search->slot);
     if (!status)
         status = cholesky_create(
             &search->A, kind, search->system->order != NULL, &search->cholesky);
@@ -76,18 +63,16 @@ static Status analyse(SearchDirection *search, bool definite)
     return status;
 }
 
-Status search_direction_assemble(SearchDirection *search,
-                                 const IncrementalPotential *E, const double *u,
-                                 const double *x, Filter filter, bool definite,
-                                 int *projected)
+Status search_direction_assemble(SearchDirection *search, const Iterate *at,
+                                 Filter filter, bool definite, int *projected)
 {
     *projected = 0;
     Status status = analyse(search, definite);
     if (status)
         return status;
     search->filter = filter;
-    *projected = incremental_potential_hessian(E, u, x, filter, search->slot,
-                                               &search->A);
+    *projected =
+        incremental_potential_hessian(at, filter, search->slot, &search->A);
     return STATUS_OK;
 }
 
@@ -169,29 +154,28 @@ static Status create_workspaces(SearchDirection *search)
  * r. H is applied spring by spring: that keeps small masses which the assembled
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
-    const IncrementalPotential *E;
-    const double *u, *x;
+    const Iterate *at;
     Filter filter;
     double rz; /* r.z, squared size of the residual; the first is kept */
     double first;
 } ConjugateGradients;
 
 /* p = 0, r = -g */
-static void conjugate_start(SearchDirection *search, const double *g, double *p)
+static void conjugate_start(SearchDirection *search, const Iterate *at)
 {
     for (int i = 0; i < 2 * search->system->nodes; i++) {
-        p[i] = search->d[i] = 0;
-        search->r[i] = -g[i];
+        at->p[i] = search->d[i] = 0;
+        search->r[i] = -at->g[i];
     }
 }
 
 /* One step along the next direction, z being known.  Returns false where there
  * is nothing left to gain. */
-static bool conjugate_step(SearchDirection *search, ConjugateGradients *state,
-                           double *p)
+static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
 {
     int n = 2 * search->system->nodes;
     double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double *p = state->at->p;
     double last = state->rz;
     state->rz = dot(n, r, z);
     if (last == 0)
@@ -200,8 +184,7 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state,
         return false;
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last) * d[i];
-    incremental_potential_product(state->E, state->u, state->x, state->filter,
-                                  d, q);
+    incremental_potential_product(state->at, state->filter, d, q);
     double alpha = state->rz / dot(n, d, q);
     if (!(alpha > 0))
         return false;
@@ -213,39 +196,35 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state,
 }
 
 /* With the factor of H + shift I. */
-static Status solve_shifted(SearchDirection *search,
-                            const IncrementalPotential *E, const double *u,
-                            const double *x, const double *g, double *p)
+static Status solve_shifted(SearchDirection *search, const Iterate *at)
 {
-    ConjugateGradients state = {E, u, x, search->filter, 0, 0};
-    conjugate_start(search, g, p);
+    ConjugateGradients state = {at, search->filter, 0, 0};
+    conjugate_start(search, at);
     for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
         Status status = apply_factor(search, search->r, search->z);
         if (status)
             return status;
-        if (!conjugate_step(search, &state, p))
+        if (!conjugate_step(search, &state))
             break;
     }
     return STATUS_OK;
 }
 
-Status search_direction_refine(SearchDirection *search,
-                               const IncrementalPotential *E, const double *u,
-                               const double *x, Filter filter, const double *g,
-                               GoodEnough enough, const void *user, double *p,
-                               double *error, int *solves)
+Status search_direction_refine(SearchDirection *search, const Iterate *at,
+                               Filter filter, GoodEnough enough,
+                               const void *user, double *error, int *solves)
 {
-    ConjugateGradients state = {E, u, x, filter, 0, 0};
+    ConjugateGradients state = {at, filter, 0, 0};
     *solves = 0;
     Status status = create_workspaces(search);
     if (status)
         return status;
     for (int i = 0; i < 2 * search->system->nodes; i++)
-        search->z[i] = p[i]; /* factor^-1 (-g) already */
-    conjugate_start(search, g, p);
-    while (conjugate_step(search, &state, p)) {
+        search->z[i] = at->p[i]; /* factor^-1 (-g) already */
+    conjugate_start(search, at);
+    while (conjugate_step(search, &state)) {
         *error = system_inverse_mass_norm(search->system, search->r);
-        if (*solves == REFINE_MAX_SOLVES || enough(user, p, *error))
+        if (*solves == REFINE_MAX_SOLVES || enough(user, at->p, *error))
             return STATUS_OK;
         ++*solves;
         status = apply_factor(search, search->r, search->z);
@@ -256,16 +235,14 @@ Status search_direction_refine(SearchDirection *search,
     return STATUS_OK;
 }
 
-Status search_direction_solve(SearchDirection *search,
-                              const IncrementalPotential *E, const double *u,
-                              const double *x, const double *g, double *p)
+Status search_direction_solve(SearchDirection *search, const Iterate *at)
 {
     if (search->shift > 0) {
         Status status = create_workspaces(search);
-        return status ? status : solve_shifted(search, E, u, x, g, p);
+        return status ? status : solve_shifted(search, at);
     }
-    Status status = apply_factor(search, g, p);
+    Status status = apply_factor(search, at->g, at->p);
     for (int i = 0; i < 2 * search->system->nodes; i++)
-        p[i] = -p[i];
+        at->p[i] = -at->p[i];
     return status;
 }

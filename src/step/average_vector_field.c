@@ -8,15 +8,14 @@ static Status avf_substep(TimeIntegrator *integrator, double h)
     Newton *newton = integrator->newton;
     double *x = integrator->new_x, *v = integrator->new_v;
     int size = 2 * integrator->system->nodes;
-    newton->averaged = true;
     for (int i = 0; i < size; i++)
         newton->u_tilde[i] = h * v[i];
     Status status = time_integrator_minimise(integrator, x, 0.5 * h * h);
     if (status)
         return status;
     for (int i = 0; i < size; i++) {
-        x[i] += newton->u[i];
-        v[i] = 2 * newton->u[i] / h - v[i];
+        x[i] += newton->at.u[i];
+        v[i] = 2 * newton->at.u[i] / h - v[i];
     }
     return STATUS_OK;
 }

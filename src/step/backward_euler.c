@@ -12,6 +12,6 @@ Status backward_euler_step(TimeIntegrator *integrator)
     if (status)
         return status;
     for (int i = 0; i < size; i++)
-        integrator->new_v[i] = newton->u[i] / h;
-    return time_integrator_accept(integrator, newton->x, integrator->new_v);
+        integrator->new_v[i] = newton->at.u[i] / h;
+    return time_integrator_accept(integrator, newton->at.x, integrator->new_v);
 }

@@ -8,7 +8,7 @@
 static void bdf2_remember(TimeIntegrator *integrator, const double *v_n)
 {
     size_t size = 2 * (size_t)integrator->system->nodes;
-    memcpy(integrator->memory, integrator->newton->u, size * sizeof *v_n);
+    memcpy(integrator->memory, integrator->newton->at.u, size * sizeof *v_n);
     memcpy(integrator->memory + size, v_n, size * sizeof *v_n);
     integrator->remembers = true;
 }
@@ -35,8 +35,9 @@ Status bdf2_step(TimeIntegrator *integrator)
     if (status)
         return status;
     for (int i = 0; i < size; i++)
-        integrator->new_v[i] = (3 * newton->u[i] - du[i]) / (2 * h);
-    status = time_integrator_accept(integrator, newton->x, integrator->new_v);
+        integrator->new_v[i] = (3 * newton->at.u[i] - du[i]) / (2 * h);
+    status =
+        time_integrator_accept(integrator, newton->at.x, integrator->new_v);
     if (!status)
         bdf2_remember(integrator, v_n);
     return status;
@@ -56,8 +57,8 @@ Status midpoint_step(TimeIntegrator *integrator)
     if (status)
         return status;
     for (int i = 0; i < size; i++) {
-        integrator->new_x[i] = integrator->x[i] + 2 * newton->u[i];
-        integrator->new_v[i] = 4 * newton->u[i] / h - integrator->v[i];
+        integrator->new_x[i] = integrator->x[i] + 2 * newton->at.u[i];
+        integrator->new_v[i] = 4 * newton->at.u[i] / h - integrator->v[i];
     }
     return time_integrator_accept(integrator, integrator->new_x,
                                   integrator->new_v);
@@ -82,7 +83,7 @@ Status sdirk2_step(TimeIntegrator *integrator)
     if (status)
         return status;
     for (int i = 0; i < size; i++) {
-        s[i] = newton->u[i] / gh;
+        s[i] = newton->at.u[i] / gh;
         double a = (s[i] - v[i]) / gh;
         newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
     }
@@ -90,6 +91,6 @@ Status sdirk2_step(TimeIntegrator *integrator)
     if (status)
         return status;
     for (int i = 0; i < size; i++)
-        integrator->new_v[i] = (newton->u[i] - rest * s[i]) / gh;
-    return time_integrator_accept(integrator, newton->x, integrator->new_v);
+        integrator->new_v[i] = (newton->at.u[i] - rest * s[i]) / gh;
+    return time_integrator_accept(integrator, newton->at.x, integrator->new_v);
 }

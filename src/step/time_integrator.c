@@ -10,17 +10,20 @@
 #include "step/implicit_methods.h"
 
 const IntegratorMethod integrator_methods[] = {
-    {"backward-euler", "backward Euler", 1, true, 0, backward_euler_step},
-    {"forward-euler", "forward Euler", 1, false, 0, forward_euler_step},
-    {"symplectic-euler", "symplectic Euler", 1, false, 0,
-     symplectic_euler_step},
-    {"verlet", "velocity Verlet", 2, false, 1, verlet_step},
-    {"bdf2", "BDF2", 2, true, 2, bdf2_step},
-    {"midpoint", "implicit midpoint", 2, true, 0, midpoint_step},
-    {"sdirk2", "SDIRK2", 2, true, 0, sdirk2_step},
-    {"avf", "average vector field", 2, true, 0, avf_step},
-    {"avf4", "AVF, 4th order", 4, true, 0, avf4_step},
-    {NULL, NULL, 0, false, 0, NULL},
+    {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
+     .step = backward_euler_step},
+    {"forward-euler", "forward Euler", 1, .step = forward_euler_step},
+    {"symplectic-euler", "symplectic Euler", 1, .step = symplectic_euler_step},
+    {"verlet", "velocity Verlet", 2, .memory = 1, .step = verlet_step},
+    {"bdf2", "BDF2", 2, .implicit = true, .memory = 2, .step = bdf2_step},
+    {"midpoint", "implicit midpoint", 2, .implicit = true,
+     .step = midpoint_step},
+    {"sdirk2", "SDIRK2", 2, .implicit = true, .step = sdirk2_step},
+    {"avf", "average vector field", 2, .implicit = true, .averaged = true,
+     .step = avf_step},
+    {"avf4", "AVF, 4th order", 4, .implicit = true, .averaged = true,
+     .step = avf4_step},
+    {.name = NULL},
 };
 
 const IntegratorMethod *integrator_method(const char *name)
@@ -47,7 +50,21 @@ static Status create_newton(const NewtonSettings *settings,
     integrator->newton = calloc(1, sizeof *integrator->newton);
     if (!integrator->newton)
         return STATUS_OUT_OF_MEMORY;
-    return newton_create(integrator->system, settings, integrator->newton);
+    NewtonSettings own = *settings;
+    own.averaged = integrator->method->averaged;
+    return newton_create(integrator->system, &own, integrator->newton);
+}
+
+const Term *integrator_method_refuses(const IntegratorMethod *method,
+                                      const System *system)
+{
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        if ((method->averaged && !kind->averaged) ||
+            (kind->end_of_step && !method->at_end))
+            return &system->term[t];
+    }
+    return NULL;
 }
 
 /* Velocities and settings are numbers that a step can be made with. */
@@ -60,14 +77,14 @@ static bool start_is_valid(const System *system, const NewtonSettings *settings,
     return isfinite(settings->h) && settings->h > 0 && settings->tolerance > 0;
 }
 
-Status time_integrator_create(const IntegratorMethod *method,
-                              const System *system,
+Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *integrator)
 {
     *integrator =
         (TimeIntegrator){.method = method, .system = system, .h = settings->h};
-    if (system_check(system, x) || !start_is_valid(system, settings, v))
+    if (system_check(system, x) || !start_is_valid(system, settings, v) ||
+        integrator_method_refuses(method, system))
         return STATUS_INVALID_INPUT;
     size_t size = 2 * (size_t)system->nodes;
     integrator->x = copy_array(x, size);
@@ -99,24 +116,50 @@ void time_integrator_free(TimeIntegrator *integrator)
 Status time_integrator_step(TimeIntegrator *integrator)
 {
     integrator->status = STATUS_OK;
+    system_begin(integrator->system, integrator->x, integrator->v,
+                 integrator->h);
     Status failure = integrator->method->step(integrator);
     if (failure)
         return integrator->status = failure;
     integrator->steps++;
+    if (system_end(integrator->system, integrator->x, integrator->v,
+                   integrator->h))
+        time_integrator_forget(integrator, false);
     if (integrator->status)
         integrator->unconverged++;
     return integrator->status;
 }
 
+/* u_tilde += weight g */
+static void add_gravity(TimeIntegrator *integrator, double weight)
+{
+    const System *system = integrator->system;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        integrator->newton->u_tilde[i] += weight * system->gravity[i % 2];
+}
+
 Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
                                 double weight)
 {
+    if (system_has_gravity(integrator->system))
+        add_gravity(integrator, weight);
     integrator->newton->step = integrator->steps + 1;
     Status status = newton_minimise(integrator->newton, x_n, weight);
     if (!status_is_unconverged(status))
         return status;
     integrator->status = status;
     return STATUS_OK;
+}
+
+/* Verlet remembers the acceleration; the others' memory is of motion alone. */
+void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
+{
+    if (!integrator->newton)
+        integrator->remembers = false;
+    else if (rebuild)
+        newton_rebuild(integrator->newton);
+    else
+        newton_forget(integrator->newton);
 }
 
 Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,

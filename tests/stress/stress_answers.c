@@ -1,4 +1,5 @@
 /* Named cases whose answer is known beforehand. */
+#include "model/central_field.h"
 #include "stress_cases.h"
 
 #include <float.h>
@@ -373,7 +374,7 @@ static bool is_refused(Wild *wild, double *place, double value)
         memcpy(system.e, wild->e, 4 * sizeof(int));
         memcpy(system.l2, wild->l2, 2 * sizeof(double));
         memcpy(system.k, wild->k, 2 * sizeof(double));
-        system.omega2 = wild->omega2;
+        central_field_set(&system, wild->omega2);
         refused = time_integrator_create(&integrator_methods[0], &system,
                                          &settings, wild->x, wild->v,
                                          &run) == STATUS_INVALID_INPUT;

@@ -2,6 +2,7 @@
  * sums over springs, averages along the step by Gauss's two points, which are
  * exact for the polynomials that occur, and a dense L D L^T.
  */
+#include "model/central_field.h"
 #include "stress.h"
 
 #include <float.h>
@@ -37,9 +38,10 @@ static long double potential_on_way(const IncrementalPotential *E,
         sum += system->k[s] / (2 * (long double)system->l2[s]) * change *
                (2 * more + change);
     }
-    for (int i = 0; i < 2 * system->nodes && system->omega2 > 0; i++)
-        sum += 0.5L * system->omega2 * system->m[i / 2] * t * u[i] *
-               (2 * (long double)E->x_n[i] + t * u[i]);
+    for (int i = 0; i < 2 * system->nodes && central_field_omega2(system) > 0;
+         i++)
+        sum += 0.5L * central_field_omega2(system) * system->m[i / 2] * t *
+               u[i] * (2 * (long double)E->x_n[i] + t * u[i]);
     return sum;
 }
 
@@ -68,8 +70,10 @@ long double wide_potential(const System *system, const double *x)
         long double more = dx * dx + dy * dy - system->l2[s];
         sum += system->k[s] / (2 * (long double)system->l2[s]) * more * more;
     }
-    for (int i = 0; i < 2 * system->nodes && system->omega2 > 0; i++)
-        sum += 0.5L * system->omega2 * system->m[i / 2] * x[i] * x[i];
+    for (int i = 0; i < 2 * system->nodes && central_field_omega2(system) > 0;
+         i++)
+        sum += 0.5L * central_field_omega2(system) * system->m[i / 2] * x[i] *
+               x[i];
     return sum;
 }
 
@@ -152,7 +156,7 @@ void wide_derivatives(const IncrementalPotential *E, const double *u,
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
-    Wide w = E->weight * (Wide)system->omega2;
+    Wide w = E->weight * (Wide)central_field_omega2(system);
     Wide way = E->averaged ? (Wide)0.5 : (Wide)1;
     for (int i = 0; i < n * n && H; i++)
         H[i] = 0;
@@ -225,7 +229,7 @@ void rounding_of_gradient(const IncrementalPotential *E, const double *u,
         long double x = fabsl(E->x_n[i]) + fabsl(u[i]);
         noise[i] = DBL_EPSILON * system->m[i / 2] *
                    (fabsl(u[i]) + fabsl(E->u_tilde[i]) +
-                    E->weight * system->omega2 * x);
+                    E->weight * central_field_omega2(system) * x);
     }
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];

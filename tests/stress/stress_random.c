@@ -1,4 +1,5 @@
 /* Random scenes, and how one that fails is made smaller. */
+#include "model/central_field.h"
 #include "stress.h"
 
 #include <math.h>
@@ -187,7 +188,7 @@ static Status wild_system(const Wild *wild, System *system)
         memcpy(system->l2, wild->l2, springs * sizeof *wild->l2);
         memcpy(system->k, wild->k, springs * sizeof *wild->k);
     }
-    system->omega2 = wild->omega2;
+    central_field_set(system, wild->omega2);
     return STATUS_OK;
 }
 

@@ -38,7 +38,7 @@ static int watch_size(const Watch *watch)
 /* The present minimisation, with a start that nobody overwrites. */
 static IncrementalPotential watch_potential(const Watch *watch)
 {
-    IncrementalPotential E = watch->run->newton->E;
+    IncrementalPotential E = watch->run->newton->at.E;
     E.x_n = watch->x_n;
     return E;
 }
@@ -176,7 +176,7 @@ static void watch_begin(Watch *watch)
 {
     int n = watch_size(watch);
     const Newton *newton = watch->run->newton;
-    memcpy(watch->x_n, newton->E.x_n, (size_t)n * sizeof *watch->x_n);
+    memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
     memset(watch->u, 0, (size_t)n * sizeof *watch->u);
     IncrementalPotential E = watch_potential(watch);
     watch->energy = wide_energy(&E, watch->u);
@@ -220,7 +220,7 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
         long double away = (long double)watch->u[i] - E.u_tilde[i];
         scale += 0.5L * E.system->m[i / 2] * away * away;
     }
-    scale += E.weight * wide_potential(E.system, watch->run->newton->x);
+    scale += E.weight * wide_potential(E.system, watch->run->newton->at.x);
     if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
         watch_blame(watch, "%s, but the slope %g is lost in E = %Lg",
                     status_name(record->status), record->slope, scale);
@@ -240,15 +240,16 @@ static bool watch_record(void *user, const NewtonRecord *record)
     if (watch->updates > newton->settings.max_iterations)
         watch_blame(watch, "%d iterations, more than allowed", watch->updates);
     for (int i = 0; i < watch_size(watch); i++)
-        if (!isfinite(newton->u[i]) || !isfinite(newton->x[i]))
+        if (!isfinite(newton->at.u[i]) || !isfinite(newton->at.x[i]))
             watch_blame(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.search != LINE_SEARCH_NONE)
-        watch_descent(watch, newton->u, "in an iteration");
+        watch_descent(watch, newton->at.u, "in an iteration");
     check_excuse(watch, record);
-    memcpy(watch->u, newton->u, (size_t)watch_size(watch) * sizeof *watch->u);
-    watch_momentum(watch, newton->u);
+    memcpy(watch->u, newton->at.u,
+           (size_t)watch_size(watch) * sizeof *watch->u);
+    watch_momentum(watch, newton->at.u);
     if (record->status == STATUS_OK)
-        judge_convergence(watch, newton->u, 1);
+        judge_convergence(watch, newton->at.u, 1);
     return true;
 }
 
@@ -346,7 +347,7 @@ static void check_momentum(Watch *watch)
 {
     const System *system = watch->run->system;
     const TimeIntegrator *run = watch->run;
-    if (system->pinned || system->omega2 > 0)
+    if (!system_is_free(system))
         return;
     long double through = watch->through;
     if (!run->newton)
@@ -385,9 +386,9 @@ static void check_dissipation(Watch *watch)
         return;
     memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x_n);
     memset(watch->u, 0, (size_t)n * sizeof *watch->u);
-    long double rise =
-        allowed_rise(watch, watch->u, run->newton->u, h2 * (after + before)) /
-        h2;
+    long double rise = allowed_rise(watch, watch->u, run->newton->at.u,
+                                    h2 * (after + before)) /
+                       h2;
     if (!(after - before <= rise))
         watch_blame(watch, "kinetic and elastic energy rise from %Lg to %Lg",
                     before, after);
@@ -411,11 +412,11 @@ static void check_last_minimisation(Watch *watch, Status status)
         if (!status && watch->run->system->springs > 0)
             judge_convergence(watch, watch->u, 1);
     }
-    watch_momentum(watch, newton->u);
+    watch_momentum(watch, newton->at.u);
     if (newton->settings.search != LINE_SEARCH_NONE)
-        watch_descent(watch, newton->u, "as the step ends");
+        watch_descent(watch, newton->at.u, "as the step ends");
     if (newton->status == STATUS_OK)
-        judge_convergence(watch, newton->u, 2);
+        judge_convergence(watch, newton->at.u, 2);
 }
 
 /* The state after a step that was made. */

@@ -2,8 +2,10 @@
  * points, which is exact for its cubic integrands; and both energies as
  * polynomials along a line and in a plane.
  */
+#include "model/central_field.h"
 #include "testing.h"
 
+#include <stdlib.h>
 #include <math.h>
 
 #include "model/mass_spring_energy.h"
@@ -21,7 +23,7 @@ static void way_create(Random *random, SpringState state, bool averaged,
                        Way *way)
 {
     random_system(random, state, &way->system, way->x_n);
-    way->system.omega2 = random_uniform(random, 0, 3);
+    central_field_set(&way->system, random_uniform(random, 0, 3));
     way->size = 2 * way->system.nodes;
     for (int i = 0; i < way->size; i++) {
         way->u[i] = random_uniform(random, -1, 1);
@@ -105,16 +107,16 @@ static long double largest(int count, const long double *values)
 
 static void assemble(const Way *way, Filter filter, double *dense)
 {
-    Triplets triplets;
     Sparse A;
-    int slot[MAX_SIZE + SPRING_ENTRIES * MAX_SPRINGS];
-    CHECK_STATUS(incremental_potential_pattern(&way->system, &triplets),
-                 STATUS_OK);
-    CHECK_STATUS(sparse_create(&triplets, TRIANGLE_UPPER, &A, slot), STATUS_OK);
-    incremental_potential_hessian(&way->E, way->u, way->x, filter, slot, &A);
+    int *slot;
+    Iterate at = {.E = way->E, .u = (double *)way->u, .x = (double *)way->x};
+    CHECK_STATUS(
+        incremental_potential_pattern(&way->system, TRIANGLE_UPPER, &A, &slot),
+        STATUS_OK);
+    incremental_potential_hessian(&at, filter, slot, &A);
     dense_from_sparse(&A, dense);
     sparse_free(&A);
-    triplets_free(&triplets);
+    free(slot);
 }
 
 /* 1e-13 of the largest: rounding of the points of Gauss's rule. */
@@ -196,10 +198,9 @@ static void check_polynomials(bool averaged)
         way_create(&random, (SpringState)(trial % SPRINGS_NEAR_ZERO), averaged,
                    &way);
         incremental_potential_gradient(&way.E, way.u, way.x, g);
-        Quartic along =
-            incremental_potential_along(&way.E, way.u, way.x, g, way.p);
-        PlaneQuartic plane = incremental_potential_in_plane(
-            &way.E, way.u, way.x, g, way.p, way.r);
+        Iterate at = {way.E, way.u, way.x, g, way.p};
+        Quartic along = incremental_potential_along(&at, 1).smooth;
+        PlaneQuartic plane = incremental_potential_in_plane(&at, way.r);
         for (int i = 0; i < 12; i++) {
             double a = random_uniform(&random, -1, 1);
             double b = random_uniform(&random, -1, 1);

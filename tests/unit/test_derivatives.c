@@ -1,8 +1,10 @@
 /* Gradient against value and Hessian against gradient, for each energy and
  * for their sum; and the checker itself against kernels that are wrong.
  */
+#include "model/central_field.h"
 #include "testing.h"
 
+#include <stdlib.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -11,7 +13,7 @@
 #include "model/mass_spring_energy.h"
 
 /* An energy at random springs, and what is wrong with it. */
-typedef enum Term { TERM_INERTIA, TERM_SPRINGS, TERM_CENTRAL, TERM_SUM } Term;
+typedef enum Part { TERM_INERTIA, TERM_SPRINGS, TERM_CENTRAL, TERM_SUM } Part;
 
 typedef enum Fault {
     FAULT_NONE,
@@ -30,7 +32,7 @@ typedef enum Fault {
 
 /* x_n = 0, so that u = x. */
 typedef struct Energy {
-    Term term;
+    Part part;
     Fault fault;
     System system;
     double x_n[MAX_SIZE], x_tilde[MAX_SIZE];
@@ -50,14 +52,14 @@ static double energy_value(const Energy *energy, const double *x)
 {
     const System *system = &energy->system;
     double value = 0;
-    if (energy->term == TERM_INERTIA)
+    if (energy->part == TERM_INERTIA)
         value =
             inertia_energy_value(system->nodes, x, energy->x_tilde, system->m);
-    else if (energy->term == TERM_SPRINGS)
+    else if (energy->part == TERM_SPRINGS)
         value = energy->E.weight *
                 mass_spring_energy_value(system->springs, x, system->e,
                                          system->l2, system->k);
-    else if (energy->term == TERM_CENTRAL)
+    else if (energy->part == TERM_CENTRAL)
         value = energy->E.weight * system_potential(system, x);
     else
         value = incremental_potential_value(&energy->E, x, x);
@@ -73,16 +75,18 @@ static void energy_gradient(const Energy *energy, const double *x, double *g)
     IncrementalPotential E = energy->E;
     E.system = &fewer;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
+    Place at = {system, energy->x_n, x, x};
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
-    if (energy->term == TERM_INERTIA)
+    if (energy->part == TERM_INERTIA)
         inertia_energy_gradient(system->nodes, x, energy->x_tilde, system->m,
                                 g);
-    else if (energy->term == TERM_SPRINGS)
+    else if (energy->part == TERM_SPRINGS)
         mass_spring_energy_gradient(fewer.springs, x, system->e, system->l2,
                                     system->k, E.weight, g);
-    else if (energy->term == TERM_CENTRAL)
-        system_gradient(system, x, E.weight, g);
+    else if (energy->part == TERM_CENTRAL)
+        central_field.gradient(system_find_term(system, &central_field), &at,
+                               E.weight, g);
     else
         incremental_potential_gradient(&E, x, x, g);
     if (energy->fault == FAULT_SIGN)
@@ -118,29 +122,30 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
 {
     System fewer = energy->system;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
-    if (energy->term == TERM_SPRINGS)
-        fewer.omega2 = 0;
+    if (energy->part == TERM_SPRINGS)
+        fewer.terms = 1;
     IncrementalPotential E = energy->E;
     E.system = &fewer;
-    Triplets triplets;
     Sparse A;
-    int slot[MAX_SIZE + SPRING_ENTRIES * MAX_SPRINGS];
-    CHECK_STATUS(incremental_potential_pattern(&fewer, &triplets), STATUS_OK);
-    CHECK_STATUS(sparse_create(&triplets, TRIANGLE_UPPER, &A, slot), STATUS_OK);
-    if (energy->term == TERM_SPRINGS)
+    int *slot;
+    Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
+    CHECK_STATUS(
+        incremental_potential_pattern(&fewer, TRIANGLE_UPPER, &A, &slot),
+        STATUS_OK);
+    if (energy->part == TERM_SPRINGS)
         mass_spring_energy_hessian(fewer.springs, x, fewer.e, fewer.l2, fewer.k,
                                    E.weight, FILTER_NONE,
                                    slot + 2 * fewer.nodes, A.value);
-    else if (energy->term == TERM_INERTIA)
+    else if (energy->part == TERM_INERTIA)
         inertia_energy_hessian(fewer.nodes, fewer.m, slot, A.value);
     else
-        incremental_potential_hessian(&E, x, x, FILTER_NONE, slot, &A);
-    if (energy->term == TERM_CENTRAL) /* its share comes with the masses' */
+        incremental_potential_hessian(&at, FILTER_NONE, slot, &A);
+    if (energy->part == TERM_CENTRAL) /* its share comes with the masses' */
         for (int t = 0; t < 2 * fewer.nodes; t++)
             A.value[slot[t]] -= fewer.m[t / 2];
     dense_from_sparse(&A, H);
     sparse_free(&A);
-    triplets_free(&triplets);
+    free(slot);
 }
 
 static void energy_hessian(const Energy *energy, const double *x, double *H)
@@ -188,13 +193,13 @@ static void check_against_formula(const Kernel *kernel, const double *x,
 {
     IncrementalPotential E = kernel->energy->E;
     System terms = kernel->energy->system;
-    Term term = kernel->energy->term;
+    Part part = kernel->energy->part;
     E.system = &terms;
-    if (term == TERM_INERTIA)
+    if (part == TERM_INERTIA)
         E.weight = 0;
-    if (term == TERM_SPRINGS)
-        terms.omega2 = 0;
-    const double *u = term == TERM_INERTIA || term == TERM_SUM ? x : NULL;
+    if (part == TERM_SPRINGS)
+        terms.terms = 1;
+    const double *u = part == TERM_INERTIA || part == TERM_SUM ? x : NULL;
     long double exact_g[MAX_SIZE], exact_H[MAX_SIZE * MAX_SIZE];
     long double exact_value = exact_energy(&E, u, x, -1, -1).f;
     exact_derivatives(&E, u, x, exact_g, exact_H);
@@ -312,14 +317,14 @@ static bool ladder_accepts(const DerivativeErrors *errors, bool quadratic)
 
 /* A random problem of this kind; p grows every spring, so that no third
  * derivative is 0 by accident. */
-static Kernel random_kernel(Random *random, Term term, SpringState state,
+static Kernel random_kernel(Random *random, Part part, SpringState state,
                             Energy *energy, double *x, double *p)
 {
-    *energy = (Energy){.term = term};
+    *energy = (Energy){.part = part};
     random_system(random, state, &energy->system, x);
-    if (term == TERM_CENTRAL)
+    if (part == TERM_CENTRAL)
         energy->system.springs = 0;
-    energy->system.omega2 = random_logarithmic(random, 0.1, 10);
+    central_field_set(&energy->system, random_logarithmic(random, 0.1, 10));
     energy->E = (IncrementalPotential){
         .system = &energy->system,
         .weight = random_logarithmic(random, 0.1, 10),
@@ -343,14 +348,14 @@ static void print_errors(const DerivativeErrors *errors)
                 errors->symmetric ? "" : "not ");
 }
 
-static void check_term(Term term, SpringState state, bool with_ladder)
+static void check_term(Part part, SpringState state, bool with_ladder)
 {
-    Random random = {100 * (uint64_t)term + (uint64_t)state};
-    bool quadratic = term == TERM_INERTIA || term == TERM_CENTRAL;
+    Random random = {100 * (uint64_t)part + (uint64_t)state};
+    bool quadratic = part == TERM_INERTIA || part == TERM_CENTRAL;
     for (int trial = 0; trial < 20; trial++) {
         Energy energy;
         double x[MAX_SIZE], p[MAX_SIZE];
-        Kernel kernel = random_kernel(&random, term, state, &energy, x, p);
+        Kernel kernel = random_kernel(&random, part, state, &energy, x, p);
         DerivativeErrors errors = check_derivatives(&kernel, x, p);
         bool good = formula_accepts(&errors) &&
                     (!with_ladder || ladder_accepts(&errors, quadratic));
@@ -422,8 +427,8 @@ static void check_rejected(Fault fault, bool by_formula, bool by_ladder)
         Energy energy;
         double x[MAX_SIZE], p[MAX_SIZE];
         SpringState state = (SpringState)(trial % SPRINGS_NEAR_ZERO);
-        Term term = trial % 2 ? TERM_SPRINGS : TERM_SUM;
-        Kernel kernel = random_kernel(&random, term, state, &energy, x, p);
+        Part part = trial % 2 ? TERM_SPRINGS : TERM_SUM;
+        Kernel kernel = random_kernel(&random, part, state, &energy, x, p);
         energy.fault = fault;
         DerivativeErrors errors = check_derivatives(&kernel, x, p);
         bool formula = formula_accepts(&errors);

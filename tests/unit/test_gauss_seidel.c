@@ -1,6 +1,7 @@
 /* Smoothing: each node's step against its block of the exact Hessian, colours,
  * and an energy that never rises.
  */
+#include "model/central_field.h"
 #include "testing.h"
 
 #include <float.h>
@@ -11,20 +12,21 @@
 #include "solve/gauss_seidel.h"
 
 /* A random system away from its minimum. */
-typedef struct Place {
+typedef struct Spot {
     System system;
     GaussSeidel smoother;
     double x_n[MAX_SIZE], u[MAX_SIZE], x[MAX_SIZE], u_tilde[MAX_SIZE];
     IncrementalPotential E;
     int size;
-} Place;
+} Spot;
 
-static void place_create(Random *random, SpringState state, Place *place)
+static void place_create(Random *random, SpringState state, Spot *place)
 {
     double x[MAX_SIZE];
     random_system(random, state, &place->system, x);
-    place->system.omega2 =
-        random_below(random, 2) ? random_uniform(random, 0, 3) : 0;
+    central_field_set(&place->system, random_below(random, 2)
+                                          ? random_uniform(random, 0, 3)
+                                          : 0);
     place->size = 2 * place->system.nodes;
     for (int i = 0; i < place->size; i++) {
         place->u[i] = random_uniform(random, -1, 1);
@@ -37,7 +39,7 @@ static void place_create(Random *random, SpringState state, Place *place)
                                       place->x_n, place->u_tilde, false};
 }
 
-static void place_free(Place *place)
+static void place_free(Spot *place)
 {
     gauss_seidel_free(&place->smoother);
     system_free(&place->system);
@@ -45,7 +47,7 @@ static void place_free(Place *place)
 
 /* The Newton step of node i alone: -(its block of H)^-1 (its part of g).
  * Returns the block's condition number, for the tolerance. */
-static long double exact_move(const Place *place, int i, long double move[2])
+static long double exact_move(const Spot *place, int i, long double move[2])
 {
     long double g[MAX_SIZE], H[MAX_SIZE * MAX_SIZE];
     int size = place->size;
@@ -67,7 +69,7 @@ static void a_node_makes_its_own_newton_step(void **unused)
     Random random = {501};
     int moved = 0;
     for (int trial = 0; trial < 400; trial++) {
-        Place place;
+        Spot place;
         place_create(&random, (SpringState)(trial % SPRING_STATES), &place);
         assert_int_equal(system_create_pins(&place.system), STATUS_OK);
         int n = place.system.nodes, free_node = random_below(&random, n);
@@ -104,7 +106,7 @@ static void a_sweep_moves_one_node_after_the_other(void **unused)
     (void)unused;
     Random random = {502};
     for (int trial = 0; trial < 60; trial++) {
-        Place place, single;
+        Spot place, single;
         place_create(&random, (SpringState)(trial % SPRINGS_NEAR_ZERO), &place);
         CHECK_STATUS(gauss_seidel_create(&place.system, &place.smoother),
                      STATUS_OK);
@@ -171,7 +173,7 @@ static void smoothing_never_goes_uphill(void **unused)
     Random random = {503};
     int gone = 0;
     for (int trial = 0; trial < 400; trial++) {
-        Place place;
+        Spot place;
         double g[MAX_SIZE], s[MAX_SIZE], start[MAX_SIZE], change;
         place_create(&random, (SpringState)(trial % SPRING_STATES), &place);
         CHECK_STATUS(gauss_seidel_create(&place.system, &place.smoother),
@@ -200,7 +202,7 @@ static void smoothing_gives_up_without_damage(void **unused)
 {
     (void)unused;
     Random random = {504};
-    Place place;
+    Spot place;
     double g[MAX_SIZE], s[MAX_SIZE], start[MAX_SIZE], change;
     place_create(&random, SPRINGS_STRETCHED, &place);
     CHECK_STATUS(gauss_seidel_create(&place.system, &place.smoother),

@@ -1,4 +1,5 @@
 /* The energy along a line as a quartic, and backtracking on it. */
+#include "model/central_field.h"
 #include "testing.h"
 
 #include <math.h>
@@ -31,7 +32,7 @@ static void check_quartic(SpringState state, bool pinned)
         double x[MAX_SIZE], p[MAX_SIZE], u[MAX_SIZE], u_tilde[MAX_SIZE];
         double g[MAX_SIZE];
         random_system(&random, state, &system, x);
-        system.omega2 = random_uniform(&random, 0, 3);
+        central_field_set(&system, random_uniform(&random, 0, 3));
         if (pinned) {
             system.pinned = calloc((size_t)system.nodes, 1);
             system.pinned[0] = 1;
@@ -47,7 +48,8 @@ static void check_quartic(SpringState state, bool pinned)
         IncrementalPotential E = {
             .system = &system, .weight = 0.7, .x_n = x, .u_tilde = u_tilde};
         incremental_potential_gradient(&E, u, x, g);
-        Quartic along = incremental_potential_along(&E, u, x, g, p);
+        Iterate at = {E, u, x, g, p};
+        Quartic along = incremental_potential_along(&at, 1).smooth;
         double scale = fabs(along.q[0]) + fabs(along.q[1]) + fabs(along.q[2]) +
                        fabs(along.q[3]);
         for (int i = -2; i < 10; i++) {
@@ -119,7 +121,7 @@ static void backtracking_takes_the_first_halving(void **unused)
         for (int equal = 0; equal < 2; equal++) {
             Probe probe = {ldexp(1, -halvings), equal ? 0 : -1, 0, 0};
             Probe *pointer = &probe;
-            double alpha;
+            double alpha = 1;
             int trials;
             CHECK_STATUS(line_search_backtrack(probe_difference, &pointer,
                                                &alpha, &trials),
@@ -129,12 +131,26 @@ static void backtracking_takes_the_first_halving(void **unused)
         }
 }
 
+/* Where contact leaves less than 1: from there down. */
+static void backtracking_starts_where_it_is_told(void **unused)
+{
+    (void)unused;
+    Probe probe = {0.1, -1, 0, 0};
+    Probe *pointer = &probe;
+    double alpha = 0.3;
+    int trials;
+    CHECK_STATUS(
+        line_search_backtrack(probe_difference, &pointer, &alpha, &trials),
+        STATUS_OK);
+    CHECK(alpha == 0.075 && trials == 3 && probe.calls == 3);
+}
+
 static void backtracking_gives_up(void **unused)
 {
     (void)unused;
     Probe probe = {ldexp(1, -65), -1, 0, 0};
     Probe *pointer = &probe;
-    double alpha;
+    double alpha = 1;
     int trials;
     CHECK_STATUS(
         line_search_backtrack(probe_difference, &pointer, &alpha, &trials),
@@ -152,12 +168,13 @@ static double nan_difference(const void *function, double alpha)
 static void nan_is_not_lower(void **unused)
 {
     (void)unused;
-    double limit = 0.25, alpha;
+    double limit = 0.25, alpha = 1;
     int trials;
     CHECK_STATUS(line_search_backtrack(nan_difference, &limit, &alpha, &trials),
                  STATUS_OK);
     CHECK(alpha == 0.25 && trials == 3);
     limit = 0;
+    alpha = 1;
     CHECK_STATUS(line_search_backtrack(nan_difference, &limit, &alpha, &trials),
                  STATUS_LINE_SEARCH_LIMIT);
     CHECK(alpha == 0 && trials == 65);
@@ -172,6 +189,7 @@ int main(void)
         cmocka_unit_test(quartic_is_the_energy_with_pins),
         cmocka_unit_test(quartic_value_is_the_polynomial),
         cmocka_unit_test(backtracking_takes_the_first_halving),
+        cmocka_unit_test(backtracking_starts_where_it_is_told),
         cmocka_unit_test(backtracking_gives_up),
         cmocka_unit_test(nan_is_not_lower),
     };

@@ -63,12 +63,12 @@ static bool witness_record(void *user, const NewtonRecord *record)
 {
     Witness *witness = user;
     const Newton *newton = witness->simulation->run[0].newton;
-    const IncrementalPotential *E = &newton->E;
+    const IncrementalPotential *E = &newton->at.E;
     bool clamp = newton->settings.filter == FILTER_CLAMP;
     double residual =
         exact_residual(E, witness->u, witness->x, clamp, newton->settings.h);
     long double before = exact_energy(E, witness->u, witness->x, -1, -1).f;
-    long double after = exact_energy(E, newton->u, newton->x, -1, -1).f;
+    long double after = exact_energy(E, newton->at.u, newton->at.x, -1, -1).f;
     witness->worst_residual =
         fmax(witness->worst_residual, fabs(record->residual / residual - 1));
     double change = (double)fabsl(record->change - (after - before));
@@ -81,8 +81,8 @@ static bool witness_record(void *user, const NewtonRecord *record)
         record->seconds >= 0 && record->alpha == ldexp(1, 1 - record->trials) &&
         record->projected == (clamp ? short_springs(E->system, witness->x) : 0);
     size_t bytes = 2 * (size_t)E->system->nodes * sizeof(double);
-    memcpy(witness->u, newton->u, bytes);
-    memcpy(witness->x, newton->x, bytes);
+    memcpy(witness->u, newton->at.u, bytes);
+    memcpy(witness->x, newton->at.x, bytes);
     witness->iteration++;
     witness->iterations++;
     witness->records++;
@@ -158,10 +158,10 @@ static void bound_implies_the_test(void **unused)
             double x_n[SIZE];
             memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-            IncrementalPotential E = newton->E;
+            IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
             double residual =
-                exact_residual(&E, newton->u, newton->x, true, run->h);
+                exact_residual(&E, newton->at.u, newton->at.x, true, run->h);
             CHECK_AT_MOST(residual, newton->settings.tolerance);
             if (newton->counters.skipped > skipped)
                 CHECK_AT_MOST(residual, newton->residual);
@@ -214,8 +214,8 @@ static void pieces_are_the_whole(void **unused)
     newton_finish(&pieces);
     CHECK(iterations > 1 && iterations == whole->counters.iterations);
     CHECK(iterations == pieces.counters.iterations);
-    CHECK_SAME_BITS(pieces.u, whole->u, SIZE);
-    CHECK_SAME_BITS(pieces.x, whole->x, SIZE);
+    CHECK_SAME_BITS(pieces.at.u, whole->at.u, SIZE);
+    CHECK_SAME_BITS(pieces.at.x, whole->at.x, SIZE);
     newton_free(&pieces);
     newton_free(NULL);
     simulation_free(&simulation);
@@ -264,9 +264,9 @@ static void check_unconverged_step(Simulation *simulation, Status expected)
     memcpy(x_n, run->x, (size_t)size * sizeof *x_n);
     long steps = simulation->steps, unconverged = simulation->unconverged;
     CHECK_STATUS(simulation_step(simulation), expected);
-    IncrementalPotential E = run->newton->E;
+    IncrementalPotential E = run->newton->at.E;
     E.x_n = x_n;
-    CHECK_AT_MOST(exact_energy(&E, run->newton->u, run->x, -1, -1).f,
+    CHECK_AT_MOST(exact_energy(&E, run->newton->at.u, run->x, -1, -1).f,
                   exact_energy(&E, zero, x_n, -1, -1).f);
     for (int i = 0; i < size; i++)
         CHECK(isfinite(run->x[i]) && isfinite(run->v[i]));
@@ -406,7 +406,7 @@ static void line_search_limit_is_reached(void **unused)
     CHECK(lever.newton.record.slope < 0 && lever.newton.record.alpha == 0);
     CHECK(lever.newton.record.trials == 65);
     for (int i = 0; i < 4; i++)
-        CHECK(lever.newton.u[i] == 0 && lever.newton.x[i] == lever.x[i]);
+        CHECK(lever.newton.at.u[i] == 0 && lever.newton.at.x[i] == lever.x[i]);
     lever_free(&lever);
 }
 
@@ -418,7 +418,7 @@ static void singular_hessian_is_reported(void **unused)
     lever_create(2.0 / 3, 1, &lever);
     CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_SINGULAR);
     for (int i = 0; i < 4; i++)
-        CHECK(lever.newton.u[i] == 0 && lever.newton.x[i] == lever.x[i]);
+        CHECK(lever.newton.at.u[i] == 0 && lever.newton.at.x[i] == lever.x[i]);
     lever_free(&lever);
 }
 
@@ -430,10 +430,11 @@ static void pins_hold(void **unused)
     lever_create(2.0 / 3, 1, &lever);
     lever.newton.settings.filter = FILTER_CLAMP;
     CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_OK);
-    CHECK(lever.newton.u[0] == 0 && lever.newton.u[1] == 0);
-    CHECK(lever.newton.u[3] > 0.5);
+    CHECK(lever.newton.at.u[0] == 0 && lever.newton.at.u[1] == 0);
+    CHECK(lever.newton.at.u[3] > 0.5);
     long double g[4];
-    exact_derivatives(&lever.newton.E, lever.newton.u, lever.newton.x, g, NULL);
+    exact_derivatives(&lever.newton.at.E, lever.newton.at.u, lever.newton.at.x,
+                      g, NULL);
     CHECK_NEAR(g[2], 0, 1e-5); /* tolerance times the largest eigenvalue */
     CHECK_NEAR(g[3], 0, 1e-5);
     lever_free(&lever);
@@ -500,13 +501,13 @@ static void iterations_never_rise_without_masses(void **unused)
         for (int c = 0; c < 2 * simulation.system.nodes; c++)
             newton->u_tilde[c] = 0;
         Status status = newton_start(newton, run->x, h * h);
-        double start =
-            incremental_potential_value(&newton->E, newton->u, newton->x);
+        double start = incremental_potential_value(&newton->at.E, newton->at.u,
+                                                   newton->at.x);
         while (status == STATUS_RUNNING) {
             status = newton_iterate(newton);
-            CHECK_AT_MOST(
-                incremental_potential_value(&newton->E, newton->u, newton->x),
-                start * (1 + 1e-9));
+            CHECK_AT_MOST(incremental_potential_value(
+                              &newton->at.E, newton->at.u, newton->at.x),
+                          start * (1 + 1e-9));
         }
         simulation_free(&simulation);
     }

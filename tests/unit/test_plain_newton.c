@@ -24,7 +24,7 @@ static bool keep_iterate(void *user, const NewtonRecord *record)
     Iterates *iterates = user;
     const Newton *newton = iterates->simulation->run[0].newton;
     CHECK(record->iteration == iterates->count && iterates->count < UPDATES);
-    memcpy(iterates->x[iterates->count++], newton->x,
+    memcpy(iterates->x[iterates->count++], newton->at.x,
            2 * (size_t)newton->system->nodes * sizeof(double));
     return true;
 }

@@ -1,6 +1,7 @@
 /* The lagged solver against Algorithm 3, and what a step may skip: each by a
  * counter, or by formulas that share nothing with the solvers.
  */
+#include "model/central_field.h"
 #include "testing.h"
 
 #include <math.h>
@@ -93,8 +94,8 @@ static bool judge_end(void *user, const NewtonRecord *record)
     long double largest = 0;
     int size = 2 * newton->system->nodes;
     CHECK(size <= SMALL);
-    exact_derivatives(&newton->E, newton->u, newton->x, p, NULL);
-    exact_hessian(&newton->E, newton->x, true, H);
+    exact_derivatives(&newton->at.E, newton->at.u, newton->at.x, p, NULL);
+    exact_hessian(&newton->at.E, newton->at.x, true, H);
     CHECK(dense_solve(size, H, p));
     for (int i = 0; i < size; i += 2)
         largest = fmaxl(largest, fabsl(p[i]) + fabsl(p[i + 1]));
@@ -309,7 +310,7 @@ static void averaged_force_does_the_work(void **unused)
         double x_n[MAX_SIZE], u[MAX_SIZE], x[MAX_SIZE], g[MAX_SIZE];
         random_system(&random, (SpringState)(trial % SPRINGS_NEAR_ZERO),
                       &system, x_n);
-        system.omega2 = random_uniform(&random, 0, 3);
+        central_field_set(&system, random_uniform(&random, 0, 3));
         for (int i = 0; i < 2 * system.nodes; i++) {
             u[i] = random_uniform(&random, -1, 1);
             x[i] = x_n[i] + u[i];
@@ -339,7 +340,8 @@ static PlaneQuartic random_plane(Random *random, SpringState state)
     }
     IncrementalPotential E = {&system, 1, x, u, false};
     incremental_potential_gradient(&E, u, x, g);
-    PlaneQuartic plane = incremental_potential_in_plane(&E, u, x, g, p, r);
+    Iterate at = {E, u, x, g, p};
+    PlaneQuartic plane = incremental_potential_in_plane(&at, r);
     system_free(&system);
     return plane;
 }

@@ -1,6 +1,7 @@
 /* Triplets, compressed columns and the slot map, against dense matrices; and
  * the assembly of the Hessian through them.
  */
+#include "model/central_field.h"
 #include "testing.h"
 
 #include <limits.h>
@@ -156,9 +157,14 @@ static void too_large_is_refused(void **unused)
     CHECK_STATUS(triplets_create(0, 4, &triplets), STATUS_TOO_LARGE);
     triplets_free(&triplets);
     System system = {.nodes = 4, .springs = INT_MAX / SPRING_ENTRIES};
-    CHECK_STATUS(incremental_potential_pattern(&system, &triplets),
-                 STATUS_TOO_LARGE);
-    triplets_free(&triplets);
+    system_add_term(&system, &mass_spring_energy, NULL);
+    Sparse A;
+    int *slot;
+    CHECK_STATUS(
+        incremental_potential_pattern(&system, TRIANGLE_UPPER, &A, &slot),
+        STATUS_TOO_LARGE);
+    sparse_free(&A);
+    free(slot);
     triplets_free(NULL);
     sparse_free(NULL);
 }
@@ -167,10 +173,9 @@ static void too_large_is_refused(void **unused)
 typedef struct Assembly {
     System system;
     double x[MAX_SIZE];
-    int slot[MAX_SIZE + SPRING_ENTRIES * MAX_SPRINGS];
-    Triplets triplets;
+    int *slot;
     Sparse A;
-    IncrementalPotential E;
+    Iterate at;
 } Assembly;
 
 static void assembly_create(Random *random, bool ordered, int pinned,
@@ -178,7 +183,7 @@ static void assembly_create(Random *random, bool ordered, int pinned,
 {
     System *system = &assembly->system;
     random_system(random, SPRINGS_MIXED, system, assembly->x);
-    system->omega2 = 2;
+    central_field_set(system, 2);
     size_t n = (size_t)system->nodes;
     if (ordered) { /* 1, 2, ..., 0 */
         system->order = calloc(n, sizeof *system->order);
@@ -189,20 +194,17 @@ static void assembly_create(Random *random, bool ordered, int pinned,
         system->pinned = calloc(n, 1);
         system->pinned[pinned] = 1;
     }
-    assembly->E = (IncrementalPotential){.system = system, .weight = 0.5};
-    CHECK_STATUS(incremental_potential_pattern(system, &assembly->triplets),
+    assembly->at = (Iterate){.E = {.system = system, .weight = 0.5},
+                             .u = assembly->x,
+                             .x = assembly->x};
+    CHECK_STATUS(incremental_potential_pattern(system, triangle, &assembly->A,
+                                               &assembly->slot),
                  STATUS_OK);
-    CHECK(assembly->triplets.count ==
-          2 * system->nodes + SPRING_ENTRIES * system->springs);
-    CHECK_STATUS(sparse_create(&assembly->triplets, triangle, &assembly->A,
-                               assembly->slot),
-                 STATUS_OK);
-    incremental_potential_drop_pinned(system, &assembly->A, assembly->slot);
 }
 
 static void assembly_free(Assembly *assembly)
 {
-    triplets_free(&assembly->triplets);
+    free(assembly->slot);
     sparse_free(&assembly->A);
     system_free(&assembly->system);
 }
@@ -237,10 +239,10 @@ static void check_assembly(bool ordered, Filter filter, Triangle triangle)
                 pow(xi[0] - xj[0], 2) + pow(xi[1] - xj[1], 2) < a.system.l2[s];
         }
         int projected =
-            incremental_potential_hessian(&a.E, a.x, a.x, filter, a.slot, &a.A);
+            incremental_potential_hessian(&a.at, filter, a.slot, &a.A);
         CHECK(projected == (filter == FILTER_CLAMP ? short_springs : 0));
         dense_from_sparse(&a.A, dense);
-        exact_hessian(&a.E, a.x, filter == FILTER_CLAMP, exact);
+        exact_hessian(&a.at.E, a.x, filter == FILTER_CLAMP, exact);
         for (int i = 0; i < size * size; i++)
             largest = fmaxl(largest, fabsl(exact[i]));
         for (int i = 0; i < size * size; i++)
@@ -272,10 +274,15 @@ static void plain_triplets_sum_to_the_same(void **unused)
         assembly_create(&random, trial % 2, -1, TRIANGLE_UPPER, &a);
         int size = a.A.size;
         const System *system = &a.system;
+        Triplets triplets;
+        CHECK_STATUS(
+            triplets_create(size, SPRING_ENTRIES * system->springs, &triplets),
+            STATUS_OK);
+        mass_spring_pattern(NULL, system, &triplets);
         mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
                                    system->k, 1, FILTER_CLAMP, NULL, value);
         for (int t = 0; t < SPRING_ENTRIES * system->springs; t++) {
-            int r = a.triplets.row[size + t], c = a.triplets.column[size + t];
+            int r = triplets.row[t], c = triplets.column[t];
             by_hand[size * r + c] += value[t];
             if (r != c)
                 by_hand[size * c + r] += value[t];
@@ -283,6 +290,7 @@ static void plain_triplets_sum_to_the_same(void **unused)
         mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
                                    system->k, 1, FILTER_CLAMP, a.slot + size,
                                    a.A.value);
+        triplets_free(&triplets);
         dense_from_sparse(&a.A, dense);
         for (int i = 0; i < size * size; i++) /* another order of the sum */
             CHECK_NEAR(dense[i], by_hand[i], 1e-13 * (1 + fabs(by_hand[i])));
@@ -290,8 +298,8 @@ static void plain_triplets_sum_to_the_same(void **unused)
     }
 }
 
-/* A pinned node keeps its mass and its place in the central field, and loses
- * every spring; the others lose only what couples them to it. */
+/* A pinned node keeps its mass and loses every term; the others lose only what
+ * couples them to it. */
 static void pinned_nodes_are_dropped(void **unused)
 {
     (void)unused;
@@ -303,14 +311,13 @@ static void pinned_nodes_are_dropped(void **unused)
         int pinned = random_below(&random, 3);
         assembly_create(&random, trial % 2, pinned, TRIANGLE_UPPER, &a);
         int size = a.A.size;
-        incremental_potential_hessian(&a.E, a.x, a.x, FILTER_NONE, a.slot,
-                                      &a.A);
+        incremental_potential_hessian(&a.at, FILTER_NONE, a.slot, &a.A);
         dense_from_sparse(&a.A, dense);
-        exact_hessian(&a.E, a.x, false, exact);
+        exact_hessian(&a.at.E, a.x, false, exact);
         for (int i = 0; i < size * size; i++) {
             int r = i / size, c = i % size;
             if (r / 2 == pinned || c / 2 == pinned)
-                exact[i] = r == c ? a.system.m[pinned] * 2 : 0;
+                exact[i] = r == c ? a.system.m[pinned] : 0;
             CHECK_NEAR(assembled(&a, dense, r, c), exact[i],
                        1e-12L * (1 + fabsl(exact[i])));
         }

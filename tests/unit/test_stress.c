@@ -1,6 +1,7 @@
 /* A short run of what `make stress` does for minutes, and proofs that its
  * judge sees a broken promise.
  */
+#include "model/central_field.h"
 #include "stress.h"
 
 #include <math.h>
@@ -113,7 +114,7 @@ static void products_are_those_of_the_matrix(void **unused)
         Filter filter = (Filter)(round % 3); /* clamp, none, abs */
         CHECK_STATUS(system_create_pins(&system), STATUS_OK);
         system.pinned[1] = 1;
-        system.omega2 = round / 3 % 2 ? 2.5 : 0;
+        central_field_set(&system, round / 3 % 2 ? 2.5 : 0);
         for (int i = 0; i < n; i++) {
             u[i] = random_uniform(&random, -0.1, 0.1);
             q[i] = i / 2 == 1 ? 0 : random_uniform(&random, -1, 1);
@@ -124,7 +125,8 @@ static void products_are_those_of_the_matrix(void **unused)
         for (int i = 0; i < n; i++)
             moved[i] = x[i] + u[i];
         wide_derivatives(&E, u, filter, g, H);
-        incremental_potential_product(&E, u, moved, filter, q, y);
+        Iterate at = {.E = E, .u = u, .x = moved};
+        incremental_potential_product(&at, filter, q, y);
         for (int i = 0; i < n; i++) {
             long double sum = 0, size = 0;
             for (int j = 0; j < n; j++) {
@@ -184,19 +186,20 @@ static void refining_with_the_right_factor_is_one_step(void **unused)
     int solves, n = 2 * simulation.system.nodes;
     CHECK_STATUS(newton_start(newton, simulation.run[0].x, 16e-6),
                  STATUS_RUNNING);
-    double size = system_inverse_mass_norm(&simulation.system, newton->g);
+    double size = system_inverse_mass_norm(&simulation.system, newton->at.g);
     double p[2 * 16], accuracy = 1e-10 * size;
     CHECK(n == 2 * 16);
-    memcpy(p, newton->p, sizeof p);
-    CHECK_STATUS(search_direction_refine(&newton->search, &newton->E, newton->u,
-                                         newton->x, FILTER_CLAMP, newton->g,
-                                         error_is_small, &accuracy, p, &error,
+    memcpy(p, newton->at.p, sizeof p);
+    Iterate at = newton->at;
+    at.p = p;
+    CHECK_STATUS(search_direction_refine(&newton->search, &at, FILTER_CLAMP,
+                                         error_is_small, &accuracy, &error,
                                          &solves),
                  STATUS_OK);
     CHECK(solves == 0);
     CHECK_AT_MOST(error, 1e-12 * size);
     for (int i = 0; i < n; i++)
-        CHECK_NEAR(p[i], newton->p[i], 1e-12);
+        CHECK_NEAR(p[i], newton->at.p[i], 1e-12);
     simulation_free(&simulation);
 }
 
@@ -240,11 +243,11 @@ static void shifted_solves_find_the_masses(void **unused)
     CHECK(newton->search.shift > 1e6 * simulation.system.m[0]);
     Wide g[N], H[N * N];
     int negative;
-    wide_derivatives(&newton->E, newton->u, FILTER_CLAMP, g, H);
+    wide_derivatives(&newton->at.E, newton->at.u, FILTER_CLAMP, g, H);
     CHECK(wide_factor(N, H, &negative) && negative == 0);
     wide_solve(N, H, g);
     for (int i = 0; i < N; i++)
-        CHECK_NEAR(newton->p[i], -(long double)g[i], 1e-9);
+        CHECK_NEAR(newton->at.p[i], -(long double)g[i], 1e-9);
     simulation_free(&simulation);
 }
 
@@ -317,7 +320,7 @@ static Status stay_and_lie(TimeIntegrator *run)
 {
     Status status = integrator_methods[0].step(run);
     for (int i = 0; i < 2 * run->system->nodes; i++)
-        run->newton->u[i] *= 0.9;
+        run->newton->at.u[i] *= 0.9;
     return status;
 }
 

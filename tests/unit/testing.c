@@ -1,3 +1,4 @@
+#include "model/central_field.h"
 #include "testing.h"
 
 #include <float.h>
@@ -167,7 +168,7 @@ Dual exact_energy(const IncrementalPotential *E, const double *u,
         P = dual_add(P, exact_spring(system, x, s, i, j));
     for (int c = 0; c < 2 * system->nodes; c++) {
         long double half_m = 0.5L * system->m[c / 2];
-        P = dual_add(P, dual_square(half_m * system->omega2,
+        P = dual_add(P, dual_square(half_m * central_field_omega2(system),
                                     dual_coordinate(x[c], c, i, j)));
         if (!u)
             continue;
@@ -214,7 +215,8 @@ void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
         H[i] = 0;
     for (int i = 0; i < size; i++)
         H[size * i + i] =
-            system->m[i / 2] * (1 + (long double)E->weight * system->omega2);
+            system->m[i / 2] *
+            (1 + (long double)E->weight * central_field_omega2(system));
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
         long double dx = (long double)x[i] - x[j];

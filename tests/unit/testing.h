@@ -81,7 +81,8 @@ Dual dual_add(Dual a, Dual b);
 Dual dual_multiply(Dual a, Dual b);
 
 /* sum m/2 |u - u_tilde|^2 (left out where u is NULL)
- *   + w (sum k/(2 l2) (|d|^2 - l2)^2 + omega2 sum m/2 |x|^2),
+ *   + w (sum k/(2 l2) (|d|^2 - l2)^2 + omega2 sum m/2 |x|^2), the terms that
+ * the system has,
  * with derivatives along coordinates i and j (-1: none). */
 Dual exact_energy(const IncrementalPotential *E, const double *u,
                   const double *x, int i, int j);
