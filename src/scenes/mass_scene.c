@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "model/central_field.h"
+
 void mass_defaults(Options *options)
 {
     options->timestep = 0.5;
@@ -20,7 +22,7 @@ Status create_mass(Simulation *simulation, const NewtonSettings *settings)
     if (status)
         return status;
     simulation->system.m[0] = 1;
-    simulation->system.omega2 = MASS_OMEGA2;
+    status = central_field_set(&simulation->system, MASS_OMEGA2);
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     for (int i = 0; i < simulation->runs && !status; i++)
         status = time_integrator_create(

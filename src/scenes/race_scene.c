@@ -36,9 +36,8 @@ static double race_clock(void)
 
 /* From the start to RACE_TIME in this many steps.
  *   from  in: the start; run out, free it in any case */
-static Status run_to_end(const Simulation *simulation,
-                         const IntegratorMethod *method, long steps,
-                         TimeIntegrator *run)
+static Status run_to_end(Simulation *simulation, const IntegratorMethod *method,
+                         long steps, TimeIntegrator *run)
 {
     const TimeIntegrator *from = &simulation->run[0];
     const NewtonSettings settings = {.h = RACE_TIME / (double)steps,
