@@ -1,0 +1,63 @@
+/* cells.h - cells that cannot turn over.
+ *
+ *     d-----c     Springs do not know inside from outside: a cell that was
+ *     |\   /|     pushed through itself stays so.  Each cell's four corner
+ *     |  X  |     triangles (any three nodes that are joined pairwise) get a
+ *     |/   \|     barrier in the area: J = (e1 x e2)/(2 A0), e1 = x_b - x_a,
+ *     a-----b     e2 = x_c - x_a, is 1 at rest and 0 when it is flat;
+ *                 W = c f(J/J_hat), c = A0 k_c in J.
+ *
+ * J_hat = 0.4: no effect before a triangle is squeezed below 40 %.  The same
+ * with |d| of all edges is in Smith et al.: Stable Neo-Hookean Flesh
+ * Simulation, 2018; the eigenvectors of J's Hessian are from there too.
+ */
+#ifndef ELASTO_CELLS_H
+#define ELASTO_CELLS_H
+
+#include "model/psd.h"
+
+#define CELL_J_HAT 0.4
+
+/* Corners a, b, c of a triangle, counter-clockwise, [6] m. */
+typedef struct Corner {
+    double e1[2], e2[2]; /* m, x_b - x_a and x_c - x_a */
+    double area;         /* m^2, A0, at rest */
+    double c;            /* J, A0 k_c */
+    double J;            /* <= 0: turned over */
+} Corner;
+
+/* The triangle of three positions [2] m. */
+Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
+                   double area, double c);
+
+/* W, J. */
+double cell_value(const Corner *corner);
+
+/* grad W [6], N: of nodes a, b, c. */
+void cell_gradient(const Corner *corner, double g[6]);
+
+/* Entries a triangle has in one triangle of the Hessian: aa, bb, cc: xx xy yy;
+ * ab, ac, bc: xx xy yx yy. */
+enum { CELL_ENTRIES = 21 };
+
+/* Those entries, J/m^2, projected as the filter says.  Returns whether
+ * something negative was changed. */
+bool cell_hessian(const Corner *corner, Filter filter, double H[CELL_ENTRIES]);
+
+/* y_a, y_b, y_c += H q for the three nodes. */
+void cell_multiply(const double H[CELL_ENTRIES], const double *q_a,
+                   const double *q_b, const double *q_c, double *y_a,
+                   double *y_b, double *y_c);
+
+/* Along a step with the edges P1, P2 J becomes J + J1 + J2. */
+void cell_along(const Corner *corner, const double P1[2], const double P2[2],
+                double *J1, double *J2);
+
+/* The largest alpha for which alpha times the step leaves at least the part
+ * 1 - CONTACT_LIMIT of J; infinite: any. */
+double cell_reach(double J, double J1, double J2);
+
+/* W after the step minus W minus grad W.step, J, without cancellation. */
+double cell_remainder(const Corner *corner, double J1, double J2);
+
+#endif

@@ -1,0 +1,80 @@
+/* contact.h - nodes against walls and balls (slides: contact; lesson "Boundary
+ * Treatments" of the lecture's author; Li et al.: Incremental Potential
+ * Contact, 2020).
+ *
+ *          n                    A node i keeps the gap d to an obstacle:
+ *          ^    o x_i             wall  d = n.(x_i - o)
+ *          |    |                 ball  d = |x_i - x_b| - R
+ *          |    | d             with n the direction from the obstacle to the
+ *    ------o----+--------       node.  Below d_hat it is pushed away by the
+ *    //////////////////////     barrier W = c f(s), s = d/d_hat.
+ *
+ * c = A d_hat kappa/2 in J, A the length of boundary that a node stands for.
+ * Every node is tested: those inside become boundary where springs break.
+ */
+#ifndef ELASTO_CONTACT_H
+#define ELASTO_CONTACT_H
+
+#include "model/psd.h"
+
+typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
+
+typedef struct Obstacle {
+    ObstacleKind kind;
+    double o[2];     /* m, a point of the wall's surface, or the ball's centre;
+                        not used where the ball is a node */
+    double n[2];     /* the wall's unit normal, out of it; balls: not used */
+    double radius;   /* m, R > 0; walls: not used */
+    double v[2];     /* m/s, how the obstacle is moved; 0, 0: it stands still */
+    double friction; /* mu >= 0 */
+    int node;        /* the ball's centre is this free node; -1: it is o */
+} Obstacle;
+
+/* How the barrier acts. */
+typedef struct Barrier {
+    double d_hat; /* m, gap at which it begins */
+    double c;     /* J, A d_hat kappa/2 */
+} Barrier;
+
+/* Where a node stands to an obstacle. */
+typedef struct Gap {
+    double d;    /* m; <= 0: penetration */
+    double n[2]; /* unit vector from the obstacle to the node */
+    double r;    /* m, |x_i - x_b|; a wall: infinite */
+} Gap;
+
+/* Part of a gap that one step of the minimisation may use up. */
+#define CONTACT_LIMIT 0.9
+
+/* The point that the obstacle's gaps are measured from, in positions x [2n] m:
+ * o, or the free node. */
+const double *obstacle_point(const Obstacle *obstacle, const double *x);
+
+/* The gap of a node at x_i [2] to an obstacle whose point is at o [2]. */
+Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i);
+
+/* W, J. */
+double contact_value(const Barrier *barrier, const Gap *gap);
+
+/* -dW/dd >= 0, N: the force that pushes the node along n. */
+double contact_force(const Barrier *barrier, const Gap *gap);
+
+/* H [3] (xx, xy, yy), J/m^2: W's Hessian in x_i, f''/d_hat^2 c n n^T, and where
+ * nothing is projected the ball's curvature (c/d_hat) f'/r (I - n n^T), which
+ * is negative.  In x_i and a ball's node it is [[H, -H], [-H, H]].
+ * Returns whether something negative was changed. */
+bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
+                     double H[3]);
+
+/* The largest alpha for which alpha P leaves at least the part
+ * 1 - CONTACT_LIMIT of the gap; infinite: any.  P [2] m, in: p of the node
+ * minus p of a ball's node. */
+double contact_reach(const Obstacle *obstacle, const Gap *gap,
+                     const double P[2]);
+
+/* W at x + P minus W at x minus grad W.P, J, without cancellation.  P as
+ * above, alpha times p. */
+double contact_remainder(const Barrier *barrier, const Gap *gap,
+                         const double P[2]);
+
+#endif

@@ -1,0 +1,25 @@
+/* friction.h - Coulomb's law as an energy (slides: friction; lesson "Frictional
+ * Contact" of the lecture's author; Li et al. 2020): at a contact with the
+ * normal force lambda of the step's start and the tangent t,
+ *
+ *   W = mu lambda f0(y),  y = t.(u_i - u_b) or t.u_i - h t.v_wall,
+ *
+ * y being how far the node has slid in this step.  With e = eps_v h
+ *   f0 = y^2/e (1 - |y|/(3e)) for |y| < e, else |y| - e/3
+ *   f0' = sign(y) a (2 - a),  a = min(|y|/e, 1)
+ *   f0'' = 2/e max(0, 1 - |y|/e)
+ * so below the speed eps_v the contact sticks (it creeps), above it slides with
+ * the force mu lambda.
+ */
+#ifndef ELASTO_FRICTION_H
+#define ELASTO_FRICTION_H
+
+/* f0 in m, its first derivative, and its second in 1/m.  e > 0, m */
+double friction_value(double y, double e);
+double friction_slope(double y, double e);
+double friction_curvature(double y, double e);
+
+/* f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy. */
+double friction_remainder(double y, double t, double e);
+
+#endif

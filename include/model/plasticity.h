@@ -1,0 +1,43 @@
+/* plasticity.h - springs that flow (slides: inelasticity), in Green strain.
+ *
+ * A spring has E = |d|^2/l2 - 1, of which ep stays when it is unloaded.  It
+ * stores k l2 (E - ep)^2/2; beyond the yield strain Y it flows instead.  How
+ * far it will flow in this step is minimised out (Ortiz, Stainier 1999: the
+ * condensed incremental potential), so that the step stays one minimisation:
+ *
+ *   W = k l2 V(e),  e = E - ep_n
+ *   V = e^2/2 - (|e| - Y_n)_+^2 flow/2,  flow = 1/(1 + H)
+ *   tau = V' = e - sign(e) flow (|e| - Y_n)_+,  tau' = 1 or 1 - flow
+ *
+ * with Y_n = Y + H kappa_n, the yield strain after the hardening so far.  With
+ * H = 0 V is Huber's function; below Y_n it is the elastic spring.
+ */
+#ifndef ELASTO_PLASTICITY_H
+#define ELASTO_PLASTICITY_H
+
+#include "model/psd.h"
+
+/* How a spring answers in this step. */
+typedef struct SpringLaw {
+    double yield; /* Y_n > 0 */
+    double flow;  /* 1/(1 + H), 0 < flow <= 1 */
+} SpringLaw;
+
+double spring_law_value(SpringLaw law, double e);
+double spring_law_slope(SpringLaw law, double e);
+double spring_law_curvature(SpringLaw law, double e);
+
+/* V(e + t) - V(e) - V'(e) t >= 0, with full relative accuracy while H is not
+ * many powers of ten below 1. */
+double spring_law_remainder(SpringLaw law, double e, double t);
+
+/* gamma >= 0: how far the spring flows at e. */
+double spring_law_flow(SpringLaw law, double e);
+
+/* H [3] J/m^2 of W in x_i, projected as the filter says:
+ * (2k/l2) [l2 tau I + 2 tau' d d^T].  d [2] m, q = |d|^2.
+ * Returns whether there was a negative eigenvalue that was changed. */
+bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
+                        double e, Filter filter, double H[3]);
+
+#endif

@@ -1,0 +1,46 @@
+#include "model/barrier.h"
+
+#include <math.h>
+
+double barrier_value(double s)
+{
+    return s < 1 ? (s - 1) * log(s) : 0;
+}
+
+double barrier_slope(double s)
+{
+    return s < 1 ? log(s) + 1 - 1 / s : 0;
+}
+
+double barrier_curvature(double s)
+{
+    return s < 1 ? (1 + s) / (s * s) : 0;
+}
+
+/* With r = z/(2 + z) log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is
+ * -z r. */
+double log1p_minus(double z)
+{
+    if (!(fabs(z) < 0.25))
+        return log1p(z) - z;
+    double r = z / (2 + z), q = r * r;
+    double series = 1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15));
+    series = 1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * series));
+    return -z * r + 2 * r * q * series;
+}
+
+/* Inside the barrier, out of it, into it, and outside all the time.  Every
+ * term is >= 0. */
+double barrier_remainder(double s, double t)
+{
+    double end = s + t;
+    if (!(end > 0))
+        return INFINITY;
+    if (s < 1 && end < 1) {
+        double z = t / s;
+        return (s - 1) * log1p_minus(z) + t * log1p(z);
+    }
+    if (s < 1)
+        return -(end - 1) * log(s) + (1 - s) * t / s;
+    return end < 1 ? (end - 1) * log(end) : 0;
+}

@@ -1,0 +1,187 @@
+#include "model/cells.h"
+
+#include <math.h>
+
+#include "model/barrier.h"
+#include "model/contact.h"
+
+static double cross(const double a[2], const double b[2])
+{
+    return a[0] * b[1] - a[1] * b[0];
+}
+
+Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
+                   double area, double c)
+{
+    Corner corner = {{x_b[0] - x_a[0], x_b[1] - x_a[1]},
+                     {x_c[0] - x_a[0], x_c[1] - x_a[1]},
+                     area,
+                     c,
+                     0};
+    corner.J = cross(corner.e1, corner.e2) / (2 * area);
+    return corner;
+}
+
+double cell_value(const Corner *corner)
+{
+    return corner->c * barrier_value(corner->J / CELL_J_HAT);
+}
+
+/* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
+void cell_gradient(const Corner *corner, double g[6])
+{
+    double factor = corner->c / CELL_J_HAT / (2 * corner->area) *
+                    barrier_slope(corner->J / CELL_J_HAT);
+    g[2] = factor * corner->e2[1];
+    g[3] = -factor * corner->e2[0];
+    g[4] = -factor * corner->e1[1];
+    g[5] = factor * corner->e1[0];
+    g[0] = -(g[2] + g[4]);
+    g[1] = -(g[3] + g[5]);
+}
+
+/* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */
+static double make_unit(double v[4], const double instead[4])
+{
+    double length = hypot(hypot(v[0], v[1]), hypot(v[2], v[3]));
+    for (int i = 0; i < 4; i++)
+        v[i] = length > 0 ? v[i] / length : instead[i];
+    return length;
+}
+
+/* H += w v v^T, all of it. */
+static void add_square(double w, const double v[4], double H[16])
+{
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            H[4 * r + c] += w * v[r] * v[c];
+}
+
+/* (S v_1, S v_2): turned by a quarter, in the same eigenspace of K. */
+static void turn(const double v[4], double turned[4])
+{
+    turned[0] = v[1];
+    turned[1] = -v[0];
+    turned[2] = v[3];
+    turned[3] = -v[2];
+}
+
+/* The Hessian in e = (e1, e2): c2 g g^T + c1 K, where K = q [[0, S], [-S, 0]]
+ * is the Hessian of J, q = 1/(2 A0) and g = K e.  K has the eigenvalues q and
+ * -q, twice each; e+ and e- are e's parts in their spaces and
+ * g = q (e+ - e-).  So H maps the plane of a = e+/|e+| and b = e-/|e-| to
+ * itself, and what lies across, a' and b', are eigenvectors with c1 q < 0 and
+ * -c1 q > 0.  Only the 2x2 matrix Q in that plane has to be projected. */
+static bool edge_hessian(const Corner *corner, Filter filter, double H[16])
+{
+    static const double any_plus[4] = {0, 0.7071067811865476,
+                                       -0.7071067811865476, 0};
+    static const double any_minus[4] = {0, 0.7071067811865476,
+                                        0.7071067811865476, 0};
+    const double *e1 = corner->e1, *e2 = corner->e2;
+    double s = corner->J / CELL_J_HAT, q = 1 / (2 * corner->area);
+    double c1 = corner->c / CELL_J_HAT * barrier_slope(s) * q;
+    double c2 = corner->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
+    double a[4] = {0.5 * (e1[0] + e2[1]), 0.5 * (e1[1] - e2[0]),
+                   0.5 * (e2[0] - e1[1]), 0.5 * (e2[1] + e1[0])};
+    double b[4] = {0.5 * (e1[0] - e2[1]), 0.5 * (e1[1] + e2[0]),
+                   0.5 * (e2[0] + e1[1]), 0.5 * (e2[1] - e1[0])};
+    double plus = q * make_unit(a, any_plus);
+    double minus = q * make_unit(b, any_minus), across[4];
+    double Q[3] = {c2 * plus * plus + c1, -c2 * plus * minus,
+                   c2 * minus * minus - c1};
+    filter_2x2(filter, Q);
+    for (int i = 0; i < 16; i++)
+        H[i] = 0;
+    add_square(Q[0], a, H);
+    add_square(Q[2], b, H);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            H[4 * r + c] += Q[1] * (a[r] * b[c] + b[r] * a[c]);
+    turn(b, across);
+    add_square(-c1, across, H);
+    if (filter == FILTER_CLAMP)
+        return c1 < 0;
+    turn(a, across);
+    add_square(filter == FILTER_ABS ? -c1 : c1, across, H);
+    return filter == FILTER_ABS && c1 < 0;
+}
+
+/* Node a's rows and columns are minus the sums of the others': a common motion
+ * changes nothing. */
+bool cell_hessian(const Corner *corner, Filter filter, double H[CELL_ENTRIES])
+{
+    double E[16];
+    bool changed = edge_hessian(corner, filter, E);
+    H[3] = E[0]; /* bb */
+    H[4] = E[1];
+    H[5] = E[5];
+    H[6] = E[10]; /* cc */
+    H[7] = E[11];
+    H[8] = E[15];
+    double *ab = H + 9, *ac = H + 13, *bc = H + 17;
+    for (int r = 0; r < 2; r++)
+        for (int c = 0; c < 2; c++) {
+            bc[2 * r + c] = E[4 * r + 2 + c];
+            ab[2 * r + c] = -(E[4 * r + c] + E[4 * (2 + r) + c]);
+            ac[2 * r + c] = -(E[4 * r + 2 + c] + E[4 * (2 + r) + 2 + c]);
+        }
+    H[0] = -(ab[0] + ac[0]); /* aa */
+    H[1] = -(ab[1] + ac[1]);
+    H[2] = -(ab[3] + ac[3]);
+    return changed;
+}
+
+/* y += B q, B = [[B0, B1], [B1, B2]] */
+static void multiply_own(const double B[3], const double *q, double *y)
+{
+    y[0] += B[0] * q[0] + B[1] * q[1];
+    y[1] += B[1] * q[0] + B[2] * q[1];
+}
+
+/* y_r += B q_c and y_c += B^T q_r, B row by row */
+static void multiply_pair(const double B[4], const double *q_r,
+                          const double *q_c, double *y_r, double *y_c)
+{
+    y_r[0] += B[0] * q_c[0] + B[1] * q_c[1];
+    y_r[1] += B[2] * q_c[0] + B[3] * q_c[1];
+    y_c[0] += B[0] * q_r[0] + B[2] * q_r[1];
+    y_c[1] += B[1] * q_r[0] + B[3] * q_r[1];
+}
+
+void cell_multiply(const double H[CELL_ENTRIES], const double *q_a,
+                   const double *q_b, const double *q_c, double *y_a,
+                   double *y_b, double *y_c)
+{
+    multiply_own(H, q_a, y_a);
+    multiply_own(H + 3, q_b, y_b);
+    multiply_own(H + 6, q_c, y_c);
+    multiply_pair(H + 9, q_a, q_b, y_a, y_b);
+    multiply_pair(H + 13, q_a, q_c, y_a, y_c);
+    multiply_pair(H + 17, q_b, q_c, y_b, y_c);
+}
+
+void cell_along(const Corner *corner, const double P1[2], const double P2[2],
+                double *J1, double *J2)
+{
+    double q = 1 / (2 * corner->area);
+    *J1 = q * (cross(P1, corner->e2) + cross(corner->e1, P2));
+    *J2 = q * cross(P1, P2);
+}
+
+/* J + alpha J1 + alpha^2 J2 = (1-F) J */
+double cell_reach(double J, double J1, double J2)
+{
+    double c0 = CONTACT_LIMIT * J, discriminant = J1 * J1 - 4 * J2 * c0;
+    if (!(discriminant >= 0))
+        return INFINITY;
+    double denominator = -J1 + sqrt(discriminant);
+    return denominator > 0 ? 2 * c0 / denominator : INFINITY;
+}
+
+double cell_remainder(const Corner *corner, double J1, double J2)
+{
+    double s = corner->J / CELL_J_HAT;
+    return corner->c * (barrier_slope(s) * J2 / CELL_J_HAT +
+                        barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
+}
