@@ -24,7 +24,8 @@ double log1p_minus(double z)
     if (!(fabs(z) < 0.25))
         return log1p(z) - z;
     double r = z / (2 + z), q = r * r;
-    double series = 1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q / 15));
+    double series = 1.0 / 15 + q * (1.0 / 17 + q / 19);
+    series = 1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q * series));
     series = 1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * series));
     return -z * r + 2 * r * q * series;
 }

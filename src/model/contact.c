@@ -79,7 +79,6 @@ double contact_remainder(const Barrier *barrier, const Gap *gap,
         double length = hypot(r, pt);
         k = r > 0 ? pt * pt / (length + r) : length - r;
     }
-    return barrier->c *
-           (barrier_slope(s) * k / barrier->d_hat +
-            barrier_remainder(s, (pn + k) / barrier->d_hat));
+    return barrier->c * (barrier_slope(s) * k / barrier->d_hat +
+                         barrier_remainder(s, (pn + k) / barrier->d_hat));
 }
