@@ -281,7 +281,7 @@ $(B)/elasto-faults: $(OBJECTS) $(B)/main.o tests/checks/faults.c
 	$(call say,LINK,$@)
 	$(Q)$(COMPILE) -DFAULT_WRAP $(filter-out %.o,$^) $(filter %.o,$^) -o $@ \
 	  $(ALL_LDFLAGS) $(DEP_LIBS) $(LDLIBS) \
-	  $(foreach call,malloc calloc realloc fopen rename mkdir,-Wl,--wrap=$(call))
+	  $(foreach call,malloc calloc realloc fopen fdopen open rename mkdir,-Wl,--wrap=$(call))
 
 test: $(if $(SANITIZE),$(B)/elasto-faults)
 

@@ -5,8 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "base/one_line.h"
 #include "play/player.h"
 #include "scenes/scene.h"
 #include "play/summary.h"
@@ -22,22 +26,39 @@ enum ExitCode {
 static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */
 
-/* SIGINT, SIGTERM: end after the present Newton iteration. */
+/* SIGINT, SIGTERM, SIGHUP: end after the present Newton iteration.  A second
+ * one ends at once, whatever the program waits for: a library, a screen.
+ * timeout(1) sends each signal twice, to the program and to its group: what
+ * follows within a tenth of a second is still the first. */
 static void on_signal(int number)
 {
-    (void)number;
+    static struct timespec first;
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    double passed = (double)(now.tv_sec - first.tv_sec) +
+                    1e-9 * (double)(now.tv_nsec - first.tv_nsec);
+    if (!main_stop)
+        first = now;
+    else if (passed > 0.1) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
     main_stop = 1;
 }
 
-/* Signals that end the run, and SIGPIPE, which then is a failed write. */
+/* Signals that end the run; and those of pipes without a reader and of files
+ * at their limit, which then are failed writes. */
 static void handle_signals(void)
 {
-    struct sigaction action = {.sa_handler = on_signal};
+    struct sigaction action = {.sa_handler = on_signal}, old;
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (sigaction(SIGHUP, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &action, NULL); /* not so under nohup */
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
+    sigaction(SIGXFSZ, &action, NULL);
 }
 
 /* Xlib ends the program by itself when its server is gone: the files are then
@@ -107,12 +128,17 @@ static const char *advice(const Player *player, Status status)
 static void report_failure(const Player *player, Status status)
 {
     const Recording *recording = &player->recording;
-    char reason[256] = "";
+    char reason[256] = "", name[256];
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
-    if (recording->reason)
-        fprintf(stderr, "elasto: %s: %s\n", recording->failed,
-                strerror(recording->reason));
+    one_line(recording->failed, name, sizeof name);
+    if (recording->reason == ENOTSUP)
+        fprintf(stderr,
+                "elasto: %s: only regular files, pipes and character devices "
+                "can be written\n",
+                name);
+    else if (recording->reason)
+        fprintf(stderr, "elasto: %s: %s\n", name, strerror(recording->reason));
     else if (player->simulation.status == status)
         fprintf(stderr, "elasto: step %ld failed: %s%s\n",
                 player->simulation.steps + 1, status_text(status),
@@ -120,6 +146,50 @@ static void report_failure(const Player *player, Status status)
     else
         fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),
                 reason[0] ? ": " : "", reason, advice(player, status));
+}
+
+/* Under a limit on the address space OpenBLAS asks for ever for a buffer that
+ * it does not get, in a thread of its own too, which starts before main.  The
+ * program begins anew without such threads: its numbers need none. */
+static void leave_blas_threads(char **argv)
+{
+    const int kinds[] = {RLIMIT_AS, RLIMIT_DATA};
+    const char *threads = getenv("OPENBLAS_NUM_THREADS");
+    bool limited = false;
+    struct rlimit limit;
+    for (int i = 0; i < 2; i++)
+        if (getrlimit(kinds[i], &limit) == 0)
+            limited = limited || limit.rlim_cur != RLIM_INFINITY;
+    if (!limited || (threads && strcmp(threads, "1") == 0) ||
+        setenv("OPENBLAS_NUM_THREADS", "1", 1))
+        return;
+    execv("/proc/self/exe", argv); /* returns where there is no /proc */
+}
+
+/* Bytes of the buffer that OpenBLAS maps at its first call; 0: none. */
+static size_t blas_bytes(const Options *options)
+{
+    bool implicit = !options->integrator || options->integrator->implicit;
+    bool factors = implicit && (options->scene->needs & NEEDS_SPRINGS);
+    return factors ? (size_t)128 << 20 : 0;
+}
+
+/* Whether the system would give as much memory as the run will ask for.  It is
+ * asked here, because OpenBLAS never takes no for an answer. */
+static bool can_be_mapped(const Options *options)
+{
+    size_t size = blas_bytes(options) + (size_t)simulation_bytes(options) + 1;
+    void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory != MAP_FAILED) {
+        munmap(memory, size);
+        return true;
+    }
+    fprintf(stderr,
+            "elasto: not enough memory: the run needs %.0f MB of address "
+            "space%s; see ulimit -v\n",
+            1e-6 * (double)size, blas_bytes(options) ? " with OpenBLAS" : "");
+    return false;
 }
 
 /* A square that does not fit is refused before it is begun: where memory is
@@ -142,11 +212,14 @@ static bool fits_in_memory(const Options *options)
 }
 
 /* Files, then the summary or the failure.  Returns the exit code. */
-static int finish(Player *player, Status status)
+static int finish(Player *player, Status status, bool begun)
 {
     const Options *options = &player->options;
     bool standard = (options->states && output_is_standard(options->states)) ||
                     (options->log && output_is_standard(options->log));
+    if (!begun)
+        recording_discard(&player->recording);
+    player->recording.aside = status && player->simulation.steps == 0;
     Status closed = player_finish(player);
     if (!status)
         status = closed;
@@ -168,21 +241,29 @@ int main(int argc, char **argv)
     Options options;
     char message[512];
     hold_standard_streams();
+    leave_blas_threads(argv);
     if (options_parse(argc, argv, &options, message, sizeof message)) {
         fprintf(stderr, "elasto: %s\n", message);
         return EXIT_MISUSED;
     }
     if (options.help || options.version || options.list)
         return print_information(&options);
+    if (recording_check(&options, message, sizeof message)) {
+        fprintf(stderr, "elasto: %s\n", message);
+        return EXIT_MISUSED;
+    }
     if (!fits_in_memory(&options))
         return EXIT_MISUSED;
+    if (!can_be_mapped(&options))
+        return EXIT_FAILED;
     handle_signals();
     atexit(save_files);
     Status status = player_create(&options, &main_stop, player);
-    if (!status)
+    bool begun = !status;
+    if (begun)
         status =
             player->window ? player_run_window(player) : player_run(player);
-    int code = finish(player, status);
+    int code = finish(player, status, begun);
     player_free(player);
     return code;
 }

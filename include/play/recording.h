@@ -22,9 +22,16 @@ typedef struct Recording {
     long last_frame;    /* its step; -1: none */
     bool points;        /* the log tells of points */
     Output states, log; /* not open: not written */
-    int reason;         /* errno of the first failure, 0: none yet */
+    bool aside; /* set: closing replaces no table that was there before */
+    int reason; /* errno of the first failure, 0: none yet */
     char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
 } Recording;
+
+/* Whether the files of the options can be written beside each other: the same
+ * file may not be meant twice, and standard output takes one table.
+ *   message  [size] out, one line after INVALID_INPUT
+ * Returns OK or INVALID_INPUT. */
+Status recording_check(const Options *options, char *message, size_t size);
 
 /* Opens what options->frames, states and log ask for; makes the folder.
  *   recording  out; close it in any case
@@ -47,5 +54,8 @@ Status recording_restart(Recording *recording, const Options *options);
 /* Closes everything, whatever happened before: a run that fails keeps what it
  * wrote. */
 Status recording_close(Recording *recording);
+
+/* Closes both tables without a trace: for a run that did not begin. */
+void recording_discard(Recording *recording);
 
 #endif

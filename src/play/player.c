@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/one_line.h"
 #include "picture/draw.h"
 #include "picture/landscape_picture.h"
 #include "play/png_file.h"
@@ -95,7 +96,7 @@ static void format_title(char *title, size_t size, const char *scene)
 static Status open_view(Player *player)
 {
     Options *options = &player->options;
-    char reason[256] = "", title[128];
+    char reason[256] = "", title[128], folder[256];
     Status status = STATUS_OK;
     format_title(title, sizeof title, options->scene->name);
     if (!options->headless) {
@@ -106,9 +107,10 @@ static Status open_view(Player *player)
         player->window = status == STATUS_OK;
         if (!player->window && !options->frames)
             options->frames = "frames";
+        one_line(options->frames, folder, sizeof folder);
         if (!player->window)
             fprintf(stderr, "no screen: %s; the frames go to %s/\n", reason,
-                    options->frames);
+                    folder);
     }
     if (!player->window && options->steps < 0)
         options->steps = UNSEEN_STEPS;

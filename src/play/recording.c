@@ -2,9 +2,11 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/one_line.h"
 #include "play/png_file.h"
 #include "scenes/scene.h"
 
@@ -77,9 +79,66 @@ Status recording_open(const Options *options, Recording *recording)
     if (!status)
         status = open_table(recording, options->log, &recording->log);
     if (!status)
-        return write_headers(recording);
-    output_discard(&recording->states); /* what stood there before stays */
+        status = write_headers(recording);
+    if (status)
+        recording_discard(recording); /* what stood there before stays */
     return status;
+}
+
+/* A copy of a text up to its end, without slashes there; NULL: no memory. */
+static char *folder_name(const char *text, size_t length)
+{
+    while (length > 1 && text[length - 1] == '/')
+        length--;
+    return strndup(length > 0 ? text : ".", length > 0 ? length : 1);
+}
+
+/* Whether a table would have the name of a frame in this folder. */
+static bool is_frame(const char *folder, const char *name)
+{
+    const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
+    if (strncmp(base, "frame_", strlen("frame_")) != 0)
+        return false;
+    char *one = folder_name(folder, strlen(folder));
+    char *other = folder_name(name, slash ? (size_t)(slash + 1 - name) : 0);
+    char *a = one ? output_target(one) : NULL;
+    char *b = other ? output_target(other) : NULL;
+    bool same = a && b && strcmp(a, b) == 0;
+    free(one);
+    free(other);
+    free(a);
+    free(b);
+    return same;
+}
+
+/* Every two names. */
+Status recording_check(const Options *options, char *message, size_t size)
+{
+    const char *states = options->states, *log = options->log;
+    const char *frames = options->frames, *table = NULL;
+    char shown[64], other[64];
+    if (states && log && output_collides(states, log)) {
+        one_line(states, shown, sizeof shown);
+        one_line(log, other, sizeof other);
+        snprintf(message, size,
+                 "--states '%s' and --log '%s' would be written into one "
+                 "another: two different files, at most one of them \"-\"",
+                 shown, other);
+        return STATUS_INVALID_INPUT;
+    }
+    if (frames && states && is_frame(frames, states))
+        table = states;
+    if (frames && log && is_frame(frames, log))
+        table = log;
+    if (!table)
+        return STATUS_OK;
+    one_line(table, shown, sizeof shown);
+    one_line(frames, other, sizeof other);
+    snprintf(message, size,
+             "--%s '%s' would be a frame of --frames '%s': any name that does "
+             "not begin with frame_",
+             table == states ? "states" : "log", shown, other);
+    return STATUS_INVALID_INPUT;
 }
 
 /* FOLDER/frame_000012.png */
@@ -163,7 +222,9 @@ static Status close_table(Recording *recording, Output *output,
 {
     char copy[RECORDING_NAME_SIZE];
     snprintf(copy, sizeof copy, "%s", output->name ? output->name : name);
-    return recording_note(recording, output_close(output, true), copy);
+    Status status = recording->aside ? output_set_aside(output)
+                                     : output_close(output, true);
+    return recording_note(recording, status, copy);
 }
 
 /* Both tables, also if the first fails. */
@@ -172,4 +233,10 @@ Status recording_close(Recording *recording)
     Status states = close_table(recording, &recording->states, "states");
     Status log = close_table(recording, &recording->log, "log");
     return states ? states : log;
+}
+
+void recording_discard(Recording *recording)
+{
+    output_discard(&recording->states);
+    output_discard(&recording->log);
 }

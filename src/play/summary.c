@@ -1,5 +1,8 @@
 #include "play/summary.h"
 
+#include <math.h>
+
+#include "base/one_line.h"
 #include "scenes/scene.h"
 
 /* What Newton did; all 0 with explicit methods, which have no matrix. */
@@ -17,6 +20,15 @@ static void print_newton(FILE *file, const Simulation *simulation)
             simulation_matrix_entries(simulation));
 }
 
+/* A number with its unit, where it is one. */
+static void print_energy(FILE *file, double energy)
+{
+    if (isfinite(energy))
+        fprintf(file, "%.9g J", energy);
+    else
+        fprintf(file, "too large for a number");
+}
+
 /* Of the first run; where there are several, with its name. */
 static void print_energies(FILE *file, const Player *player)
 {
@@ -27,9 +39,11 @@ static void print_energies(FILE *file, const Player *player)
         of = ", ";
         name = simulation->run[0].method->name;
     }
-    fprintf(file, "energy at start     %.9g J%s%s\n", player->start.total, of,
-            name);
-    fprintf(file, "energy at end       %.9g J%s%s\n", end.total, of, name);
+    fprintf(file, "energy at start     ");
+    print_energy(file, player->start.total);
+    fprintf(file, "%s%s\nenergy at end       ", of, name);
+    print_energy(file, end.total);
+    fprintf(file, "%s%s\n", of, name);
 }
 
 /* One quantity a line. */
@@ -45,9 +59,11 @@ void summary_print(FILE *file, const Player *player)
     print_newton(file, simulation);
     if (simulation->scene->needs & NEEDS_TIME)
         print_energies(file, player);
+    char folder[256];
+    one_line(player->recording.folder, folder, sizeof folder);
     if (player->recording.folder)
         fprintf(file, "frames written      %ld, in %s/\n",
-                player->recording.frames, player->recording.folder);
+                player->recording.frames, folder);
     else
         fprintf(file, "frames written      0\n");
     fprintf(file, "steps not converged %ld", simulation->unconverged);

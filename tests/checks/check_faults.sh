@@ -156,28 +156,6 @@ faults_of renames_fail rename '' "$space" 1 --frames frames
 faults_of folders_cannot_be_made folder '' 'frames: No space left' 1 \
     --frames frames
 
-# The system's own limit on the size of a file.
-limits() {
-    for size in 0 1 2 4 8; do
-        begin_files
-        (
-            trap '' XFSZ
-            ulimit -f "$size"
-            "$elasto" --headless --steps 40 --segments 2 --quiet \
-                --states s.csv --log l.csv --frames frames
-            echo $?
-        ) 2>&1 | cat >error
-        [ "$(tail -n 1 error)" = 1 ] || echo "limit $size: $(cat error)"
-        [ "$(wc -l <error)" -eq 2 ] || echo "limit $size: $(cat error)"
-        grep -q '^elasto: .*: File too large$' error ||
-            echo "limit $size: $(cat error)"
-        check_files
-    done
-}
-if [ -z "${SANITIZE:-}" ]; then
-    verdict file_size_limits 5 "$(limits)"
-fi
-
 # ---- signals ----------------------------------------------------------------
 milliseconds() {
     echo $(($(date +%s%N) / 1000000))

@@ -2,7 +2,8 @@
  * library's calls too, or with -DFAULT_WRAP linked into the program by
  * -Wl,--wrap=..., where sanitizers can look on.
  *
- *   FAULT       which call: memory, open, write, close, rename, folder
+ *   FAULT       which call: memory, open, write, close, rename, folder; hang:
+ *               renaming never ends
  *   FAULT_AT    the number of the one that fails, from 1; 0: only count
  *   FAULT_ALL   set: and all after it
  *   FAULT_FILE  the number of calls goes to this file at the end
@@ -12,6 +13,8 @@
  */
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +31,8 @@
 
 typedef int MainFunction(int, char **, char **);
 typedef FILE *OpenFunction(const char *, const char *);
+typedef FILE *AttachFunction(int, const char *);
+typedef int PathFunction(const char *, int, ...);
 typedef int RenameFunction(const char *, const char *);
 typedef int FolderFunction(const char *, mode_t);
 
@@ -42,6 +47,8 @@ void *FAULTY(malloc)(size_t size);
 void *FAULTY(calloc)(size_t count, size_t size);
 void *FAULTY(realloc)(void *old, size_t size);
 OpenFunction FAULTY(fopen);
+AttachFunction FAULTY(fdopen);
+PathFunction FAULTY(open);
 RenameFunction FAULTY(rename);
 FolderFunction FAULTY(mkdir);
 
@@ -110,16 +117,9 @@ static int fault_close(void *cookie)
     return result;
 }
 
-FILE *FAULTY(fopen)(const char *name, const char *mode)
+/* A stream that can fail, around a real one. */
+static FILE *fault_stream(FILE *file, const char *mode)
 {
-    OpenFunction *real = (OpenFunction *)real_function("fopen");
-    if (mode[0] != 'w')
-        return real(name, mode);
-    if (fault_fails("open")) {
-        errno = EMFILE;
-        return NULL;
-    }
-    FILE *file = real(name, mode);
     if (!file || !fault_kind ||
         (strcmp(fault_kind, "write") != 0 && strcmp(fault_kind, "close") != 0))
         return file;
@@ -129,9 +129,44 @@ FILE *FAULTY(fopen)(const char *name, const char *mode)
     return fopencookie(file, mode, functions);
 }
 
+FILE *FAULTY(fopen)(const char *name, const char *mode)
+{
+    OpenFunction *real = (OpenFunction *)real_function("fopen");
+    if (mode[0] != 'w')
+        return real(name, mode);
+    if (fault_fails("open")) {
+        errno = EMFILE;
+        return NULL;
+    }
+    return fault_stream(real(name, mode), mode);
+}
+
+FILE *FAULTY(fdopen)(int file, const char *mode)
+{
+    AttachFunction *real = (AttachFunction *)real_function("fdopen");
+    return fault_stream(real(file, mode), mode);
+}
+
+/* Only of files that are new. */
+int FAULTY(open)(const char *name, int flags, ...)
+{
+    PathFunction *real = (PathFunction *)real_function("open");
+    va_list arguments;
+    va_start(arguments, flags);
+    unsigned mode = flags & O_CREAT ? va_arg(arguments, unsigned) : 0;
+    va_end(arguments);
+    if ((flags & O_EXCL) && fault_fails("open")) {
+        errno = EMFILE;
+        return -1;
+    }
+    return real(name, flags, mode);
+}
+
 int FAULTY(rename)(const char *from, const char *to)
 {
     RenameFunction *real = (RenameFunction *)real_function("rename");
+    while (fault_kind && strcmp(fault_kind, "hang") == 0)
+        pause();
     if (fault_fails("rename")) {
         errno = EIO;
         return -1;
