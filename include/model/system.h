@@ -55,10 +55,10 @@ void system_remove_term(System *system, const TermKind *kind);
  * Returns OK or INVALID_INPUT. */
 Status system_check(const System *system, const double *x);
 
-/* P(x), J, with gravity's -sum m g.x.  x [2n] m, in. */
+/* P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
-/* Its second part alone, J, and whether there is any. */
+/* -sum m g.x, J, and whether there is gravity. */
 bool system_has_gravity(const System *system);
 double system_gravity_potential(const System *system, const double *x);
 

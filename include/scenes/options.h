@@ -18,6 +18,11 @@ typedef struct Options {
     double density;                     /* kg/m^2 */
     double stiffness;                   /* J/m^2 */
     double stretch;                     /* initial horizontal factor */
+    double turn;                        /* degrees, anticlockwise, after it */
+    double at[2];                       /* m, then moved by this */
+    double velocity[2];                 /* m/s, of every node at the start */
+    double gravity;                     /* m/s^2, downwards */
+    const char *pin;                    /* which nodes never move, or NULL */
     double timestep;                    /* s */
     double tolerance;                   /* m/s */
     const IntegratorMethod *integrator; /* NULL: the scene's choice */

@@ -34,6 +34,7 @@ enum SceneNeeds {
     NEEDS_MINIMUM = 16,    /* tolerance and line search */
     NEEDS_ONE_NUMBER = 32, /* of the start: its x is enough */
     NEEDS_STEP = 64,       /* a time step h, but no integrator */
+    NEEDS_BODY = 128,      /* turn, at, velocity, gravity, pin */
 };
 
 /* Points of the stage that the mouse can drag, and parts of the picture that it

@@ -48,7 +48,7 @@ typedef struct Simulation {
 
 /* J; total is their sum. */
 typedef struct Energies {
-    double kinetic, elastic, total;
+    double kinetic, elastic, gravity, total;
 } Energies;
 
 /* Sets up options->scene.  simulation out; free it in any case.

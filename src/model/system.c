@@ -147,7 +147,7 @@ double system_gravity_potential(const System *system, const double *x)
 double system_potential(const System *system, const double *x)
 {
     Place at = place_at(system, x);
-    double sum = system_gravity_potential(system, x);
+    double sum = 0;
     for (int t = 0; t < system->terms; t++)
         sum += system->term[t].kind->value(&system->term[t], &at);
     return sum;

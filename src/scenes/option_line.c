@@ -1,4 +1,5 @@
 #include "scenes/option_row.h"
+#include "scenes/pins.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -268,6 +269,7 @@ static Status check_need(const OptionRow *row, const Scene *scene,
                         : row->needs & NEEDS_TIME    ? "time"
                         : row->needs & NEEDS_SPRINGS ? "springs"
                         : row->needs & NEEDS_START   ? "start to choose"
+                        : row->needs & NEEDS_BODY    ? "body that falls"
                                                      : "minimum to find";
     if (row->needs == 0 || (row->needs & scene->needs))
         return STATUS_OK;
@@ -300,6 +302,18 @@ static Status apply_line(int argc, char **argv, const Line *line,
     return status;
 }
 
+/* Which numbers --pin may name depends on --segments. */
+static Status check_pins(const Options *options, const Complaint *complaint)
+{
+    if (!options->pin || !pins_read(options->pin, options->segments, NULL))
+        return STATUS_OK;
+    int n = options->segments + 1;
+    return complain(complaint,
+                    "--pin: '%s' is no list of node numbers from 0 to %d, "
+                    "or of: " PINS_WORDS,
+                    typed(options->pin).text, n * n - 1);
+}
+
 /* Options of one pane; lists are read as such or refused. */
 static Status parse_line(int argc, char **argv, int pane, bool compare,
                          Options *options, const Complaint *complaint)
@@ -314,7 +328,8 @@ static Status parse_line(int argc, char **argv, int pane, bool compare,
         return status;
     if (options->scene->defaults)
         options->scene->defaults(options);
-    return apply_line(argc, argv, &line, chosen, options, complaint);
+    status = apply_line(argc, argv, &line, chosen, options, complaint);
+    return status ? status : check_pins(options, complaint);
 }
 
 Status options_parse(int argc, char **argv, Options *options, char *message,

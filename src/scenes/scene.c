@@ -17,7 +17,8 @@ const Scene scenes[] = {
     {.name = "square",
      .sentence = "the stretched square relaxes",
      .picture = PICTURE_SQUARE,
-     .needs = NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .create = create_square},
     {.name = "circle",
      .sentence = "forward Euler spirals out, backward in, symplectic stays",
@@ -49,8 +50,16 @@ const Scene scenes[] = {
     {.name = "unprojected",
      .sentence = "the squeezed square: without projection Newton is stuck",
      .picture = PICTURE_SQUARE,
-     .needs = NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = unprojected_defaults,
+     .create = create_square},
+    {.name = "hang",
+     .sentence = "the square hangs from its upper corners and swings",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = hang_defaults,
      .create = create_square},
     {.name = "arrows",
      .sentence = "one mass on a spring: the arrows of three Euler steps",

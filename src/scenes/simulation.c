@@ -127,8 +127,10 @@ Energies simulation_energies(const Simulation *simulation, int run)
     const TimeIntegrator *integrator = &simulation->run[run];
     Energies energies;
     energies.kinetic = system_kinetic(&simulation->system, integrator->v);
-    energies.elastic = system_potential(&simulation->system, integrator->x);
-    energies.total = energies.kinetic + energies.elastic;
+    energies.gravity =
+        system_gravity_potential(integrator->system, integrator->x);
+    energies.elastic = system_potential(integrator->system, integrator->x);
+    energies.total = energies.kinetic + energies.elastic + energies.gravity;
     return energies;
 }
 

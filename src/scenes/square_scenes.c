@@ -1,7 +1,10 @@
 #include "scenes/square_scenes.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "scenes/pins.h"
 
 /* Masses, springs and rest lengths of the square (slide simulator.py):
  * m = density side^2 / nodes, l2 = |d|^2 in the rest positions. */
@@ -28,10 +31,32 @@ static Status fill_square(Simulation *simulation)
     }
     system->order = mesh->order; /* the system owns it now */
     mesh->order = NULL;
-    return STATUS_OK;
+    system->gravity[1] = -options->gravity;
+    if (!options->pin)
+        return STATUS_OK;
+    status = system_create_pins(system);
+    return status ? status
+                  : pins_read(options->pin, options->segments, system->pinned);
 }
 
-/* The square at rest but for a horizontal stretch, without velocity. */
+/* Stretched, turned, moved; 0 degrees leave every bit. */
+static void place_square(const Simulation *simulation, double *x, double *v)
+{
+    const Options *options = &simulation->options;
+    const System *system = &simulation->system;
+    double angle = options->turn * 0.017453292519943295; /* pi/180 */
+    double c = cos(angle), s = sin(angle);
+    for (int i = 0; i < system->nodes; i++) {
+        double x0 = options->stretch * simulation->mesh.x[2 * i];
+        double x1 = simulation->mesh.x[2 * i + 1];
+        x[2 * i] = c * x0 - s * x1 + options->at[0];
+        x[2 * i + 1] = s * x0 + c * x1 + options->at[1];
+        for (int axis = 0; axis < 2; axis++)
+            if (!system->pinned || !system->pinned[i])
+                v[2 * i + axis] = options->velocity[axis];
+    }
+}
+
 Status create_square(Simulation *simulation, const NewtonSettings *settings)
 {
     const Options *options = &simulation->options;
@@ -45,10 +70,7 @@ Status create_square(Simulation *simulation, const NewtonSettings *settings)
         free(v);
         return STATUS_OUT_OF_MEMORY;
     }
-    for (size_t i = 0; i < size; i += 2) {
-        x[i] = options->stretch * simulation->mesh.x[i];
-        x[i + 1] = simulation->mesh.x[i + 1];
-    }
+    place_square(simulation, x, v);
     simulation->runs = 1;
     status = time_integrator_create(
         options->integrator ? options->integrator : &integrator_methods[0],
@@ -56,6 +78,17 @@ Status create_square(Simulation *simulation, const NewtonSettings *settings)
     free(x);
     free(v);
     return status;
+}
+
+void hang_defaults(Options *options)
+{
+    options->segments = 12;
+    options->stiffness = 1e4;
+    options->stretch = 1;
+    options->timestep = 0.01;
+    options->tolerance = 1e-3;
+    options->gravity = 9.81;
+    options->pin = "top-corners";
 }
 
 void unprojected_defaults(Options *options)

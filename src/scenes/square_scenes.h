@@ -6,11 +6,15 @@
 
 #include "scenes/simulation.h"
 
-/* The square at rest but for a horizontal stretch, without velocity: nodes of
- * mass density side^2 / nodes, springs of squared rest length |d|^2. */
+/* The square: nodes of mass density side^2 / nodes, springs of squared rest
+ * length |d|^2.  It starts stretched horizontally, then turned, then moved, all
+ * nodes but the pinned ones with one velocity. */
 Status create_square(Simulation *simulation, const NewtonSettings *settings);
 
 /* The book's remark: h = 0.02 s and a stretch of 0.5 without projection. */
 void unprojected_defaults(Options *options);
+
+/* Gravity on a soft square that hangs from its upper corners. */
+void hang_defaults(Options *options);
 
 #endif

@@ -1,4 +1,4 @@
-/* The program against the slides' own: six trajectories of the lecture's
+/* The program against the slides' own: nine trajectories of the lecture's
  * Python code, in tests/data/reference.
  */
 #include "testing.h"
@@ -161,12 +161,39 @@ static void squashed(void **unused)
                15);
 }
 
+/* Gravity and pins, from the lecture's second program. */
+static void hang(void **unused)
+{
+    (void)unused;
+    check_case("hang",
+               "hang --segments 4 --stiffness 1e3 --timestep 0.02 "
+               "--tolerance 1e-2",
+               60);
+}
+
+static void hang_tight(void **unused)
+{
+    (void)unused;
+    check_case("hang_tight",
+               "square --gravity 9.81 --pin 24,4 --stretch 1 --segments 4 "
+               "--stiffness 1e3 --timestep 0.02 --tolerance 1e-6",
+               60);
+}
+
+static void hang_corner(void **unused)
+{
+    (void)unused;
+    check_case("hang_corner", "hang --segments 6 --pin 6 --tolerance 1e-6", 40);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(default_scene), cmocka_unit_test(one_cell),
         cmocka_unit_test(gentle_8),      cmocka_unit_test(compressed),
         cmocka_unit_test(squashed),      cmocka_unit_test(stiff_large_step),
+        cmocka_unit_test(hang),          cmocka_unit_test(hang_tight),
+        cmocka_unit_test(hang_corner),
     };
     return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
 }

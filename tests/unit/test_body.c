@@ -1,0 +1,222 @@
+/* How a square starts, falls and hangs: gravity in every integrator, pinned
+ * nodes, turned and thrown starts, and the text of --pin.
+ */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/pins.h"
+
+enum { STEPS = 25 };
+
+/* A point that falls: position and velocity at t_n and before. */
+typedef struct Fall {
+    long double y, v, last_y, last_v;
+    int steps;
+} Fall;
+
+/* One step of the method itself for the acceleration a, which does not depend
+ * on the position: the formulas of the methods, not of this program. */
+static void fall_step(const char *method, long double h, long double a,
+                      Fall *fall)
+{
+    long double y = fall->y, v = fall->v;
+    bool euler = strcmp(method, "backward-euler") == 0 ||
+                 strcmp(method, "symplectic-euler") == 0 ||
+                 (strcmp(method, "bdf2") == 0 && fall->steps == 0);
+    if (euler) {
+        fall->v = v + h * a;
+        fall->y = y + h * fall->v;
+    } else if (strcmp(method, "forward-euler") == 0) {
+        fall->v = v + h * a;
+        fall->y = y + h * v;
+    } else if (strcmp(method, "bdf2") == 0) {
+        fall->v = (4 * v - fall->last_v) / 3 + 2 * h / 3 * a;
+        fall->y = (4 * y - fall->last_y) / 3 + 2 * h / 3 * fall->v;
+    } else { /* exact for a parabola */
+        fall->v = v + h * a;
+        fall->y = y + h * v + h * h / 2 * a;
+    }
+    fall->last_y = y;
+    fall->last_v = v;
+    fall->steps++;
+}
+
+/* Mean of a component over the nodes, all of one mass. */
+static long double centre(const Simulation *simulation, const double *values,
+                          int axis)
+{
+    long double sum = 0;
+    int n = simulation->system.nodes;
+    for (int i = 0; i < n; i++)
+        sum += values[2 * i + axis];
+    return sum / n;
+}
+
+/* A stretched, turned, thrown square: springs work, and its centre of mass does
+ * not notice.  1e-9: a hundred roundings of numbers of size 1. */
+static void the_centre_of_mass_falls_as_the_method_says(void **unused)
+{
+    (void)unused;
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
+        char line[256];
+        Simulation simulation;
+        snprintf(line, sizeof line,
+                 "square --segments 3 --stretch 1.2 --turn 30 --at 0.3,2 "
+                 "--velocity 1.5,2.5 --gravity 9.81 --timestep 0.002 "
+                 "--tolerance 1e-6 --integrator %s",
+                 row->name);
+        simulation_from_line(line, NULL, NULL, &simulation);
+        const TimeIntegrator *run = &simulation.run[0];
+        Fall x = {centre(&simulation, run->x, 0), 1.5L, 0, 0, 0};
+        Fall y = {centre(&simulation, run->x, 1), 2.5L, 0, 0, 0};
+        CHECK_NEAR(x.y, 0.3, 1e-15);
+        CHECK_NEAR(y.y, 2, 1e-15);
+        for (int step = 0; step < STEPS; step++) {
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            fall_step(row->name, 0.002L, 0, &x);
+            fall_step(row->name, 0.002L, -9.81L, &y);
+            CHECK_NEAR(centre(&simulation, run->x, 0), x.y, 1e-9);
+            CHECK_NEAR(centre(&simulation, run->v, 0), x.v, 1e-9);
+            CHECK_NEAR(centre(&simulation, run->x, 1), y.y, 1e-9);
+            CHECK_NEAR(centre(&simulation, run->v, 1), y.v, 1e-9);
+        }
+        simulation_free(&simulation);
+    }
+}
+
+/* At rest it falls as one piece: the springs stay at their lengths.  100 steps
+ * of backward Euler: y = -g h^2 n (n+1)/2. */
+static void free_fall_is_exact(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("square --stretch 1 --gravity 9.81 --timestep 0.01",
+                         NULL, NULL, &simulation);
+    const TimeIntegrator *run = &simulation.run[0];
+    for (int n = 1; n <= 100; n++) {
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        double y = -9.81 * 0.01 * 0.01 * n * (n + 1) / 2;
+        for (int i = 0; i < simulation.system.nodes; i++) {
+            CHECK_NEAR(run->x[2 * i], simulation.mesh.x[2 * i], 1e-12);
+            CHECK_NEAR(run->x[2 * i + 1], simulation.mesh.x[2 * i + 1] + y,
+                       1e-9);
+            CHECK_NEAR(run->v[2 * i + 1], -9.81 * 0.01 * n, 1e-9);
+        }
+    }
+    simulation_free(&simulation);
+}
+
+/* Not by a bit, in any method, also where the square is thrown. */
+static void pinned_nodes_do_not_move(void **unused)
+{
+    (void)unused;
+    static const int pinned[] = {0, 3, 7, 15};
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
+        char line[256];
+        Simulation simulation;
+        double x[2 * 16];
+        snprintf(line, sizeof line,
+                 "square --segments 3 --stretch 1.2 --velocity 1,-2 --gravity "
+                 "9.81 --timestep 0.002 --pin 0,15,7,top-corners "
+                 "--integrator %s",
+                 row->name);
+        simulation_from_line(line, NULL, NULL, &simulation);
+        const TimeIntegrator *run = &simulation.run[0];
+        memcpy(x, run->x, sizeof x);
+        for (int step = 0; step < STEPS; step++)
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        for (int i = 0, next = 0; i < 16; i++) {
+            if (next < 4 && i == pinned[next]) {
+                CHECK_SAME_BITS(run->x + 2 * i, x + 2 * i, 2);
+                CHECK(run->v[2 * i] == 0 && run->v[2 * i + 1] == 0);
+                next++;
+            } else {
+                CHECK(run->x[2 * i + 1] != x[2 * i + 1]);
+            }
+        }
+        simulation_free(&simulation);
+    }
+}
+
+/* Stretched in x, then turned about the origin, then moved. */
+static void a_start_is_stretched_turned_and_moved(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("square --segments 2 --stretch 1.5 --turn 90 --at "
+                         "3,-4 --velocity 5,6",
+                         NULL, NULL, &simulation);
+    for (int i = 0; i < 9; i++) {
+        const double *rest = simulation.mesh.x + 2 * i;
+        const double *x = simulation.run[0].x + 2 * i;
+        const double *v = simulation.run[0].v + 2 * i;
+        CHECK_NEAR(x[0], 3 - rest[1], 1e-15);
+        CHECK_NEAR(x[1], -4 + 1.5 * rest[0], 1e-15);
+        CHECK(v[0] == 5 && v[1] == 6);
+    }
+    simulation_free(&simulation);
+}
+
+/* 2 segments: nodes 0 1 2 are the left column from below. */
+static void the_words_of_pin_name_their_nodes(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *pinned;
+    } cases[] = {
+        {"top-corners", "001000001"}, {"top", "001001001"},
+        {"bottom", "100100100"},      {"left", "111000000"},
+        {"right", "000000111"},       {"4", "000010000"},
+        {"0,8,left", "111000001"},    {"8,8", "000000001"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        unsigned char pinned[9] = {0};
+        CHECK_STATUS(pins_read(cases[i].text, 2, pinned), STATUS_OK);
+        for (int node = 0; node < 9; node++)
+            CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
+    }
+    static const char *const bad[] = {
+        "",    "9",          "-1",
+        "1,",  ",1",         "1.0",
+        "1 ",  "upper",      "toppp",
+        "to",  "1;2",        "1,,2",
+        "+1",  "top left",   "0x1",
+        "1e0", "4294967296", "99999999999999999999999999999999",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        CHECK_STATUS(pins_read(bad[i], 2, NULL), STATUS_INVALID_INPUT);
+}
+
+static void pins_are_refused_in_one_line(void **unused)
+{
+    (void)unused;
+    char *line[] = {"elasto", "--pin", "3,25", NULL};
+    char message[512];
+    Options options;
+    CHECK_STATUS(options_parse(3, line, &options, message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    assert_string_equal(message,
+                        "--pin: '3,25' is no list of node numbers from 0 to "
+                        "24, or of: top-corners, top, bottom, left, right");
+    char *other[] = {"elasto", "landscape", "--gravity", "9.81", NULL};
+    CHECK_STATUS(options_parse(4, other, &options, message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    assert_string_equal(
+        message, "--gravity: the scene 'landscape' has no body that falls");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_centre_of_mass_falls_as_the_method_says),
+        cmocka_unit_test(free_fall_is_exact),
+        cmocka_unit_test(pinned_nodes_do_not_move),
+        cmocka_unit_test(a_start_is_stretched_turned_and_moved),
+        cmocka_unit_test(the_words_of_pin_name_their_nodes),
+        cmocka_unit_test(pins_are_refused_in_one_line),
+    };
+    return cmocka_run_group_tests_name("body", tests, NULL, NULL);
+}
