@@ -21,7 +21,7 @@ VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
 B       := build/$(VARIANT)
 CONFIG  := build/config.mk
 
-OBJECTS := $(SOURCES:src/%.c=$(B)/%.o)
+OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(B)/listing_text.o
 BENCH_OBJECTS := $(BENCH_SOURCES:src/%.c=$(B)/%.o)
 SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
@@ -158,6 +158,35 @@ $(B)/%.o: src/%.c $(B)/flags
 
 -include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
+# ---- the lecture's listings -------------------------------------------------
+# The text of these sources is compiled into the program as a table of lines.
+LISTED = $(wildcard src/lecture.c) src/solve/scalar_newton.c src/scenes/circle_scene.c \
+         src/scenes/dial_scene.c src/scenes/race_scene.c \
+         src/scenes/envelope_scene.c src/solve/newton.c
+
+define LISTING_AWK
+FNR == 1 { print (NR > 1 ? "};\n" : "") "static const char *const text_" ++files "[] = {"
+           name[files] = FILENAME }
+{ gsub(/\\/, "\\\\"); gsub(/"/, "\\\""); print "\"" $$0 "\","; lines[files]++ }
+END {
+    print "};\n\nconst Listing listings[] = {"
+    for (i = 1; i <= files; i++)
+        print "{\"" name[i] "\", " lines[i] ", text_" i "},"
+    print "{NULL, 0, NULL}};"
+}
+endef
+export LISTING_AWK
+
+$(B)/listing_text.c: $(LISTED) Makefile
+	$(call say,WRITE,$@)
+	$(Q)mkdir -p $(@D)
+	$(Q){ echo '#include <stddef.h>'; echo '#include "scenes/listing.h"'; \
+	  awk "$$LISTING_AWK" $(LISTED); } >$@
+
+$(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
+	$(call say,CC,$<)
+	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
+
 # ---- benchmark -------------------------------------------------------------
 # The CSV files that it writes say with which flags it was compiled.
 build/elasto-bench: $(B)/elasto-bench FORCE
@@ -206,7 +235,7 @@ export SINGLE_AWK
 single: build/elasto_single.c
 
 build/elasto_single.c: $(wildcard include/*/*.h src/*/*.h) $(SOURCES) \
-                       src/main.c Makefile
+                       $(B)/listing_text.c src/main.c Makefile
 	$(call say,WRITE,$@)
 	@mkdir -p build
 	@{ echo '/* elasto, the whole demo as one file, from the ground up.'; \
@@ -216,7 +245,7 @@ build/elasto_single.c: $(wildcard include/*/*.h src/*/*.h) $(SOURCES) \
 	   echo ' *   $(DEP_LIBS)'; \
 	   echo ' */'; \
 	   echo '#define _GNU_SOURCE'; \
-	   awk "$$SINGLE_AWK" $(SOURCES) src/main.c; } >$@
+	   awk "$$SINGLE_AWK" $(SOURCES) $(B)/listing_text.c src/main.c; } >$@
 
 # ---- tests -----------------------------------------------------------------
 $(B)/tests/%.o: tests/%.c $(B)/flags

@@ -89,9 +89,7 @@ void spring_drag(Simulation *simulation, int handle, double x, double y)
     run->v[0] = run->v[1] = 0;
     run->remembers = false;
     if (run->newton)
-        run->newton->age = -1; /* the factor is of another place */
-    if (run->newton)
-        run->newton->resting = false;
+        newton_forget(run->newton); /* its factor is of another place */
 }
 
 int spring_switches(const Simulation *simulation,

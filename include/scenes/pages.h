@@ -1,0 +1,44 @@
+/* pages.h - the lecture, a page a row of a table, in the slides' order.
+ *
+ * A page is a scene with settings and what there is to say about it.  To add
+ * one: a row in pages.c, and its claim's test in tests/unit/test_pages.c, which
+ * reminds of it.
+ */
+#ifndef ELASTO_PAGES_H
+#define ELASTO_PAGES_H
+
+#include "scenes/options.h"
+
+typedef struct LecturePage {
+    const char *name;  /* one word, for --lecture */
+    const char *topic; /* of the slide */
+    const char *text;  /* what it is about: one or two sentences */
+    const char *line;  /* scene and settings, as on the command line */
+    const char *cards; /* names of those that are open, with blanks between */
+    const char *look;  /* what to look at */
+    const char *touch; /* what to change, and how */
+    const char *file;  /* where its code is: a file that listing.h knows */
+    const char *function; /* and a function in it */
+    const char *claim;    /* what a test holds */
+    unsigned flips;       /* bit s: switch s of the scene is turned over */
+    int steps;            /* made before it is shown */
+    int film;     /* steps that the handout's film shows; 0: a picture */
+    bool plays;   /* runs at once instead of waiting */
+    bool predict; /* a click says where the next step leads */
+} LecturePage;
+
+/* The table; it ends with a NULL name. */
+extern const LecturePage lecture_pages[];
+
+/* How many pages there are. */
+int lecture_count(void);
+
+/* The page with this name, or with this number from 1; NULL: there is none. */
+const LecturePage *lecture_find(const char *text);
+
+/* The options of a page: its line on top of the defaults.  Returns OK, or
+ * INVALID_INPUT with a message [size] out, which a test rules out. */
+Status lecture_options(const LecturePage *page, Options *options, char *message,
+                       size_t size);
+
+#endif

@@ -1,0 +1,74 @@
+#include "scenes/listing.h"
+
+#include <ctype.h>
+#include <string.h>
+
+const Listing *listing_find(const char *file)
+{
+    for (const Listing *listing = listings; listing->file; listing++)
+        if (strcmp(listing->file, file) == 0)
+            return listing;
+    return NULL;
+}
+
+/* Whether the line names the function outside of any body: in column 1 stands
+ * a type, and the name is a whole word before a parenthesis. */
+static bool names_function(const char *line, const char *function)
+{
+    size_t length = strlen(function);
+    if (!isalpha((unsigned char)line[0]))
+        return false;
+    for (const char *at = strstr(line, function); at;
+         at = strstr(at + 1, function)) {
+        bool begins = at == line || at[-1] == ' ' || at[-1] == '*';
+        if (begins && at[length] == '(')
+            return true;
+    }
+    return false;
+}
+
+/* The line after the closing brace of what begins here; 0: a declaration. */
+static int find_end(const Listing *listing, int from)
+{
+    for (int i = from; i < listing->lines; i++) {
+        const char *line = listing->line[i];
+        size_t length = strlen(line);
+        if (line[0] == '}' || (i == from && strstr(line, "{ ") &&
+                               line[length - 1] == '}'))
+            return i + 1;
+        if (length > 0 && line[length - 1] == ';' && line[0] != ' ')
+            return 0; /* on one line, or ... */
+        if (i > from && length > 1 && strcmp(line + length - 2, ");") == 0 &&
+            listing->line[from][0] != '}' && line[0] == ' ' &&
+            listing->line[i + 1 < listing->lines ? i + 1 : i][0] == '\0')
+            return 0; /* ... on several */
+    }
+    return 0;
+}
+
+/* The first line of the comment that ends right above. */
+static int find_comment(const Listing *listing, int from)
+{
+    int first = from - 1;
+    if (first < 0 || !strstr(listing->line[first], "*/"))
+        return from;
+    while (first > 0 && !strstr(listing->line[first], "/*"))
+        first--;
+    return first;
+}
+
+bool listing_function(const Listing *listing, const char *function, int *from,
+                      int *body, int *to)
+{
+    for (int i = 0; i < listing->lines; i++) {
+        if (!names_function(listing->line[i], function))
+            continue;
+        *to = find_end(listing, i);
+        if (*to == 0)
+            continue;
+        *body = i;
+        *from = find_comment(listing, i);
+        return true;
+    }
+    return false;
+}

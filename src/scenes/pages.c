@@ -1,0 +1,497 @@
+#include "scenes/pages.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LECTURE "src/lecture.c"
+
+/* Cards of the square while Algorithm 3 is the topic. */
+#define CARDS_NEWTON "page listing line residual"
+
+const LecturePage lecture_pages[] = {
+    /* ---- what is simulated ---------------------------------------------- */
+    {.name = "solid",
+     .topic = "Spatial discretisation",
+     .text = "A solid is cut into cells. Its mass sits in the corners, and "
+             "springs along the edges and diagonals hold it together.",
+     .line = "square --stretch 1 --segments 4",
+     .cards = "page",
+     .look = "25 masses and 72 springs: rows, columns, and two diagonals in "
+             "each of the 16 cells.",
+     .touch = "Drag the number of segments: more masses and springs, the same "
+              "1000 kg.",
+     .file = LECTURE,
+     .function = "square",
+     .claim = "4 segments give 25 masses and 72 springs; with any number of "
+              "segments all masses together weigh 1000 kg."},
+    {.name = "mesh",
+     .topic = "The mesh and its numbers",
+     .text = "Node i (n + 1) + j stands in column i and row j, counted from "
+             "the lower left. A spring is a pair of such numbers.",
+     .line = "square --stretch 1 --segments 2",
+     .cards = "page spy",
+     .look = "9 nodes, numbered upwards column by column: 0 lower left, 8 "
+             "upper right. Springs: 6 along, 6 up, 8 diagonal.",
+     .touch = "Point at a spring or a node: its numbers, and its entries in "
+              "the Hessian, are shown.",
+     .file = LECTURE,
+     .function = "square",
+     .claim = "In the mesh of 2 segments node 1 is above node 0 and node 3 to "
+              "its right; the first spring joins 0 and 3, and every squared "
+              "rest length is 1/4 or 1/2."},
+    {.name = "equation",
+     .topic = "Equation of motion and mass matrix",
+     .text = "Mass times acceleration is force, and the force is minus the "
+             "slope of the energy: M dv/dt = -grad P(x). M is diagonal: each "
+             "coordinate has the mass of its node.",
+     .line = "square --stretch 1.4",
+     .cards = "page energies",
+     .look = "The stretched square is let go. Inner forces cancel in pairs: "
+             "it swings, but its middle stays where it is.",
+     .touch = "Drag the stretch, or pull at a node.",
+     .file = LECTURE,
+     .function = "spring_grad",
+     .claim = "Each of the 25 masses is 40 kg, the forces of all springs add "
+              "up to zero, and after 50 steps the middle of the square has "
+              "not moved.",
+     .film = 50},
+    /* ---- stepping through time ------------------------------------------ */
+    {.name = "forward",
+     .topic = "Forward Euler",
+     .text = "Velocity and force of now carry the mass over the whole step: "
+             "x' = x + h v, v' = v + h a(x).",
+     .line = "arrows --integrator forward-euler",
+     .cards = "page numbers energies",
+     .look = "The step leaves the circle along its tangent: each one gains "
+             "energy.",
+     .touch = "Drag the mass, the tip of v, or h. Click where you think the "
+              "next step leads, then press N.",
+     .file = LECTURE,
+     .function = "forward_euler",
+     .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
+              "(1, 0.5), and every step multiplies the energy by 1 + h^2.",
+     .film = 12,
+     .predict = true},
+    {.name = "symplectic",
+     .topic = "Symplectic Euler",
+     .text = "First the velocity, then the place with the new velocity: "
+             "v' = v + h a(x), x' = x + h v'.",
+     .line = "arrows --integrator symplectic-euler",
+     .cards = "page numbers energies",
+     .look = "One exchange of two lines, and the energy only wavers: the path "
+             "closes to an ellipse.",
+     .touch = "Drag h up to 2 s: there the ellipse becomes a line, and beyond "
+              "it the step explodes too.",
+     .file = LECTURE,
+     .function = "symplectic_euler",
+     .claim = "|x|^2 + |v|^2 - h x.v stays what it was at the start, to "
+              "rounding, through 1000 steps with h = 0.5.",
+     .film = 14,
+     .predict = true},
+    {.name = "backward",
+     .topic = "Backward Euler",
+     .text = "The force is asked where the step ends: v' = v + h a(x'), "
+             "x' = x + h v'. The unknown x' stands on both sides: an equation "
+             "has to be solved.",
+     .line = "arrows --integrator backward-euler",
+     .cards = "page numbers energies",
+     .look = "The arrow of the force starts at the end of the step. Each step "
+             "loses energy, however long it is.",
+     .touch = "Drag h as far as you like: the mass is drawn to the middle, "
+              "never away.",
+     .file = LECTURE,
+     .function = "step_forward",
+     .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
+              "(0.8, 0.4), and every step divides the energy by 1 + h^2.",
+     .film = 12,
+     .predict = true},
+    {.name = "stability",
+     .topic = "Stability on the circle",
+     .text = "The same circle with all three: one spirals outwards, one stays, "
+             "one spirals inwards.",
+     .line = "circle",
+     .cards = "page radius",
+     .look = "The radius over time: forward grows by sqrt(1 + (h w)^2) in each "
+             "step, backward shrinks by as much.",
+     .touch = "Drag h while it runs: the factor follows, the order of the "
+              "three does not.",
+     .file = "src/scenes/circle_scene.c",
+     .function = "create_circle",
+     .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
+              "1.00786 a step, that of backward Euler shrinks by it, and the "
+              "symplectic one stays within 4 percent.",
+     .film = 100,
+     .plays = true},
+    {.name = "explicit",
+     .topic = "Why not explicit steps",
+     .text = "Springs are stiff: an explicit step must be shorter than the "
+             "fastest of them swings. A little longer, and it explodes.",
+     .line = "square --integrator symplectic-euler --timestep 0.006",
+     .cards = "page energies",
+     .look = "The square tears itself apart within a few steps.",
+     .touch = "Drag h down to 0.003 s: it holds. Choose backward Euler: "
+              "any h does.",
+     .file = LECTURE,
+     .function = "symplectic_euler",
+     .claim = "With h = 0.006 s symplectic Euler leaves all numbers behind "
+              "within 60 steps, with 0.003 s it swings on for 1000; backward "
+              "Euler ends every step with 0.006 s and with 1 s.",
+     .film = 20},
+    /* ---- Newton's method ------------------------------------------------ */
+    {.name = "tangent",
+     .topic = "Newton's method in one dimension",
+     .text = "To find where g is zero, follow its tangent to zero, and again "
+             "from there. Below, the same step in E, whose slope g is: the "
+             "lowest point of the parabola that touches E.",
+     .line = "tangent",
+     .cards = "page numbers residual",
+     .look = "Tangent above and parabola below end at the same x. Near the "
+             "root the number of right digits doubles.",
+     .touch = "Drag the start or x_tilde. Click where the next iterate will "
+              "be, then press N.",
+     .file = "src/solve/scalar_newton.c",
+     .function = "scalar_newton_start",
+     .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
+              "error is g''/(2 g') = 0.95 times the square of the one before.",
+     .film = 6,
+     .predict = true},
+    {.name = "newton",
+     .topic = "Newton in n dimensions: Algorithm 1",
+     .text = "Slope and curvature become a vector and a matrix: solve "
+             "H p = -g, go on by p, until p is short.",
+     .line = "landscape --filter none --line-search none --start 0.6,0.9",
+     .cards = "page listing residual",
+     .look = "The path jumps from the slope to the bottom of the valley; the "
+             "residual falls faster and faster.",
+     .touch = "Drag the start into the shaded region, where E bends down: "
+              "Algorithm 1 is lost there.",
+     .file = LECTURE,
+     .function = "search_dir",
+     .claim = "From (0.6, 0.9) Algorithm 1 needs 5 updates, and each "
+              "direction solves H p = -g to 12 digits.",
+     .film = 5,
+     .predict = true},
+    {.name = "overshoot",
+     .topic = "Overshooting",
+     .text = "Where the curvature fades away, Newton's step is too long: it "
+             "lands farther out than it began, and the next one is longer "
+             "still.",
+     .line = "overshoot",
+     .cards = "page line residual",
+     .look = "f has a single valley, and yet from 2 the step leads to -11.6 "
+             "and then beyond all bounds.",
+     .touch = "Drag the start: below 1.0886 it comes home, above it flies. L "
+              "turns the line search on.",
+     .file = "src/solve/scalar_newton.c",
+     .function = "scalar_newton_iterate",
+     .claim = "From 2 the first update leads to -11.645 and the next beyond "
+              "3e9; from 1.08 it converges, from 1.09 it makes seven swings, "
+              "each wider.",
+     .film = 2,
+     .predict = true},
+    {.name = "explodes",
+     .topic = "Overshooting: the square explodes",
+     .text = "The same on the square, with Algorithm 1 alone: neither "
+             "projection nor line search watches over the step.",
+     .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
+             "none --line-search none",
+     .cards = CARDS_NEWTON,
+     .look = "Go through it line by line: E rises to 2e16 and nodes fly "
+             "more than a kilometre, within a single step.",
+     .touch = "P turns the projection on, L the line search: either one "
+              "keeps E from rising.",
+     .file = LECTURE,
+     .function = "step_forward",
+     .claim =
+         "Within the first step E rises above 1e16 and a node is more "
+         "than a kilometre away; with projection it converges in 5 updates, "
+         "and with projection or line search E never rises."},
+    /* ---- a step as a minimisation --------------------------------------- */
+    {.name = "minimise",
+     .topic = "A time step is a minimisation",
+     .text = "Backward Euler's equation says that a slope is zero: that of "
+             "E(x) = |x - x_tilde|^2_M / 2 + h^2 P(x). So its solution is "
+             "found by walking downhill, and there always is one.",
+     .line = "square",
+     .cards = CARDS_NEWTON,
+     .look = "x_tilde, the dashed ghost, is where the masses would fly by "
+             "themselves; the springs pull them off it.",
+     .touch = "Drag h: the longer the step, the farther from the ghost.",
+     .file = LECTURE,
+     .function = "ip_val",
+     .claim = "At the end of a step M (x - x_tilde) + h^2 grad P(x) is zero "
+              "within the tolerance: x is backward Euler's x'.",
+     .film = 20},
+    {.name = "parts",
+     .topic = "Inertia against elasticity",
+     .text = "E has two parts. Inertia wants x_tilde, elasticity wants the "
+             "springs at rest; the step ends where both agree.",
+     .line = "landscape --start 0.6,0.9",
+     .cards = "page residual",
+     .look = "Inertia alone is one round bowl; elasticity alone has two "
+             "valleys and a ridge between them.",
+     .touch = "Switch the parts off and on. Drag x_tilde: the bowl moves, the "
+              "valleys stay.",
+     .file = LECTURE,
+     .function = "ip_grad",
+     .claim = "Inertia is lowest in x_tilde, elasticity where the springs "
+              "have their rest length, and the minimiser of the sum lies "
+              "higher than both on either."},
+    {.name = "dial",
+     .topic = "What the time step h does",
+     .text = "h weighs elasticity against inertia. Turn it up, and the "
+             "minimiser walks from x_tilde to the rest shape.",
+     .line = "dial",
+     .cards = "page numbers",
+     .look = "The path of the minimiser: every point of it is the end of a "
+             "step with another h.",
+     .touch = "Drag h, or x_tilde; Space turns the dial by itself.",
+     .file = "src/scenes/dial_scene.c",
+     .function = "dial_minimise",
+     .claim = "At h = 1 ms the minimiser is within 1 mm of x_tilde, at 10 s "
+              "within 1 mm of rest, and on the way elasticity falls and "
+              "inertia rises from point to point.",
+     .film = 60},
+    {.name = "inertia",
+     .topic = "Inertia energy",
+     .text = "E_I(x) = sum m |x - x_tilde|^2 / 2: a bowl around x_tilde, with "
+             "gradient M (x - x_tilde) and Hessian M, which never changes.",
+     .line = "landscape --start 0.6,0.9",
+     .cards = "page numbers",
+     .look = "Round contours: the Hessian is M, the same in every place, and "
+             "positive definite.",
+     .touch = "Drag x_tilde, or switch elasticity on.",
+     .file = LECTURE,
+     .function = "inertia_val",
+     .claim = "At (0.6, 0.9) E_I is 0.26 J s^2, as the formula says, and "
+              "Newton finds its minimum in a single update.",
+     .flips = 2},
+    /* ---- line search ---------------------------------------------------- */
+    {.name = "alpha",
+     .topic = "Line search on E(alpha)",
+     .text = "Along p energy is a curve over alpha. It begins downhill, but "
+             "may have turned upwards again at alpha = 1: then halve it.",
+     .line = "square --stretch 0.2 --timestep 0.1",
+     .cards = "page line residual",
+     .look = "The curve of E, the parabola that Newton believes in, and the "
+             "points that were tried.",
+     .touch = "Click on the curve where the search will end, then go on line "
+              "by line with I. L turns it off.",
+     .file = LECTURE,
+     .function = "line_search",
+     .claim = "In the first step alpha = 1 would raise E, and one of its "
+              "updates is made with alpha = 1/8."},
+    {.name = "algorithm2",
+     .topic = "Algorithm 2: backtracking line search",
+     .text = "alpha = 1; while E is higher than before, halve it. With p "
+             "downhill this always ends.",
+     .line = "overshoot --line-search backtrack",
+     .cards = "page line residual",
+     .look = "From 2 the first step is taken with alpha = 1/4, the second "
+             "with 1/2, then whole ones: the run converges.",
+     .touch = "Drag the start anywhere: f falls in every update. Click where "
+              "the next one leads.",
+     .file = LECTURE,
+     .function = "line_search",
+     .claim = "From 2 the step lengths are 1/4, 1/2, 1, 1, 1, 1, and f falls "
+              "in every update.",
+     .film = 6,
+     .predict = true},
+    /* ---- projection ----------------------------------------------------- */
+    {.name = "descent",
+     .topic = "Descent directions and projection",
+     .text = "Where E bends downwards -H^-1 g may point uphill: no step "
+             "length helps then. With negative eigenvalues set to 0 it points "
+             "downhill, everywhere.",
+     .line = "landscape --filter none",
+     .cards = "page line",
+     .look = "Two arrows from one place: Newton's climbs, the projected one "
+             "falls. E bends down in the shaded part.",
+     .touch = "Drag the start over the map and look at both arrows. P "
+              "switches the projection on.",
+     .file = LECTURE,
+     .function = "spring_hess",
+     .claim = "At (0.1, -0.35) grad E . p is above 0.1 without and below -0.1 "
+              "with projection; from each of 289 starts the projected "
+              "direction is downhill."},
+    {.name = "psd",
+     .topic = "make_PSD: eigenvalues set to 0",
+     .text = "Each spring's 4 x 4 block is made positive semi-definite by "
+             "itself: find its eigenvalues, replace the negative ones by 0.",
+     .line = "spring --start 0.6,0.3",
+     .cards = "page eigenvalues",
+     .look = "A short spring has one negative eigenvalue, a very short one "
+             "two. They are those across and along it.",
+     .touch = "Drag the end: longer than 1 m nothing is changed, below "
+              "0.577 m nothing is left.",
+     .file = LECTURE,
+     .function = "make_psd",
+     .claim = "The block has the eigenvalues 0, 0, and twice those along and "
+              "across; below |d| = l/sqrt(3) all that projection leaves is "
+              "0."},
+    {.name = "energy",
+     .topic = "Spring energy, with and without the square root",
+     .text = "P = l^2 k/2 (|d|^2/l^2 - 1)^2 needs no square root: a "
+             "polynomial, smooth even at length 0. 2k (|d| - l)^2 is as stiff "
+             "at rest, but has a kink there.",
+     .line = "spring --start 1.3,0",
+     .cards = "page numbers profile",
+     .look = "The two curves touch at rest. At length 0 one is smooth; the "
+             "other comes to a point.",
+     .touch = "Drag the end through the held one, and look at the numbers.",
+     .file = LECTURE,
+     .function = "spring_val",
+     .claim = "At rest both have the curvature 4k along the spring. At 1 mm "
+              "the curvature across is -2k for P and -3996 k with the square "
+              "root.",
+     .flips = 1},
+    {.name = "force",
+     .topic = "Its gradient and its Hessian",
+     .text = "With s = |d|^2/l^2 - 1 the force is -2 k s d: along the spring, "
+             "and zero at rest. The Hessian is 2k/l^2 (2 d d^T + (|d|^2 - "
+             "l^2) I).",
+     .line = "spring --start 1.2,0.5",
+     .cards = "page numbers eigenvalues profile",
+     .look = "The arrow of the force turns round at the circle of the rest "
+             "length.",
+     .touch = "Drag the end: all numbers follow. Space lets go.",
+     .file = LECTURE,
+     .function = "spring_grad",
+     .claim = "At d = (1.2, 0.5) the energy is 23.805 J and the force "
+              "(-165.6, -69) N; both agree with differences of P.",
+     .film = 60},
+    {.name = "potential",
+     .topic = "The incremental potential and its Hessian",
+     .text = "Energies add up, and so do gradients and Hessians. Each block "
+             "is written as triplets (row, column, value); equal places are "
+             "summed.",
+     .line = "square --segments 4",
+     .cards = "page spy",
+     .look = "A dot for every entry. Nodes that share no spring have none: "
+             "the matrix is mostly empty.",
+     .touch = "Point at a spring: its 16 entries light up. Drag the number of "
+              "segments.",
+     .file = LECTURE,
+     .function = "ip_hess",
+     .claim = "50 + 72 x 16 triplets fall on 676 of the 2500 places, and "
+              "the matrix times q is the slope of the gradient along q."},
+    /* ---- the whole ------------------------------------------------------ */
+    {.name = "algorithm3",
+     .topic = "Algorithm 3: projected Newton",
+     .text = "Project, solve, search, update, test. Every line of it is one "
+             "press of a key.",
+     .line = "square --timestep 0.02 --stretch 0.5",
+     .cards = CARDS_NEWTON,
+     .look = "The lit line, and on the square what it does: red springs were "
+             "projected, arrows are p.",
+     .touch = "I goes into the step, N to the next line, Left goes back. P "
+              "and L strike a line through.",
+     .file = LECTURE,
+     .function = "step_forward",
+     .claim = "The first step projects 52 of 72 springs, takes 5 updates with "
+              "alpha = 1, and E falls in each.",
+     .film = 30},
+    {.name = "step",
+     .topic = "step_forward and its residuals",
+     .text = "The loop ends when no node would move faster than the "
+             "tolerance: the longest |p| of a node, divided by h, a velocity.",
+     .line = "square",
+     .cards = "page residual energies",
+     .look = "The residual of each update on a logarithmic axis: it falls "
+             "by a factor of 30, then of 300.",
+     .touch = "Drag the tolerance: even ten thousand times tighter costs "
+              "only two updates more.",
+     .file = LECTURE,
+     .function = "residual",
+     .claim = "In the first step a tolerance of 1e-6 m/s costs 2 updates "
+              "more than 1e-2 m/s, and E falls in all of them.",
+     .film = 30},
+    {.name = "simulator",
+     .topic = "The simulator",
+     .text = "Build the square, stretch it, and take a step for each frame: "
+             "that is all.",
+     .line = "square",
+     .cards = "page energies residual",
+     .look = "The square swings and comes to rest; what backward Euler takes "
+             "from the energy shows in the total.",
+     .touch = "Pull at a node. Drag k, h, the stretch.",
+     .file = LECTURE,
+     .function = "step",
+     .claim = "In 50 steps every one converges, and the total energy never "
+              "rises.",
+     .film = 100,
+     .plays = true},
+    /* ---- beyond --------------------------------------------------------- */
+    {.name = "race",
+     .topic = "Run time against error",
+     .text = "Many methods, many time steps, one question: how much time for "
+             "how many digits? Each point is a run, measured now.",
+     .line = "race",
+     .cards = "page numbers",
+     .look = "Steeper lines are methods of higher order. On a soft square "
+             "the explicit ones win by far.",
+     .touch = "Drag k up: the stiffer the square, the shorter the steps that "
+              "explicit methods can take.",
+     .file = "src/scenes/race_scene.c",
+     .function = "run_to_end",
+     .claim = "Halving h divides the error by 2 for the Euler methods, by 4 "
+              "for Verlet and midpoint, by 16 for AVF of 4th order.",
+     .film = 42,
+     .plays = true},
+    {.name = "trust",
+     .topic = "How far it can be trusted",
+     .text = "Every time step from a nanosecond to a quarter of an hour, "
+             "every stiffness over 21 powers of ten, three steps each.",
+     .line = "envelope",
+     .cards = "page numbers",
+     .look = "A cell is a run; it is darker the more updates it took, and "
+             "orange where a step did not converge and said so.",
+     .touch = "Point at a cell for its run in small; click to load it. Drag "
+              "the stretch for another map.",
+     .file = "src/scenes/envelope_scene.c",
+     .function = "envelope_visit",
+     .claim = "At least 99 of 100 cells of the default stretch converge, and "
+              "every state is finite.",
+     .film = 22,
+     .plays = true},
+    {.name = NULL},
+};
+
+int lecture_count(void)
+{
+    int count = 0;
+    while (lecture_pages[count].name)
+        count++;
+    return count;
+}
+
+const LecturePage *lecture_find(const char *text)
+{
+    char *end = NULL;
+    long number = strtol(text, &end, 10);
+    if (end != text && *end == '\0')
+        return number >= 1 && number <= lecture_count()
+                   ? &lecture_pages[number - 1]
+                   : NULL;
+    for (const LecturePage *page = lecture_pages; page->name; page++)
+        if (strcmp(page->name, text) == 0)
+            return page;
+    return NULL;
+}
+
+/* The texts of options point nowhere into the line: a page has no files. */
+Status lecture_options(const LecturePage *page, Options *options, char *message,
+                       size_t size)
+{
+    enum { WORDS = 32 };
+    char words[256], program[] = "elasto", *argv[WORDS + 1] = {program};
+    char *rest = NULL;
+    int argc = 1;
+    snprintf(words, sizeof words, "%s", page->line);
+    for (char *word = strtok_r(words, " ", &rest); word && argc < WORDS;
+         word = strtok_r(NULL, " ", &rest))
+        argv[argc++] = word;
+    argv[argc] = NULL;
+    return options_parse(argc, argv, options, message, size);
+}
