@@ -213,13 +213,14 @@ figures:
 	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
 
 # ---- one file --------------------------------------------------------------
-# Each local #include becomes the header itself, the first time it is met.
+# Each local #include becomes the header itself, the first time it is met; a
+# .inc each time, for it is made for several types.
 define SINGLE_AWK
 function paste(file,    line, name) {
     while ((getline line < file) > 0) {
         if (line !~ /^#include "/) { print line; continue }
         name = line; gsub(/.*include "|".*/, "", name)
-        if (!(name in pasted)) { pasted[name] = 1; paste((system("test -f include/" name) ? "src/" : "include/") name) }
+        if (!(name in pasted) || index(name, ".inc")) { pasted[name] = 1; paste((system("test -f include/" name) ? "src/" : "include/") name) }
     }
     close(file)
 }
@@ -235,6 +236,7 @@ export SINGLE_AWK
 single: build/elasto_single.c
 
 build/elasto_single.c: $(wildcard include/*/*.h src/*/*.h) $(SOURCES) \
+                       $(wildcard include/*/*.inc src/*/*.inc) \
                        $(B)/listing_text.c src/main.c Makefile
 	$(call say,WRITE,$@)
 	@mkdir -p build

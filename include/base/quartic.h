@@ -17,6 +17,10 @@ double quartic_value(const Quartic *quartic, double alpha);
 /* The same, as line_search_backtrack calls it. */
 double quartic_difference(const void *quartic, double alpha);
 
+/* Where q ends to fall for the first time on the way from 0; 0 where it does
+ * not fall there, or falls for ever. */
+double quartic_first_minimum(const Quartic *quartic);
+
 /* Coefficients of a, b, a^2, ab, b^2, a^3, a^2 b, a b^2, b^3, a^4, a^3 b,
  * a^2 b^2, a b^3, b^4, J s^2. */
 enum { PLANE_TERMS = 14 };

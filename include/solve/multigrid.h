@@ -1,0 +1,99 @@
+/* multigrid.h - the minimiser of a time step on a square grid of springs,
+ * without a factor of any matrix.
+ *
+ * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u), whose directions
+ * come from conjugate gradients on the clamped Hessian, preconditioned by one
+ * multigrid V-cycle each; steps are the lowest point in the plane of the
+ * direction and the last update.  Where few nodes move much, windows around
+ * them are minimised in between (tips.h).
+ *
+ * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
+ * to a remainder r = -g - H p.  H - M is positive semi-definite, so the error
+ * is at most |r|_(M^-1) in the norm of M, and the residual, max over nodes of
+ * |p_x| + |p_y|, over h, is known up to sqrt(2/m)/h |r|_(M^-1) with the
+ * smallest m.  The iteration goes on until that decides the test, to either
+ * side.  Before a step ends, conjugate gradients on the Hessian as it is look
+ * for a direction along which E bends down; if there is one, that is the next
+ * way to go: the end is a minimum, not a saddle.
+ *
+ * Results have the same bits for every width of lanes and number of threads.
+ */
+#ifndef ELASTO_MULTIGRID_H
+#define ELASTO_MULTIGRID_H
+
+#include "base/status.h"
+
+/* The parts of a time step; arrays as in system.h and square_mesh.h. */
+typedef struct MultigridStep {
+    const double *x_n;           /* [2n] m */
+    const double *u;             /* [2n] m, where to begin; NULL: 0 */
+    const double *u_tilde;       /* [2n] m */
+    const double *m;             /* [n] kg, > 0 */
+    const unsigned char *pinned; /* [n], or NULL */
+    const double *k, *l2;        /* [springs] J/m^2, >= 0; m^2, > 0 */
+    double weight;               /* w, s^2 */
+    double h;                    /* s, divides the residual */
+    double tolerance;            /* m/s */
+    bool is_free;                /* nothing acts on the centre of mass */
+    bool minimum;                /* a saddle is no end */
+} MultigridStep;
+
+/* What one iteration did. */
+typedef struct MultigridRecord {
+    double residual; /* m/s, of p where it began: known up to what conjugate
+                        gradients leave */
+    double slope;    /* g.p, J s^2 */
+    double alpha;    /* along p */
+    double change;   /* of E, J s^2, by all it did */
+    int trials;      /* points of the plane that were looked at */
+} MultigridRecord;
+
+/* Done since the object was made. */
+typedef struct MultigridCounters {
+    long iterations, gradients;
+    long cycles;       /* V-cycles */
+    long set_ups;      /* of their tensors */
+    long certificates; /* tests decided by conjugate gradients */
+    long windows;      /* phases of local minimisation */
+    long local;        /* iterations in them */
+    long saddles;      /* ends with negative curvature, left again */
+} MultigridCounters;
+
+typedef struct Multigrid Multigrid;
+
+/* Allocates for segments x segments cells.
+ *   lanes    2, 4, 8; 0: what the processor has (ELASTO_LANES limits it)
+ *   threads  1, 2; 0: what the machine has (ELASTO_THREADS limits it)
+ * Returns OK, INVALID_INPUT, OUT_OF_MEMORY (then *multigrid is NULL). */
+Status multigrid_create(int segments, int lanes, int threads,
+                        Multigrid **multigrid);
+void multigrid_free(Multigrid *multigrid);
+
+/* Whether springs do not outweigh the masses beyond what single precision and
+ * conjugate gradients can do with: 2 w k <= 1e10 m. */
+bool multigrid_fits(const MultigridStep *step, int nodes, int springs);
+
+/* Begins a step.  Its arrays are not needed afterwards.
+ * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
+Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
+
+/* One iteration.  Returns RUNNING; OK (converged); or why it cannot go on:
+ * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE.  u is then the last iterate,
+ * where E is not higher than before. */
+Status multigrid_iterate(Multigrid *multigrid);
+
+/* u [2n] m, out: the present iterate. */
+void multigrid_displacement(const Multigrid *multigrid, double *u);
+
+/* m/s, of the present iterate: where the test was decided, as it was; else an
+ * upper bound. */
+double multigrid_residual(const Multigrid *multigrid);
+
+const MultigridRecord *multigrid_record(const Multigrid *multigrid);
+const MultigridCounters *multigrid_counters(const Multigrid *multigrid);
+
+/* Numbers in one register, and threads of the last loops. */
+int multigrid_lanes(const Multigrid *multigrid);
+int multigrid_threads(const Multigrid *multigrid);
+
+#endif

@@ -1,0 +1,353 @@
+#include "solve/grid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/grid_kernels.h"
+
+/* What kernels may read beyond the last row of ghosts, rounded up so that
+ * arrays are whole cache lines. */
+enum { GRID_SLACK = 64, GRID_ALIGNMENT = 64 };
+
+GridLayout grid_layout(int nodes)
+{
+    int padded = (nodes + GRID_LEAD - 1) / GRID_LEAD * GRID_LEAD;
+    int pitch = GRID_LEAD + padded;
+    return (GridLayout){.nodes = nodes,
+                        .pitch = pitch,
+                        .blocks = (nodes + GRID_BLOCK - 1) / GRID_BLOCK,
+                        .plane = pitch * (nodes + 2) + GRID_SLACK,
+                        .offset = {pitch, 1, pitch + 1, pitch - 1}};
+}
+
+double *grid_planes(const Grid *grid, int planes)
+{
+    size_t count =
+        (size_t)planes * (size_t)grid->layout.plane + 2 * (size_t)GRID_SLACK;
+    size_t size = (count * sizeof(double) + GRID_ALIGNMENT - 1) /
+                  GRID_ALIGNMENT * GRID_ALIGNMENT;
+    double *array = aligned_alloc(GRID_ALIGNMENT, size);
+    if (array)
+        memset(array, 0, size);
+    return array;
+}
+
+/* Every array of the grid, with how many planes it has. */
+static Status create_grid_arrays(Grid *grid)
+{
+    struct {
+        double **array;
+        int planes;
+    } arrays[] = {{&grid->m, 1}, {&grid->per_mass, 1}, {&grid->x_n, 2},
+                  {&grid->u, 2}, {&grid->x, 2},        {&grid->u_tilde, 2}};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        if (!(*arrays[i].array = grid_planes(grid, arrays[i].planes)))
+            return STATUS_OUT_OF_MEMORY;
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
+        grid->c[kind] = grid_planes(grid, 1);
+        grid->l2[kind] = grid_planes(grid, 1);
+        if (!grid->c[kind] || !grid->l2[kind])
+            return STATUS_OUT_OF_MEMORY;
+    }
+    size_t runs = (size_t)grid->layout.nodes * (size_t)grid->layout.blocks;
+    grid->sums = malloc(runs * GRID_MAX_SUMS * sizeof *grid->sums);
+    return grid->sums ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+Status grid_create(int segments, int lanes, Grid *grid)
+{
+    *grid = (Grid){.segments = segments,
+                   .layout = grid_layout(segments + 1),
+                   .kernels = grid_kernels(lanes)};
+    const GridLayout *layout = &grid->layout;
+    Status status = create_grid_arrays(grid);
+    if (!status)
+        status = grid_region_create(grid, &grid->all);
+    if (status)
+        return status;
+    GridRegion *all = &grid->all;
+    for (all->runs = 0; all->runs < layout->nodes; all->runs++)
+        all->run[all->runs] =
+            (GridRun){grid_at(layout, all->runs, 0), layout->blocks};
+    all->blocks = layout->nodes * layout->blocks;
+    return STATUS_OK;
+}
+
+void grid_free(Grid *grid)
+{
+    if (!grid)
+        return;
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
+        free(grid->c[kind]);
+        free(grid->l2[kind]);
+    }
+    free(grid->m);
+    free(grid->per_mass);
+    free(grid->x_n);
+    free(grid->u);
+    free(grid->x);
+    free(grid->u_tilde);
+    free(grid->all.run);
+    free(grid->sums);
+    *grid = (Grid){0};
+}
+
+Status grid_region_create(const Grid *grid, GridRegion *region)
+{
+    *region = (GridRegion){0};
+    size_t runs = (size_t)grid->layout.nodes * (size_t)grid->layout.blocks;
+    region->run = malloc(runs * sizeof *region->run);
+    return region->run ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+void grid_region_mark(const Grid *grid, const unsigned char *mark,
+                      GridRegion *region)
+{
+    const GridLayout *layout = &grid->layout;
+    region->runs = region->blocks = 0;
+    for (int i = 0; i < layout->nodes; i++, mark += layout->blocks)
+        for (int b = 0; b < layout->blocks; b++) {
+            if (!mark[b])
+                continue;
+            int first = b;
+            while (b + 1 < layout->blocks && mark[b + 1])
+                b++;
+            region->run[region->runs++] = (GridRun){
+                grid_at(layout, i, GRID_BLOCK * first), b + 1 - first};
+            region->blocks += b + 1 - first;
+        }
+}
+
+void grid_set_nodes(Grid *grid, const double *m, const unsigned char *pinned)
+{
+    const GridLayout *layout = &grid->layout;
+    grid->lightest = INFINITY;
+    grid->pinned = false;
+    for (int i = 0; i < layout->nodes; i++)
+        for (int j = 0; j < layout->nodes; j++) {
+            int node = i * layout->nodes + j, q = grid_at(layout, i, j);
+            bool held = pinned && pinned[node];
+            grid->m[q] = m[node];
+            grid->per_mass[q] = held ? 0 : 1 / m[node];
+            grid->pinned = grid->pinned || held;
+            if (!held && m[node] < grid->lightest)
+                grid->lightest = m[node];
+        }
+}
+
+/* One spring; *k and *l2 move on to the next. */
+static void set_spring(Grid *grid, int kind, int i, int j, const double **k,
+                       const double **l2, double weight)
+{
+    int q = grid_at(&grid->layout, i, j);
+    double c = 2 * weight * *(*k)++ / **l2;
+    grid->c[kind][q] = c;
+    grid->l2[kind][q] = **l2;
+    grid->stiffest = fmax(grid->stiffest, c * **l2);
+    grid->uniform = grid->uniform && **l2 == grid->rest[kind];
+    ++*l2;
+}
+
+void grid_set_springs(Grid *grid, const double *k, const double *l2,
+                      double weight)
+{
+    int n = grid->segments, row = n + 1;
+    grid->stiffest = 0;
+    grid->uniform = true;
+    grid->rest[SPRING_RIGHT] = l2[0];
+    grid->rest[SPRING_UP] = l2[n * row];
+    grid->rest[SPRING_DIAGONAL] = l2[2 * n * row];
+    grid->rest[SPRING_ANTIDIAGONAL] = l2[2 * n * row + 1];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= n; j++)
+            set_spring(grid, SPRING_RIGHT, i, j, &k, &l2, weight);
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; j < n; j++)
+            set_spring(grid, SPRING_UP, i, j, &k, &l2, weight);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            set_spring(grid, SPRING_DIAGONAL, i, j, &k, &l2, weight);
+            set_spring(grid, SPRING_ANTIDIAGONAL, i, j + 1, &k, &l2, weight);
+        }
+}
+
+void grid_pack(const Grid *grid, const double *from, double *to)
+{
+    const GridLayout *layout = &grid->layout;
+    for (int i = 0; i < layout->nodes; i++) {
+        double *x = to + grid_at(layout, i, 0), *y = x + layout->plane;
+        for (int j = 0; j < layout->nodes; j++) {
+            x[j] = *from++;
+            y[j] = *from++;
+        }
+    }
+}
+
+void grid_unpack(const Grid *grid, const double *from, double *to)
+{
+    const GridLayout *layout = &grid->layout;
+    for (int i = 0; i < layout->nodes; i++) {
+        const double *x = from + grid_at(layout, i, 0), *y = x + layout->plane;
+        for (int j = 0; j < layout->nodes; j++) {
+            *to++ = x[j];
+            *to++ = y[j];
+        }
+    }
+}
+
+/* ---- kernels ---- */
+
+typedef struct GridCall {
+    GridKernel *kernel;
+    const GridJob *job;
+} GridCall;
+
+static void call_grid_kernel(const void *call, int first, int end)
+{
+    const GridCall *c = call;
+    c->kernel(c->job, first, end);
+}
+
+/* Nanoseconds a block of nodes takes, about: it decides only who works. */
+enum { GRID_LIGHT = 4, GRID_HEAVY = 20 };
+
+/* Runs a kernel over a region and adds up what it has summed, run by run.
+ *   sum  [sums] out */
+static void run_kernel(GridKernel *kernel, GridJob job, const Grid *grid,
+                       const GridRegion *region, int cost, int sums,
+                       double *sum)
+{
+    if (!region)
+        region = &grid->all;
+    job.grid = grid;
+    job.run = region->run;
+    job.sums = grid->sums;
+    GridCall call = {kernel, &job};
+    crew_run(grid->crew, call_grid_kernel, &call, region->runs,
+             (double)cost * region->blocks);
+    for (int s = 0; s < sums; s++)
+        sum[s] = 0;
+    for (int r = 0; r < region->runs; r++)
+        for (int s = 0; s < sums; s++)
+            sum[s] += job.sums[r * GRID_MAX_SUMS + s];
+}
+
+double grid_gradient(const Grid *grid, const GridRegion *region, double *g)
+{
+    double sum;
+    run_kernel(grid->kernels->gradient, (GridJob){.out = {g}}, grid, region,
+               GRID_HEAVY, 1, &sum);
+    return sum;
+}
+
+double grid_product(const Grid *grid, bool clamped, const double *q, double *y)
+{
+    double sum;
+    GridJob job = {.in = {q}, .out = {y}, .clamped = clamped};
+    run_kernel(grid->kernels->product, job, grid, NULL, 2 * GRID_HEAVY, 1,
+               &sum);
+    return sum;
+}
+
+void grid_diagonal(const Grid *grid, const GridRegion *region, double *D)
+{
+    run_kernel(grid->kernels->diagonal, (GridJob){.out = {D}}, grid, region,
+               2 * GRID_HEAVY, 0, NULL);
+}
+
+double grid_precondition(const Grid *grid, const GridRegion *region,
+                         const double *D, const double *g, const double *old_g,
+                         double *z, double *old)
+{
+    double sum[2];
+    GridJob job = {.in = {D, g, old_g}, .out = {z}};
+    run_kernel(grid->kernels->precondition, job, grid, region, GRID_LIGHT, 2,
+               sum);
+    *old = sum[1];
+    return sum[0];
+}
+
+double grid_direction(const Grid *grid, const GridRegion *region,
+                      const double *z, double beta, const double *g, double *p,
+                      double *old_g, double *inertia)
+{
+    double sum[2];
+    GridJob job = {.in = {z, g}, .out = {p, old_g}, .factor = {beta}};
+    run_kernel(grid->kernels->direction, job, grid, region, GRID_LIGHT, 2, sum);
+    *inertia = sum[1];
+    return sum[0];
+}
+
+void grid_along(const Grid *grid, const GridRegion *region, const double *p,
+                double slope, double inertia, double q[4])
+{
+    double sum[3];
+    run_kernel(grid->kernels->along, (GridJob){.in = {p}}, grid, region,
+               GRID_HEAVY, 3, sum);
+    q[0] = slope;
+    q[1] = 0.25 * sum[0] + 0.5 * inertia;
+    q[2] = 0.5 * sum[1];
+    q[3] = 0.25 * sum[2];
+}
+
+void grid_in_plane(const Grid *grid, const double *g, const double *p,
+                   const double *r, double c[14])
+{
+    run_kernel(grid->kernels->in_plane, (GridJob){.in = {g, p, r}}, grid, NULL,
+               2 * GRID_HEAVY, 14, c);
+}
+
+void grid_move(const Grid *grid, const GridRegion *region, double a,
+               const double *p, double b, const double *r)
+{
+    run_kernel(grid->kernels->move, (GridJob){.in = {p, r}, .factor = {a, b}},
+               grid, region, GRID_LIGHT, 0, NULL);
+}
+
+void grid_activity(const Grid *grid, const GridRegion *region, const double *D,
+                   const double *g, double *activity)
+{
+    run_kernel(grid->kernels->activity,
+               (GridJob){.in = {D, g}, .out = {activity}}, grid, region,
+               GRID_LIGHT, 0, NULL);
+}
+
+void grid_clear(const Grid *grid, double *a)
+{
+    memset(a, 0, 2 * (size_t)grid->layout.plane * sizeof *a);
+}
+
+double grid_dot(const Grid *grid, const double *a, const double *b)
+{
+    double sum;
+    run_kernel(grid->kernels->dot, (GridJob){.in = {a, b}}, grid, NULL,
+               GRID_LIGHT, 1, &sum);
+    return sum;
+}
+
+double grid_inverse_mass_square(const Grid *grid, const double *a)
+{
+    double sum;
+    run_kernel(grid->kernels->inverse_mass_square, (GridJob){.in = {a}}, grid,
+               NULL, GRID_LIGHT, 1, &sum);
+    return sum;
+}
+
+double grid_largest(const Grid *grid, const double *a)
+{
+    double largest = 0;
+    run_kernel(grid->kernels->largest, (GridJob){.in = {a}}, grid, NULL,
+               GRID_LIGHT, 0, NULL);
+    for (int r = 0; r < grid->all.runs; r++)
+        largest = fmax(largest, grid->sums[r * GRID_MAX_SUMS]);
+    return largest;
+}
+
+void grid_combine(const Grid *grid, const GridRegion *region, double alpha,
+                  const double *x, double beta, double *y)
+{
+    run_kernel(grid->kernels->combine,
+               (GridJob){.in = {x}, .out = {y}, .factor = {alpha, beta}}, grid,
+               region, GRID_LIGHT, 0, NULL);
+}

@@ -1,0 +1,448 @@
+#include "solve/multigrid.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/grid_kernels.h"
+#include "solve/plane_search.h"
+#include "solve/tips.h"
+#include "solve/v_cycle.h"
+
+/* Newton's directions: the remainder falls to this share of its norm, in at
+ * most so many V-cycles; between windows one cycle is enough. */
+static const double CG_ENOUGH = 0.1;
+enum { MAX_CYCLES = 30, CYCLES_BETWEEN_WINDOWS = 1 };
+
+/* After so many directions windows may be worth it, and they are once the
+ * gradient's bound falls by less than this factor. */
+enum { GLOBAL_STEPS = 2 };
+static const double STALLS = 0.3;
+
+/* The test is worth conjugate gradients when the gradient's bound is at most
+ * so many tolerances, and has halved since they last said no. */
+static const double WORTH_A_TEST = 1000;
+enum { MAX_TEST_CYCLES = 100 };
+
+/* Iterations that look for negative curvature; without any, the remainder of
+ * random numbers falls to this share of its norm. */
+enum { CURVATURE_CYCLES = 20 };
+static const double NO_CURVATURE = 1e-3;
+
+/* Saddles that one step leaves. */
+enum { MAX_SADDLES = 30 };
+
+struct Multigrid {
+    Grid grid;
+    Crew *crew;
+    VCycle *cycle;
+    Tips tips;
+    MultigridCounters counters;
+    MultigridRecord record;
+    MultigridStep step;       /* arrays are not looked at after the start */
+    double *g, *p;            /* [2 planes] grad E and direction at x */
+    double *r;                /* [2 planes] the last update */
+    double *rest, *z, *d, *y; /* [2 planes] of conjugate gradients */
+    double norm2;             /* |g|_(M^-1)^2 */
+    double bound;             /* m/s, of the residual */
+    double last_bound;        /* m/s, an iteration before */
+    double test_below;        /* m/s, bound at which the test is worth it */
+    double residual;          /* m/s */
+    bool directed;            /* p is a direction at x */
+    bool set_up;              /* the V-cycle has its tensors at x */
+    bool windows;             /* are minimised in each iteration */
+    bool updated;             /* r is not 0 */
+    int iterations, saddles;  /* of this step */
+};
+
+static Status create_parts(Multigrid *mg)
+{
+    Status status = tips_create(&mg->grid, &mg->tips);
+    if (status)
+        return status;
+    mg->cycle = v_cycle_create(&mg->grid);
+    double **vectors[] = {&mg->g, &mg->p, &mg->r, &mg->rest,
+                          &mg->z, &mg->d, &mg->y};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        if (!(*vectors[i] = grid_planes(&mg->grid, 2)))
+            return STATUS_OUT_OF_MEMORY;
+    return mg->cycle ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+}
+
+Status multigrid_create(int segments, int lanes, int threads,
+                        Multigrid **multigrid)
+{
+    *multigrid = NULL;
+    if (segments < 1)
+        return STATUS_INVALID_INPUT;
+    Multigrid *mg = calloc(1, sizeof *mg);
+    if (!mg)
+        return STATUS_OUT_OF_MEMORY;
+    Status status = grid_create(segments, lanes, &mg->grid);
+    if (!status)
+        status = create_parts(mg);
+    if (status) {
+        multigrid_free(mg);
+        return status;
+    }
+    mg->crew = mg->grid.crew = crew_create(threads);
+    *multigrid = mg;
+    return STATUS_OK;
+}
+
+void multigrid_free(Multigrid *mg)
+{
+    if (!mg)
+        return;
+    crew_free(mg->crew);
+    v_cycle_free(mg->cycle);
+    tips_free(&mg->tips);
+    grid_free(&mg->grid);
+    free(mg->g);
+    free(mg->p);
+    free(mg->r);
+    free(mg->rest);
+    free(mg->z);
+    free(mg->d);
+    free(mg->y);
+    free(mg);
+}
+
+bool multigrid_fits(const MultigridStep *step, int nodes, int springs)
+{
+    double lightest = INFINITY, stiffest = 0;
+    for (int i = 0; i < nodes; i++)
+        if (!step->pinned || !step->pinned[i])
+            lightest = fmin(lightest, step->m[i]);
+    for (int s = 0; s < springs; s++)
+        stiffest = fmax(stiffest, step->k[s]);
+    return 2 * step->weight * stiffest <= 1e10 * lightest;
+}
+
+/* ---- conjugate gradients ---- */
+
+/* The largest residual of a direction with |p|_M = 1: each node has m |p_i|^2
+ * <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+static double grid_residual_per_norm(const Multigrid *mg)
+{
+    return sqrt(2 / mg->grid.lightest) / mg->step.h;
+}
+
+static void set_up_cycle(Multigrid *mg)
+{
+    if (mg->set_up)
+        return;
+    v_cycle_set_up(mg->cycle);
+    mg->counters.set_ups++;
+    mg->set_up = true;
+}
+
+/* z = B rest; returns rest.z.  square  |rest|_(M^-1)^2 */
+static double apply_cycle(Multigrid *mg, double square)
+{
+    v_cycle_apply(mg->cycle, mg->rest, sqrt(square * mg->grid.lightest), mg->z);
+    mg->counters.cycles++;
+    return grid_dot(&mg->grid, mg->rest, mg->z);
+}
+
+/* rest = -g - H p; returns |rest|_(M^-1)^2. */
+static double true_remainder(Multigrid *mg)
+{
+    grid_product(&mg->grid, true, mg->p, mg->rest);
+    grid_combine(&mg->grid, NULL, -1, mg->g, -1, mg->rest);
+    return grid_inverse_mass_square(&mg->grid, mg->rest);
+}
+
+/* Whether a direction with this remainder passes the test, or does not,
+ * wherever the exact one is; residual out. */
+static bool residual_decides(Multigrid *mg, double square)
+{
+    mg->residual = grid_largest(&mg->grid, mg->p) / mg->step.h;
+    return fabs(mg->residual - mg->step.tolerance) >=
+           grid_residual_per_norm(mg) * sqrt(square);
+}
+
+typedef enum Goal { GOAL_DIRECTION, GOAL_TEST, GOAL_CURVATURE } Goal;
+
+/* Preconditioned conjugate gradients: for p = -H^-1 g (GOAL_DIRECTION: about;
+ * GOAL_TEST: until its residual is known to pass or fail), H clamped; or from
+ * random numbers in `rest` for a d with d.H d < 0 (GOAL_CURVATURE), H as it is.
+ *   most  iterations
+ * Returns whether it got there. */
+static bool conjugate_gradients(Multigrid *mg, Goal goal, int most)
+{
+    const Grid *grid = &mg->grid;
+    double square = mg->norm2;
+    set_up_cycle(mg);
+    if (goal == GOAL_CURVATURE) {
+        square = grid_inverse_mass_square(grid, mg->rest);
+    } else {
+        grid_clear(grid, mg->p);
+        grid_combine(grid, NULL, -1, mg->g, 0, mg->rest);
+    }
+    double now = apply_cycle(mg, square), start = now;
+    grid_combine(grid, NULL, 1, mg->z, 0, mg->d);
+    for (int i = 1;; i++) {
+        double bend = grid_product(grid, goal != GOAL_CURVATURE, mg->d, mg->y);
+        if (goal == GOAL_CURVATURE && bend < 0)
+            return true;
+        if (!(bend > 0) || !isfinite(now))
+            return false;
+        if (goal != GOAL_CURVATURE)
+            grid_combine(grid, NULL, now / bend, mg->d, 1, mg->p);
+        if (goal == GOAL_DIRECTION && i == most)
+            return true;
+        grid_combine(grid, NULL, -now / bend, mg->y, 1, mg->rest);
+        square = grid_inverse_mass_square(grid, mg->rest);
+        if (goal == GOAL_TEST && residual_decides(mg, square)) {
+            square = true_remainder(mg);
+            if (residual_decides(mg, square))
+                return true;
+        }
+        if (i == most)
+            return false;
+        double last = now;
+        now = apply_cycle(mg, square);
+        if (goal == GOAL_DIRECTION && now <= CG_ENOUGH * CG_ENOUGH * start)
+            return true;
+        if (goal == GOAL_CURVATURE &&
+            now <= NO_CURVATURE * NO_CURVATURE * start)
+            return false;
+        grid_combine(grid, NULL, 1, mg->z, now / last, mg->d);
+    }
+}
+
+/* ---- the test ---- */
+
+/* Springs cannot move the centre of mass: at the minimum sum m u is
+ * sum m u_tilde.  What is missing is moved, all nodes alike; that lowers E,
+ * changes no spring, and g by m times it. */
+static void centre_mass(Multigrid *mg)
+{
+    const Grid *grid = &mg->grid;
+    const GridLayout *layout = &grid->layout;
+    if (!mg->step.is_free)
+        return;
+    for (int c = 0; c < 2; c++) {
+        const double *u = grid->u + c * layout->plane;
+        const double *u_tilde = grid->u_tilde + c * layout->plane;
+        double mass = 0, missing = 0;
+        for (int i = 0; i < layout->nodes; i++) {
+            int q = grid_at(layout, i, 0);
+            for (int past = q + layout->nodes; q < past; q++) {
+                mass += grid->m[q];
+                missing += grid->m[q] * (u_tilde[q] - u[q]);
+            }
+        }
+        for (int i = 0; i < layout->nodes; i++) {
+            int q = grid_at(layout, i, 0);
+            for (int past = q + layout->nodes; q < past; q++)
+                mg->d[c * layout->plane + q] = missing / mass;
+        }
+    }
+    grid_move(grid, NULL, 1, mg->d, 0, NULL);
+}
+
+/* Random numbers of -1 ... 1 for every node, the same ones always. */
+static void random_remainder(Multigrid *mg)
+{
+    const GridLayout *layout = &mg->grid.layout;
+    uint64_t state = 1;
+    for (int c = 0; c < 2; c++)
+        for (int i = 0; i < layout->nodes; i++)
+            for (int j = 0; j < layout->nodes; j++) {
+                int q = grid_at(layout, i, j);
+                state = state * 6364136223846793005u + 1442695040888963407u;
+                double number = (double)(int64_t)state / 9223372036854775808.0;
+                bool moves = mg->grid.per_mass[q] > 0;
+                mg->rest[c * layout->plane + q] = moves ? number : 0;
+            }
+}
+
+/* Goes along a direction in which E bends down, if there is one.  Returns
+ * whether it has. */
+static bool leaves_saddle(Multigrid *mg)
+{
+    const Grid *grid = &mg->grid;
+    if (!mg->step.minimum || mg->saddles == MAX_SADDLES)
+        return false;
+    random_remainder(mg);
+    if (!conjugate_gradients(mg, GOAL_CURVATURE, CURVATURE_CYCLES))
+        return false;
+    double inertia, slope = grid_dot(grid, mg->g, mg->d);
+    double sign = slope > 0 ? -1 : 1;
+    grid_combine(grid, NULL, -sign, mg->d, 0, mg->z);
+    slope = grid_direction(grid, NULL, mg->z, 0, mg->g, mg->d, mg->y, &inertia);
+    Quartic along;
+    grid_along(grid, NULL, mg->d, slope, inertia, along.q);
+    double alpha = quartic_first_minimum(&along);
+    if (!(alpha > 0) || !(quartic_value(&along, alpha) < 0))
+        return false;
+    grid_move(grid, NULL, alpha, mg->d, 0, NULL);
+    grid_combine(grid, NULL, alpha, mg->d, 0, mg->r);
+    mg->record.change += quartic_value(&along, alpha);
+    mg->updated = true;
+    mg->windows = false;
+    mg->iterations = 0;
+    mg->test_below = WORTH_A_TEST * mg->step.tolerance;
+    mg->saddles++;
+    mg->counters.saddles++;
+    return true;
+}
+
+/* g and the bound at x. */
+static void evaluate(Multigrid *mg)
+{
+    mg->norm2 = grid_gradient(&mg->grid, NULL, mg->g);
+    mg->counters.gradients++;
+    mg->bound = mg->residual = grid_residual_per_norm(mg) * sqrt(mg->norm2);
+    mg->directed = mg->set_up = false;
+}
+
+/* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
+static Status multigrid_test(Multigrid *mg)
+{
+    if (!isfinite(mg->norm2))
+        return STATUS_NOT_FINITE;
+    if (mg->bound > mg->test_below)
+        return STATUS_RUNNING;
+    centre_mass(mg);
+    evaluate(mg);
+    if (mg->bound > mg->step.tolerance) {
+        bool decided = conjugate_gradients(mg, GOAL_TEST, MAX_TEST_CYCLES);
+        mg->counters.certificates++;
+        mg->test_below = mg->bound / 2;
+        mg->directed = decided;
+        if (!decided || !(mg->residual <= mg->step.tolerance))
+            return STATUS_RUNNING;
+    }
+    if (!leaves_saddle(mg))
+        return STATUS_OK;
+    evaluate(mg);
+    return STATUS_RUNNING;
+}
+
+/* ---- the iteration ---- */
+
+Status multigrid_start(Multigrid *mg, const MultigridStep *step)
+{
+    Grid *grid = &mg->grid;
+    mg->step = *step;
+    mg->record = (MultigridRecord){0};
+    mg->last_bound = INFINITY;
+    mg->windows = mg->updated = false;
+    mg->iterations = mg->saddles = 0;
+    mg->test_below = WORTH_A_TEST * step->tolerance;
+    crew_begin(mg->crew);
+    grid_set_nodes(grid, step->m, step->pinned);
+    grid_set_springs(grid, step->k, step->l2, step->weight);
+    v_cycle_set_nodes(mg->cycle);
+    grid_pack(grid, step->x_n, grid->x_n);
+    grid_pack(grid, step->u_tilde, grid->u_tilde);
+    if (step->u)
+        grid_pack(grid, step->u, grid->u);
+    else
+        grid_clear(grid, grid->u);
+    grid_clear(grid, mg->r);
+    grid_move(grid, NULL, 0, mg->r, 0, NULL);
+    evaluate(mg);
+    return multigrid_test(mg);
+}
+
+/* The lowest point in the plane of p and the last update, or along p. */
+static Status search_step(Multigrid *mg, double at[2])
+{
+    MultigridRecord *record = &mg->record;
+    PlaneQuartic plane;
+    grid_in_plane(&mg->grid, mg->g, mg->p, mg->r, plane.c);
+    record->slope = plane.c[0];
+    record->trials = 0;
+    if (!isfinite(record->slope))
+        return STATUS_NOT_FINITE;
+    if (!(record->slope < 0))
+        return STATUS_NOT_DESCENT;
+    if (!mg->updated || plane_minimise(&plane, at, &record->trials)) {
+        Quartic line = {{plane.c[0], plane.c[2], plane.c[5], plane.c[9]}};
+        at[0] = quartic_first_minimum(&line);
+        at[1] = 0;
+        record->trials++;
+    }
+    record->alpha = at[0];
+    record->change = plane_value(&plane, at[0], at[1]);
+    if (!(record->change < 0))
+        return STATUS_LINE_SEARCH_LIMIT;
+    return STATUS_OK;
+}
+
+/* Windows are worth it once directions of the whole square no longer are. */
+static void decide_windows(Multigrid *mg)
+{
+    if (mg->iterations >= GLOBAL_STEPS && mg->bound > STALLS * mg->last_bound)
+        mg->windows = true;
+    mg->last_bound = mg->bound;
+}
+
+Status multigrid_iterate(Multigrid *mg)
+{
+    const Grid *grid = &mg->grid;
+    decide_windows(mg);
+    if (!mg->directed) {
+        conjugate_gradients(mg, GOAL_DIRECTION,
+                            mg->windows ? CYCLES_BETWEEN_WINDOWS : MAX_CYCLES);
+        mg->residual = grid_largest(grid, mg->p) / mg->step.h;
+    }
+    mg->record.residual = mg->residual;
+    double at[2];
+    Status status = search_step(mg, at);
+    if (status)
+        return status;
+    grid_move(grid, NULL, at[0], mg->p, at[1], mg->r);
+    grid_combine(grid, NULL, at[0], mg->p, at[1], mg->r);
+    mg->updated = true;
+    mg->iterations++;
+    mg->counters.iterations++;
+    if (mg->windows) {
+        long phases = mg->tips.phases, local = mg->tips.iterations;
+        grid_combine(grid, NULL, 1, grid->u, 0, mg->z);
+        mg->record.change += tips_minimise(&mg->tips, mg->g);
+        grid_combine(grid, NULL, 1, grid->u, 1, mg->r);
+        grid_combine(grid, NULL, -1, mg->z, 1, mg->r);
+        mg->counters.windows += mg->tips.phases - phases;
+        mg->counters.local += mg->tips.iterations - local;
+    }
+    evaluate(mg);
+    return multigrid_test(mg);
+}
+
+/* ---- what others may know ---- */
+
+void multigrid_displacement(const Multigrid *mg, double *u)
+{
+    grid_unpack(&mg->grid, mg->grid.u, u);
+}
+
+double multigrid_residual(const Multigrid *mg)
+{
+    return mg->residual;
+}
+
+const MultigridRecord *multigrid_record(const Multigrid *mg)
+{
+    return &mg->record;
+}
+
+const MultigridCounters *multigrid_counters(const Multigrid *mg)
+{
+    return &mg->counters;
+}
+
+int multigrid_lanes(const Multigrid *mg)
+{
+    return mg->grid.kernels->lanes;
+}
+
+int multigrid_threads(const Multigrid *mg)
+{
+    return crew_threads(mg->crew);
+}

@@ -1,0 +1,36 @@
+/* tips.h - where folds run: local minimisation between global steps.
+ *
+ * When the square buckles, a dislocation of some ten nodes runs along a
+ * column, less than a cell for each Newton direction of the whole square.  Here
+ * only windows around such tips move, by a nonlinear conjugate gradient method
+ * with exact line search, preconditioned by the Hessian's diagonal blocks
+ * (nonlinear elimination).  Nodes outside stay, so that E falls as much as the
+ * windows say.
+ */
+#ifndef ELASTO_TIPS_H
+#define ELASTO_TIPS_H
+
+#include "solve/grid.h"
+
+typedef struct Tips {
+    const Grid *grid;
+    double *activity;          /* [rows * blocks] g.D g of each block */
+    unsigned char *mark;       /* [rows * blocks] */
+    unsigned char *spread;     /* [rows * blocks] */
+    GridRegion inside;         /* nodes that move */
+    GridRegion around;         /* and their neighbours */
+    double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
+    long phases, iterations;   /* done so far */
+} Tips;
+
+/* For this grid, which must outlive it.  Returns OK, OUT_OF_MEMORY; free it in
+ * any case. */
+Status tips_create(const Grid *grid, Tips *tips);
+void tips_free(Tips *tips);
+
+/* Moves windows until no part of the square stands out.
+ *   g  [2 planes] out, grad E where that has led
+ * Returns by how much E has changed, <= 0. */
+double tips_minimise(Tips *tips, double *g);
+
+#endif

@@ -1,0 +1,36 @@
+/* v_cycle.h - a geometric multigrid V(1,1)-cycle for the clamped Hessian of
+ * grid.h: the preconditioner of conjugate gradients.
+ *
+ * Each spring's Hessian is a symmetric 2x2 tensor K (the block of its nodes is
+ * [[K, -K], [-K, K]]).  The next coarser level has every second node; its
+ * springs have the mean tensor of the four finer ones that each stands for
+ * (in two dimensions stiffness does not change with the length), its masses
+ * are P^T m.  P is bilinear interpolation, P^T the restriction, and a damped
+ * block Jacobi iteration smooths, once before and once after.  All that is
+ * symmetric, so the cycle is a symmetric positive definite matrix.
+ *
+ * Its numbers are of single precision: it only precedes the exact product in
+ * conjugate gradients.  Up to 32 segments, where a fold can hang on the last
+ * bits of a direction, they are of double precision.
+ */
+#ifndef ELASTO_V_CYCLE_H
+#define ELASTO_V_CYCLE_H
+
+#include "solve/grid.h"
+
+typedef struct VCycle VCycle;
+
+/* Allocates for this grid, which must outlive it.  NULL: out of memory. */
+VCycle *v_cycle_create(const Grid *grid);
+void v_cycle_free(VCycle *cycle);
+
+/* Masses and pins, after grid_set_nodes. */
+void v_cycle_set_nodes(VCycle *cycle);
+
+/* The tensors of all levels at grid->x. */
+void v_cycle_set_up(VCycle *cycle);
+
+/* z = B r.  size  a number about as large as the largest of r. */
+void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z);
+
+#endif

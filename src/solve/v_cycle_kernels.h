@@ -1,0 +1,52 @@
+/* v_cycle_kernels.h - the loops of a V-cycle over the rows of a level, for
+ * each precision and width of lanes. */
+#ifndef ELASTO_V_CYCLE_KERNELS_H
+#define ELASTO_V_CYCLE_KERNELS_H
+
+#include <stddef.h>
+
+#include "solve/grid.h"
+
+enum { V_MAX_LEVELS = 12, V_TENSOR = 3 };
+
+/* A level; all arrays have planes of numbers of the cycle's precision. */
+typedef struct VLevel {
+    GridLayout layout;
+    void *K[SPRING_KINDS][V_TENSOR]; /* [plane] xx, xy, yy of springs */
+    void *m;                         /* [plane] masses */
+    void *free;      /* [plane] 1: moves; 0: pinned or outside */
+    void *D;         /* [3 planes] inverse diagonal blocks */
+    void *b, *x, *r; /* [2 planes] */
+} VLevel;
+
+typedef struct VJob {
+    const Grid *grid;
+    const VLevel *level, *coarse; /* the next coarser one */
+    double length, mass;          /* units, powers of two: 1/m, 1/kg */
+    const void *in;               /* [2 planes] */
+    void *out;                    /* [2 planes] */
+    double factor;
+} VJob;
+
+/* Each does rows first ... end - 1: of the level, or of the coarse one where it
+ * writes to that. */
+typedef void VKernel(const VJob *job, int first, int end);
+
+typedef struct VKernels {
+    size_t real;                        /* bytes of a number */
+    VKernel *set_nodes, *coarsen_nodes; /* m and free */
+    VKernel *tensors, *coarsen_tensors; /* K */
+    VKernel *invert;                    /* D */
+    VKernel *take;      /* b = factor in, doubles of the grid's layout */
+    VKernel *begin;     /* x = omega D b */
+    VKernel *residual;  /* out = b - A in */
+    VKernel *smooth;    /* out = in + omega D (b - A in) */
+    VKernel *restrict_; /* coarse->b = P^T in */
+    VKernel *prolong;   /* x += P in, in on the coarse level */
+    VKernel *give;      /* out = factor in, doubles */
+} VKernels;
+
+/* Those for a grid's lanes.  precise: double precision. */
+const VKernels *v_cycle_kernels(int lanes, bool precise);
+
+#endif
