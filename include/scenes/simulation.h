@@ -14,7 +14,11 @@
 
 struct Scene;
 
-enum { SIMULATION_MAX_RUNS = 3, DESCENT_MAX = 256 };
+enum {
+    SIMULATION_MAX_RUNS = 3,
+    DESCENT_MAX = 256,
+    SIMULATION_FORGETS = 32 /* steps, a power of two */
+};
 
 /* The path of a minimisation that is shown iteration by iteration. */
 typedef struct Descent {
@@ -41,6 +45,8 @@ typedef struct Simulation {
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
     long steps;       /* done so far */
+    long steps_before;  /* of them with another timestep, */
+    double time_before; /* s, which took this long */
     long unconverged; /* of them not converged */
     Status first;     /* how the first of these ended */
     Status status;    /* of the last step */
@@ -59,7 +65,9 @@ Status simulation_create(const Options *options, NewtonObserver observer,
 void simulation_free(Simulation *simulation);
 
 /* One step: of time in every run, or one Newton iteration; none where
- * simulation->done.  OK; an unconverged status: the step was made; a failure
+ * simulation->done.  Before each SIMULATION_FORGETS-th step solvers forget what
+ * they remember from step to step, so that any state can be reached again, bit
+ * for bit, from a saved one at most that many steps before.  OK; an unconverged status: the step was made; a failure
  * or INTERRUPTED: nothing moved in the run that failed. */
 Status simulation_step(Simulation *simulation);
 
@@ -85,6 +93,26 @@ double simulation_bytes(const Options *options);
 
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */
 long long simulation_matrix_entries(const Simulation *simulation);
+
+/* A run whose next steps depend on more than its state: see above. */
+bool simulation_remembers(const Simulation *simulation);
+
+/* The timestep, s, and the tolerance, m/s, from the next step on. */
+void simulation_set_timestep(Simulation *simulation, double h);
+void simulation_set_tolerance(Simulation *simulation, double tolerance);
+void simulation_set_solver(Simulation *simulation, Solver solver);
+
+/* Pins a node where it is, or sets it free; its velocity is 0 then.
+ * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (there is no such node). */
+Status simulation_pin(Simulation *simulation, int node, bool pinned);
+bool simulation_is_pinned(const Simulation *simulation, int node);
+
+/* Goes on from the present state with other options, such as another stiffness
+ * or integrator; the scene, the mesh and the start must be the same ones.  Pins
+ * set by simulation_pin are those of the new options.
+ * Returns as simulation_create; after a failure only simulation_free is
+ * allowed. */
+Status simulation_change(Simulation *simulation, const Options *options);
 
 /* Filter and line search while running: whether there is a Hessian to project
  * and a line to search (not in explicit integrators), and their change. */

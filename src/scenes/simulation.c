@@ -1,7 +1,8 @@
 #include "scenes/simulation.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "scenes/scene.h"
 
@@ -90,11 +91,21 @@ static void compare_prediction(Simulation *simulation)
     prediction->shown = true;
 }
 
+/* What solvers remember from step to step. */
+static void forget_runs(Simulation *simulation)
+{
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            newton_forget(simulation->run[i].newton);
+}
+
 Status simulation_step(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
     if (simulation->done)
         return STATUS_OK;
+    if (!scene->step && simulation->steps % SIMULATION_FORGETS == 0)
+        forget_runs(simulation);
     simulation->status =
         scene->step ? scene->step(simulation) : step_runs(simulation);
     if (simulation->status && !status_is_unconverged(simulation->status))
@@ -119,7 +130,115 @@ double simulation_time(const Simulation *simulation)
 {
     if (!(simulation->scene->needs & NEEDS_TIME))
         return 0;
-    return (double)simulation->steps * simulation->options.timestep;
+    return simulation->time_before +
+           (double)(simulation->steps - simulation->steps_before) *
+               simulation->options.timestep;
+}
+
+/* Old factors and projection on demand; a new factor for each direction gives
+ * the same iterates whatever was before. */
+bool simulation_remembers(const Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    return options->solver != SOLVER_NEWTON ||
+           options->filter == FILTER_ON_DEMAND;
+}
+
+void simulation_set_timestep(Simulation *simulation, double h)
+{
+    simulation->time_before = simulation_time(simulation);
+    simulation->steps_before = simulation->steps;
+    simulation->options.timestep = h;
+    for (int i = 0; i < simulation->runs; i++) {
+        TimeIntegrator *run = &simulation->run[i];
+        run->h = h;
+        run->remembers = false;
+        if (run->newton)
+            run->newton->settings.h = h;
+    }
+    forget_runs(simulation);
+}
+
+void simulation_set_tolerance(Simulation *simulation, double tolerance)
+{
+    simulation->options.tolerance = tolerance;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            simulation->run[i].newton->settings.tolerance = tolerance;
+    simulation->descent.scalar.tolerance = tolerance;
+    forget_runs(simulation);
+}
+
+void simulation_set_solver(Simulation *simulation, Solver solver)
+{
+    simulation->options.solver = solver;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            simulation->run[i].newton->settings.solver = solver;
+    forget_runs(simulation);
+}
+
+Status simulation_pin(Simulation *simulation, int node, bool pinned)
+{
+    System *system = &simulation->system;
+    if (node < 0 || node >= system->nodes)
+        return STATUS_INVALID_INPUT;
+    if (!system->pinned && system_create_pins(system))
+        return STATUS_OUT_OF_MEMORY;
+    system->pinned[node] = pinned;
+    for (int i = 0; i < simulation->runs; i++) {
+        TimeIntegrator *run = &simulation->run[i];
+        run->v[2 * node] = run->v[2 * node + 1] = 0;
+        time_integrator_forget(run, true);
+    }
+    return STATUS_OK;
+}
+
+bool simulation_is_pinned(const Simulation *simulation, int node)
+{
+    return simulation->system.pinned && simulation->system.pinned[node];
+}
+
+/* Positions and velocities of all runs, [runs 4 nodes], or NULL. */
+static double *copy_motion(const Simulation *simulation)
+{
+    size_t size = 2 * (size_t)simulation->system.nodes;
+    double *copy =
+        malloc(2 * size * (size_t)simulation->runs * sizeof *copy);
+    for (int r = 0; copy && r < simulation->runs; r++) {
+        memcpy(copy + 2 * r * size, simulation->run[r].x, size * sizeof *copy);
+        memcpy(copy + (2 * r + 1) * size, simulation->run[r].v,
+               size * sizeof *copy);
+    }
+    return copy;
+}
+
+Status simulation_change(Simulation *simulation, const Options *options)
+{
+    long steps = simulation->steps, unconverged = simulation->unconverged;
+    double time = simulation_time(simulation);
+    Status first = simulation->first;
+    NewtonObserver observer = simulation->observer;
+    void *user = simulation->user;
+    size_t size = 2 * (size_t)simulation->system.nodes;
+    int runs = simulation->runs;
+    double *motion = copy_motion(simulation);
+    if (!motion)
+        return STATUS_OUT_OF_MEMORY;
+    simulation_free(simulation);
+    Status status = simulation_create(options, observer, user, simulation);
+    for (int r = 0; !status && r < runs && r < simulation->runs; r++) {
+        TimeIntegrator *run = &simulation->run[r];
+        memcpy(run->x, motion + 2 * r * size, size * sizeof *motion);
+        memcpy(run->v, motion + (2 * r + 1) * size, size * sizeof *motion);
+        run->steps = steps;
+    }
+    simulation->steps = simulation->steps_before = steps;
+    simulation->unconverged = unconverged;
+    simulation->first = first;
+    simulation->time_before = time;
+    free(motion);
+    return status;
 }
 
 Energies simulation_energies(const Simulation *simulation, int run)

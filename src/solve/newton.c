@@ -53,6 +53,8 @@ void newton_forget(Newton *newton)
         newton->lightest = fmin(newton->lightest, system->m[i]);
     newton->stiffest = system_stiffest(system);
     newton->age = -1;
+    newton->clamps = 0;
+    newton->record.iteration = 0; /* no step was at rest */
     newton->resting = false;
     gauss_seidel_free(&newton->smoother);
 }

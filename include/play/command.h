@@ -1,0 +1,113 @@
+/* command.h - everything that keys, mouse, wheel and scripts can ask for.
+ *
+ * One table: a word for scripts, the words behind it, the key, and what it does
+ * in a few words.  What a script can say is what the window obeys, so that a
+ * session can be written down and played again, with a window or without.
+ */
+#ifndef ELASTO_COMMAND_H
+#define ELASTO_COMMAND_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum { COMMAND_TEXT_SIZE = 64 };
+
+typedef enum CommandKind {
+    COMMAND_NONE,
+    COMMAND_REDRAW,       /* the window was uncovered or resized */
+    COMMAND_QUIT,         /* ends the program */
+    COMMAND_TOGGLE_PAUSE, /* runs, or stops */
+    COMMAND_PLAY,
+    COMMAND_PAUSE,
+    COMMAND_NEXT,     /* one on: a step, an update or a line */
+    COMMAND_BACK,     /* one back, the same */
+    COMMAND_STEP,     /* a whole new step from here */
+    COMMAND_FINER,    /* from steps to updates to lines to steps */
+    COMMAND_HOME,     /* step 0 */
+    COMMAND_END,      /* the newest step */
+    COMMAND_GOTO,     /* number: the step */
+    COMMAND_RESTART,  /* begins again */
+    COMMAND_FASTER,   /* twice as many steps a second */
+    COMMAND_SLOWER,   /* half as many */
+    COMMAND_FILTER,   /* projection off, or on again */
+    COMMAND_SEARCH,   /* line search off, or on again */
+    COMMAND_METHOD,   /* the next integrator */
+    COMMAND_ADD_PANE, /* the next integrator, beside this one */
+    COMMAND_END_PANE, /* the last pane goes */
+    COMMAND_SET,      /* text: an option and its value, "timestep 0.01" */
+    COMMAND_DEFAULT,  /* text: an option, back to its default */
+    COMMAND_SELECT,   /* the next number of the row */
+    COMMAND_RAISE,    /* the selected number, a step up */
+    COMMAND_LOWER,    /* or down */
+    COMMAND_SCENE,    /* text: name or number, 1 is the first */
+    COMMAND_START,    /* x, y: where the scene begins, m */
+    COMMAND_GRAB,     /* number: the node that the hand takes */
+    COMMAND_DRAG,     /* x, y: where it pulls it, m */
+    COMMAND_RELEASE,  /* the hand lets go */
+    COMMAND_PIN,      /* number: the node that is pinned or set free */
+    COMMAND_ZOOM,     /* number percent, x, y: the point that stays, m */
+    COMMAND_PAN,      /* x, y: how far the picture moves, m */
+    COMMAND_FIT,      /* all of it in the picture */
+    COMMAND_COLOURS,  /* springs by their strain */
+    COMMAND_BARE,     /* the picture alone */
+    COMMAND_KEYS,     /* the list of keys */
+    COMMAND_CARD,     /* number: the card that is closed or opened */
+    COMMAND_ENLARGE,  /* number: the card that takes the column */
+    COMMAND_HASH,     /* the hash of the state, and how to get there */
+    COMMAND_SHOT,     /* a picture */
+    COMMAND_FILM,     /* begins a film, or ends it */
+    COMMAND_FULL,     /* full screen and back */
+    COMMAND_BLANK,    /* a black screen and back */
+    COMMAND_ESCAPE,   /* help or full screen end; else the program */
+    COMMAND_KINDS
+} CommandKind;
+
+typedef struct Command {
+    CommandKind kind;
+    long number;
+    double x, y;
+    char text[COMMAND_TEXT_SIZE];
+} Command;
+
+/* What stands behind the word of a command. */
+typedef enum CommandArguments {
+    ARGUMENTS_NONE,
+    ARGUMENTS_NUMBER,       /* a whole number from 0 */
+    ARGUMENTS_POINT,        /* x y */
+    ARGUMENTS_NUMBER_POINT, /* both */
+    ARGUMENTS_TEXT          /* one or two words */
+} CommandArguments;
+
+typedef struct CommandRow {
+    CommandKind kind;
+    const char *word; /* in scripts; NULL: not there */
+    CommandArguments arguments;
+    const char *keys;  /* "Space", "Ctrl+R", several: "?|F1"; or NULL */
+    const char *label; /* what it does, for the list of keys; or NULL */
+    bool repeats;      /* while the key is held down */
+    bool kept;         /* belongs into the script of a session */
+} CommandRow;
+
+/* The row of a kind; its kind is that one. */
+const CommandRow *command_row(CommandKind kind);
+
+/* The kind that a key asks for, COMMAND_NONE: none.  Digits are scenes.
+ *   key      in, "N", "Shift+N", "Left", "+"
+ *   repeats  in, the key is held down
+ *   command  out */
+void command_from_key(const char *key, bool repeats, Command *command);
+
+/* "goto 12" and the like.
+ *   line     in, without the step
+ *   command  out
+ *   message  [size] out, what is wrong, after INVALID_INPUT
+ * Returns OK or INVALID_INPUT. */
+Status command_parse(const char *line, Command *command, char *message,
+                     size_t size);
+
+/* The line that command_parse reads; numbers have 17 digits.
+ *   line  [size] out */
+void command_format(const Command *command, char *line, size_t size);
+
+#endif

@@ -1,0 +1,117 @@
+#include "play/script.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "play/output.h"
+
+enum { SCRIPT_LINE_SIZE = 512 };
+
+Status script_add(Script *script, long step, const Command *command)
+{
+    if (script->count == script->size) {
+        size_t size = script->size ? 2 * script->size : 64;
+        ScriptLine *line = realloc(script->line, size * sizeof *line);
+        if (!line)
+            return STATUS_OUT_OF_MEMORY;
+        script->line = line;
+        script->size = size;
+    }
+    script->line[script->count++] = (ScriptLine){step, *command};
+    return STATUS_OK;
+}
+
+/* One line of the file; an empty one adds nothing. */
+static Status read_line(char *text, Script *script, char *message, size_t size)
+{
+    Command command;
+    char *end = NULL;
+    text[strcspn(text, "#\r\n")] = '\0';
+    while (isspace((unsigned char)*text))
+        text++;
+    if (*text == '\0')
+        return STATUS_OK;
+    errno = 0;
+    long step = strtol(text, &end, 10);
+    if (!isdigit((unsigned char)*text) || errno || !isspace((unsigned char)*end)) {
+        snprintf(message, size, "a line is STEP COMMAND, the step a number");
+        return STATUS_INVALID_INPUT;
+    }
+    Status status = command_parse(end, &command, message, size);
+    return status ? status : script_add(script, step, &command);
+}
+
+Status script_read(const char *name, Script *script, char *message, size_t size)
+{
+    char text[SCRIPT_LINE_SIZE], why[256] = "";
+    *script = (Script){0};
+    message[0] = '\0';
+    FILE *file = fopen(name, "r");
+    if (!file)
+        return STATUS_FILE_FAILED;
+    Status status = STATUS_OK;
+    long number = 0;
+    while (!status && fgets(text, sizeof text, file)) {
+        number++;
+        if (!strchr(text, '\n') && !feof(file)) {
+            snprintf(why, sizeof why, "a line of more than %d letters",
+                     SCRIPT_LINE_SIZE - 2);
+            status = STATUS_INVALID_INPUT;
+        } else {
+            status = read_line(text, script, why, sizeof why);
+        }
+    }
+    if (status == STATUS_INVALID_INPUT)
+        snprintf(message, size, "line %ld: %s", number, why);
+    if (!status && ferror(file))
+        status = STATUS_FILE_FAILED;
+    int reason = errno;
+    fclose(file);
+    errno = reason;
+    return status;
+}
+
+Status script_write(const char *name, const Script *script)
+{
+    Output output;
+    Status status = output_open(name, &output);
+    if (status)
+        return status;
+    errno = 0;
+    for (size_t i = 0; i < script->count; i++) {
+        char line[SCRIPT_LINE_SIZE];
+        command_format(&script->line[i].command, line, sizeof line);
+        fprintf(output.file, "%ld %s\n", script->line[i].step, line);
+    }
+    status = output_check(&output);
+    if (status) {
+        output_discard(&output);
+        return status;
+    }
+    return output_close(&output, false);
+}
+
+const Command *script_due(Script *script, long step, bool waits)
+{
+    if (script_is_over(script))
+        return NULL;
+    const ScriptLine *line = &script->line[script->next];
+    if (waits && step < line->step)
+        return NULL;
+    script->next++;
+    return &line->command;
+}
+
+bool script_is_over(const Script *script)
+{
+    return script->next >= script->count;
+}
+
+void script_free(Script *script)
+{
+    free(script->line);
+    *script = (Script){0};
+}

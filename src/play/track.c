@@ -1,0 +1,402 @@
+#include "play/track.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/scene.h"
+
+/* Options that may change from one step to the next. */
+static const char *const live_names[] = {
+    "timestep", "stiffness",  "tolerance",   "integrator",
+    "solver",   "filter",     "line-search", NULL,
+};
+
+bool track_can_change(const char *name)
+{
+    for (int i = 0; live_names[i]; i++)
+        if (strcmp(live_names[i], name) == 0)
+            return true;
+    return false;
+}
+
+long track_step_shown(const Track *track)
+{
+    return track->simulation.steps;
+}
+
+const StepRow *track_row(const Track *track, long step)
+{
+    return &track->row[step - 1];
+}
+
+/* Sums up the step for its row. */
+static bool watch(void *user, const NewtonRecord *record)
+{
+    Track *track = user;
+    track->now.updates++;
+    track->now.change += record->change;
+    track->now.residual = record->residual;
+    if (!track->observer)
+        return true;
+    return track->observer(track->user, record);
+}
+
+/* ---- kept states -------------------------------------------------------- */
+
+/* Lets go of kept states from this index on. */
+static void drop_states(Track *track, long from)
+{
+    while (track->kept_count > from) {
+        KeptState *last = &track->kept[--track->kept_count];
+        free(last->bytes);
+        track->used -= last->size;
+    }
+}
+
+/* Every second state goes. */
+static void thin_states(Track *track)
+{
+    for (long i = 0; i < track->kept_count; i++) {
+        if (i % 2 == 1) {
+            free(track->kept[i].bytes);
+            track->used -= track->kept[i].size;
+        } else {
+            track->kept[i / 2] = track->kept[i];
+        }
+    }
+    track->kept_count = (track->kept_count + 1) / 2;
+    track->stride *= 2;
+}
+
+/* Room for one more pointer. */
+static bool make_room(Track *track)
+{
+    if (track->kept_count < track->kept_size)
+        return true;
+    long size = track->kept_size ? 2 * track->kept_size : 64;
+    KeptState *kept = realloc(track->kept, (size_t)size * sizeof *kept);
+    if (!kept)
+        return false;
+    track->kept = kept;
+    track->kept_size = size;
+    return true;
+}
+
+/* The present state, if its step is one of those that are kept.  Memory that
+ * is not there makes the past coarser; it is no failure. */
+static void keep_state(Track *track)
+{
+    size_t size = state_size(&track->simulation);
+    long step = track_step_shown(track);
+    if (!track->keeps || size == 0)
+        return;
+    while (track->kept_count > 1 && track->used + size > track->limit)
+        thin_states(track);
+    if (step % track->stride != 0 || step / track->stride != track->kept_count)
+        return;
+    void *bytes = make_room(track) ? malloc(size) : NULL;
+    if (!bytes) {
+        if (track->kept_count > 1)
+            thin_states(track);
+        return;
+    }
+    state_save(&track->simulation, bytes);
+    track->kept[track->kept_count++] = (KeptState){bytes, size};
+    track->used += size;
+}
+
+/* ---- changes ------------------------------------------------------------ */
+
+/* Where `node` stands among the pins, or would. */
+static int pin_place(const Settings *settings, int node)
+{
+    int at = 0;
+    while (at < settings->pins && settings->pin[at] < node)
+        at++;
+    return at;
+}
+
+/* One pin more or less. */
+static Status settings_pin(Settings *settings, int node, bool pinned)
+{
+    int at = pin_place(settings, node);
+    bool there = at < settings->pins && settings->pin[at] == node;
+    if (there == pinned)
+        return STATUS_OK;
+    if (!pinned) {
+        settings->pins--;
+        memmove(settings->pin + at, settings->pin + at + 1,
+                (size_t)(settings->pins - at) * sizeof *settings->pin);
+        return STATUS_OK;
+    }
+    int *pin = realloc(settings->pin,
+                       (size_t)(settings->pins + 1) * sizeof *settings->pin);
+    if (!pin)
+        return STATUS_OUT_OF_MEMORY;
+    settings->pin = pin;
+    memmove(pin + at + 1, pin + at,
+            (size_t)(settings->pins - at) * sizeof *pin);
+    pin[at] = node;
+    settings->pins++;
+    return STATUS_OK;
+}
+
+/* "NAME VALUE" into its two words. */
+static void split(const char *text, char name[COMMAND_TEXT_SIZE],
+                  char value[COMMAND_TEXT_SIZE])
+{
+    size_t length = strcspn(text, " ");
+    snprintf(name, COMMAND_TEXT_SIZE, "%.*s", (int)length, text);
+    snprintf(value, COMMAND_TEXT_SIZE, "%s",
+             text[length] ? text + length + 1 : "");
+}
+
+/* The settings after a change. */
+static Status settings_change(Settings *settings, const Command *change,
+                              char *message, size_t size)
+{
+    char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
+    if (change->kind == COMMAND_PIN)
+        return settings_pin(settings, (int)change->number, change->x != 0);
+    split(change->text, name, value);
+    return options_set(&settings->options, name, value, message, size);
+}
+
+/* Whether the simulation must be made anew for these options. */
+static bool needs_rebuilding(const Options *now, const Options *wanted)
+{
+    return now->integrator != wanted->integrator ||
+           now->stiffness != wanted->stiffness;
+}
+
+/* Makes the simulation one with the present settings. */
+static Status use_settings(Track *track)
+{
+    Simulation *simulation = &track->simulation;
+    const Settings *settings = &track->settings;
+    const Options *now = &simulation->options, *wanted = &settings->options;
+    Status status = STATUS_OK;
+    if (needs_rebuilding(now, wanted)) {
+        status = simulation_change(simulation, wanted);
+        for (int i = 0; i < settings->pins && !status; i++)
+            status = simulation_pin(simulation, settings->pin[i], true);
+        return status;
+    }
+    if (now->timestep != wanted->timestep)
+        simulation_set_timestep(simulation, wanted->timestep);
+    if (now->tolerance != wanted->tolerance)
+        simulation_set_tolerance(simulation, wanted->tolerance);
+    if (now->solver != wanted->solver)
+        simulation_set_solver(simulation, wanted->solver);
+    if (now->filter != wanted->filter)
+        simulation_set_filter(simulation, wanted->filter);
+    if (now->line_search != wanted->line_search)
+        simulation_set_line_search(simulation, wanted->line_search);
+    for (int i = 0; i < simulation->system.nodes && !status; i++) {
+        int at = pin_place(settings, i);
+        bool pinned = at < settings->pins && settings->pin[at] == i;
+        if (simulation_is_pinned(simulation, i) != pinned)
+            status = simulation_pin(simulation, i, pinned);
+    }
+    return status;
+}
+
+/* ---- going back --------------------------------------------------------- */
+
+/* The last kept step from which `step` can be reached with the same bits. */
+static long nearest_kept(const Track *track, long step)
+{
+    long every = track->stride;
+    if (simulation_remembers(&track->simulation) && every < SIMULATION_FORGETS)
+        every = SIMULATION_FORGETS;
+    long newest = (track->kept_count - 1) * track->stride;
+    return (step < newest ? step : newest) / every * every;
+}
+
+/* Settings as they were when the state of this step was kept: all changes made
+ * at earlier steps.  next out: the first change after them. */
+static Status settings_at(Track *track, long step, size_t *next)
+{
+    char message[256];
+    const Script *changes = &track->changes;
+    track->settings.options = track->options;
+    track->settings.pins = 0;
+    Status status = STATUS_OK;
+    for (*next = 0; *next < changes->count && !status; (*next)++) {
+        if (changes->line[*next].step >= step)
+            break;
+        status = settings_change(&track->settings,
+                                 &changes->line[*next].command, message,
+                                 sizeof message);
+    }
+    return status;
+}
+
+/* The state of a kept step, or of step 0 where none are kept. */
+static Status restore(Track *track, long step, size_t *next)
+{
+    Simulation *simulation = &track->simulation;
+    Status status = settings_at(track, step, next);
+    if (status)
+        return status;
+    if (state_size(simulation) == 0 || track->kept_count == 0) {
+        NewtonObserver observer = simulation->observer;
+        void *user = simulation->user;
+        simulation_free(simulation);
+        return simulation_create(&track->options, observer, user, simulation);
+    }
+    status = use_settings(track);
+    if (!status)
+        state_restore(track->kept[step / track->stride].bytes, simulation);
+    return status;
+}
+
+/* All changes of the step that is shown. */
+static Status repeat_changes(Track *track, size_t *next)
+{
+    char message[256];
+    const Script *changes = &track->changes;
+    Status status = STATUS_OK;
+    while (*next < changes->count && !status &&
+           changes->line[*next].step == track_step_shown(track)) {
+        status = settings_change(&track->settings,
+                                 &changes->line[*next].command, message,
+                                 sizeof message);
+        if (!status)
+            status = use_settings(track);
+        (*next)++;
+    }
+    return status;
+}
+
+/* Step by step from the kept one. */
+static Status repeat_steps(Track *track, long step, size_t next)
+{
+    Status status = repeat_changes(track, &next);
+    while (!status && track_step_shown(track) < step) {
+        long before = track_step_shown(track);
+        status = simulation_step(&track->simulation);
+        if (status_is_unconverged(status) ||
+            track_step_shown(track) == before + 1)
+            status = STATUS_OK;
+        if (!status && track_step_shown(track) == before)
+            break; /* the scene is at its end */
+        if (!status)
+            status = repeat_changes(track, &next);
+    }
+    return status;
+}
+
+Status track_show(Track *track, long step)
+{
+    size_t next = 0;
+    long from = 0;
+    step = step < 0 ? 0 : step > track->newest ? track->newest : step;
+    if (state_size(&track->simulation) > 0 && track->kept_count > 0)
+        from = nearest_kept(track, step);
+    track->repeating = true;
+    Status status = restore(track, from, &next);
+    if (!status)
+        status = repeat_steps(track, step, next);
+    track->repeating = false;
+    return status;
+}
+
+void track_forget(Track *track)
+{
+    long step = track_step_shown(track);
+    Script *changes = &track->changes;
+    if (step >= track->newest)
+        return;
+    track->newest = step;
+    drop_states(track, step / track->stride + 1);
+    while (changes->count > 0 && changes->line[changes->count - 1].step > step)
+        changes->count--;
+}
+
+/* ---- going on ----------------------------------------------------------- */
+
+/* The row of the step that was just made. */
+static Status add_row(Track *track, Status status)
+{
+    if (track->newest == track->row_size) {
+        long size = track->row_size ? 2 * track->row_size : 256;
+        StepRow *row = realloc(track->row, (size_t)size * sizeof *row);
+        if (!row)
+            return STATUS_OUT_OF_MEMORY;
+        track->row = row;
+        track->row_size = size;
+    }
+    track->now.status = status;
+    track->row[track->newest++] = track->now;
+    return STATUS_OK;
+}
+
+Status track_step(Track *track)
+{
+    long before = track_step_shown(track);
+    track_forget(track);
+    track->now = (StepRow){0};
+    Status status = simulation_step(&track->simulation);
+    if (track_step_shown(track) == before)
+        return status;
+    if (!track->keeps)
+        track->newest = track_step_shown(track);
+    else if (add_row(track, status))
+        return STATUS_OUT_OF_MEMORY;
+    keep_state(track);
+    return status;
+}
+
+Status track_change(Track *track, const Command *change, char *message,
+                    size_t size)
+{
+    Settings trial = track->settings;
+    snprintf(message, size, "%s", "");
+    if (change->kind == COMMAND_PIN &&
+        (change->number < 0 ||
+         change->number >= track->simulation.system.nodes)) {
+        snprintf(message, size, "there is no node %ld", change->number);
+        return STATUS_INVALID_INPUT;
+    }
+    if (change->kind == COMMAND_SET) {
+        Status status = settings_change(&trial, change, message, size);
+        if (status)
+            return status;
+    }
+    track_forget(track);
+    Status status = script_add(&track->changes, track_step_shown(track), change);
+    if (!status)
+        status = settings_change(&track->settings, change, message, size);
+    return status ? status : use_settings(track);
+}
+
+Status track_create(const Options *options, bool keeps, NewtonObserver observer,
+                    void *user, Track *track)
+{
+    *track = (Track){.options = *options,
+                     .settings = {.options = *options},
+                     .keeps = keeps,
+                     .limit = TRACK_BYTES,
+                     .stride = 1,
+                     .observer = observer,
+                     .user = user};
+    Status status =
+        simulation_create(options, watch, track, &track->simulation);
+    if (!status)
+        keep_state(track);
+    return status;
+}
+
+void track_free(Track *track)
+{
+    for (long i = 0; i < track->kept_count; i++)
+        free(track->kept[i].bytes);
+    free(track->kept);
+    free(track->row);
+    free(track->settings.pin);
+    script_free(&track->changes);
+    simulation_free(&track->simulation);
+    *track = (Track){0};
+}
