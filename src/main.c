@@ -106,7 +106,7 @@ static int print_information(const Options *options)
 /* What a user can do about a failure. */
 static const char *advice(const Player *player, Status status)
 {
-    unsigned needs = player->options.scene->needs;
+    unsigned needs = player->given.scene->needs;
     switch (status) {
     case STATUS_OUT_OF_MEMORY:
     case STATUS_TOO_LARGE:
@@ -131,17 +131,19 @@ static void report_failure(const Player *player, Status status)
     char reason[256] = "", name[256];
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
-    one_line(recording->failed, name, sizeof name);
-    if (recording->reason == ENOTSUP)
+    if (player->message[0] || recording->message[0])
+        fprintf(stderr, "elasto: %s\n",
+                player->message[0] ? player->message : recording->message);
+    else if (recording->reason == ENOTSUP)
         fprintf(stderr,
                 "elasto: %s: only regular files, pipes and character devices "
                 "can be written\n",
                 name);
     else if (recording->reason)
         fprintf(stderr, "elasto: %s: %s\n", name, strerror(recording->reason));
-    else if (player->simulation.status == status)
+    else if (player->track.simulation.status == status)
         fprintf(stderr, "elasto: step %ld failed: %s%s\n",
-                player->simulation.steps + 1, status_text(status),
+                player->track.simulation.steps + 1, status_text(status),
                 advice(player, status));
     else
         fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),
@@ -214,12 +216,12 @@ static bool fits_in_memory(const Options *options)
 /* Files, then the summary or the failure.  Returns the exit code. */
 static int finish(Player *player, Status status, bool begun)
 {
-    const Options *options = &player->options;
+    const Options *options = &player->given;
     bool standard = (options->states && output_is_standard(options->states)) ||
                     (options->log && output_is_standard(options->log));
     if (!begun)
         recording_discard(&player->recording);
-    player->recording.aside = status && player->simulation.steps == 0;
+    player->recording.aside = status && player->track.simulation.steps == 0;
     Status closed = player_finish(player);
     if (!status)
         status = closed;
@@ -261,8 +263,7 @@ int main(int argc, char **argv)
     Status status = player_create(&options, &main_stop, player);
     bool begun = !status;
     if (begun)
-        status =
-            player->window ? player_run_window(player) : player_run(player);
+        status = player_run(player);
     int code = finish(player, status, begun);
     player_free(player);
     return code;

@@ -35,6 +35,11 @@ Status output_check(const Output *output);
 /* Throws away what was written, where that is possible. */
 Status output_restart(Output *output);
 
+/* Cuts off the lines that begin with a number above `last`, and all behind
+ * them; headers stay.  Where nothing can be taken back the new text follows the
+ * old.  Returns OK, FILE_FAILED. */
+Status output_cut(Output *output, long last);
+
 /* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED what
  * stood under the name before still does.
  *   keep  after a failure leave NAME.part as far as it got; else remove it */

@@ -1,4 +1,5 @@
-/* recording.h - what a run leaves in files: frames, states, Newton's log.
+/* recording.h - what a run leaves in files: frames, films, states, Newton's
+ * log.
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
  *   states  CSV: step,time,node,x,y,vx,vy of every node at every step from 0;
@@ -11,6 +12,7 @@
 #define ELASTO_RECORDING_H
 
 #include "picture/canvas.h"
+#include "play/film.h"
 #include "play/output.h"
 #include "scenes/simulation.h"
 
@@ -20,13 +22,16 @@ typedef struct Recording {
     const char *folder; /* of the frames, or NULL: none */
     long frames;        /* written */
     long last_frame;    /* its step; -1: none */
+    Film film;          /* of the frames */
     bool points;        /* the log tells of points */
     Output states, log; /* not open: not written */
     bool aside; /* set: closing replaces no table that was there before */
     int reason; /* errno of the first failure, 0: none yet */
     char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
+    char message[256]; /* why a film cannot be made, or "" */
 } Recording;
 
+<<<<<<< HEAD
 /* Whether the files of the options can be written beside each other: the same
  * file may not be meant twice, and standard output takes one table.
  *   message  [size] out, one line after INVALID_INPUT
@@ -34,13 +39,28 @@ typedef struct Recording {
 Status recording_check(const Options *options, char *message, size_t size);
 
 /* Opens what options->frames, states and log ask for; makes the folder.
+=======
+/* Opens what options->frames, film, states and log ask for; makes the folder.
+>>>>>>> 6319b1f (The player obeys commands from keys and scripts, goes back and films)
  *   recording  out; close it in any case
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
- * all functions here do. */
+ * all functions here do; INVALID_INPUT: message says why. */
 Status recording_open(const Options *options, Recording *recording);
 
-/* One frame, if frames are asked for. */
-Status recording_frame(Recording *recording, const Canvas *canvas, long step);
+/* Whether frames are of use. */
+bool recording_wants_frames(const Recording *recording);
+
+/* One frame, if frames are asked for.  shown: for how many frames' time it
+ * shall stand in a film. */
+Status recording_frame(Recording *recording, const Canvas *canvas, long step,
+                       int shown);
+
+/* Begins a film, or ends it. */
+Status recording_film(Recording *recording, const char *name);
+Status recording_end_film(Recording *recording);
+
+/* Takes back the rows of later steps. */
+Status recording_cut(Recording *recording, long step);
 
 /* The state now, if states are asked for. */
 Status recording_states(Recording *recording, const Simulation *simulation);

@@ -7,44 +7,45 @@
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "picture/paper.h"
 
 typedef struct View View;
 
-/* What a key or the window system asks for. */
-typedef enum CommandKind {
-    COMMAND_NONE,
-    COMMAND_QUIT,
-    COMMAND_REDRAW, /* the window was uncovered or resized */
-    COMMAND_PAUSE,
-    COMMAND_STEP,
-    COMMAND_RESTART,
-    COMMAND_FASTER,
-    COMMAND_SLOWER,
-    COMMAND_SCREENSHOT,
-    COMMAND_COLOURS,
-    COMMAND_TEXT,
-    COMMAND_FILTER,
-    COMMAND_LINE_SEARCH,
-    COMMAND_KEYS,
-    COMMAND_SCENE, /* number: 0 is the first */
-    COMMAND_PICK,  /* x, y: pixels of the paper */
-} CommandKind;
+/* What happened at keyboard, mouse or window. */
+typedef enum InputKind {
+    INPUT_NONE,
+    INPUT_KEY,     /* key */
+    INPUT_CLOSE,   /* somebody asks for the end */
+    INPUT_REDRAW,  /* the window was uncovered or resized */
+    INPUT_MOVE,    /* x, y */
+    INPUT_PRESS,   /* button, x, y, clicks */
+    INPUT_RELEASE, /* button, x, y */
+    INPUT_WHEEL,   /* x, y, amount: > 0 away from the hand */
+    INPUT_LEAVE    /* the mouse is elsewhere */
+} InputKind;
 
-typedef struct Command {
-    CommandKind kind;
-    int number;
-    double x, y;
-} Command;
+enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 
-/* A window of about 900 x 900.
+typedef struct Input {
+    InputKind kind;
+    char key[32]; /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
+    bool repeats; /* the key is held down */
+    int button, clicks;
+    double x, y; /* pixels of the paper */
+    double amount;
+} Input;
+
+/* A window.
+ *   size    [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
+ *   full    it fills the screen
  *   view    out; free it with view_free; NULL after a failure
- *   reason  [size] out, one line, why there is no window
+ *   reason  [length] out, one line, why there is no window
  * Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
-Status view_create_window(const char *title, View **view, char *reason,
-                          size_t size);
+Status view_create_window(const char *title, const int size[2], bool full,
+                          View **view, char *reason, size_t length);
 
 /* A surface in memory with SDL's software renderer; needs no screen.
  * Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
@@ -65,15 +66,21 @@ void view_failure(char *reason, size_t size);
 /* Shows what is on the paper.  Returns OK or SCREEN_FAILED. */
 Status view_show(View *view);
 
-/* The next command that waits, or COMMAND_NONE. */
-Command view_command(View *view);
+/* Full screen, or a window again; whether it is. */
+void view_set_full(View *view, bool full);
+bool view_is_full(const View *view);
 
-/* Waits for a command, at most this long. */
+/* The next input that waits, or INPUT_NONE.  Of several movements in a row only
+ * the last is told. */
+Input view_input(View *view);
+
+/* Waits for an input, at most this long. */
 void view_wait(View *view, int milliseconds);
 
-/* During long computations: whether COMMAND_QUIT waits.  Uncovered windows get
- * the last frame again; commands stay in line. */
-bool view_quit_waits(View *view);
+/* During long computations: whether Q, closing the window, or Escape where that
+ * ends the program, waits.  Uncovered windows get the last frame again; inputs
+ * stay in line. */
+bool view_quit_waits(View *view, bool escape_ends);
 
 /* Pixel of the surface as 0xAARRGGBB; 0 if the view is a window. */
 Colour view_surface_pixel(const View *view, int x, int y);

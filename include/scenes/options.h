@@ -35,6 +35,12 @@ typedef struct Options {
     const char *frames; /* folder for PNG frames, or NULL */
     const char *states; /* file for states, "-" for stdout, or NULL */
     const char *log;    /* file for the Newton log, or NULL */
+    const char *film;   /* file for a film of all drawn steps, or NULL */
+    const char *script; /* file of commands, or NULL */
+    bool paused;        /* at the start */
+    bool fullscreen;
+    int size[2];  /* pixels of window or frames; 0: the usual ones */
+    double speed; /* steps a frame; 0: the scene's */
     bool quiet;
     bool help, version, list; /* print that and stop */
     int panes;                /* side by side, 1: no lists of values */
@@ -56,6 +62,11 @@ Status options_parse(int argc, char **argv, Options *options, char *message,
  * this fills the options of pane 0, 1, ... */
 Status options_parse_pane(int argc, char **argv, int pane, Options *options,
                           char *message, size_t size);
+
+/* One option, by its name without dashes, of options that have a scene already:
+ * what this scene cannot make use of is refused, as above. */
+Status options_set(Options *options, const char *name, const char *value,
+                   char *message, size_t size);
 
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);

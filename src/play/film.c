@@ -312,7 +312,6 @@ static Status start_ffmpeg(Film *film)
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         return STATUS_FILE_FAILED;
-    signal(SIGPIPE, SIG_IGN); /* its end is seen by what write returns */
     int process = fork();
     if (process == 0)
         run_ffmpeg(film, ends[0]);

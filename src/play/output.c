@@ -277,6 +277,40 @@ Status output_restart(Output *output)
     return STATUS_OK;
 }
 
+/* Where the first line stands that begins with a number above `last`. */
+static long find_line(FILE *file, long last)
+{
+    char *line = NULL, *end;
+    size_t size = 0;
+    long at = 0;
+    ssize_t length;
+    while ((length = getline(&line, &size, file)) >= 0) {
+        long number = strtol(line, &end, 10);
+        if (end != line && number > last)
+            break;
+        at += length;
+    }
+    free(line);
+    return at;
+}
+
+Status output_cut(Output *output, long last)
+{
+    if (!output->file || !output->temporary)
+        return STATUS_OK;
+    if (fflush(output->file))
+        return STATUS_FILE_FAILED;
+    FILE *file = fopen(output->temporary, "r");
+    if (!file)
+        return STATUS_FILE_FAILED;
+    long at = find_line(file, last);
+    fclose(file);
+    if (ftruncate(fileno(output->file), at) ||
+        fseek(output->file, 0, SEEK_END))
+        return STATUS_FILE_FAILED;
+    return STATUS_OK;
+}
+
 /* ---- closing ---------------------------------------------------------------
  */
 

@@ -14,7 +14,7 @@
 static Status recording_note(Recording *recording, Status status,
                              const char *name)
 {
-    if (status && recording->reason == 0) {
+    if (status && status != STATUS_INVALID_INPUT && recording->reason == 0) {
         recording->reason = status == STATUS_OUT_OF_MEMORY ? ENOMEM
                             : errno                        ? errno
                                                            : EIO;
@@ -65,7 +65,35 @@ static Status open_table(Recording *recording, const char *name, Output *output)
     return recording_note(recording, output_open(name, output), name);
 }
 
-/* Folder, states, log. */
+/* Frames a second of films. */
+static const double FILM_RATE = 60;
+
+Status recording_film(Recording *recording, const char *name)
+{
+    return recording_note(recording,
+                          film_open(name, FILM_RATE, &recording->film,
+                                    recording->message,
+                                    sizeof recording->message),
+                          name);
+}
+
+Status recording_end_film(Recording *recording)
+{
+    char name[RECORDING_NAME_SIZE];
+    const Film *film = &recording->film;
+    snprintf(name, sizeof name, "%s",
+             film->name          ? film->name
+             : film->output.name ? film->output.name
+                                 : "");
+    return recording_note(recording, film_close(&recording->film), name);
+}
+
+bool recording_wants_frames(const Recording *recording)
+{
+    return recording->folder || film_runs(&recording->film);
+}
+
+/* Folder, film, states, log. */
 Status recording_open(const Options *options, Recording *recording)
 {
     *recording = (Recording){.folder = options->frames, .last_frame = -1};
@@ -74,6 +102,8 @@ Status recording_open(const Options *options, Recording *recording)
     if (recording->folder)
         status = recording_note(recording, make_folder(recording->folder),
                                 recording->folder);
+    if (!status && options->film)
+        status = recording_film(recording, options->film);
     if (!status)
         status = open_table(recording, options->states, &recording->states);
     if (!status)
@@ -142,11 +172,9 @@ Status recording_check(const Options *options, char *message, size_t size)
 }
 
 /* FOLDER/frame_000012.png */
-Status recording_frame(Recording *recording, const Canvas *canvas, long step)
+static Status write_frame(Recording *recording, const Canvas *canvas, long step)
 {
     char name[RECORDING_NAME_SIZE];
-    if (!recording->folder)
-        return STATUS_OK;
     int length = snprintf(name, sizeof name, "%s/frame_%06ld.png",
                           recording->folder, step);
     errno = ENAMETOOLONG;
@@ -157,6 +185,19 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step)
         recording->frames++;
     recording->last_frame = step;
     return recording_note(recording, status, name);
+}
+
+Status recording_frame(Recording *recording, const Canvas *canvas, long step,
+                       int shown)
+{
+    Film *film = &recording->film;
+    Status status = STATUS_OK;
+    if (film_runs(film))
+        status = recording_note(recording, film_add(film, canvas, shown),
+                                film->name ? film->name : film->output.name);
+    if (!status && recording->folder)
+        status = write_frame(recording, canvas, step);
+    return status;
 }
 
 /* The rows of one run; its nodes are numbered from `first`. */
@@ -216,6 +257,16 @@ Status recording_restart(Recording *recording, const Options *options)
     return status ? status : write_headers(recording);
 }
 
+Status recording_cut(Recording *recording, long step)
+{
+    Status status = recording_note(
+        recording, output_cut(&recording->states, step), "states");
+    if (!status)
+        status =
+            recording_note(recording, output_cut(&recording->log, step), "log");
+    return status;
+}
+
 /* Closes one table; after a failed write NAME.part keeps what there is. */
 static Status close_table(Recording *recording, Output *output,
                           const char *name)
@@ -227,16 +278,18 @@ static Status close_table(Recording *recording, Output *output,
     return recording_note(recording, status, copy);
 }
 
-/* Both tables, also if the first fails. */
+/* Film and both tables, also if one of them fails. */
 Status recording_close(Recording *recording)
 {
+    Status film = recording_end_film(recording);
     Status states = close_table(recording, &recording->states, "states");
     Status log = close_table(recording, &recording->log, "log");
-    return states ? states : log;
+    return film ? film : states ? states : log;
 }
 
 void recording_discard(Recording *recording)
 {
+    film_discard(&recording->film);
     output_discard(&recording->states);
     output_discard(&recording->log);
 }

@@ -32,7 +32,7 @@ static void print_energy(FILE *file, double energy)
 /* Of the first run; where there are several, with its name. */
 static void print_energies(FILE *file, const Player *player)
 {
-    const Simulation *simulation = &player->simulation;
+    const Simulation *simulation = &player->track.simulation;
     const Energies end = simulation_energies(simulation, 0);
     const char *name = "", *of = "";
     if (simulation->runs > 1) {
@@ -49,7 +49,7 @@ static void print_energies(FILE *file, const Player *player)
 /* One quantity a line. */
 void summary_print(FILE *file, const Player *player)
 {
-    const Simulation *simulation = &player->simulation;
+    const Simulation *simulation = &player->track.simulation;
     fprintf(file, "steps               %ld\n", simulation->steps);
     if (simulation->scene->needs & NEEDS_TIME)
         fprintf(file, "simulated time      %g s\n",

@@ -6,7 +6,8 @@
 #include <string.h>
 
 enum {
-    WINDOW_SIZE = 900,
+    WINDOW_WIDTH = 1280,
+    WINDOW_HEIGHT = 800,
     WINDOW_LEAST = 200,
     PEEK_EVENTS = 256,
     SHOW_AGAIN = 200 /* ms */
@@ -20,22 +21,7 @@ struct View {
     Paper paper;
     Uint64 shown;     /* ms, when present() was called last */
     bool initialised; /* SDL's video is ours to end */
-};
-
-/* A key and what it asks for. */
-typedef struct KeyRow {
-    SDL_Keycode key;
-    CommandKind command;
-    bool repeats; /* while it is held down */
-} KeyRow;
-
-static const KeyRow key_rows[] = {
-    {SDLK_ESCAPE, COMMAND_QUIT, false},   {SDLK_q, COMMAND_QUIT, false},
-    {SDLK_SPACE, COMMAND_PAUSE, false},   {SDLK_n, COMMAND_STEP, true},
-    {SDLK_RIGHT, COMMAND_STEP, true},     {SDLK_r, COMMAND_RESTART, false},
-    {SDLK_s, COMMAND_SCREENSHOT, false},  {SDLK_c, COMMAND_COLOURS, false},
-    {SDLK_h, COMMAND_TEXT, false},        {SDLK_p, COMMAND_FILTER, false},
-    {SDLK_l, COMMAND_LINE_SEARCH, false}, {SDLK_F1, COMMAND_KEYS, false},
+    bool tab;         /* Tab is down and has asked for nothing yet */
 };
 
 /* Why SDL's video driver shows nothing, or NULL if it does. */
@@ -49,16 +35,18 @@ static const char *driver_complaint(void)
     return NULL;
 }
 
-/* 900, or what fits on the screen. */
-static int window_size(void)
+/* What was asked for, or what fits on the screen.  fitting [2] out */
+static void window_size(const int size[2], int fitting[2])
 {
     SDL_Rect area;
-    int size = WINDOW_SIZE;
-    if (SDL_GetDisplayUsableBounds(0, &area))
-        return size;
-    size = area.w < size ? area.w : size;
-    size = area.h < size ? area.h : size;
-    return size < WINDOW_LEAST ? WINDOW_LEAST : size;
+    fitting[0] = size[0] > 0 ? size[0] : WINDOW_WIDTH;
+    fitting[1] = size[1] > 0 ? size[1] : WINDOW_HEIGHT;
+    if (size[0] > 0 || SDL_GetDisplayUsableBounds(0, &area))
+        return;
+    fitting[0] = area.w < fitting[0] ? area.w : fitting[0];
+    fitting[1] = area.h < fitting[1] ? area.h : fitting[1];
+    for (int i = 0; i < 2; i++)
+        fitting[i] = fitting[i] < WINDOW_LEAST ? WINDOW_LEAST : fitting[i];
 }
 
 /* Wayland needs XDG_RUNTIME_DIR; without it its library writes a line of its
@@ -84,7 +72,8 @@ static void explain_display(void)
 }
 
 /* Video, window, renderer: accelerated if possible. */
-static bool open_window(View *view, const char *title)
+static bool open_window(View *view, const char *title, const int size[2],
+                        bool full)
 {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
@@ -101,10 +90,13 @@ static bool open_window(View *view, const char *title)
         SDL_SetError("%s", complaint);
         return false;
     }
-    int size = window_size();
+    int fitting[2];
+    window_size(size, fitting);
     view->window = SDL_CreateWindow(
-        title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size, size,
-        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+        title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, fitting[0],
+        fitting[1],
+        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
+            (full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0));
     if (!view->window)
         return false;
     view->renderer = SDL_CreateRenderer(
@@ -114,7 +106,6 @@ static bool open_window(View *view, const char *title)
             SDL_CreateRenderer(view->window, -1, SDL_RENDERER_SOFTWARE);
     if (!view->renderer)
         return false;
-    SDL_EventState(SDL_MOUSEMOTION, SDL_IGNORE);
     SDL_StartTextInput();
     return true;
 }
@@ -126,15 +117,15 @@ void view_failure(char *reason, size_t size)
     reason[strcspn(reason, "\r\n")] = '\0';
 }
 
-Status view_create_window(const char *title, View **view, char *reason,
-                          size_t size)
+Status view_create_window(const char *title, const int size[2], bool full,
+                          View **view, char *reason, size_t length)
 {
     View *made = calloc(1, sizeof *made);
     *view = NULL;
     if (!made)
         return STATUS_OUT_OF_MEMORY;
-    if (!open_window(made, title)) {
-        view_failure(reason, size);
+    if (!open_window(made, title, size, full)) {
+        view_failure(reason, length);
         view_free(made);
         return STATUS_SCREEN_FAILED;
     }
@@ -182,6 +173,19 @@ void view_set_title(View *view, const char *title)
 {
     if (view->window)
         SDL_SetWindowTitle(view->window, title);
+}
+
+void view_set_full(View *view, bool full)
+{
+    if (view->window)
+        SDL_SetWindowFullscreen(view->window,
+                                full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+}
+
+bool view_is_full(const View *view)
+{
+    return view->window && (SDL_GetWindowFlags(view->window) &
+                            SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
 /* value, limited to 1 ... high. */
@@ -263,105 +267,175 @@ static SDL_Keycode latin_key(const SDL_Keysym *key)
     return SDLK_a + (SDL_Keycode)(key->scancode - SDL_SCANCODE_A);
 }
 
-/* Letters and named keys. */
-static CommandKind key_command(const SDL_KeyboardEvent *event)
+/* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
+ * come as texts, wherever a keyboard has them. */
+static void name_key(View *view, const SDL_KeyboardEvent *event, Input *input)
 {
-    if (event->keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI))
-        return COMMAND_NONE;
     SDL_Keycode key = latin_key(&event->keysym);
-    for (size_t i = 0; i < sizeof key_rows / sizeof *key_rows; i++)
-        if (key_rows[i].key == key &&
-            (key_rows[i].repeats || event->repeat == 0))
-            return key_rows[i].command;
-    return COMMAND_NONE;
-}
-
-/* Signs and digits: by what is typed, wherever a keyboard has them. */
-static Command text_command(const char *text)
-{
-    Command command = {COMMAND_NONE, 0, 0, 0};
-    if (text[0] == '+' || text[0] == '=')
-        command.kind = COMMAND_FASTER;
-    if (text[0] == '-')
-        command.kind = COMMAND_SLOWER;
-    if (text[0] == '?')
-        command.kind = COMMAND_KEYS;
-    if (text[0] >= '1' && text[0] <= '9') {
-        command.kind = COMMAND_SCENE;
-        command.number = text[0] - '1';
+    SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
+    bool letter = key >= SDLK_a && key <= SDLK_z;
+    bool held = SDL_GetKeyboardState(NULL)[SDL_SCANCODE_TAB] != 0;
+    bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
+    if ((typed && !(mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI))) ||
+        (mod & (KMOD_ALT | KMOD_GUI)))
+        return;
+    if (key == SDLK_TAB) { /* told when it comes up: Tab+M is another key */
+        view->tab = true;
+        return;
     }
-    return command;
+    if (key == SDLK_LCTRL || key == SDLK_RCTRL || key == SDLK_LSHIFT ||
+        key == SDLK_RSHIFT || key == SDLK_LALT || key == SDLK_RALT)
+        return;
+    input->kind = INPUT_KEY;
+    input->repeats = event->repeat != 0;
+    snprintf(input->key, sizeof input->key, "%s%s%s%s",
+             mod & KMOD_CTRL ? "Ctrl+" : "",
+             mod & KMOD_SHIFT ? "Shift+" : "", held ? "Tab+" : "",
+             SDL_GetKeyName(key));
+    view->tab = false;
 }
 
-/* Uncovered, resized, or closed. */
-static CommandKind window_command(const SDL_WindowEvent *event)
+/* Tab alone. */
+static void name_tab(View *view, const SDL_KeyboardEvent *event, Input *input)
+{
+    if (event->keysym.sym != SDLK_TAB || !view->tab)
+        return;
+    view->tab = false;
+    input->kind = INPUT_KEY;
+    snprintf(input->key, sizeof input->key, "%s",
+             event->keysym.mod & KMOD_SHIFT ? "Shift+Tab" : "Tab");
+}
+
+/* Signs and digits. */
+static void name_text(const char *text, Input *input)
+{
+    bool letter = (text[0] >= 'a' && text[0] <= 'z') ||
+                  (text[0] >= 'A' && text[0] <= 'Z') || text[0] == ' ';
+    if (letter || (unsigned char)text[0] < ' ' || text[1] != '\0')
+        return;
+    input->kind = INPUT_KEY;
+    snprintf(input->key, sizeof input->key, "%s", text);
+}
+
+/* Uncovered, resized, left or closed. */
+static InputKind window_input(const SDL_WindowEvent *event)
 {
     switch (event->event) {
     case SDL_WINDOWEVENT_CLOSE:
-        return COMMAND_QUIT;
+        return INPUT_CLOSE;
+    case SDL_WINDOWEVENT_LEAVE:
+        return INPUT_LEAVE;
     case SDL_WINDOWEVENT_EXPOSED:
     case SDL_WINDOWEVENT_SHOWN:
     case SDL_WINDOWEVENT_RESTORED:
     case SDL_WINDOWEVENT_SIZE_CHANGED:
-        return COMMAND_REDRAW;
+        return INPUT_REDRAW;
     default:
-        return COMMAND_NONE;
+        return INPUT_NONE;
     }
 }
 
 /* From points of the window to pixels of the paper. */
-static Command pick_command(const View *view, const SDL_MouseButtonEvent *event)
+static void place_input(const View *view, int x, int y, Input *input)
 {
-    Command command = {COMMAND_PICK, 0, event->x, event->y};
     int width = 0, height = 0;
     SDL_GetWindowSize(view->window, &width, &height);
+    input->x = x;
+    input->y = y;
     if (width > 0 && height > 0) {
-        command.x *= (double)view->paper.canvas.width / width;
-        command.y *= (double)view->paper.canvas.height / height;
+        input->x *= (double)view->paper.canvas.width / width;
+        input->y *= (double)view->paper.canvas.height / height;
     }
-    return command;
 }
 
-/* What an event asks for. */
-static Command event_command(const View *view, const SDL_Event *event)
+/* A button that went down or up. */
+static void button_input(const View *view, const SDL_MouseButtonEvent *event,
+                         Input *input)
 {
-    Command command = {COMMAND_NONE, 0, 0, 0};
+    input->kind = event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE;
+    input->button = event->button == SDL_BUTTON_LEFT    ? BUTTON_LEFT
+                    : event->button == SDL_BUTTON_RIGHT ? BUTTON_RIGHT
+                                                        : BUTTON_MIDDLE;
+    input->clicks = event->clicks;
+    place_input(view, event->x, event->y, input);
+}
+
+/* Where the mouse is when its wheel turns. */
+static void wheel_input(const View *view, const SDL_MouseWheelEvent *event,
+                        Input *input)
+{
+    int x, y;
+    SDL_GetMouseState(&x, &y);
+    input->kind = INPUT_WHEEL;
+    input->amount = event->preciseY;
+    if (event->direction == SDL_MOUSEWHEEL_FLIPPED)
+        input->amount = -input->amount;
+    place_input(view, x, y, input);
+}
+
+/* What an event says. */
+static Input read_event(View *view, const SDL_Event *event)
+{
+    Input input = {.kind = INPUT_NONE};
     switch (event->type) {
     case SDL_QUIT:
-        command.kind = COMMAND_QUIT;
-        return command;
+        input.kind = INPUT_CLOSE;
+        break;
     case SDL_KEYDOWN:
-        command.kind = key_command(&event->key);
-        return command;
+        name_key(view, &event->key, &input);
+        break;
+    case SDL_KEYUP:
+        name_tab(view, &event->key, &input);
+        break;
     case SDL_TEXTINPUT:
-        return text_command(event->text.text);
+        name_text(event->text.text, &input);
+        break;
     case SDL_WINDOWEVENT:
-        command.kind = window_command(&event->window);
-        return command;
+        input.kind = window_input(&event->window);
+        break;
     case SDL_RENDER_TARGETS_RESET:
     case SDL_RENDER_DEVICE_RESET:
-        command.kind = COMMAND_REDRAW;
-        return command;
+        input.kind = INPUT_REDRAW;
+        break;
+    case SDL_MOUSEMOTION:
+        input.kind = INPUT_MOVE;
+        place_input(view, event->motion.x, event->motion.y, &input);
+        break;
     case SDL_MOUSEBUTTONDOWN:
-        return pick_command(view, &event->button);
+    case SDL_MOUSEBUTTONUP:
+        button_input(view, &event->button, &input);
+        break;
+    case SDL_MOUSEWHEEL:
+        wheel_input(view, &event->wheel, &input);
+        break;
     default:
-        return command;
+        break;
     }
+    return input;
 }
 
-Command view_command(View *view)
+/* Whether the event behind this movement is another one. */
+static bool moves_on(void)
 {
     SDL_Event event;
-    Command command = {COMMAND_NONE, 0, 0, 0};
-    while (view->window && command.kind == COMMAND_NONE &&
-           SDL_PollEvent(&event)) {
+    return SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
+                          SDL_LASTEVENT) == 1 &&
+           event.type == SDL_MOUSEMOTION;
+}
+
+Input view_input(View *view)
+{
+    SDL_Event event;
+    Input input = {.kind = INPUT_NONE};
+    while (view->window && input.kind == INPUT_NONE && SDL_PollEvent(&event)) {
         if (event.type == SDL_RENDER_DEVICE_RESET && view->texture) {
             SDL_DestroyTexture(view->texture);
             view->texture = NULL;
         }
-        command = event_command(view, &event);
+        if (event.type != SDL_MOUSEMOTION || !moves_on())
+            input = read_event(view, &event);
     }
-    return command;
+    return input;
 }
 
 void view_wait(View *view, int milliseconds)
@@ -372,7 +446,18 @@ void view_wait(View *view, int milliseconds)
         SDL_WaitEventTimeout(NULL, milliseconds);
 }
 
-bool view_quit_waits(View *view)
+/* Whether this event asks for the end of the program. */
+static bool asks_for_end(const SDL_Event *event, bool escape_ends)
+{
+    if (event->type == SDL_KEYDOWN)
+        return (escape_ends && event->key.keysym.sym == SDLK_ESCAPE) ||
+               latin_key(&event->key.keysym) == SDLK_q;
+    return event->type == SDL_QUIT ||
+           (event->type == SDL_WINDOWEVENT &&
+            window_input(&event->window) == INPUT_CLOSE);
+}
+
+bool view_quit_waits(View *view, bool escape_ends)
 {
     SDL_Event events[PEEK_EVENTS];
     if (!view->window)
@@ -382,10 +467,11 @@ bool view_quit_waits(View *view)
                                SDL_FIRSTEVENT, SDL_LASTEVENT);
     bool uncovered = false;
     for (int i = 0; i < count; i++) {
-        CommandKind kind = event_command(view, &events[i]).kind;
-        if (kind == COMMAND_QUIT)
+        if (asks_for_end(&events[i], escape_ends))
             return true;
-        uncovered = uncovered || kind == COMMAND_REDRAW;
+        uncovered = uncovered ||
+                    (events[i].type == SDL_WINDOWEVENT &&
+                     window_input(&events[i].window) == INPUT_REDRAW);
     }
     if (uncovered && view->texture &&
         SDL_GetTicks64() >= view->shown + SHOW_AGAIN)

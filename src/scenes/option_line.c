@@ -345,3 +345,18 @@ Status options_parse_pane(int argc, char **argv, int pane, Options *options,
     Complaint complaint = {message, size};
     return parse_line(argc, argv, pane, true, options, &complaint);
 }
+
+Status options_set(Options *options, const char *name, const char *value,
+                   char *message, size_t size)
+{
+    Complaint complaint = {message, size};
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        if (!row->name[0] || strcmp(row->name, name) != 0 ||
+            row->kind == KIND_SWITCH)
+            continue;
+        Status status = check_need(row, options->scene, &complaint);
+        return status ? status : option_apply(row, value, options, &complaint);
+    }
+    return complain(&complaint, "there is no option '%s' with a value",
+                    typed(name).text);
+}

@@ -90,7 +90,7 @@ Status option_apply(const OptionRow *row, const char *text, Options *options,
                     const Complaint *complaint);
 
 /* Functions of rows of KIND_OWN. */
-ParseFunction parse_integrator, parse_start;
+ParseFunction parse_integrator, parse_start, parse_size;
 
 /* A method by its own name or by one of the slides' words, or NULL. */
 const IntegratorMethod *integrator_meant(const char *text);

@@ -250,3 +250,22 @@ Status option_apply(const OptionRow *row, const char *text, Options *options,
         return row->parse(row, text, options, complaint);
     }
 }
+
+Status parse_size(const OptionRow *row, const char *text, Options *options,
+                  const Complaint *complaint)
+{
+    int width = 0, height = 0;
+    char end;
+    bool digits = text[0] >= '0' && text[0] <= '9';
+    if (digits && sscanf(text, "%5dx%5d%c", &width, &height, &end) == 2 &&
+        width >= row->low && height >= row->low && width <= row->high &&
+        height <= row->high) {
+        options->size[0] = width;
+        options->size[1] = height;
+        return STATUS_OK;
+    }
+    return complain(complaint,
+                    "--%s: '%s' is not WIDTHxHEIGHT, each from %s to %s",
+                    row->name, typed(text).text, number_text(row->low).text,
+                    number_text(row->high).text);
+}

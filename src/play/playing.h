@@ -1,0 +1,23 @@
+/* playing.h - what player.c and obey.c share.
+ */
+#ifndef ELASTO_PLAYING_H
+#define ELASTO_PLAYING_H
+
+#include "play/player.h"
+
+/* A new run with these options, from step 0; files begin anew. */
+Status player_restart(Player *player, const Options *options);
+
+/* The speed in the texts; it is measured anew from here. */
+void player_reset_speed(Player *player);
+
+/* A line below the picture. */
+void player_note(Player *player, const char *format, ...);
+
+/* Of the window. */
+void player_title(const Player *player, char *title, size_t size);
+
+/* Shows another step. */
+Status player_show(Player *player, long step);
+
+#endif
