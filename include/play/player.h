@@ -21,18 +21,18 @@ typedef struct Player {
     Track track;
     Recording recording;
     Hud hud;
-    View *view;    /* NULL: nothing is drawn */
-    bool window;   /* the view is a window: it takes keys */
-    bool attended; /* a window or a script: it may pause and go back */
-    Script script; /* of the command line */
-    Script journal; /* what was done so far, as a script */
-    bool quit;     /* somebody asked for the end */
-    bool changed;  /* the window must be drawn again */
-    bool warned;   /* paused once because a step did not converge */
-    bool blank;    /* the screen is black */
-    int speed;     /* s: 2^s steps a frame, or a frame 2^-s times as long */
-    long sampled;  /* step of the last frame that was drawn; -1: none */
-    Status recorded; /* how the last record of the log was written */
+    View *view;        /* NULL: nothing is drawn */
+    bool window;       /* the view is a window: it takes keys */
+    bool attended;     /* a window or a script: it may pause and go back */
+    Script script;     /* of the command line */
+    Script journal;    /* what was done so far, as a script */
+    bool quit;         /* somebody asked for the end */
+    bool changed;      /* the window must be drawn again */
+    bool warned;       /* paused once because a step did not converge */
+    bool blank;        /* the screen is black */
+    int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
+    long sampled;      /* step of the last frame that was drawn; -1: none */
+    Status recorded;   /* how the last record of the log was written */
     char message[256]; /* why the script cannot be obeyed, or "" */
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */

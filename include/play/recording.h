@@ -28,7 +28,7 @@ typedef struct Recording {
     bool aside; /* set: closing replaces no table that was there before */
     int reason; /* errno of the first failure, 0: none yet */
     char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
-    char message[256]; /* why a film cannot be made, or "" */
+    char message[256];                /* why a film cannot be made, or "" */
 } Recording;
 
 <<<<<<< HEAD

@@ -42,6 +42,7 @@ typedef struct Track {
     Options options;   /* at step 0 */
     Settings settings; /* now */
     bool keeps;        /* states are kept: somebody may go back */
+    bool remembers;    /* some step depends on more than the state before it */
     size_t limit;      /* bytes of the kept states */
 
     KeptState *kept; /* [kept_count] states of step 0, stride, 2 stride, ... */

@@ -9,21 +9,17 @@
 #include <string.h>
 
 /* Short names for the columns of the table. */
-enum {
-    ONCE = false,
-    REPEATS = true,
-    SEEN = false,
-    KEPT = true
-};
+enum { ONCE = false, REPEATS = true, SEEN = false, KEPT = true };
 
 static const CommandRow command_rows[COMMAND_KINDS] = {
-    [COMMAND_NONE] = {COMMAND_NONE, NULL, ARGUMENTS_NONE, NULL, NULL, ONCE, SEEN},
+    [COMMAND_NONE] = {COMMAND_NONE, NULL, ARGUMENTS_NONE, NULL, NULL, ONCE,
+                      SEEN},
     [COMMAND_REDRAW] = {COMMAND_REDRAW, NULL, ARGUMENTS_NONE, NULL, NULL, ONCE,
                         SEEN},
     [COMMAND_QUIT] = {COMMAND_QUIT, "quit", ARGUMENTS_NONE, "Q", "quit", ONCE,
                       SEEN},
-    [COMMAND_TOGGLE_PAUSE] = {COMMAND_TOGGLE_PAUSE, NULL, ARGUMENTS_NONE, "Space",
-                              "run or pause", ONCE, SEEN},
+    [COMMAND_TOGGLE_PAUSE] = {COMMAND_TOGGLE_PAUSE, NULL, ARGUMENTS_NONE,
+                              "Space", "run or pause", ONCE, SEEN},
     [COMMAND_PLAY] = {COMMAND_PLAY, "play", ARGUMENTS_NONE, NULL, NULL, ONCE,
                       KEPT},
     [COMMAND_PAUSE] = {COMMAND_PAUSE, "pause", ARGUMENTS_NONE, NULL, NULL, ONCE,
@@ -44,8 +40,8 @@ static const CommandRow command_rows[COMMAND_KINDS] = {
                       KEPT},
     [COMMAND_RESTART] = {COMMAND_RESTART, "restart", ARGUMENTS_NONE, "R",
                          "begin again", ONCE, KEPT},
-    [COMMAND_FASTER] = {COMMAND_FASTER, "faster", ARGUMENTS_NONE, "+|=", "faster",
-                        REPEATS, SEEN},
+    [COMMAND_FASTER] = {COMMAND_FASTER, "faster", ARGUMENTS_NONE,
+                        "+|=", "faster", REPEATS, SEEN},
     [COMMAND_SLOWER] = {COMMAND_SLOWER, "slower", ARGUMENTS_NONE, "-", "slower",
                         REPEATS, SEEN},
     [COMMAND_FILTER] = {COMMAND_FILTER, "projection", ARGUMENTS_NONE, "P",
@@ -84,8 +80,8 @@ static const CommandRow command_rows[COMMAND_KINDS] = {
                       ONCE, SEEN},
     [COMMAND_PAN] = {COMMAND_PAN, "pan", ARGUMENTS_POINT, NULL, NULL, ONCE,
                      SEEN},
-    [COMMAND_FIT] = {COMMAND_FIT, "fit", ARGUMENTS_NONE, "0",
-                     "fit the picture", ONCE, SEEN},
+    [COMMAND_FIT] = {COMMAND_FIT, "fit", ARGUMENTS_NONE, "0", "fit the picture",
+                     ONCE, SEEN},
     [COMMAND_COLOURS] = {COMMAND_COLOURS, "colours", ARGUMENTS_NONE, "C",
                          "colours show strain", ONCE, SEEN},
     [COMMAND_BARE] = {COMMAND_BARE, "bare", ARGUMENTS_NONE, "H",
@@ -207,9 +203,8 @@ static bool take_arguments(const char **line, CommandArguments arguments,
         snprintf(command->text, sizeof command->text, "%s", word);
         size_t used = strlen(word);
         if (take_word(line, word))
-            return snprintf(command->text + used,
-                            sizeof command->text - used, " %s",
-                            word) < (int)(sizeof command->text - used);
+            return snprintf(command->text + used, sizeof command->text - used,
+                            " %s", word) < (int)(sizeof command->text - used);
         return true;
     default:
         return true;

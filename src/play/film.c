@@ -21,11 +21,10 @@
  * rectangle that has changed. */
 
 enum {
-    SIGNATURE = 8,        /* bytes of a PNG before its first chunk */
-    ACTL_SIZE = 8,        /* bytes of the data of an acTL chunk */
+    SIGNATURE = 8, /* bytes of a PNG before its first chunk */
+    ACTL_SIZE = 8, /* bytes of the data of an acTL chunk */
     FCTL_SIZE = 26,
-    CHUNK_FRAME = 12,     /* bytes of a chunk around its data */
-    DELAY_LEAST = 1
+    CHUNK_FRAME = 12 /* bytes of a chunk around its data */
 };
 
 /* A part of the picture. */
@@ -146,15 +145,13 @@ static Status write_actl(Film *film)
 static Status write_fctl(Film *film, Area area, int shown)
 {
     uint8_t data[FCTL_SIZE] = {0};
-    double delay = 1000 * shown / film->rate;
     png_save_uint_32(data, film->sequence++);
     png_save_uint_32(data + 4, (png_uint_32)area.width);
     png_save_uint_32(data + 8, (png_uint_32)area.height);
     png_save_uint_32(data + 12, (png_uint_32)area.x);
     png_save_uint_32(data + 16, (png_uint_32)area.y);
-    png_save_uint_16(data + 20,
-                     (unsigned)fmin(fmax(delay, DELAY_LEAST), 65535));
-    png_save_uint_16(data + 22, 1000); /* a delay is in ms */
+    png_save_uint_16(data + 20, (unsigned)(shown < 65535 ? shown : 65535));
+    png_save_uint_16(data + 22, (unsigned)lrint(film->rate)); /* of a second */
     return write_chunk(film, "fcTL", data, sizeof data);
 }
 
@@ -187,8 +184,8 @@ static Status write_data(Film *film, const Bytes *bytes)
 /* Signature and IHDR of the whole, and room for acTL. */
 static Status write_start(Film *film, const Bytes *bytes)
 {
-    size_t size = SIGNATURE + png_get_uint_32(bytes->data + SIGNATURE) +
-                  CHUNK_FRAME;
+    size_t size =
+        SIGNATURE + png_get_uint_32(bytes->data + SIGNATURE) + CHUNK_FRAME;
     errno = 0;
     if (fwrite(bytes->data, 1, size, film->output.file) != size)
         return STATUS_FILE_FAILED;
@@ -202,13 +199,11 @@ static Area changed_area(const Film *film)
     size_t row = 3 * (size_t)film->width;
     int top = 0, bottom = film->height - 1;
     int left = film->width - 1, right = 0;
-    while (top < bottom &&
-           memcmp(film->last + (size_t)top * row,
-                  film->next + (size_t)top * row, row) == 0)
+    while (top < bottom && memcmp(film->last + (size_t)top * row,
+                                  film->next + (size_t)top * row, row) == 0)
         top++;
-    while (bottom > top &&
-           memcmp(film->last + (size_t)bottom * row,
-                  film->next + (size_t)bottom * row, row) == 0)
+    while (bottom > top && memcmp(film->last + (size_t)bottom * row,
+                                  film->next + (size_t)bottom * row, row) == 0)
         bottom--;
     for (int y = top; y <= bottom; y++) {
         const uint8_t *a = film->last + (size_t)y * row;
@@ -293,11 +288,26 @@ static void run_ffmpeg(const Film *film, int from)
         "paletteuse=new=1";
     const char *mp4_filter =
         "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p";
-    const char *words[] = {"ffmpeg", "-loglevel", "quiet", "-y", "-f",
-                           "rawvideo", "-pixel_format", "rgb24",
-                           "-video_size", size, "-framerate", rate, "-i",
-                           "pipe:0", "-vf", gif ? gif_filter : mp4_filter,
-                           "-f", gif ? "gif" : "mp4", film->part, NULL};
+    const char *words[] = {"ffmpeg",
+                           "-loglevel",
+                           "quiet",
+                           "-y",
+                           "-f",
+                           "rawvideo",
+                           "-pixel_format",
+                           "rgb24",
+                           "-video_size",
+                           size,
+                           "-framerate",
+                           rate,
+                           "-i",
+                           "pipe:0",
+                           "-vf",
+                           gif ? gif_filter : mp4_filter,
+                           "-f",
+                           gif ? "gif" : "mp4",
+                           film->part,
+                           NULL};
     int nowhere = open("/dev/null", O_WRONLY);
     signal(SIGINT, SIG_IGN); /* the film ends when the pipe does */
     if (dup2(from, STDIN_FILENO) < 0 || dup2(nowhere, STDOUT_FILENO) < 0 ||
@@ -358,8 +368,7 @@ static Status close_ffmpeg(Film *film)
         errno = EIO;
         return STATUS_FILE_FAILED;
     }
-    return rename(film->part, film->name) == 0 ? STATUS_OK
-                                               : STATUS_FILE_FAILED;
+    return rename(film->part, film->name) == 0 ? STATUS_OK : STATUS_FILE_FAILED;
 }
 
 /* ---- both --------------------------------------------------------------- */

@@ -86,7 +86,8 @@ static Status set_option(Player *player, const char *text)
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
-    bool method = strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
+    bool method =
+        strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
     bool live = track_can_change(name) && track->simulation.runs == 1 &&
                 (scene->needs & NEEDS_TIME || method);
     if (strcmp(name, "timestep") == 0 && scene->needs & NEEDS_TIME)

@@ -305,8 +305,7 @@ Status output_cut(Output *output, long last)
         return STATUS_FILE_FAILED;
     long at = find_line(file, last);
     fclose(file);
-    if (ftruncate(fileno(output->file), at) ||
-        fseek(output->file, 0, SEEK_END))
+    if (ftruncate(fileno(output->file), at) || fseek(output->file, 0, SEEK_END))
         return STATUS_FILE_FAILED;
     return STATUS_OK;
 }

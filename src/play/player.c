@@ -44,8 +44,8 @@ static double player_rate(const Player *player)
 static int first_speed(const Options *options)
 {
     if (options->speed > 0)
-        return (int)lrint(fmin(fmax(log2(options->speed), SPEED_LEAST),
-                               SPEED_MOST));
+        return (int)lrint(
+            fmin(fmax(log2(options->speed), SPEED_LEAST), SPEED_MOST));
     return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
 }
 
@@ -72,15 +72,21 @@ uint64_t player_hash(const Player *player)
     return state_hash(&player->track.simulation, STATE_HASH_SEED);
 }
 
+bool player_escape_ends(const Player *player)
+{
+    return !player->hud.keys && !player->blank &&
+           !(player->view && view_is_full(player->view));
+}
+
 /* ---- stepping ----------------------------------------------------------- */
 
 /* After each Newton iteration: log it, and look whether to go on. */
 static bool watch_newton(void *user, const NewtonRecord *record)
 {
     Player *player = user;
-    bool escape = !player->hud.keys && !view_is_full(player->view);
     if (*player->stop ||
-        (player->window && view_quit_waits(player->view, escape)))
+        (player->window &&
+         view_quit_waits(player->view, player_escape_ends(player))))
         player->quit = true;
     if (player->track.repeating)
         return !player->quit;
@@ -281,6 +287,7 @@ static Status obey_inputs(Player *player)
             status = player_obey(player, &command);
         if (status == STATUS_INVALID_INPUT) {
             player_note(player, "%s", player->message);
+            player->message[0] = '\0';
             status = STATUS_OK;
         }
     }
@@ -299,12 +306,13 @@ static Status obey_script(Player *player)
         if (!command)
             break;
         status = player_obey(player, command);
-        if (status == STATUS_INVALID_INPUT && player->message[0]) {
-            char line[128], reason[sizeof player->message];
+        if (status == STATUS_INVALID_INPUT) {
+            char line[128];
             command_format(command, line, sizeof line);
-            snprintf(reason, sizeof reason, "%s", player->message);
-            snprintf(player->message, sizeof player->message,
-                     "--script: '%.60s': %.170s", line, reason);
+            fprintf(stderr, "script: step %ld: '%s': %s\n", simulation->steps,
+                    line, player->message);
+            player->message[0] = '\0';
+            status = STATUS_OK;
         }
     }
     return status;
@@ -448,8 +456,8 @@ static Status read_script(Player *player)
         snprintf(player->message, sizeof player->message, "--script: %.90s: %s",
                  name, strerror(errno));
     if (status == STATUS_INVALID_INPUT)
-        snprintf(player->message, sizeof player->message, "--script: %.80s, %.150s",
-                 name, why);
+        snprintf(player->message, sizeof player->message,
+                 "--script: %.80s, %.150s", name, why);
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 

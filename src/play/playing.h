@@ -17,6 +17,9 @@ void player_note(Player *player, const char *format, ...);
 /* Of the window. */
 void player_title(const Player *player, char *title, size_t size);
 
+/* Whether Escape ends the program: nothing else is open. */
+bool player_escape_ends(const Player *player);
+
 /* Shows another step. */
 Status player_show(Player *player, long step);
 

@@ -36,7 +36,8 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
         return STATUS_OK;
     errno = 0;
     long step = strtol(text, &end, 10);
-    if (!isdigit((unsigned char)*text) || errno || !isspace((unsigned char)*end)) {
+    if (!isdigit((unsigned char)*text) || errno ||
+        !isspace((unsigned char)*end)) {
         snprintf(message, size, "a line is STEP COMMAND, the step a number");
         return STATUS_INVALID_INPUT;
     }

@@ -69,5 +69,6 @@ void summary_print(FILE *file, const Player *player)
     fprintf(file, "steps not converged %ld", simulation->unconverged);
     if (simulation->unconverged > 0)
         fprintf(file, ", the first: %s", status_name(simulation->first));
-    fputc('\n', file);
+    fprintf(file, "\nstate hash          %016llx\n",
+            (unsigned long long)player_hash(player));
 }

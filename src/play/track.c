@@ -8,8 +8,8 @@
 
 /* Options that may change from one step to the next. */
 static const char *const live_names[] = {
-    "timestep", "stiffness",  "tolerance",   "integrator",
-    "solver",   "filter",     "line-search", NULL,
+    "timestep", "stiffness", "tolerance",   "integrator",
+    "solver",   "filter",    "line-search", NULL,
 };
 
 bool track_can_change(const char *name)
@@ -208,7 +208,7 @@ static Status use_settings(Track *track)
 static long nearest_kept(const Track *track, long step)
 {
     long every = track->stride;
-    if (simulation_remembers(&track->simulation) && every < SIMULATION_FORGETS)
+    if (track->remembers && every < SIMULATION_FORGETS)
         every = SIMULATION_FORGETS;
     long newest = (track->kept_count - 1) * track->stride;
     return (step < newest ? step : newest) / every * every;
@@ -226,9 +226,9 @@ static Status settings_at(Track *track, long step, size_t *next)
     for (*next = 0; *next < changes->count && !status; (*next)++) {
         if (changes->line[*next].step >= step)
             break;
-        status = settings_change(&track->settings,
-                                 &changes->line[*next].command, message,
-                                 sizeof message);
+        status =
+            settings_change(&track->settings, &changes->line[*next].command,
+                            message, sizeof message);
     }
     return status;
 }
@@ -260,9 +260,9 @@ static Status repeat_changes(Track *track, size_t *next)
     Status status = STATUS_OK;
     while (*next < changes->count && !status &&
            changes->line[*next].step == track_step_shown(track)) {
-        status = settings_change(&track->settings,
-                                 &changes->line[*next].command, message,
-                                 sizeof message);
+        status =
+            settings_change(&track->settings, &changes->line[*next].command,
+                            message, sizeof message);
         if (!status)
             status = use_settings(track);
         (*next)++;
@@ -338,6 +338,8 @@ Status track_step(Track *track)
     long before = track_step_shown(track);
     track_forget(track);
     track->now = (StepRow){0};
+    track->remembers =
+        track->remembers || simulation_remembers(&track->simulation);
     Status status = simulation_step(&track->simulation);
     if (track_step_shown(track) == before)
         return status;
@@ -366,7 +368,8 @@ Status track_change(Track *track, const Command *change, char *message,
             return status;
     }
     track_forget(track);
-    Status status = script_add(&track->changes, track_step_shown(track), change);
+    Status status =
+        script_add(&track->changes, track_step_shown(track), change);
     if (!status)
         status = settings_change(&track->settings, change, message, size);
     return status ? status : use_settings(track);

@@ -92,11 +92,11 @@ static bool open_window(View *view, const char *title, const int size[2],
     }
     int fitting[2];
     window_size(size, fitting);
-    view->window = SDL_CreateWindow(
-        title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, fitting[0],
-        fitting[1],
-        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
-            (full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0));
+    view->window =
+        SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                         fitting[0], fitting[1],
+                         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
+                             (full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0));
     if (!view->window)
         return false;
     view->renderer = SDL_CreateRenderer(
@@ -289,9 +289,8 @@ static void name_key(View *view, const SDL_KeyboardEvent *event, Input *input)
     input->kind = INPUT_KEY;
     input->repeats = event->repeat != 0;
     snprintf(input->key, sizeof input->key, "%s%s%s%s",
-             mod & KMOD_CTRL ? "Ctrl+" : "",
-             mod & KMOD_SHIFT ? "Shift+" : "", held ? "Tab+" : "",
-             SDL_GetKeyName(key));
+             mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
+             held ? "Tab+" : "", SDL_GetKeyName(key));
     view->tab = false;
 }
 
@@ -469,9 +468,9 @@ bool view_quit_waits(View *view, bool escape_ends)
     for (int i = 0; i < count; i++) {
         if (asks_for_end(&events[i], escape_ends))
             return true;
-        uncovered = uncovered ||
-                    (events[i].type == SDL_WINDOWEVENT &&
-                     window_input(&events[i].window) == INPUT_REDRAW);
+        uncovered =
+            uncovered || (events[i].type == SDL_WINDOWEVENT &&
+                          window_input(&events[i].window) == INPUT_REDRAW);
     }
     if (uncovered && view->texture &&
         SDL_GetTicks64() >= view->shown + SHOW_AGAIN)

@@ -189,6 +189,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];
         run->v[2 * node] = run->v[2 * node + 1] = 0;
+        run->remembers = false;
         time_integrator_forget(run, true);
     }
     return STATUS_OK;
@@ -203,8 +204,7 @@ bool simulation_is_pinned(const Simulation *simulation, int node)
 static double *copy_motion(const Simulation *simulation)
 {
     size_t size = 2 * (size_t)simulation->system.nodes;
-    double *copy =
-        malloc(2 * size * (size_t)simulation->runs * sizeof *copy);
+    double *copy = malloc(2 * size * (size_t)simulation->runs * sizeof *copy);
     for (int r = 0; copy && r < simulation->runs; r++) {
         memcpy(copy + 2 * r * size, simulation->run[r].x, size * sizeof *copy);
         memcpy(copy + (2 * r + 1) * size, simulation->run[r].v,

@@ -641,7 +641,7 @@ static void surface_shows_the_paper(void **unused)
             CHECK(view_surface_pixel(view, i, j) ==
                   paper->canvas.pixels[300 * j + i]);
     CHECK(view_surface_pixel(view, 300, 0) == 0);
-    CHECK(view_command(view).kind == COMMAND_NONE && !view_quit_waits(view));
+    CHECK(view_input(view).kind == INPUT_NONE && !view_quit_waits(view, true));
     view_free(view);
     view_free(NULL);
     simulation_free(&simulation);
@@ -826,8 +826,8 @@ static void frames_are_numbered_by_step(void **unused)
     assert_int_equal(canvas_create(3, 3, &canvas), 0);
     for (int i = 0; i < 2; i++) {
         CHECK_STATUS(recording_open(&options, &recording), STATUS_OK);
-        CHECK_STATUS(recording_frame(&recording, &canvas, 0), STATUS_OK);
-        CHECK_STATUS(recording_frame(&recording, &canvas, 12), STATUS_OK);
+        CHECK_STATUS(recording_frame(&recording, &canvas, 0, 1), STATUS_OK);
+        CHECK_STATUS(recording_frame(&recording, &canvas, 12, 1), STATUS_OK);
         assert_int_equal(recording.frames, 2);
         CHECK_STATUS(recording_close(&recording), STATUS_OK);
     }
