@@ -19,12 +19,12 @@ typedef struct Film {
     int width, height; /* pixels; those of the first frame */
     long frames;       /* so far */
     double rate;       /* frames a second */
-    Output output;     /* of an animated PNG */
-    long header;       /* where its acTL chunk is */
+    Output output;
+    long header;       /* where the acTL chunk of an animated PNG is */
     unsigned sequence; /* of its next chunk */
     uint8_t *last;     /* [3 width height] the frame before, RGB */
     uint8_t *next;     /* the same, to compare with */
-    char *name, *part; /* of what ffmpeg writes */
+    bool gif;          /* ffmpeg is to write that */
     int process, pipe; /* of ffmpeg; 0, -1: none */
 } Film;
 

@@ -31,17 +31,13 @@ typedef struct Recording {
     char message[256];                /* why a film cannot be made, or "" */
 } Recording;
 
-<<<<<<< HEAD
 /* Whether the files of the options can be written beside each other: the same
  * file may not be meant twice, and standard output takes one table.
  *   message  [size] out, one line after INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
 Status recording_check(const Options *options, char *message, size_t size);
 
-/* Opens what options->frames, states and log ask for; makes the folder.
-=======
 /* Opens what options->frames, film, states and log ask for; makes the folder.
->>>>>>> 6319b1f (The player obeys commands from keys and scripts, goes back and films)
  *   recording  out; close it in any case
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
  * all functions here do; INVALID_INPUT: message says why. */

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/one_line.h"
+
 /* ---- animated PNG -------------------------------------------------------
  * The file is a PNG whose picture is the first frame, with chunks that other
  * readers skip (APNG specification 1.0):
@@ -280,7 +282,6 @@ static bool program_exists(const char *name)
 static void run_ffmpeg(const Film *film, int from)
 {
     char size[32], rate[32];
-    bool gif = strstr(film->name, ".gif") != NULL;
     snprintf(size, sizeof size, "%dx%d", film->width, film->height);
     snprintf(rate, sizeof rate, "%g", film->rate);
     const char *gif_filter =
@@ -303,10 +304,10 @@ static void run_ffmpeg(const Film *film, int from)
                            "-i",
                            "pipe:0",
                            "-vf",
-                           gif ? gif_filter : mp4_filter,
+                           film->gif ? gif_filter : mp4_filter,
                            "-f",
-                           gif ? "gif" : "mp4",
-                           film->part,
+                           film->gif ? "gif" : "mp4",
+                           film->output.temporary,
                            NULL};
     int nowhere = open("/dev/null", O_WRONLY);
     signal(SIGINT, SIG_IGN); /* the film ends when the pipe does */
@@ -356,19 +357,18 @@ static Status add_ffmpeg(Film *film, int shown)
 static Status close_ffmpeg(Film *film)
 {
     int code = 0;
-    if (film->process == 0)
-        return STATUS_OK;
-    close(film->pipe);
-    while (waitpid(film->process, &code, 0) < 0 && errno == EINTR)
-        continue;
+    if (film->process > 0) {
+        close(film->pipe);
+        while (waitpid(film->process, &code, 0) < 0 && errno == EINTR)
+            continue;
+    }
     film->process = 0;
     film->pipe = -1;
-    if (!WIFEXITED(code) || WEXITSTATUS(code) != 0) {
-        unlink(film->part);
-        errno = EIO;
-        return STATUS_FILE_FAILED;
-    }
-    return rename(film->part, film->name) == 0 ? STATUS_OK : STATUS_FILE_FAILED;
+    if (film->frames > 0 && WIFEXITED(code) && WEXITSTATUS(code) == 0)
+        return output_close(&film->output, false);
+    output_discard(&film->output);
+    errno = EIO;
+    return film->frames > 0 ? STATUS_FILE_FAILED : STATUS_OK;
 }
 
 /* ---- both --------------------------------------------------------------- */
@@ -380,64 +380,42 @@ static bool ends_with(const char *name, const char *end)
     return length > last && strcmp(name + length - last, end) == 0;
 }
 
-/* A copy with something behind it, or NULL. */
-static char *copy_name(const char *name, const char *end)
+static Status refuse(char *message, size_t size, const char *format,
+                     const char *name)
 {
-    size_t size = strlen(name) + strlen(end) + 1;
-    char *copy = malloc(size);
-    if (copy)
-        snprintf(copy, size, "%s%s", name, end);
-    return copy;
-}
-
-static Status open_ffmpeg(const char *name, Film *film, char *message,
-                          size_t size)
-{
-    film->kind = FILM_FFMPEG;
-    if (!program_exists("ffmpeg")) {
-        snprintf(message, size,
-                 "'%s' needs the program ffmpeg: apt-get install ffmpeg, or "
-                 "name the film .apng",
-                 name);
-        return STATUS_INVALID_INPUT;
-    }
-    film->name = copy_name(name, "");
-    film->part = copy_name(name, ".part");
-    if (!film->name || !film->part)
-        return STATUS_OUT_OF_MEMORY;
-    FILE *file = fopen(film->part, "wb"); /* to know now that it can be made */
-    if (!file)
-        return STATUS_FILE_FAILED;
-    fclose(file);
-    unlink(film->part);
-    return STATUS_OK;
+    snprintf(message, size, format, name);
+    return STATUS_INVALID_INPUT;
 }
 
 Status film_open(const char *name, double rate, Film *film, char *message,
                  size_t size)
 {
     *film = (Film){.rate = rate, .pipe = -1};
+    char shown[128];
+    one_line(name, shown, sizeof shown);
     message[0] = '\0';
-    if (ends_with(name, ".mp4") || ends_with(name, ".gif"))
-        return open_ffmpeg(name, film, message, size);
-    if (!ends_with(name, ".apng") && !ends_with(name, ".png")) {
-        snprintf(message, size, "'%s' does not end in .apng, .mp4 or .gif",
-                 name);
-        return STATUS_INVALID_INPUT;
-    }
+    film->gif = ends_with(name, ".gif");
+    if (film->gif || ends_with(name, ".mp4"))
+        film->kind = FILM_FFMPEG;
+    else if (!ends_with(name, ".apng") && !ends_with(name, ".png"))
+        return refuse(message, size,
+                      "--film: '%s' does not end in .apng, .mp4 or .gif",
+                      shown);
+    if (film->kind == FILM_FFMPEG && !program_exists("ffmpeg"))
+        return refuse(message, size,
+                      "--film: '%s' needs the program ffmpeg: apt-get install "
+                      "ffmpeg, or name the film .apng",
+                      shown);
     Status status = output_open(name, &film->output);
-    if (!status && fseek(film->output.file, 0, SEEK_SET) != 0) {
-        snprintf(message, size, "'%s' is no file that can be gone back in",
-                 name);
-        output_discard(&film->output);
-        status = STATUS_INVALID_INPUT;
-    }
-    return status;
+    if (status || film->output.temporary)
+        return status;
+    output_discard(&film->output);
+    return refuse(message, size, "--film: '%s' is no regular file", shown);
 }
 
 bool film_runs(const Film *film)
 {
-    return film->output.file || film->name;
+    return film->output.file != NULL;
 }
 
 /* The canvas as RGB, in the size of the film. */
@@ -490,8 +468,6 @@ static void film_free(Film *film)
 {
     free(film->last);
     free(film->next);
-    free(film->name);
-    free(film->part);
     *film = (Film){.pipe = -1};
 }
 
@@ -510,13 +486,12 @@ Status film_close(Film *film)
 void film_discard(Film *film)
 {
     int reason = errno;
-    output_discard(&film->output);
     if (film->process > 0) {
         close(film->pipe);
         kill(film->process, SIGKILL);
         waitpid(film->process, NULL, 0);
-        unlink(film->part);
     }
+    output_discard(&film->output);
     film_free(film);
     errno = reason;
 }

@@ -82,9 +82,7 @@ Status recording_end_film(Recording *recording)
     char name[RECORDING_NAME_SIZE];
     const Film *film = &recording->film;
     snprintf(name, sizeof name, "%s",
-             film->name          ? film->name
-             : film->output.name ? film->output.name
-                                 : "");
+             film->output.name ? film->output.name : "");
     return recording_note(recording, film_close(&recording->film), name);
 }
 
@@ -194,7 +192,7 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     Status status = STATUS_OK;
     if (film_runs(film))
         status = recording_note(recording, film_add(film, canvas, shown),
-                                film->name ? film->name : film->output.name);
+                                film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;
