@@ -131,6 +131,7 @@ static void report_failure(const Player *player, Status status)
     char reason[256] = "", name[256];
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
+    one_line(recording->failed, name, sizeof name);
     if (player->message[0] || recording->message[0])
         fprintf(stderr, "elasto: %s\n",
                 player->message[0] ? player->message : recording->message);
