@@ -6,6 +6,7 @@ CC      ?= cc
 CFLAGS  ?= -O2 -g
 PREFIX  ?= /usr/local
 SANITIZE ?=
+ONE_THREAD ?= 1
 V       ?= 0
 ARGS    ?=
 
@@ -25,7 +26,8 @@ OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(B)/listing_text.o
 BENCH_OBJECTS := $(BENCH_SOURCES:src/%.c=$(B)/%.o)
 SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
-ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
+ALL_CPPFLAGS = -D_GNU_SOURCE -DELASTO_ONE_THREAD=$(ONE_THREAD) \
+               -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
 ALL_CFLAGS   = -std=c11 -ffp-contract=off -Wall -Wextra $(CFLAGS) $(SANITIZER)
 ALL_LDFLAGS  = $(LDFLAGS) $(SANITIZER)
 SANITIZER    = $(if $(SANITIZE),-fsanitize=$(SANITIZE) \

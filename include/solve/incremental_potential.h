@@ -70,6 +70,12 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
 void incremental_potential_product(const Iterate *at, Filter filter,
                                    const double *q, double *y);
 
+/* Where no term or one that knows its minimiser stands alone: u and x of the
+ * minimum, without any matrix.  Writes over p.
+ *   status  out: OK or NOT_FINITE
+ * Returns false, and does nothing, where there is no such form. */
+bool incremental_potential_solve(Iterate *at, Status *status);
+
 /* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
  * none. */
 typedef struct Along {

@@ -19,16 +19,17 @@ typedef enum Solver {
     SOLVER_COUNT
 } Solver;
 
-/* What one Newton iteration did. */
+/* What one Newton iteration did; or, with iteration -1, how a minimisation
+ * ended whose end no iteration tells: at its start, or as it was finished. */
 typedef struct NewtonRecord {
     long step;       /* time step, from 1 */
-    int iteration;   /* in this minimisation, from 0 */
+    int iteration;   /* in this minimisation, from 0; -1: see above */
     double residual; /* max over nodes |p_x| + |p_y|, over h: m/s */
     double alpha;    /* step length along p; 0: none was found */
     int trials;      /* energies the line search looked at */
     double slope;    /* grad E . p, J s^2: < 0 is downhill */
     double change;   /* of E, J s^2: by alpha p; lagged: by all it did */
-    int projected;   /* springs whose Hessian was projected */
+    int projected;   /* blocks of the Hessian that were projected */
     bool factorised; /* false: an older factor served */
     double shift;    /* kg, what the diagonal needed to be factored */
     double seconds;  /* this iteration took */
@@ -37,7 +38,8 @@ typedef struct NewtonRecord {
     double to[2];    /* single unknown point; 0 elsewhere */
 } NewtonRecord;
 
-/* Called after each iteration; false asks to stop (INTERRUPTED). */
+/* Called after each iteration, and after each minimisation whose end no
+ * iteration tells; false asks to stop (INTERRUPTED). */
 typedef bool (*NewtonObserver)(void *user, const NewtonRecord *record);
 
 typedef struct NewtonSettings {
@@ -52,14 +54,14 @@ typedef struct NewtonSettings {
     void *user;              /* passed to the observer */
 } NewtonSettings;
 
-/* What was done since the object was made. */
+/* What was done since the object was made.  Nothing reads it to decide. */
 typedef struct NewtonCounters {
     long minimisations;
     long iterations; /* Newton updates */
     long gradients;  /* evaluations of grad E */
     long factorisations;
     long solves;
-    long projected; /* springs projected, summed over factorisations */
+    long projected; /* blocks projected, summed over factorisations */
     long trials;    /* energies looked at by the line search */
     long shifted;   /* factorisations that needed a shift */
     long skipped;   /* tests passed by the gradient's size alone */
@@ -69,6 +71,20 @@ typedef struct NewtonCounters {
     double seconds_smoothing;
 } NewtonCounters;
 
+/* sum += counters */
+void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
+
+/* What guards the digits of a minimisation (rounding.c). */
+typedef struct Rounding {
+    double lightest;      /* kg, the smallest mass */
+    double stiffest;      /* J/m^2, the largest curvature of a term */
+    bool held;            /* to what E really is */
+    double start, energy; /* J s^2, E at the start and at the iterate */
+    double margin;        /* J s^2, E may seem to rise by; these if held */
+    double best;          /* m/s, smallest residual of this minimisation */
+    int stagnant;         /* iterations since it was the smallest */
+} Rounding;
+
 typedef struct Newton {
     NewtonSettings settings; /* may be changed between iterations */
     NewtonCounters counters;
@@ -76,22 +92,13 @@ typedef struct Newton {
     Status status;       /* RUNNING, or how it ended */
     long step;           /* copied into the records */
     double residual;     /* of p at the present iterate, m/s */
-    double best;         /* smallest residual of this minimisation, m/s */
-    int stagnant;        /* iterations since it was the smallest */
-    Iterate at;          /* E, u, x, g, p */
-    double *u_tilde;     /* [2n] m, what the integrator writes: x_tilde - x_n */
-    double *r;    /* [2n] m, workspace; the lagged solver's last update */
-    int clamps;   /* iterations that on-demand projection still clamps */
-    bool resting; /* the last minimisation needed no update */
-    int age;      /* updates since the factor was made; < 0: none yet */
     const System *system;
-    double lightest;        /* kg, the smallest mass */
-    double stiffest;        /* J/m^2, the largest curvature of a term */
-    double start;           /* J s^2, E at x_n, and */
-    double energy;          /* at the iterate; only where it is checked */
-    double margin;          /* J s^2, E may rise by; < 0: is not checked */
+    Iterate at;      /* E, u, x, g, p */
+    double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
+    double *r;       /* [2n] m, workspace; the lagged solver's last update */
     SearchDirection search; /* the Hessian and its factor */
-    GaussSeidel smoother;   /* only the lagged solver's */
+    Rounding rounding;
+    GaussSeidel smoother; /* only the lagged solver's */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.

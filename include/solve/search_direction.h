@@ -23,11 +23,20 @@ typedef struct SearchDirection {
     double shift;          /* kg, on the diagonal of what was factored */
     double *b;             /* [2n] right-hand side in elimination order */
     double *r, *z, *q, *d; /* [2n] of conjugate gradients, or NULL */
+    int age;         /* updates since the factor was made; < 0: none to use */
+    int clamps;      /* iterations that on-demand projection still clamps */
+    int updates;     /* of this minimisation; < 0: there was none yet */
+    bool resting;    /* the last minimisation needed no update */
+    double residual; /* m/s, of the direction before the present one */
 } SearchDirection;
 
 /* Returns OK, OUT_OF_MEMORY; free it in any case.  No matrix is made yet. */
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
+
+/* The factor is not to be used any more; one update has passed since it. */
+void search_direction_forget(SearchDirection *search);
+void search_direction_grow_old(SearchDirection *search);
 
 /* The next assembly makes the pattern and its analysis again. */
 void search_direction_rebuild(SearchDirection *search);

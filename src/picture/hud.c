@@ -39,6 +39,8 @@ void hud_begin_step(Hud *hud)
 /* One more update. */
 void hud_add_update(Hud *hud, const NewtonRecord *record)
 {
+    if (record->iteration < 0)
+        return;
     hud->iterations++;
     hud->trials += record->trials;
     if (record->projected > hud->projected)

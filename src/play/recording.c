@@ -229,9 +229,12 @@ Status recording_update(Recording *recording, const NewtonRecord *record)
     Output *log = &recording->log;
     if (!log->file)
         return STATUS_OK;
+    char iteration[16] = "";
+    if (record->iteration >= 0)
+        snprintf(iteration, sizeof iteration, "%d", record->iteration);
     errno = 0;
-    fprintf(log->file, "%ld,%d,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g,%s,%.17g",
-            record->step, record->iteration, record->residual, record->alpha,
+    fprintf(log->file, "%ld,%s,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g,%s,%.17g",
+            record->step, iteration, record->residual, record->alpha,
             record->trials, record->slope, record->change, record->projected,
             record->factorised, record->shift, status_name(record->status),
             record->seconds);

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "scenes/square_scenes.h"
 
 /* Steps of the longest time step and of the reference. */
@@ -25,13 +25,6 @@ const IntegratorMethod *race_method(int i)
         "forward-euler",  "symplectic-euler", "verlet",
         "backward-euler", "midpoint",         "avf4"};
     return integrator_method(names[i]);
-}
-
-static double race_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* From the start to RACE_TIME in this many steps.
@@ -89,14 +82,14 @@ Status step_race(Simulation *simulation)
     const IntegratorMethod *method = race_method(race->count % RACE_METHODS);
     long steps = (long)RACE_FIRST_STEPS << (race->count / RACE_METHODS);
     TimeIntegrator run = {0};
-    double start = race_clock();
+    double start = clock_now();
     Status status = run_to_end(simulation, method, steps, &run);
     RacePoint *point = &race->point[race->count];
     *point = (RacePoint){.method = method,
                          .h = RACE_TIME / (double)steps,
                          .steps = steps,
                          .error = NAN,
-                         .seconds = race_clock() - start,
+                         .seconds = clock_now() - start,
                          .updates =
                              run.newton ? run.newton->counters.iterations : 0};
     if (!status)

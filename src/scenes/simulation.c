@@ -253,33 +253,12 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
-/* sum += counters */
-static void add_counters(const NewtonCounters *counters, NewtonCounters *sum)
-{
-    sum->minimisations += counters->minimisations;
-    sum->iterations += counters->iterations;
-    sum->gradients += counters->gradients;
-    sum->factorisations += counters->factorisations;
-    sum->solves += counters->solves;
-    sum->projected += counters->projected;
-    sum->trials += counters->trials;
-    sum->shifted += counters->shifted;
-    sum->certified += counters->certified;
-    sum->skipped += counters->skipped;
-    sum->seconds_assembly += counters->seconds_assembly;
-    sum->seconds_factor += counters->seconds_factor;
-    sum->seconds_solve += counters->seconds_solve;
-    sum->smoothings += counters->smoothings;
-    sum->seconds_search += counters->seconds_search;
-    sum->seconds_smoothing += counters->seconds_smoothing;
-}
-
 NewtonCounters simulation_counters(const Simulation *simulation)
 {
     NewtonCounters sum = {0};
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
-            add_counters(&simulation->run[i].newton->counters, &sum);
+            newton_counters_add(&simulation->run[i].newton->counters, &sum);
     return sum;
 }
 

@@ -1,11 +1,11 @@
 #include "solve/cholesky.h"
 
 #include <cholmod.h>
-#include <dlfcn.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve/one_thread.h"
 #include "solve/supernodes.h"
 
 struct Cholesky {
@@ -22,50 +22,6 @@ struct Cholesky {
 Triangle cholesky_triangle(CholeskyKind kind)
 {
     return kind == CHOLESKY_DEFINITE ? TRIANGLE_LOWER : TRIANGLE_UPPER;
-}
-
-/* Calls a function of a library that CHOLMOD may have brought along. */
-static void call_if_loaded(const char *name, int argument)
-{
-    void (*function)(int);
-    void *symbol = dlsym(RTLD_DEFAULT, name);
-    if (!symbol)
-        return;
-    memcpy(&function, &symbol, sizeof function);
-    function(argument);
-}
-
-/* Two library functions that CHOLMOD calls and that would take a quarter of a
- * factorisation: the program's own come before those of the libraries (weak: a
- * static library may bring its own).
- *
- * GCC's OpenMP runs CHOLMOD's parallel loops.  One thread is wanted: each loop
- * runs where it is called, without a team of one being set up around it. */
-__attribute__((weak)) void GOMP_parallel(void (*loop)(void *), void *data,
-                                         unsigned threads, unsigned flags);
-void GOMP_parallel(void (*loop)(void *), void *data, unsigned threads,
-                   unsigned flags)
-{
-    (void)threads;
-    (void)flags;
-    loop(data);
-}
-
-/* The clock, read before and after each call of BLAS for a statistic that is
- * not used here. */
-__attribute__((weak)) double SuiteSparse_time(void);
-double SuiteSparse_time(void)
-{
-    return 0;
-}
-
-/* Blocks of this size are too small to share among threads: OpenMP inside
- * CHOLMOD costs more than it gives, and with one BLAS thread the sums have the
- * same order, so the same bits, however many threads a machine has. */
-static void use_one_thread(void)
-{
-    call_if_loaded("omp_set_max_active_levels", 0);
-    call_if_loaded("openblas_set_num_threads", 1);
 }
 
 /* Supernodes are merged if that adds few zeros; these limits were measured on
@@ -124,7 +80,7 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
     Cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky)
         return STATUS_OUT_OF_MEMORY;
-    use_one_thread();
+    one_thread();
     cholmod_start(&cholesky->common);
     set_parameters(&cholesky->common, kind, ordered);
     cholesky->kind = kind;

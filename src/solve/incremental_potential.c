@@ -234,3 +234,31 @@ bool incremental_potential_is_convex(const Iterate *at, double *sum)
             return false;
     return true;
 }
+
+bool incremental_potential_solve(Iterate *at, Status *status)
+{
+    const System *system = at->E.system;
+    Place place = place_of(&at->E, at->u, at->x);
+    double sum = 0;
+    if (system->terms > 1 ||
+        (system->terms == 1 &&
+         !incremental_potential_kind(&at->E, 0)->closed_form))
+        return false;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        at->p[i] = at->E.u_tilde[i];
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = incremental_potential_kind(&at->E, t);
+        if (!kind->closed_form)
+            return false;
+        kind->closed_form(&system->term[t], &place, at->E.weight, at->E.u_tilde,
+                          at->p);
+    }
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        if (!system->pinned || !system->pinned[i / 2])
+            at->u[i] = at->p[i];
+        at->x[i] = at->E.x_n[i] + at->u[i];
+        sum += 0 * at->x[i];
+    }
+    *status = sum == 0 ? STATUS_OK : STATUS_NOT_FINITE;
+    return true;
+}

@@ -20,7 +20,8 @@ double scalar_second(const ScalarFunction *f, double x)
 /* p = -f'(x)/f''(x), and the test */
 Status scalar_newton_start(ScalarNewton *newton)
 {
-    newton->p = -scalar_first(&newton->f, newton->x) / scalar_second(&newton->f, newton->x);
+    newton->p = -scalar_first(&newton->f, newton->x) /
+                scalar_second(&newton->f, newton->x);
     newton->status = STATUS_RUNNING;
     if (!isfinite(newton->p))
         newton->status = STATUS_DIVERGED;

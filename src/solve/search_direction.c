@@ -14,7 +14,7 @@ enum { REFINE_MAX_SOLVES = 6 };
 
 Status search_direction_create(const System *system, SearchDirection *search)
 {
-    *search = (SearchDirection){.system = system};
+    *search = (SearchDirection){.system = system, .age = -1, .updates = -1};
     search->b = calloc(2 * (size_t)system->nodes, sizeof *search->b);
     return search->b ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
@@ -37,6 +37,19 @@ void search_direction_free(SearchDirection *search)
     free(search->b);
     free(search->r);
     *search = (SearchDirection){0};
+}
+
+void search_direction_forget(SearchDirection *search)
+{
+    search->age = -1;
+    search->updates = -1;
+    search->clamps = 0;
+}
+
+void search_direction_grow_old(SearchDirection *search)
+{
+    if (search->age >= 0)
+        search->age++;
 }
 
 void search_direction_rebuild(SearchDirection *search)

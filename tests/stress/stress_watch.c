@@ -231,6 +231,8 @@ static bool watch_record(void *user, const NewtonRecord *record)
 {
     Watch *watch = user;
     const Newton *newton = watch->run->newton;
+    if (record->iteration < 0)
+        return true; /* seen as the step ends */
     if (record->iteration == 0)
         watch_begin(watch);
     if (record->iteration != watch->updates)

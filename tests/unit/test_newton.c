@@ -62,6 +62,8 @@ static void witness_start(Witness *witness)
 static bool witness_record(void *user, const NewtonRecord *record)
 {
     Witness *witness = user;
+    if (record->iteration < 0)
+        return true;
     const Newton *newton = witness->simulation->run[0].newton;
     const IncrementalPotential *E = &newton->at.E;
     bool clamp = newton->settings.filter == FILTER_CLAMP;

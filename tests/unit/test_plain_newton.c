@@ -23,6 +23,8 @@ static bool keep_iterate(void *user, const NewtonRecord *record)
 {
     Iterates *iterates = user;
     const Newton *newton = iterates->simulation->run[0].newton;
+    if (record->iteration < 0)
+        return true;
     CHECK(record->iteration == iterates->count && iterates->count < UPDATES);
     memcpy(iterates->x[iterates->count++], newton->at.x,
            2 * (size_t)newton->system->nodes * sizeof(double));

@@ -46,6 +46,8 @@ static void read_updates(const char *name, Updates *updates)
 static bool record_update(void *user, const NewtonRecord *record)
 {
     Updates *updates = user;
+    if (record->iteration < 0)
+        return true;
     int i = updates->count < ROWS ? updates->count++ : ROWS - 1;
     updates->step[i] = record->step;
     updates->iteration[i] = record->iteration;

@@ -231,7 +231,7 @@ static void stretched_springs_are_not_projected(void **unused)
 static bool count_reused(void *user, const NewtonRecord *record)
 {
     long *reused = user;
-    *reused += !record->factorised;
+    *reused += record->iteration >= 0 && !record->factorised;
     return true;
 }
 

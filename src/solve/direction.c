@@ -1,21 +1,12 @@
-#include "solve/newton_direction.h"
+#include "solve/direction.h"
 
 #include <math.h>
-#include <time.h>
 
-/* Updates for which the lagged solver keeps a factor: more iterations against
- * fewer factorisations; 12 ... 48 measured about the same. */
-enum { MAX_FACTOR_AGE = 32 };
+#include "base/clock.h"
+#include "solve/lagged.h"
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
-
-double newton_clock(void)
-{
-    struct timespec now;
-    timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
 static double newton_residual(const Newton *newton, const double *p)
@@ -33,7 +24,7 @@ static double newton_residual(const Newton *newton, const double *p)
  * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
 static double residual_per_norm(const Newton *newton)
 {
-    return sqrt(2 / newton->lightest) / newton->settings.h;
+    return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
 }
 
 /* The projected Hessian is M plus something positive semi-definite, so
@@ -50,14 +41,14 @@ static double newton_residual_bound(const Newton *newton)
 static Status factor_as(Newton *newton, Filter filter, bool definite)
 {
     NewtonCounters *counters = &newton->counters;
-    double start = newton_clock(), assembled;
+    double start = clock_now(), assembled;
     int projected, tries = 0;
     Status status = search_direction_assemble(&newton->search, &newton->at,
                                               filter, definite, &projected);
-    assembled = newton_clock();
+    assembled = clock_now();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
-    newton->age = status ? -1 : 0;
+    newton->search.age = status ? -1 : 0;
     newton->record.factorised = true;
     newton->record.projected = projected;
     newton->record.shift = newton->search.shift;
@@ -65,7 +56,7 @@ static Status factor_as(Newton *newton, Filter filter, bool definite)
     counters->factorisations += tries;
     counters->shifted += newton->search.shift > 0;
     counters->seconds_assembly += assembled - start;
-    counters->seconds_factor += newton_clock() - assembled;
+    counters->seconds_factor += clock_now() - assembled;
     return status;
 }
 
@@ -74,28 +65,28 @@ static Status factor_as(Newton *newton, Filter filter, bool definite)
 static Status newton_factor(Newton *newton)
 {
     Filter filter = newton->settings.filter;
-    newton->age = -1;
+    newton->search.age = -1;
     if (filter == FILTER_NONE)
         return factor_as(newton, FILTER_NONE, false);
     if (filter != FILTER_ON_DEMAND)
         return factor_as(newton, filter, true);
-    if (newton->clamps == 0) {
+    if (newton->search.clamps == 0) {
         Status status = factor_as(newton, FILTER_NONE, true);
         if (status != STATUS_NOT_POSITIVE_DEFINITE)
             return status;
-        newton->clamps = CLAMPS_AFTER_FAILURE;
+        newton->search.clamps = CLAMPS_AFTER_FAILURE;
     }
-    newton->clamps--;
+    newton->search.clamps--;
     return factor_as(newton, FILTER_CLAMP, true);
 }
 
 /* p = -H^-1 g (slide: search_dir). */
 static Status newton_solve(Newton *newton)
 {
-    double start = newton_clock();
+    double start = clock_now();
     Status status = search_direction_solve(&newton->search, &newton->at);
     newton->counters.solves++;
-    newton->counters.seconds_solve += newton_clock() - start;
+    newton->counters.seconds_solve += clock_now() - start;
     return status;
 }
 
@@ -103,9 +94,9 @@ static Status newton_solve(Newton *newton)
  * one without updates, or after a direction that was nearly short enough. */
 static bool expects_convergence(const Newton *newton)
 {
-    if (newton->record.iteration < 0)
-        return newton->resting;
-    return newton->record.residual <= 10 * newton->settings.tolerance;
+    if (newton->search.updates == 0)
+        return newton->search.resting;
+    return newton->search.residual <= 10 * newton->settings.tolerance;
 }
 
 /* Whether the factor of an earlier iterate is worth a try: the lagged solver
@@ -113,12 +104,12 @@ static bool expects_convergence(const Newton *newton)
  * passed. */
 static bool factor_may_serve(const Newton *newton)
 {
-    if (newton->settings.filter == FILTER_NONE || newton->age < 0 ||
+    if (newton->settings.filter == FILTER_NONE || newton->search.age < 0 ||
         newton->search.kind == CHOLESKY_INDEFINITE || newton->search.shift > 0)
         return false;
     if (newton->settings.solver == SOLVER_LAGGED)
-        return newton->age < MAX_FACTOR_AGE;
-    return newton->age <= 1 && expects_convergence(newton);
+        return lagged_keeps_factor(newton);
+    return newton->search.age <= 1 && expects_convergence(newton);
 }
 
 /* The test of Algorithm 3. */
@@ -161,14 +152,14 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
     *decided = status != STATUS_OK;
     if (status)
         return status;
-    double error, start = newton_clock();
+    double error, start = clock_now();
     int solves;
     Filter filter =
         newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
     status = search_direction_refine(&newton->search, &newton->at, filter,
                                      test_is_decided, newton, &error, &solves);
     newton->counters.solves += solves;
-    newton->counters.seconds_solve += newton_clock() - start;
+    newton->counters.seconds_solve += clock_now() - start;
     if (status)
         return status;
     newton->residual = newton_residual(newton, newton->at.p);
@@ -177,14 +168,16 @@ static Status direction_from_old_factor(Newton *newton, bool *decided)
 }
 
 /* Gradient and direction at x, and the test of Algorithm 3.
+ *   alone  out: the gradient's size alone has passed it
  * Returns OK (converged), RUNNING, or a failure. */
-Status newton_direction(Newton *newton)
+static Status direction_at(Newton *newton, bool *alone)
 {
-    double start = newton_clock();
+    double start = clock_now();
     incremental_potential_gradient(&newton->at.E, newton->at.u, newton->at.x,
                                    newton->at.g);
     newton->counters.gradients++;
-    newton->counters.seconds_assembly += newton_clock() - start;
+    newton->counters.seconds_assembly += clock_now() - start;
+    *alone = false;
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
@@ -192,6 +185,7 @@ Status newton_direction(Newton *newton)
         newton->residual = newton_residual_bound(newton);
         if (newton->residual <= newton->settings.tolerance) {
             newton->counters.skipped++;
+            *alone = true;
             return STATUS_OK;
         }
     }
@@ -221,7 +215,7 @@ static bool gradient_vanishes(const Newton *newton)
 /* Where the gradient vanishes may be a maximum or a saddle, such as all nodes
  * in one point.  There the Hessian as it is, not projected, has a negative
  * eigenvalue: a pivot of L D L^T that is not positive. */
-Status newton_check_minimum(Newton *newton)
+static Status check_minimum(Newton *newton)
 {
     if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
         incremental_potential_is_convex(&newton->at, newton->at.p))
@@ -231,9 +225,27 @@ Status newton_check_minimum(Newton *newton)
                                               FILTER_NONE, false, &projected);
     if (!status)
         status = cholesky_factor(newton->search.cholesky);
-    newton->age = -1;
+    newton->search.age = -1;
     newton->counters.factorisations++;
     if (!status && cholesky_negative_pivots(newton->search.cholesky) > 0)
         return STATUS_NOT_A_MINIMUM;
     return status;
+}
+
+Status direction_first(Newton *newton)
+{
+    SearchDirection *search = &newton->search;
+    bool alone;
+    search->resting = search->updates == 0;
+    search->updates = 0;
+    Status status = direction_at(newton, &alone);
+    return alone ? check_minimum(newton) : status;
+}
+
+Status direction_next(Newton *newton)
+{
+    bool alone;
+    newton->search.updates++;
+    newton->search.residual = newton->residual;
+    return direction_at(newton, &alone);
 }

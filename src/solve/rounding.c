@@ -1,0 +1,87 @@
+#include "solve/rounding.h"
+
+#include <float.h>
+#include <math.h>
+
+/* After this many iterations without a smaller residual, rounding may be all
+ * that is left. */
+enum { STAGNANT_ITERATIONS = 20 };
+
+/* Beyond this ratio springs hide the masses. */
+static const double HIDDEN_MASSES = 1e16;
+
+/* E may seem to rise by this part of its size. */
+static const double MARGIN = 1e-12;
+
+void rounding_bounds(const System *system, Rounding *rounding)
+{
+    rounding->lightest = INFINITY;
+    for (int i = 0; i < system->nodes; i++)
+        rounding->lightest = fmin(rounding->lightest, system->m[i]);
+    rounding->stiffest = system_stiffest(system);
+}
+
+void rounding_start(Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    Rounding *rounding = &newton->rounding;
+    rounding->best = INFINITY;
+    rounding->stagnant = 0;
+    rounding->held =
+        newton->settings.search == LINE_SEARCH_NONE ||
+        at->E.weight * rounding->stiffest > HIDDEN_MASSES * rounding->lightest;
+    if (!rounding->held)
+        return;
+    rounding->start = incremental_potential_value(&at->E, at->u, at->x);
+    rounding->energy = rounding->start;
+    rounding->margin =
+        MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
+}
+
+bool rounding_hides(const Newton *newton, double change)
+{
+    const Iterate *at = &newton->at;
+    double E = incremental_potential_scale(&at->E, at->u, at->x);
+    return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
+}
+
+bool rounding_allows(Newton *newton, const double *way, double alpha,
+                     double *spare)
+{
+    const Iterate *at = &newton->at;
+    Rounding *rounding = &newton->rounding;
+    if (!rounding->held || newton->settings.search == LINE_SEARCH_NONE)
+        return true;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        at->g[i] = at->u[i] + alpha * way[i];
+        spare[i] = at->E.x_n[i] + at->g[i];
+    }
+    double energy = incremental_potential_value(&at->E, at->g, spare);
+    if (!(energy <= rounding->energy + rounding->margin))
+        return false;
+    rounding->energy = energy;
+    return true;
+}
+
+Status rounding_stagnation(Newton *newton)
+{
+    Rounding *rounding = &newton->rounding;
+    if (newton->residual < rounding->best) {
+        rounding->best = newton->residual;
+        rounding->stagnant = 0;
+        return STATUS_RUNNING;
+    }
+    if (++rounding->stagnant >= STAGNANT_ITERATIONS &&
+        rounding_hides(newton, newton->record.change))
+        return STATUS_ROUNDING_LIMIT;
+    return STATUS_RUNNING;
+}
+
+bool rounding_sees_rise(const Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    const Rounding *rounding = &newton->rounding;
+    return rounding->held &&
+           !(incremental_potential_value(&at->E, at->u, at->x) <=
+             rounding->start + rounding->margin);
+}

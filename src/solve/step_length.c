@@ -1,0 +1,68 @@
+#include "solve/step_length.h"
+
+#include <math.h>
+
+#include "base/clock.h"
+#include "solve/lagged.h"
+#include "solve/rounding.h"
+
+/* Whether the terms allow u + alpha p; rounding may say no where the reach of
+ * p said yes.  Writes over r. */
+static bool is_allowed(Newton *newton, double alpha)
+{
+    const Iterate *at = &newton->at;
+    if (!incremental_potential_is_limited(&at->E))
+        return true;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        newton->r[i] = at->u[i] + alpha * at->p[i];
+        at->x[i] = at->E.x_n[i] + newton->r[i];
+    }
+    bool allowed = incremental_potential_allowed(&at->E, newton->r, at->x);
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        at->x[i] = at->E.x_n[i] + at->u[i];
+    return allowed;
+}
+
+/* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
+ * p) > E(x) and while the terms do not allow the place. */
+Status step_length_in_line(Newton *newton)
+{
+    NewtonRecord *record = &newton->record;
+    record->alpha = incremental_potential_reach(&newton->at);
+    Along along = incremental_potential_along(&newton->at, record->alpha);
+    Status status = STATUS_OK;
+    record->slope = along.smooth.q[0];
+    record->trials = 0;
+    for (bool allowed = false; !allowed && !status;) {
+        int trials = 0;
+        if (newton->settings.search == LINE_SEARCH_BACKTRACK)
+            status = line_search_backtrack(along_difference, &along,
+                                           &record->alpha, &trials);
+        record->trials += trials;
+        allowed = status || is_allowed(newton, record->alpha);
+        if (!allowed)
+            record->alpha /= 2;
+        if (!allowed && record->alpha < 1e-300)
+            status = STATUS_LINE_SEARCH_LIMIT;
+    }
+    record->change = along_difference(&along, record->alpha);
+    return status;
+}
+
+Status step_length(Newton *newton)
+{
+    NewtonRecord *record = &newton->record;
+    double start = clock_now();
+    Status status = lagged_has_plane(newton) ? lagged_search(newton)
+                                             : step_length_in_line(newton);
+    newton->counters.trials += record->trials;
+    newton->counters.seconds_search += clock_now() - start;
+    if (!status)
+        return STATUS_OK;
+    record->alpha = record->change = 0;
+    if (!isfinite(record->slope))
+        return STATUS_NOT_FINITE;
+    if (rounding_hides(newton, record->slope))
+        return STATUS_ROUNDING_LIMIT;
+    return record->slope > 0 ? STATUS_NOT_DESCENT : status;
+}
