@@ -20,15 +20,16 @@ enum {
     CANVAS_MAX_WIDTH = 4096  /* pixels, of a line */
 };
 
-typedef struct Canvas {
-    int width, height; /* pixels */
-    uint32_t *pixels;  /* [width height] row by row, no gaps */
-} Canvas;
-
 /* A rectangle in pixels. */
 typedef struct Box {
     int x, y, width, height;
 } Box;
+
+typedef struct Canvas {
+    int width, height; /* pixels */
+    Box clip;          /* inside the picture; nothing is drawn beyond it */
+    uint32_t *pixels;  /* [width height] row by row, no gaps */
+} Canvas;
 
 /* White.  width, height 1 ... CANVAS_MAX_SIZE; canvas out.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
@@ -37,7 +38,11 @@ Status canvas_create(int width, int height, Canvas *canvas);
 /* Accepts NULL and a zeroed struct. */
 void canvas_free(Canvas *canvas);
 
-/* Sets every pixel. */
+/* Draws only inside this box from now on, as far as it lies in the picture.
+ * Returns the clip of before, for the end. */
+Box canvas_clip(Canvas *canvas, Box box);
+
+/* Sets every pixel, whatever the clip is. */
 void canvas_clear(Canvas *canvas, Colour colour);
 
 /* Filled rectangle with corner (x, y), whole pixels. */
@@ -47,6 +52,35 @@ void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
 /* Line of this width in pixels; the ends are cut off straight. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour);
+
+/* The same in dashes of `on` pixels with gaps of `off` pixels, both > 0.
+ * phase  pixels of the pattern that lie before the line, in/out: a polyline
+ *        of several calls has even dashes; NULL: begin with a dash */
+void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
+                   double width, double on, double off, double *phase,
+                   Colour colour);
+
+/* A line with a filled head of this length at (x1, y1); a line shorter than
+ * the head has a smaller one. */
+void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
+                  double width, double head, Colour colour);
+
+/* Filled triangle; corners [6]: x, y, x, y, x, y.  Without smooth edges those
+ * that share an edge leave no seam. */
+void canvas_triangle(Canvas *canvas, const double corners[6], bool smooth,
+                     Colour colour);
+
+/* A box with round corners, filled, and a border one pixel wide; border 0:
+ * none. */
+void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
+                 Colour border);
+
+/* A ring of this line width. */
+void canvas_ring(Canvas *canvas, double x, double y, double radius,
+                 double width, Colour colour);
+
+/* Copies a picture onto this one, corner at (x, y). */
+void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y);
 
 /* Filled disc. */
 void canvas_disc(Canvas *canvas, double x, double y, double radius,

@@ -7,7 +7,7 @@
 #define ELASTO_DRAW_H
 
 #include "picture/hud.h"
-#include "picture/square_picture.h"
+#include "picture/picture.h"
 
 /* Draws over all of the paper.  Returns what became of the springs. */
 SpringCount draw_frame(Paper *paper, const Simulation *simulation,

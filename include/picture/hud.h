@@ -27,7 +27,6 @@ typedef struct Hud {
     long trouble_step; /* 0: at the start */
     bool hints;        /* say which key helps: there are keys */
     char note[HUD_NOTE_SIZE]; /* what a key just did, or "" */
-    Energies energies;        /* now, when text is on */
     History history; /* total, kinetic, elastic energy, J; or radii, m */
     Trail trail;     /* of node 0 in each run, in the circle */
 } Hud;

@@ -1,59 +1,66 @@
-/* paper.h - what a picture is drawn on: a canvas, and a font that fits it.
+/* paper.h - what a frame is drawn on: a canvas, texts in a size that fits it,
+ * and pictures that are kept from frame to frame because they seldom change.
  *
- * Sizes of everything but the square itself are in units: the smaller side of
- * the picture has PAPER_UNITS of them, so that any size looks the same.  A
- * line of text over it holds PAPER_LETTERS letters.
+ * Sizes are in ems, the size of the texts; layout.h says how many pixels one
+ * has.  A line is `unit` pixels wide, 1 where the em has 14 pixels.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
 
-#include "picture/font.h"
+#include <stddef.h>
 
-enum { PAPER_UNITS = 450, PAPER_LETTERS = 62 };
+#include "picture/text.h"
+
+/* What is kept between frames. */
+typedef enum Keep {
+    KEEP_MAP, /* the contours of the landscape */
+    KEEP_SPY, /* the pattern of the Hessian and its factor */
+    KEEP_COUNT
+} Keep;
 
 typedef struct Paper {
     Canvas canvas;
-    Font font;
+    Text *text;  /* NULL: no font, nothing is written */
+    double em;   /* pixels */
     double unit; /* pixels */
+    Canvas kept[KEEP_COUNT];
+    uint64_t key[KEEP_COUNT]; /* of what is kept; 0: nothing */
 } Paper;
 
-/* From metres, y up, to pixels, y down. */
-typedef struct Mapping {
-    double scale;  /* pixels a metre */
-    double x0, y0; /* pixels, where the origin is */
-} Mapping;
-
-/* White paper of this size in pixels; free it also after a failure.
+/* White paper of this size in pixels, ready for the em that its layout has;
+ * free it also after a failure.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status paper_create(int width, int height, Paper *paper);
 void paper_free(Paper *paper);
 
-/* Units to whole pixels. */
-int paper_pixels(const Paper *paper, double units);
+/* Ems to whole pixels. */
+int paper_pixels(const Paper *paper, double ems);
 
-/* Whether it is large enough for text that can be read. */
-bool paper_shows_text(const Paper *paper);
+/* A line between pixels, at least a pixel wide; width in units. */
+void paper_line(Paper *paper, const double a[2], const double b[2],
+                double width, Colour colour);
 
-/* Origin in the middle; `size` metres fill this part of the smaller side. */
-Mapping paper_mapping(const Paper *paper, double size, double part);
+/* One line of text in markup, made as printf does; y is its upper edge.
+ *   size  ems, 1 is the size of all plain texts
+ * Returns the width in pixels. */
+int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
+                double y, Align align, const char *format, ...);
 
-/* A line between two points in metres, at least a pixel wide.
- *   a, b   [2] m, in
- *   width  units */
-void paper_line(Paper *paper, const Mapping *mapping, const double *a,
-                const double *b, double width, Colour colour);
+/* The width it would have. */
+int paper_width(Paper *paper, Face face, double size, const char *markup);
 
-/* A disc around a point in metres.  a [2] m, in; radius in units. */
-void paper_disc(Paper *paper, const Mapping *mapping, const double *a,
-                double radius, Colour colour);
+/* In at most `lines` lines of this width, broken at blanks; the last one ends
+ * with an ellipsis if there is more.  Returns the lines it took. */
+int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
+                    Box box, int lines, const char *markup);
 
-/* Translucent white, to put text on. */
-void paper_panel(Paper *paper, Box box);
+/* The picture that is kept for this purpose, if it has this size and was drawn
+ * for this key; else a white one of this size, to be drawn now, with *drawn
+ * false.  NULL: not enough memory. */
+Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
+                   bool *drawn);
 
-/* One line of text; y is its upper edge.  The bold one has thicker strokes. */
-void paper_text(Paper *paper, int x, int y, Align align, Colour colour,
-                const char *text);
-void paper_bold_text(Paper *paper, int x, int y, Align align, Colour colour,
-                     const char *text);
+/* A key out of count bytes, never 0 (FNV-1a). */
+uint64_t paper_key(uint64_t key, const void *bytes, size_t count);
 
 #endif

@@ -26,8 +26,10 @@ typedef struct SpringCount {
 typedef struct Card {
     const char *name;  /* as tables and scripts call it: "listing" */
     const char *title; /* markup */
-    double weight;     /* share of the column's height */
-    bool closed;       /* at the start */
+    const char *(*titled)(const Show *show); /* one that follows the state, or
+                                                NULL */
+    double weight;                           /* share of the column's height */
+    bool closed;                             /* at the start */
     /* Draws what is inside, below the title. */
     void (*draw)(Paper *paper, Box inside, const Show *show);
 } Card;

@@ -67,6 +67,14 @@ typedef struct Trace {
 
 /* ---- panes -------------------------------------------------------------- */
 
+/* What the square can touch. */
+typedef struct Obstacle {
+    bool ball;
+    double at[2];     /* m, a point of the half plane, or the middle */
+    double normal[2]; /* of the half plane, a unit, away from it */
+    double radius;    /* m, of the ball */
+} Obstacle;
+
 /* One picture on the stage. */
 typedef struct Pane {
     const Simulation *simulation; /* the scene, its settings and state */
@@ -77,8 +85,17 @@ typedef struct Pane {
     const Trail *trail;      /* of node 0 of each run */
     const Trace *trace;
     const char *label; /* over the pane where there are several */
-    int folded;        /* cells that have turned over; < 0: not counted */
     Status trouble;    /* how the shown step ended */
+    /* Contact, inelasticity, fracture; all may be NULL or 0. */
+    int obstacles;
+    const Obstacle *obstacle;
+    double reach;                /* m, the barrier begins at this distance */
+    const double *force;         /* [2n] N, contact forces, as arrows */
+    const unsigned char *broken; /* [springs] 1: gone, not drawn */
+    const double *plastic;       /* [springs] plastic strain, as colour */
+    bool cells;                  /* filled lightly */
+    const double *frame;         /* [4] left, bottom, right, top, m: what fits
+                                    the stage; NULL: the picture's choice */
 } Pane;
 
 /* What the mouse is over, or holds. */
@@ -219,6 +236,14 @@ long show_step_at(const Show *show, const Layout *layout, double x);
 
 /* Positions that a pane shows, [2n] m. */
 const double *pane_x(const Pane *pane);
+
+/* Cells that have turned over: one of their two triangles has; 0 where there
+ * is no square. */
+int pane_folded(const Pane *pane);
+
+/* Fills topic, sentence, method, state and time_text in plain words, as far as
+ * they are empty, from the active pane and its trace. */
+void show_describe(Show *show);
 
 /* Takes what histories and trails of this scene's picture keep of the state
  * now; once for each drawn state, in the order of time.  trail may be NULL. */

@@ -3,17 +3,14 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Numbers of 16 bits before and 16 bits after the binary point. */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
-/* A line with its long direction as the first axis: a is along, b across.
- * Pixel (i, j) in these axes is first[i * along + j * across]. */
-typedef struct LineFrame {
-    uint32_t *first;
-    int along, across; /* distances in pixels[] */
-    int end;           /* number of pixels across */
-} LineFrame;
+/* Added before a cut to whole numbers, which is towards zero: then it is
+ * towards minus infinity for all places where a clipped line can be. */
+enum { LINE_SHIFT = 1 << 15 };
 
 /* Allocates a white picture. */
 Status canvas_create(int width, int height, Canvas *canvas)
@@ -28,6 +25,7 @@ Status canvas_create(int width, int height, Canvas *canvas)
         return STATUS_OUT_OF_MEMORY;
     canvas->width = width;
     canvas->height = height;
+    canvas->clip = (Box){0, 0, width, height};
     canvas_clear(canvas, 0xffffffff);
     return STATUS_OK;
 }
@@ -71,23 +69,75 @@ static int clamp_int(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
+/* The part of [begin, end) that is in [low, high), as a new pair. */
+static void clip_range(int *begin, int *end, int low, int high)
+{
+    *begin = clamp_int(*begin, low, high);
+    *end = clamp_int(*end, low, high);
+}
+
+Box canvas_clip(Canvas *canvas, Box box)
+{
+    Box before = canvas->clip;
+    int left = box.x, right = box.x + box.width;
+    int top = box.y, bottom = box.y + box.height;
+    clip_range(&left, &right, 0, canvas->width);
+    clip_range(&top, &bottom, 0, canvas->height);
+    canvas->clip = (Box){left, top, right > left ? right - left : 0,
+                         bottom > top ? bottom - top : 0};
+    return before;
+}
+
+/* Whole pixels that [low, high] touches, as far as the clip goes. */
+static Box touched(const Canvas *canvas, double left, double top, double right,
+                   double bottom)
+{
+    const Box *clip = &canvas->clip;
+    double x0 = fmax(floor(left), clip->x), y0 = fmax(floor(top), clip->y);
+    double x1 = fmin(ceil(right), clip->x + clip->width);
+    double y1 = fmin(ceil(bottom), clip->y + clip->height);
+    if (!(x1 > x0) || !(y1 > y0))
+        return (Box){0, 0, 0, 0};
+    return (Box){(int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0)};
+}
+
+static uint32_t *canvas_row(const Canvas *canvas, int y)
+{
+    return canvas->pixels + (size_t)y * (size_t)canvas->width;
+}
+
 /* Mixes the colour into every pixel of the rectangle. */
 void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
                       Colour colour)
 {
     if (width <= 0 || height <= 0)
         return;
-    int left = clamp_int(x, 0, canvas->width);
-    int right = x > canvas->width - width ? canvas->width : x + width;
-    int top = clamp_int(y, 0, canvas->height);
-    int bottom = y > canvas->height - height ? canvas->height : y + height;
+    const Box *clip = &canvas->clip;
+    int left = x, right = x > canvas->width - width ? canvas->width : x + width;
+    int top = y,
+        bottom = y > canvas->height - height ? canvas->height : y + height;
+    clip_range(&left, &right, clip->x, clip->x + clip->width);
+    clip_range(&top, &bottom, clip->y, clip->y + clip->height);
     uint32_t amount = opacity(colour);
     for (int j = top; j < bottom; j++) {
-        uint32_t *row = canvas->pixels + (size_t)j * (size_t)canvas->width;
+        uint32_t *row = canvas_row(canvas, j);
         for (int i = left; i < right; i++)
             row[i] = mix(row[i], colour, amount);
     }
 }
+
+/* ---- lines -------------------------------------------------------------- */
+
+/* A line with its long direction as the first axis: a is along, b across.
+ * Pixel (i, j) in these axes is first[i * along + j * across]. */
+typedef struct LineFrame {
+    uint32_t *first;
+    ptrdiff_t along, across; /* distances in pixels[] */
+    int begin, end;          /* clip along */
+    int low, high;           /* clip across, fixed point */
+    Colour colour;
+    uint32_t full; /* opacity, 0 ... 256 */
+} LineFrame;
 
 /* One side of the Liang-Barsky clip: keeps the part of t in [t0, t1] where
  * p t <= q; false if nothing remains. */
@@ -103,16 +153,21 @@ static bool clip_side(double p, double q, double *t0, double *t1)
     return *t0 <= *t1;
 }
 
-/* Shortens the line (x0, y0, x1, y1) to the canvas and a margin around it. */
-static bool clip_line(const Canvas *canvas, double margin, double line[4])
+/* Shortens the line (x0, y0, x1, y1) to the clip and a margin around it. */
+static bool clip_line(const Box *clip, double margin, double line[4])
 {
+    double left = clip->x - margin, right = clip->x + clip->width + margin;
+    double top = clip->y - margin, bottom = clip->y + clip->height + margin;
+    if (line[0] >= left && line[2] >= left && line[0] <= right &&
+        line[2] <= right && line[1] >= top && line[3] >= top &&
+        line[1] <= bottom && line[3] <= bottom)
+        return true; /* also far faster where nothing is to be cut */
     double dx = line[2] - line[0], dy = line[3] - line[1];
-    double right = canvas->width + margin, bottom = canvas->height + margin;
     double t0 = 0, t1 = 1;
     if (!isfinite(dx) || !isfinite(dy) ||
-        !clip_side(-dx, line[0] + margin, &t0, &t1) ||
+        !clip_side(-dx, line[0] - left, &t0, &t1) ||
         !clip_side(dx, right - line[0], &t0, &t1) ||
-        !clip_side(-dy, line[1] + margin, &t0, &t1) ||
+        !clip_side(-dy, line[1] - top, &t0, &t1) ||
         !clip_side(dy, bottom - line[1], &t0, &t1))
         return false;
     line[2] = line[0] + t1 * dx;
@@ -122,43 +177,47 @@ static bool clip_line(const Canvas *canvas, double margin, double line[4])
     return true;
 }
 
-/* Adds the pixels between top and bottom (fixed point) of one column. */
-static inline void line_column(const LineFrame *frame, int column, int top,
-                               int bottom, uint32_t amount, Colour colour)
+/* Adds the pixels between low and high (fixed point) of one column. */
+static inline void line_column(const LineFrame *frame, int column, int low,
+                               int high, uint32_t amount)
 {
-    uint32_t *pixel = frame->first + (ptrdiff_t)column * frame->along;
-    int limit = frame->end * FIXED_ONE;
-    top = top < 0 ? 0 : top;
-    bottom = bottom > limit ? limit : bottom;
-    while (top < bottom) {
-        int row = top >> FIXED_BITS;
-        int next = (row + 1) * FIXED_ONE;
-        int covered = (next < bottom ? next : bottom) - top;
-        uint32_t *p = pixel + (ptrdiff_t)row * frame->across;
-        *p = mix(*p, colour, (uint32_t)covered * amount >> FIXED_BITS);
-        top = next;
+    low = low < frame->low ? frame->low : low;
+    high = high > frame->high ? frame->high : high;
+    if (low >= high)
+        return;
+    int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
+    uint32_t *p = frame->first + column * frame->along + row * frame->across;
+    if (row == last) {
+        *p = mix(*p, frame->colour,
+                 (uint32_t)(high - low) * amount >> FIXED_BITS);
+        return;
     }
+    uint32_t part = (uint32_t)((row + 1) * FIXED_ONE - low);
+    *p = mix(*p, frame->colour, part * amount >> FIXED_BITS);
+    for (p += frame->across; ++row < last; p += frame->across)
+        *p = mix(*p, frame->colour, amount);
+    part = (uint32_t)(high - last * FIXED_ONE);
+    *p = mix(*p, frame->colour, part * amount >> FIXED_BITS);
 }
 
 /* Draws from a0 to a1 > a0, clipped, |slope| <= 1, b = b0 at a0. */
-static void line_columns(const LineFrame *frame, int columns, double a0,
-                         double a1, double b0, double slope, double width,
-                         Colour colour)
+static void line_columns(const LineFrame *frame, double a0, double a1,
+                         double b0, double slope, double width)
 {
-    int begin = clamp_int((int)floor(a0), 0, columns);
-    int end = clamp_int((int)ceil(a1), 0, columns);
-    double half = 0.5 * width * sqrt(1 + slope * slope);
-    int reach = (int)(half * FIXED_ONE);
+    int begin = (int)(a0 + LINE_SHIFT) - LINE_SHIFT;
+    int end = LINE_SHIFT - (int)(LINE_SHIFT - a1);
+    begin = begin < frame->begin ? frame->begin : begin;
+    end = end > frame->end ? frame->end : end;
+    int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
     int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
-    uint32_t full = opacity(colour);
     for (int i = begin; i < end; i++, b += step) {
-        uint32_t amount = full;
+        uint32_t amount = frame->full;
         if (i < a0 || i + 1 > a1) {
-            double part = fmin(i + 1, a1) - fmax(i, a0);
-            amount = (uint32_t)(part * amount + 0.5);
+            double from = i < a0 ? a0 : i, to = i + 1 > a1 ? a1 : i + 1;
+            amount = (uint32_t)((to - from) * amount + 0.5);
         }
-        line_column(frame, i, b - reach, b + reach, amount, colour);
+        line_column(frame, i, b - reach, b + reach, amount);
     }
 }
 
@@ -167,22 +226,156 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
     double line[4] = {x0, y0, x1, y1};
+    const Box *clip = &canvas->clip;
     if (!(width > 0) || width > CANVAS_MAX_WIDTH ||
-        !clip_line(canvas, width + 1, line))
+        !clip_line(clip, width + 1, line))
         return;
     bool flat = fabs(line[2] - line[0]) >= fabs(line[3] - line[1]);
-    int along = flat ? 0 : 1, across = flat ? 1 : 0;
+    int along = flat ? 0 : 1, across = 1 - along;
     int from = line[along] <= line[2 + along] ? 0 : 2, to = 2 - from;
     double length = line[to + along] - line[from + along];
     if (!(length > 0))
         return;
     double slope = (line[to + across] - line[from + across]) / length;
-    LineFrame frame = {canvas->pixels, flat ? 1 : canvas->width,
-                       flat ? canvas->width : 1,
-                       flat ? canvas->height : canvas->width};
-    line_columns(&frame, flat ? canvas->width : canvas->height,
-                 line[from + along], line[to + along], line[from + across],
-                 slope, width, colour);
+    int first[2] = {clip->x, clip->y};
+    int beyond[2] = {clip->x + clip->width, clip->y + clip->height};
+    LineFrame frame = {.first = canvas->pixels,
+                       .along = flat ? 1 : canvas->width,
+                       .across = flat ? canvas->width : 1,
+                       .begin = first[along],
+                       .end = beyond[along],
+                       .low = first[across] * FIXED_ONE,
+                       .high = beyond[across] * FIXED_ONE,
+                       .colour = colour,
+                       .full = opacity(colour)};
+    line_columns(&frame, line[from + along], line[to + along],
+                 line[from + across], slope, width);
+}
+
+void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
+                   double width, double on, double off, double *phase,
+                   Colour colour)
+{
+    double line[4] = {x0, y0, x1, y1}, length = hypot(x1 - x0, y1 - y0);
+    double begin = phase ? *phase : 0, period = on + off;
+    if (!(length > 0) || !(period > 0) || !isfinite(length))
+        return;
+    if (phase)
+        *phase = fmod(begin + length, period);
+    if (!clip_line(&canvas->clip, width + 1, line))
+        return;
+    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+    double from = (line[0] - x0) * ux + (line[1] - y0) * uy;
+    double to = (line[2] - x0) * ux + (line[3] - y0) * uy;
+    for (double k = floor((begin + from) / period); k * period - begin < to;
+         k++) {
+        double a = fmax(k * period - begin, from);
+        double b = fmin(k * period - begin + on, to);
+        if (b > a)
+            canvas_line(canvas, x0 + a * ux, y0 + a * uy, x0 + b * ux,
+                        y0 + b * uy, width, colour);
+    }
+}
+
+void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
+                  double width, double head, Colour colour)
+{
+    double length = hypot(x1 - x0, y1 - y0);
+    if (!(length > 0) || !isfinite(length))
+        return;
+    head = fmin(head, 0.7 * length);
+    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+    double bx = x1 - head * ux, by = y1 - head * uy, half = 0.38 * head;
+    const double corners[6] = {
+        x1, y1, bx - half * uy, by + half * ux, bx + half * uy, by - half * ux};
+    canvas_line(canvas, x0, y0, x1 - 0.8 * head * ux, y1 - 0.8 * head * uy,
+                width, colour);
+    canvas_triangle(canvas, corners, true, colour);
+}
+
+/* ---- surfaces ----------------------------------------------------------- */
+
+/* Coverage from the distances to the three edges. */
+void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
+                     Colour colour)
+{
+    double edge[3][3]; /* a x + b y + c: pixels inside the edge */
+    double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
+    if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
+        return;
+    for (int k = 0; k < 3; k++) {
+        const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
+        double dx = q[0] - p[0], dy = q[1] - p[1];
+        double n = hypot(dx, dy) * (turn > 0 ? 1 : -1);
+        edge[k][0] = -dy / n;
+        edge[k][1] = dx / n;
+        edge[k][2] = (dy * p[0] - dx * p[1]) / n;
+    }
+    double reach = smooth ? 1 : 0;
+    Box box = touched(canvas, fmin(c[0], fmin(c[2], c[4])) - reach,
+                      fmin(c[1], fmin(c[3], c[5])) - reach,
+                      fmax(c[0], fmax(c[2], c[4])) + reach,
+                      fmax(c[1], fmax(c[3], c[5])) + reach);
+    uint32_t full = opacity(colour);
+    for (int j = box.y; j < box.y + box.height; j++) {
+        uint32_t *row = canvas_row(canvas, j);
+        for (int i = box.x; i < box.x + box.width; i++) {
+            double inside = 1e9;
+            for (int k = 0; k < 3; k++)
+                inside = fmin(inside, edge[k][0] * (i + 0.5) +
+                                          edge[k][1] * (j + 0.5) + edge[k][2]);
+            double part =
+                smooth ? fmin(fmax(inside + 0.5, 0), 1) : (inside >= 0 ? 1 : 0);
+            if (part > 0)
+                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+        }
+    }
+}
+
+/* Distance of a point to the outline of a box with round corners, < 0 inside
+ * (half: half its size). */
+static double card_distance(double x, double y, const double half[2],
+                            double radius)
+{
+    double dx = fabs(x) - half[0] + radius, dy = fabs(y) - half[1] + radius;
+    double outside = hypot(fmax(dx, 0), fmax(dy, 0));
+    return outside + fmin(fmax(dx, dy), 0) - radius;
+}
+
+/* Corners and edges by distance, the rest at once. */
+void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
+                 Colour border)
+{
+    const double half[2] = {0.5 * box.width, 0.5 * box.height};
+    int rim = (int)ceil(radius) + 1;
+    Box seen =
+        touched(canvas, box.x, box.y, box.x + box.width, box.y + box.height);
+    if (box.width <= 0 || box.height <= 0)
+        return;
+    radius = fmin(radius, fmin(half[0], half[1]));
+    for (int j = seen.y; j < seen.y + seen.height; j++) {
+        uint32_t *row = canvas_row(canvas, j);
+        bool inner = j >= box.y + rim && j < box.y + box.height - rim;
+        for (int i = seen.x; i < seen.x + seen.width; i++) {
+            if (inner && i == box.x + rim && box.width > 2 * rim) {
+                int right = box.x + box.width - rim;
+                right =
+                    right < seen.x + seen.width ? right : seen.x + seen.width;
+                for (; i < right; i++)
+                    row[i] = mix(row[i], fill, opacity(fill));
+                if (i >= seen.x + seen.width)
+                    break;
+            }
+            double d = card_distance(i + 0.5 - box.x - half[0],
+                                     j + 0.5 - box.y - half[1], half, radius);
+            double out = fmin(fmax(0.5 - d, 0), 1);
+            double in = border ? fmin(fmax(-0.5 - d, 0), 1) : out;
+            row[i] = mix(row[i], fill, (uint32_t)(in * opacity(fill) + 0.5));
+            if (border)
+                row[i] = mix(row[i], border,
+                             (uint32_t)((out - in) * opacity(border) + 0.5));
+        }
+    }
 }
 
 /* Coverage of a pixel whose centre is at squared distance d2: 0 ... 1. */
@@ -204,20 +397,55 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
-    int left = clamp_int((int)floor(x - reach), 0, canvas->width);
-    int right = clamp_int((int)ceil(x + reach), 0, canvas->width);
-    int top = clamp_int((int)floor(y - reach), 0, canvas->height);
-    int bottom = clamp_int((int)ceil(y + reach), 0, canvas->height);
+    Box box = touched(canvas, x - reach, y - reach, x + reach, y + reach);
     uint32_t full = opacity(colour);
-    for (int j = top; j < bottom; j++) {
-        uint32_t *row = canvas->pixels + (size_t)j * (size_t)canvas->width;
+    for (int j = box.y; j < box.y + box.height; j++) {
+        uint32_t *row = canvas_row(canvas, j);
         double dy = j + 0.5 - y;
-        for (int i = left; i < right; i++) {
+        for (int i = box.x; i < box.x + box.width; i++) {
             double dx = i + 0.5 - x;
             double part = disc_coverage(dx * dx + dy * dy, radius);
-            row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+            if (part > 0)
+                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }
+}
+
+void canvas_ring(Canvas *canvas, double x, double y, double radius,
+                 double width, Colour colour)
+{
+    double reach = radius + 0.5 * width + 1;
+    double near = fmax(radius - 0.5 * width - 0.5, 0);
+    double near2 = near > 0 ? near * near : -1, far2 = reach * reach;
+    if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
+        !(radius < 1e6))
+        return;
+    Box box = touched(canvas, x - reach, y - reach, x + reach, y + reach);
+    uint32_t full = opacity(colour);
+    for (int j = box.y; j < box.y + box.height; j++) {
+        double dy = j + 0.5 - y;
+        uint32_t *row = canvas_row(canvas, j);
+        for (int i = box.x; i < box.x + box.width; i++) {
+            double dx = i + 0.5 - x;
+            double d2 = dx * dx + dy * dy;
+            if (d2 <= near2 || d2 >= far2)
+                continue;
+            double d = sqrt(d2) - radius;
+            double part = fmin(fmax(0.5 * width + 0.5 - fabs(d), 0), 1);
+            if (part > 0)
+                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+        }
+    }
+}
+
+/* Row by row. */
+void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y)
+{
+    Box box = touched(canvas, x, y, x + from->width, y + from->height);
+    for (int j = box.y; j < box.y + box.height; j++)
+        memcpy(canvas_row(canvas, j) + box.x,
+               canvas_row(from, j - y) + (box.x - x),
+               (size_t)box.width * sizeof *from->pixels);
 }
 
 /* Mixes the colour in by mask * alpha. */
@@ -225,17 +453,16 @@ void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {
     uint32_t full = opacity(colour);
-    for (int j = 0; j < height; j++) {
-        if (y + j < 0 || y + j >= canvas->height)
-            continue;
-        uint32_t *row =
-            canvas->pixels + (size_t)(y + j) * (size_t)canvas->width;
-        for (int i = 0; i < width; i++) {
-            uint32_t part = mask[(size_t)j * (size_t)width + (size_t)i];
-            if (part == 0 || x + i < 0 || x + i >= canvas->width)
+    Box box = touched(canvas, x, y, x + width, y + height);
+    for (int j = box.y; j < box.y + box.height; j++) {
+        uint32_t *row = canvas_row(canvas, j);
+        const uint8_t *part = mask + (size_t)(j - y) * (size_t)width;
+        for (int i = box.x; i < box.x + box.width; i++) {
+            uint32_t amount = part[i - x];
+            if (amount == 0)
                 continue;
-            part += part >> 7;
-            row[x + i] = mix(row[x + i], colour, part * full >> 8);
+            amount += amount >> 7;
+            row[i] = mix(row[i], colour, amount * full >> 8);
         }
     }
 }

@@ -1,81 +1,124 @@
-#include "picture/circle_picture.h"
-
 #include <math.h>
 
+#include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/panels.h"
-#include "picture/plot.h"
-#include "picture/text_block.h"
+#include "picture/kinds.h"
+#include "picture/marks.h"
 
-enum { CIRCLE_CORNERS = 180 };
+static const double CIRCLE_REACH = 1.75; /* m, seen around the middle */
 
-static const double CIRCLE_PART = 0.34; /* of the paper: there is room around */
-static const double TWO_PI = 6.283185307179586;
-static const double RADIUS_AXIS = 2; /* m, upper end; curves may leave it */
+static void circle_bounds(const Show *show, int pane, double bounds[4])
+{
+    (void)show;
+    (void)pane;
+    bounds[2] = bounds[3] = CIRCLE_REACH;
+    bounds[0] = bounds[1] = -CIRCLE_REACH;
+}
 
-/* Forward, symplectic, backward Euler. */
-static const Colour circle_colours[SIMULATION_MAX_RUNS] = {
-    COLOUR_STRETCH, COLOUR_THIRD, COLOUR_COMPRESS};
-
-/* The exact path, as a polygon of many corners, and its radius. */
-static void draw_exact_circle(Paper *paper, const Mapping *mapping, bool text)
+/* The exact path and its radius. */
+static void draw_exact_circle(Paper *paper, const Stage *stage)
 {
     const double middle[2] = {0, 0}, start[2] = {1, 0};
-    for (int i = 0; i < CIRCLE_CORNERS; i++) {
-        double s = TWO_PI * i / CIRCLE_CORNERS;
-        double t = TWO_PI * (i + 1) / CIRCLE_CORNERS;
-        const double a[2] = {cos(s), sin(s)}, b[2] = {cos(t), sin(t)};
-        paper_line(paper, mapping, a, b, 3, COLOUR_GRID);
-    }
-    paper_line(paper, mapping, middle, start, 0.7, COLOUR_CONTOUR);
-    paper_disc(paper, mapping, middle, 2, COLOUR_CONTOUR);
-    if (text)
-        paper_text(paper, (int)(mapping->x0 + 0.5 * mapping->scale),
-                   (int)mapping->y0 + paper_pixels(paper, 2), ALIGN_CENTRE,
-                   COLOUR_FAINT, "1 m");
+    double at[2];
+    stage_ring(paper, stage, middle, stage->camera.scale[0], 5, COLOUR_GRID);
+    stage_line(paper, stage, middle, start, 1.2, COLOUR_GREY);
+    stage_disc(paper, stage, middle, 3.5 * paper->unit, COLOUR_GREY);
+    const double half[2] = {0.5, 0};
+    stage_pixel(stage, half, at);
+    if (stage->text)
+        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, at[0],
+                    at[1] + 0.2 * paper->em, ALIGN_CENTRE, "1 m");
+}
+
+/* Colour of a run: its own, by its method, whatever else runs. */
+static Colour run_colour(const Simulation *simulation, int run)
+{
+    int number = 0;
+    const IntegratorMethod *method = simulation->run[run].method;
+    if (simulation->runs > 1)
+        return colour_of_run(run);
+    for (; integrator_methods[number].name; number++)
+        if (&integrator_methods[number] == method)
+            break;
+    return colour_of_run(number);
 }
 
 /* Trails, and a disc where each run is now. */
-void circle_picture_draw(Paper *paper, const Simulation *simulation,
-                         const Hud *hud)
+static SpringCount circle_draw(Paper *paper, const Stage *stage,
+                               const Show *show)
 {
-    const Trail *trail = &hud->trail;
-    Mapping mapping = paper_mapping(paper, 2, CIRCLE_PART);
-    draw_exact_circle(paper, &mapping, hud->text && paper_shows_text(paper));
-    for (int r = 0; r < simulation->runs; r++)
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = pane->simulation;
+    const Trail *trail = pane->trail;
+    Legend legend = {0, 0};
+    draw_exact_circle(paper, stage);
+    for (int r = 0; trail && r < simulation->runs; r++)
         for (int i = 1; i < trail->count; i++)
-            paper_line(paper, &mapping, trail->point[r][i - 1],
-                       trail->point[r][i], 1.3, circle_colours[r]);
+            stage_line(paper, stage, trail->point[r][i - 1], trail->point[r][i],
+                       2.2, run_colour(simulation, r));
     for (int r = 0; r < simulation->runs; r++)
-        paper_disc(paper, &mapping, simulation->run[r].x, 5, circle_colours[r]);
-}
-
-/* Radius of a run now, m. */
-static double run_radius(const TimeIntegrator *run)
-{
-    return hypot(run->x[0], run->x[1]);
-}
-
-/* Plot and legend. */
-void circle_picture_panels(Paper *paper, const Simulation *simulation,
-                           const Hud *hud)
-{
-    const History *history = &hud->history;
-    TextBlock block = {0};
-    double last = simulation_time(simulation);
-    double least = 100 * simulation->options.timestep;
-    Plot plot =
-        plot_create(paper, panels_plot_box(paper),
-                    (Axis){0, plot_round_up(fmax(last, least)), "time in s"},
-                    (Axis){0, RADIUS_AXIS, "radius in m"});
-    text_block_add(&block, COLOUR_FAINT, "%-16s  radius now", "");
-    for (int r = 0; r < simulation->runs && r < SIMULATION_MAX_RUNS; r++) {
-        const TimeIntegrator *run = &simulation->run[r];
-        plot_curve(paper, &plot, history->count, history->time,
-                   history->value[r], circle_colours[r]);
-        text_block_add(&block, circle_colours[r], "%-16s %9.4g m",
-                       run->method->label, run_radius(run));
+        stage_disc(paper, stage, simulation->run[r].x, 7 * paper->unit,
+                   run_colour(simulation, r));
+    if (show->bare || !stage->text)
+        return (SpringCount){0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_GREY, "exact: |{x}| = 1 m");
+    for (int r = 0; r < simulation->runs; r++) {
+        char radius[48];
+        const double *x = simulation->run[r].x;
+        plot_number(radius, sizeof radius, hypot(x[0], x[1]));
+        stage_legend(paper, stage, &legend, run_colour(simulation, r),
+                     "%s: %s m", simulation->run[r].method->label, radius);
     }
-    text_block_add(&block, COLOUR_FAINT, "%-16s %9.4g m", "exact (grey)", 1.0);
-    panels_draw_legend(paper, &block);
+    stage_scale(paper, stage);
+    return (SpringCount){0, 0};
 }
+
+/* The node of the nearest run. */
+static Pick circle_pick(const Show *show, const Stage *stage, double x,
+                        double y)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    double best = 16;
+    camera_world(&stage->camera, x, y, pick.point);
+    for (int r = 0; r < simulation->runs; r++) {
+        double at[2];
+        stage_pixel(stage, simulation->run[r].x, at);
+        double distance = hypot(at[0] - x, at[1] - y);
+        if (distance < best) {
+            best = distance;
+            pick.kind = PICK_NODE;
+            pick.index = r;
+        }
+    }
+    return pick;
+}
+
+/* Position and radius of node 0 in each run. */
+static void circle_sample(const Simulation *simulation, History *history,
+                          Trail *trail)
+{
+    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
+    history->series = simulation->runs;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = simulation->run[r].x;
+        history->name[r] = simulation->run[r].method->label;
+        value[r] = hypot(x[0], x[1]);
+        point[2 * r] = x[0];
+        point[2 * r + 1] = x[1];
+    }
+    history_add(history, simulation_time(simulation), value);
+    if (trail)
+        trail_add(trail, simulation->runs, point);
+}
+
+static const Card *const circle_cards[] = {&card_radius, &card_methods, NULL};
+
+const Picture circle_picture = {
+    .name = "circle",
+    .cards = circle_cards,
+    .bounds = circle_bounds,
+    .draw = circle_draw,
+    .pick = circle_pick,
+    .sample = circle_sample,
+};

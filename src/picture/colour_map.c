@@ -21,3 +21,20 @@ Colour colour_map_strain(double strain, double range)
            blend_byte(COLOUR_REST, end, 8, part) |
            blend_byte(COLOUR_REST, end, 0, part);
 }
+
+/* Vermilion, green, blue, purple, brown, sky blue. */
+Colour colour_of_run(int run)
+{
+    static const Colour colours[] = {0xffd55e00u, 0xff009e73u, 0xff0072b2u,
+                                     0xffb0559au, 0xff7a5c2eu, 0xff56b4e9u};
+    return colours[run < 0 ? 0 : run % 6];
+}
+
+/* The total is black; the others follow in the order of the ledger. */
+Colour colour_of_energy(int energy)
+{
+    static const Colour colours[] = {0xff1c1c1cu, 0xff3d9bd6u, 0xffb8860bu,
+                                     0xff6b8e23u, 0xffa0522du, 0xff8a8a8au,
+                                     0xff7b68a8u, 0xffc2738bu};
+    return colours[energy < 0 ? 0 : energy % 8];
+}

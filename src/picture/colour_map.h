@@ -1,37 +1,50 @@
-/* colour_map.h - colours of the pictures, told apart by colour-blind eyes
- * (blue, grey and vermilion of Okabe and Ito 2008).
+/* colour_map.h - colours of the pictures; each means one thing, and those that
+ * meet are told apart by colour-blind eyes (Okabe and Ito 2008).
  */
 #ifndef ELASTO_COLOUR_MAP_H
 #define ELASTO_COLOUR_MAP_H
 
 #include "picture/canvas.h"
 
-#define COLOUR_WHITE    0xffffffffu
-#define COLOUR_SPRING   0xff0000ffu /* as on the slides */
-#define COLOUR_TEXT     0xff202020u
-#define COLOUR_FAINT    0xff585858u
-#define COLOUR_GRID     0xffdcdcdcu
-#define COLOUR_PANEL    0xc0ffffffu
-#define COLOUR_WARNING  0xffd00000u
+/* Paper and words. */
+#define COLOUR_WHITE   0xffffffffu
+#define COLOUR_TEXT    0xff1c1c1cu
+#define COLOUR_FAINT   0xff6a6a6au
+#define COLOUR_GREY    0xff9c9c9cu /* the step before, contours, ticks */
+#define COLOUR_GRID    0xffe4e4e4u
+#define COLOUR_RULE    0xffdcdcdcu /* between zones */
+#define COLOUR_BORDER  0xffcfcfcfu /* of cards and chips */
+#define COLOUR_CHIP    0xfff6f6f6u
+#define COLOUR_LIT     0xfffff1cdu /* the line, the chip, the setting now */
+#define COLOUR_PANEL   0xd8ffffffu /* under words on a picture */
+#define COLOUR_WARNING 0xffd00000u
+#define COLOUR_VALUE   0xff0044b0u /* what can be changed */
+#define COLOUR_BAR     0xffccd6eau /* a step in the time line */
+
+/* The slides' letters, the same wherever they stand. */
+#define COLOUR_X       0xff0000ffu /* x: positions, springs; as on the slides */
+#define COLOUR_X_TILDE 0xff8e3fb0u /* where inertia alone leads */
+#define COLOUR_P       0xffc96a00u /* the search direction, and its model */
+#define COLOUR_ALPHA   0xff00796bu /* step lengths */
+#define COLOUR_PROJECT 0xffd3156bu /* springs whose block was changed */
+#define COLOUR_GHOST   0xffb08d57u /* the outcome with other settings */
+#define COLOUR_HAND    0xff2e7d32u /* what the mouse holds */
+#define COLOUR_FORCE   0xff9a5b00u /* contact forces */
+#define COLOUR_SOLID   0xffe9e6e0u /* walls, balls */
+#define COLOUR_EDGE    0xff8b8578u /* their outline */
+
+/* Strain. */
 #define COLOUR_STRETCH  0xffd55e00u
 #define COLOUR_REST     0xffb8b8b8u
 #define COLOUR_COMPRESS 0xff0072b2u
-#define COLOUR_THIRD    0xff009e73u
-#define COLOUR_CONTOUR  0xff9c9c9cu
-#define COLOUR_SHADE    0xfffdeecfu /* where E is not convex */
-#define COLOUR_SHADED   0xff8a6100u /* words about it */
-#define COLOUR_TOTAL    0xff303030u
-#define COLOUR_KINETIC  0xffd55e00u
-#define COLOUR_ELASTIC  0xff0072b2u
 
-/* The slides' letters, the same wherever they stand; each means one thing. */
-#define COLOUR_X        0xff0000ffu /* x: positions, springs */
-#define COLOUR_X_TILDE  0xff8e3fb0u /* where inertia alone leads */
-#define COLOUR_P        0xffc96a00u /* the search direction */
-#define COLOUR_ALPHA    0xff00796bu /* step lengths */
-#define COLOUR_PROJECT  0xffd3156bu /* springs whose block was changed */
-#define COLOUR_GHOST    0xffb08d57u /* the outcome with other settings */
-#define COLOUR_RULE     0xffdadadau /* between zones */
+/* Where E is not convex, and words about it. */
+#define COLOUR_SHADE  0xfffdf0d5u
+#define COLOUR_SHADED 0xff8a6100u
+
+/* Panes and integrators side by side, energies one by one: six of each. */
+Colour colour_of_run(int run);
+Colour colour_of_energy(int energy);
 
 /* From COLOUR_COMPRESS at -range over COLOUR_REST at 0 to COLOUR_STRETCH at
  * range > 0; strains outside get the colour of the end, NaN that of rest. */

@@ -1,17 +1,27 @@
-#include "picture/curve_picture.h"
-
 #include <math.h>
 #include <stdio.h>
 
+#include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/panels.h"
-#include "picture/plot.h"
+#include "picture/kinds.h"
+#include "picture/marks.h"
 
-enum { CURVE_POINTS = 400, CURVE_LABEL_ROOM = 11 /* units */ };
+enum { CURVE_POINTS = 400 };
 
 static const double CURVE_REACH = 14; /* x from -14 to 14 */
 static const double CURVE_LOW = -6;   /* f from here: minima of models ... */
 static const double CURVE_HIGH = 14;  /* ... to here */
+static const double LABEL_ROOM = 1.5; /* ems */
+
+static void curve_bounds(const Show *show, int pane, double bounds[4])
+{
+    (void)show;
+    (void)pane;
+    bounds[0] = -1.08 * CURVE_REACH;
+    bounds[1] = 1.25 * CURVE_LOW;
+    bounds[2] = 1.05 * CURVE_REACH;
+    bounds[3] = 1.1 * CURVE_HIGH;
+}
 
 /* An update and the model that it came from:
  * q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2 at x0, least at x0 + p. */
@@ -52,14 +62,15 @@ static double model_value(const ModelUpdate *model, double x)
 /* f (model NULL) or the model over the whole axis. */
 static void draw_function(Paper *paper, const Plot *plot,
                           const ScalarFunction *f, const ModelUpdate *model,
-                          Colour colour)
+                          double width, Colour colour)
 {
-    double from[2] = {0, 0};
+    double from[2] = {0, 0}, low = plot->x.low;
     for (int i = 0; i <= CURVE_POINTS; i++) {
-        double x = CURVE_REACH * (2.0 * i / CURVE_POINTS - 1);
-        const double to[2] = {x, model ? model_value(model, x) : scalar_value(f, x)};
+        double x = low + (plot->x.high - low) * i / CURVE_POINTS;
+        const double to[2] = {x, model ? model_value(model, x)
+                                       : scalar_value(f, x)};
         if (i > 0)
-            plot_line(paper, plot, from, to, 1.5, colour);
+            plot_line(paper, plot, from, to, width, colour);
         from[0] = to[0];
         from[1] = to[1];
     }
@@ -73,21 +84,22 @@ static void draw_model_minimum(Paper *paper, const Plot *plot,
     double x1 = model->x0 + model->p, at[2];
     const double low[2] = {x1, model_value(model, x1)};
     const double high[2] = {x1, scalar_value(f, x1)};
-    bool right = x1 > CURVE_REACH;
-    char words[64];
-    if (plot_disc(paper, plot, low, 4, COLOUR_STRETCH))
-        plot_disc(paper, plot, low, 2.4, COLOUR_WHITE);
-    plot_line(paper, plot, low, high, 0.8, COLOUR_STRETCH);
-    if (!text || !isfinite(x1) || fabs(x1) <= CURVE_REACH)
+    bool right = x1 > plot->x.high;
+    char number[48];
+    if (plot_disc(paper, plot, low, 6, COLOUR_P))
+        plot_disc(paper, plot, low, 3.6, COLOUR_WHITE);
+    plot_line(paper, plot, low, high, 1.2, COLOUR_P);
+    if (!text || !isfinite(x1) || (x1 >= plot->x.low && !right))
         return;
-    snprintf(words, sizeof words, "%sto x = %.3g%s", right ? "" : "<- ", x1,
-             right ? " ->" : "");
-    plot_place(plot, right ? CURVE_REACH : -CURVE_REACH, 0.5 * CURVE_LOW, at);
-    paper_bold_text(paper, (int)at[0], (int)at[1],
-                    right ? ALIGN_RIGHT : ALIGN_LEFT, COLOUR_STRETCH, words);
+    plot_number(number, sizeof number, x1);
+    plot_place(plot, right ? plot->x.high : plot->x.low,
+               0.5 * (plot->y.low + 0), at);
+    paper_write(paper, FACE_BOLD, 1, COLOUR_P, at[0], at[1],
+                right ? ALIGN_RIGHT : ALIGN_LEFT, "%sto x = %s%s",
+                right ? "" : "\u2190 ", number, right ? " \u2192" : "");
 }
 
-/* Small discs where the line search looked and went on. */
+/* Rings where the line search looked and went on. */
 static void draw_refused(Paper *paper, const Plot *plot,
                          const ScalarFunction *f, const ModelUpdate *update)
 {
@@ -95,26 +107,25 @@ static void draw_refused(Paper *paper, const Plot *plot,
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * update->p;
         const double at[2] = {x, scalar_value(f, x)};
-        plot_disc(paper, plot, at, 3, COLOUR_CONTOUR);
+        if (plot_disc(paper, plot, at, 5, COLOUR_WARNING))
+            plot_disc(paper, plot, at, 3.2, COLOUR_WHITE);
     }
 }
 
-/* "x2", below the disc or above it in turn, unless there is one already.
+/* x with its number, below the disc or above it in turn, unless there is one
+ * already.
  *   used  [2] pixels, in/out: where the last one below and above is */
 static void label_iterate(Paper *paper, const double at[2], int number,
                           double used[2], Colour colour)
 {
-    char text[16];
     int above = number % 2;
-    double gap = paper_pixels(paper, CURVE_LABEL_ROOM);
-    if (fabs(at[0] - used[above]) < 1.5 * gap)
+    double gap = LABEL_ROOM * paper->em;
+    if (fabs(at[0] - used[above]) < gap)
         return;
     used[above] = at[0];
-    snprintf(text, sizeof text, "x%d", number);
-    paper_bold_text(paper, (int)at[0],
-                    (int)(above ? at[1] - 0.6 * gap - paper->font.height
-                                : at[1] + 0.6 * gap),
-                    ALIGN_CENTRE, colour, text);
+    paper_write(paper, FACE_BOLD, 1, colour, at[0],
+                above ? at[1] - 1.25 * gap : at[1] + 0.35 * gap, ALIGN_CENTRE,
+                "x^{%d}", number);
 }
 
 /* Discs on the curve; the last one is black. */
@@ -126,49 +137,60 @@ static void draw_iterates(Paper *paper, const Plot *plot,
         bool last = i == descent->count;
         double x = last ? descent->scalar.x : descent->record[i].from[0];
         const double point[2] = {x, scalar_value(&descent->scalar.f, x)};
-        Colour colour = last ? COLOUR_TEXT : COLOUR_COMPRESS;
+        Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         double at[2];
         plot_place(plot, point[0], point[1], at);
-        if (plot_disc(paper, plot, point, 4, colour) && text)
+        if (plot_disc(paper, plot, point, last ? 7 : 5.5, colour) && text)
             label_iterate(paper, at, i, used, colour);
     }
 }
 
-/* What is drawn, in words. */
-static void draw_curve_legend(Paper *paper, const ModelUpdate *update)
+/* f, model, iterates, words. */
+static SpringCount curve_draw(Paper *paper, const Stage *stage,
+                              const Show *show)
 {
-    TextBlock columns[2] = {0};
-    text_block_add(&columns[0], COLOUR_COMPRESS, "f(x) = ln(exp(x) + exp(-x))");
-    text_block_add(&columns[0], COLOUR_STRETCH, "quadratic model of f at x%d",
-                   update->number);
-    text_block_add(&columns[1], COLOUR_TEXT, "black disc: present iterate");
-    text_block_add(&columns[1], COLOUR_FAINT, "grey discs: lengths refused");
-    panels_draw_columns(paper, columns, 2);
+    const Descent *descent = &show->pane[stage->pane].simulation->descent;
+    const ScalarFunction *f = &descent->scalar.f;
+    ModelUpdate update = last_update(descent);
+    Legend legend = {0, 0};
+    Plot plot = stage_plot(paper, stage, "x", NULL);
+    draw_function(paper, &plot, f, NULL, 2.4, COLOUR_X);
+    draw_function(paper, &plot, f, &update, 1.6, COLOUR_P);
+    draw_model_minimum(paper, &plot, f, &update, stage->text);
+    draw_refused(paper, &plot, f, &update);
+    draw_iterates(paper, &plot, descent, stage->text);
+    if (show->bare || !stage->text)
+        return (SpringCount){0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_X,
+                 "f(x) = ln(e^{x} + e^{\u2212x})");
+    stage_legend(paper, stage, &legend, COLOUR_P, "quadratic model at x^{%d}",
+                 update.number);
+    if (update.refused > 0)
+        stage_legend(paper, stage, &legend, COLOUR_WARNING, "refused lengths");
+    return (SpringCount){0, 0};
 }
 
-/* f, model, iterates, words. */
-void curve_picture_draw(Paper *paper, const Simulation *simulation, bool text)
+/* The present iterate, which is dragged along the curve. */
+static Pick curve_pick(const Show *show, const Stage *stage, double x, double y)
 {
-    const Descent *descent = &simulation->descent;
-    const ScalarFunction *f = &descent->scalar.f;
-    const Axis x = {-CURVE_REACH, CURVE_REACH, "x"};
-    const Axis y = {CURVE_LOW, CURVE_HIGH, "f(x)"};
-    Box whole = {0, 0, paper->canvas.width, paper->canvas.height};
-    Box middle = panels_middle_box(paper),
-        inner = plot_inner_box(paper, middle);
-    Plot plot = {whole, x, y};
-    if (text && (inner.width < 1 || inner.height < 1))
-        return;
-    if (text)
-        plot = plot_create(paper, middle, x, y);
-    ModelUpdate update = last_update(descent);
-    draw_function(paper, &plot, f, NULL, COLOUR_COMPRESS);
-    draw_function(paper, &plot, f, &update, COLOUR_STRETCH);
-    draw_model_minimum(paper, &plot, f, &update, text);
-    draw_refused(paper, &plot, f, &update);
-    draw_iterates(paper, &plot, descent, text);
-    if (!text)
-        return;
-    panels_draw_update(paper, simulation);
-    draw_curve_legend(paper, &update);
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
+    double at[2];
+    camera_world(&stage->camera, x, y, pick.point);
+    stage_pixel(stage, simulation->run[0].x, at);
+    if (hypot(at[0] - x, at[1] - y) < 14)
+        pick.kind = PICK_START;
+    return pick;
 }
+
+static const Card *const curve_cards[] = {&card_listing, &card_line,
+                                          &card_residual, NULL};
+
+const Picture curve_picture = {
+    .name = "curve",
+    .cards = curve_cards,
+    .stretched = true,
+    .bounds = curve_bounds,
+    .draw = curve_draw,
+    .pick = curve_pick,
+};

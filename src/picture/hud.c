@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scenes/scene.h"
+#include "picture/show.h"
 
 /* What one sees at the start. */
 void hud_create(Hud *hud)
@@ -18,7 +18,6 @@ void hud_restart(Hud *hud)
     hud->stepped = false;
     hud->trouble_step = 0;
     hud->note[0] = '\0';
-    hud->energies = (Energies){0};
     hud->history.series = 3;
     history_clear(&hud->history);
     trail_clear(&hud->trail);
@@ -61,35 +60,8 @@ void hud_end_step(Hud *hud, const Simulation *simulation)
         hud->trouble_step++;
 }
 
-/* Energies of run 0. */
-static void sample_energies(Hud *hud, const Simulation *simulation)
-{
-    hud->energies = simulation_energies(simulation, 0);
-    const double value[HISTORY_SERIES] = {
-        hud->energies.total, hud->energies.kinetic, hud->energies.elastic};
-    history_add(&hud->history, simulation_time(simulation), value);
-}
-
-/* Position and radius of node 0 in each run. */
-static void sample_circle(Hud *hud, const Simulation *simulation)
-{
-    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = simulation->run[r].x;
-        value[r] = hypot(x[0], x[1]);
-        point[2 * r] = x[0];
-        point[2 * r + 1] = x[1];
-    }
-    history_add(&hud->history, simulation_time(simulation), value);
-    trail_add(&hud->trail, simulation->runs, point);
-}
-
-/* By what the picture of the scene shows. */
+/* What the picture of the scene keeps. */
 void hud_sample(Hud *hud, const Simulation *simulation)
 {
-    PictureKind picture = simulation->scene->picture;
-    if (picture == PICTURE_SQUARE && hud->text)
-        sample_energies(hud, simulation);
-    if (picture == PICTURE_CIRCLE)
-        sample_circle(hud, simulation);
+    show_sample(simulation, &hud->history, &hud->trail);
 }

@@ -1,14 +1,13 @@
-#include "picture/landscape_picture.h"
-
 #include <math.h>
 #include <stdio.h>
 
+#include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/kinds.h"
+#include "picture/marks.h"
 #include "scenes/landscape_scene.h"
-#include "picture/panels.h"
-#include "picture/plot.h"
 
-enum { MAP_CELLS = 120, MAP_LABEL_ROOM = 24, MAP_NUMBER_ROOM = 12 };
+enum { MAP_CELLS = 120, MAP_LABEL_ROOM = 54, MAP_NUMBER_ROOM = 27 };
 
 static const double MAP_REACH = 1.7; /* m, at least, up, down, left, right */
 
@@ -17,35 +16,15 @@ static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Axes with the same scale that fill the box. */
-static Plot map_in_box(Box box)
+static void landscape_bounds(const Show *show, int pane, double bounds[4])
 {
-    double scale = fmin(box.width, box.height) / (2 * MAP_REACH);
-    double across = 0.5 * box.width / scale, up = 0.5 * box.height / scale;
-    return (Plot){box, {-across, across, "x in m"}, {-up, up, "y in m"}};
+    (void)show;
+    (void)pane;
+    bounds[2] = bounds[3] = 1.1 * MAP_REACH;
+    bounds[0] = bounds[1] = -1.1 * MAP_REACH;
 }
 
-/* The map alone, or in the middle of the texts. */
-static Plot map_plot(const Paper *paper, bool text)
-{
-    Box whole = {0, 0, paper->canvas.width, paper->canvas.height};
-    return map_in_box(text ? plot_inner_box(paper, panels_middle_box(paper))
-                           : whole);
-}
-
-/* Inverse of plot_place. */
-bool landscape_picture_pick(const Paper *paper, bool text, double x, double y,
-                            double *point)
-{
-    Plot plot = map_plot(paper, text && paper_shows_text(paper));
-    double a = (x - plot.box.x) / plot.box.width;
-    double b = (y - plot.box.y) / plot.box.height;
-    if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1))
-        return false;
-    point[0] = plot.x.low + a * (plot.x.high - plot.x.low);
-    point[1] = plot.y.high - b * (plot.y.high - plot.y.low);
-    return true;
-}
+/* ---- the map, drawn once for a view of it ------------------------------- */
 
 /* Two by two pixels at a time. */
 static void shade_map(Paper *paper, const Plot *plot,
@@ -93,7 +72,7 @@ static void draw_cell(Paper *paper, const Plot *plot, const double corner[4][3],
                                 corner[triangles[k][(i + 1) % 3]], level,
                                 ends[count]);
         if (count == 2)
-            plot_line(paper, plot, ends[0], ends[1], 0.6, COLOUR_CONTOUR);
+            plot_line(paper, plot, ends[0], ends[1], 0.6, COLOUR_GREY);
     }
 }
 
@@ -139,10 +118,12 @@ static void draw_level_number(Paper *paper, const Plot *plot, double x,
     double at[2];
     snprintf(text, sizeof text, "%g", level);
     plot_place(plot, x, y, at);
-    int width = font_width(&paper->font, text), height = paper->font.height;
-    Box back = {(int)at[0] - width / 2, (int)at[1] - height / 2, width, height};
-    paper_panel(paper, back);
-    paper_text(paper, (int)at[0], back.y, ALIGN_CENTRE, COLOUR_FAINT, text);
+    int width = paper_width(paper, FACE_REGULAR, 0.82, text);
+    int height = paper_pixels(paper, 1.05);
+    canvas_rectangle(&paper->canvas, (int)at[0] - width / 2 - 1,
+                     (int)at[1] - height / 2, width + 2, height, COLOUR_PANEL);
+    paper_write(paper, FACE_REGULAR, 0.82, COLOUR_FAINT, at[0],
+                at[1] - 0.53 * paper->em, ALIGN_CENTRE, "%s", text);
 }
 
 /* Numbers where contours cross a level line from x0 to x1, as far as they do
@@ -167,6 +148,59 @@ static void draw_level_numbers(Paper *paper, const Plot *plot,
     }
 }
 
+/* Shade, contours and their numbers on a paper of the size of the map. */
+static void draw_map(Paper *paper, const Plot *plot,
+                     const Simulation *simulation, bool text)
+{
+    double right = plot->x.high;
+    shade_map(paper, plot, simulation);
+    draw_contours(paper, plot, simulation);
+    if (!text)
+        return;
+    draw_level_numbers(paper, plot, simulation, 0, -right, 1.07);
+    draw_level_numbers(paper, plot, simulation, 0, right, -1.03);
+    draw_level_numbers(paper, plot, simulation, 0.6, right, 0.25);
+}
+
+/* What the map depends on. */
+static uint64_t map_key(const Plot *plot, const Simulation *simulation,
+                        bool text)
+{
+    const System *system = &simulation->system;
+    size_t n = (size_t)system->nodes, s = (size_t)system->springs;
+    const double axes[4] = {plot->x.low, plot->x.high, plot->y.low,
+                            plot->y.high};
+    uint64_t key = paper_key(0, axes, sizeof axes);
+    key = paper_key(key, &simulation->options.timestep, sizeof(double));
+    key = paper_key(key, system->k, s * sizeof(double));
+    key = paper_key(key, system->l2, s * sizeof(double));
+    key = paper_key(key, system->m, n * sizeof(double));
+    key =
+        paper_key(key, simulation->run[0].x + 2, 2 * (n - 1) * sizeof(double));
+    return paper_key(key, &text, sizeof text);
+}
+
+/* The map as it was kept, or drawn and kept. */
+static void show_map(Paper *paper, const Plot *plot,
+                     const Simulation *simulation, bool text)
+{
+    bool drawn = false;
+    Canvas *kept = paper_keep(paper, KEEP_MAP, map_key(plot, simulation, text),
+                              plot->box.width, plot->box.height, &drawn);
+    if (!kept)
+        return;
+    if (!drawn) {
+        Paper map = *paper;
+        Plot inner = *plot;
+        map.canvas = *kept;
+        inner.box.x = inner.box.y = 0;
+        draw_map(&map, &inner, simulation, text);
+    }
+    canvas_copy(&paper->canvas, kept, plot->box.x, plot->box.y);
+}
+
+/* ---- what moves on it --------------------------------------------------- */
+
 /* The two springs and their pins. */
 static void draw_pinned_springs(Paper *paper, const Plot *plot,
                                 const Simulation *simulation)
@@ -175,43 +209,37 @@ static void draw_pinned_springs(Paper *paper, const Plot *plot,
     const double *x = simulation->run[0].x;
     for (int s = 0; s < system->springs; s++)
         plot_line(paper, plot, x + 2 * system->e[2 * s],
-                  x + 2 * system->e[2 * s + 1], 2, COLOUR_REST);
-    for (int i = 1; i < system->nodes; i++)
-        plot_disc(paper, plot, x + 2 * i, 5, COLOUR_FAINT);
+                  x + 2 * system->e[2 * s + 1], 3.5, COLOUR_REST);
 }
 
-/* From a along p, with a head where alpha = 1 would lead. */
+/* From a to a + p, with a head where alpha = 1 would lead. */
 static void draw_arrow(Paper *paper, const Plot *plot, const double *a,
-                       const double *p, Colour colour)
+                       const double *p, double width, Colour colour)
 {
-    const double tip[2] = {a[0] + p[0], a[1] + p[1]};
-    double unit = (plot->x.high - plot->x.low) / plot->box.width * paper->unit;
-    double length = hypot(p[0], p[1]), head = 6 * unit;
-    plot_line(paper, plot, a, tip, 1, colour);
-    if (!(length > head))
-        return;
-    for (int side = -1; side <= 1; side += 2) {
-        const double end[2] = {
-            tip[0] - head * (p[0] - 0.5 * side * p[1]) / length,
-            tip[1] - head * (p[1] + 0.5 * side * p[0]) / length};
-        plot_line(paper, plot, tip, end, 1, colour);
-    }
+    const double b[2] = {a[0] + p[0], a[1] + p[1]};
+    double from[2], to[2], unit = paper->unit;
+    Box before = canvas_clip(&paper->canvas, plot->box);
+    plot_place(plot, a[0], a[1], from);
+    plot_place(plot, b[0], b[1], to);
+    canvas_arrow(&paper->canvas, from[0], from[1], to[0], to[1],
+                 fmax(1, width * unit), 11 * unit, colour);
+    canvas_clip(&paper->canvas, before);
 }
 
-/* Each update: thin its whole direction p, thick alpha p. */
+/* Each update: thin its whole direction p, thick alpha p; uphill in red. */
 static void draw_updates(Paper *paper, const Plot *plot, const Descent *descent)
 {
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->from, *to = record->to;
-        Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_COMPRESS;
+        Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         if (record->alpha > 0) {
             const double p[2] = {(to[0] - from[0]) / record->alpha,
                                  (to[1] - from[1]) / record->alpha};
-            draw_arrow(paper, plot, from, p, colour);
+            draw_arrow(paper, plot, from, p, 1.2, colour);
         }
-        plot_line(paper, plot, from, to, 2.5, colour);
-        plot_disc(paper, plot, from, 3.5, colour);
+        plot_line(paper, plot, from, to, 3.2, colour);
+        plot_disc(paper, plot, from, 5, COLOUR_X);
     }
 }
 
@@ -221,46 +249,64 @@ static void draw_direction(Paper *paper, const Plot *plot,
 {
     const double *p = descent->direction;
     if (p[0] != 0 || p[1] != 0)
-        draw_arrow(paper, plot, descent->point, p,
-                   descent->slope > 0 ? COLOUR_WARNING : COLOUR_TEXT);
-    plot_disc(paper, plot, descent->point, 5, COLOUR_TEXT);
+        draw_arrow(paper, plot, descent->point, p, 2.2,
+                   descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
+    plot_disc(paper, plot, descent->point, 7, COLOUR_TEXT);
 }
 
-/* What is drawn, in words. */
-static void draw_map_legend(Paper *paper)
+static void draw_words(Paper *paper, const Stage *stage, const Descent *descent)
 {
-    TextBlock columns[3] = {0};
-    text_block_add(&columns[0], COLOUR_FAINT, "lines: E in J s^2");
-    text_block_add(&columns[0], COLOUR_SHADED, "shade: E not convex");
-    text_block_add(&columns[1], COLOUR_COMPRESS, "update downhill");
-    text_block_add(&columns[1], COLOUR_WARNING, "uphill");
-    text_block_add(&columns[2], COLOUR_TEXT, "arrow: next p");
-    text_block_add(&columns[2], COLOUR_FAINT, "grey: springs, pins");
-    panels_draw_columns(paper, columns, 3);
+    Legend legend = {0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_FAINT,
+                 "contours: E in J s\u00b2");
+    stage_legend(paper, stage, &legend, COLOUR_SHADED, "shade: E not convex");
+    stage_legend(paper, stage, &legend, COLOUR_P, "direction p, downhill");
+    if (descent->slope > 0 ||
+        (descent->count > 0 && descent->record[descent->count - 1].slope > 0))
+        stage_legend(paper, stage, &legend, COLOUR_WARNING, "uphill");
 }
 
 /* From the ground up. */
-void landscape_picture_draw(Paper *paper, const Simulation *simulation,
-                            bool text)
+static SpringCount landscape_draw(Paper *paper, const Stage *stage,
+                                  const Show *show)
 {
-    Plot plot = map_plot(paper, text);
-    if (plot.box.width < 1 || plot.box.height < 1)
-        return;
-    if (text)
-        plot_create(paper, panels_middle_box(paper), plot.x, plot.y);
-    shade_map(paper, &plot, simulation);
-    draw_contours(paper, &plot, simulation);
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const System *system = &simulation->system;
+    Plot plot = stage_plot(paper, stage, "x in m", NULL);
+    show_map(paper, &plot, simulation, stage->text && !show->bare);
     draw_pinned_springs(paper, &plot, simulation);
-    if (text) {
-        double right = plot.x.high;
-        draw_level_numbers(paper, &plot, simulation, 0, -right, 1.07);
-        draw_level_numbers(paper, &plot, simulation, 0, right, -1.03);
-        draw_level_numbers(paper, &plot, simulation, 0.6, right, 0.25);
-    }
+    Box before = canvas_clip(&paper->canvas, plot.box);
+    for (int i = 1; i < system->nodes; i++)
+        stage_pin(paper, stage, simulation->run[0].x + 2 * i, 5 * paper->unit);
+    canvas_clip(&paper->canvas, before);
     draw_updates(paper, &plot, &simulation->descent);
     draw_direction(paper, &plot, &simulation->descent);
-    if (!text)
-        return;
-    panels_draw_update(paper, simulation);
-    draw_map_legend(paper);
+    if (!show->bare && stage->text)
+        draw_words(paper, stage, &simulation->descent);
+    return (SpringCount){0, 0};
 }
+
+/* The present iterate, or a place to start from. */
+static Pick landscape_pick(const Show *show, const Stage *stage, double x,
+                           double y)
+{
+    const Descent *descent = &show->pane[stage->pane].simulation->descent;
+    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
+    double at[2];
+    camera_world(&stage->camera, x, y, pick.point);
+    stage_pixel(stage, descent->point, at);
+    if (hypot(at[0] - x, at[1] - y) < 14)
+        pick.kind = PICK_START;
+    return pick;
+}
+
+static const Card *const landscape_cards[] = {&card_listing, &card_line,
+                                              &card_residual, NULL};
+
+const Picture landscape_picture = {
+    .name = "landscape",
+    .cards = landscape_cards,
+    .bounds = landscape_bounds,
+    .draw = landscape_draw,
+    .pick = landscape_pick,
+};

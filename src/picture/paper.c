@@ -1,95 +1,137 @@
 #include "picture/paper.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
 
-#include "picture/colour_map.h"
+enum { PAPER_TEXT = 512, PAPER_EM = 14 };
 
-/* Size of a letter's dots in units, so that a line holds PAPER_LETTERS. */
-static const double PAPER_DOT = 1.2;
-
-/* Canvas and font. */
 Status paper_create(int width, int height, Paper *paper)
 {
-    *paper = (Paper){0};
+    *paper = (Paper){.em = PAPER_EM, .unit = 1};
     Status status = canvas_create(width, height, &paper->canvas);
-    if (status)
-        return status;
-    int smaller = width < height ? width : height;
-    paper->unit = (double)smaller / PAPER_UNITS;
-    return font_create(PAPER_DOT * paper->unit, &paper->font);
+    return status ? status : text_create(&paper->text);
 }
 
-/* Canvas and font. */
 void paper_free(Paper *paper)
 {
     if (!paper)
         return;
     canvas_free(&paper->canvas);
-    font_free(&paper->font);
+    text_free(paper->text);
+    for (int k = 0; k < KEEP_COUNT; k++)
+        canvas_free(&paper->kept[k]);
+    *paper = (Paper){0};
 }
 
-/* units * unit, rounded. */
-int paper_pixels(const Paper *paper, double units)
+int paper_pixels(const Paper *paper, double ems)
 {
-    return (int)floor(units * paper->unit + 0.5);
+    return (int)floor(ems * paper->em + 0.5);
 }
 
-/* Letters below 4 x 7 pixels are only noise. */
-bool paper_shows_text(const Paper *paper)
+void paper_line(Paper *paper, const double a[2], const double b[2],
+                double width, Colour colour)
 {
-    return paper->font.width >= 4;
-}
-
-/* scale = part * smaller side / size */
-Mapping paper_mapping(const Paper *paper, double size, double part)
-{
-    Mapping mapping;
-    mapping.scale = part * PAPER_UNITS * paper->unit / size;
-    mapping.x0 = 0.5 * paper->canvas.width;
-    mapping.y0 = 0.5 * paper->canvas.height;
-    return mapping;
-}
-
-/* The canvas clips. */
-void paper_line(Paper *paper, const Mapping *mapping, const double *a,
-                const double *b, double width, Colour colour)
-{
-    canvas_line(&paper->canvas, mapping->x0 + mapping->scale * a[0],
-                mapping->y0 - mapping->scale * a[1],
-                mapping->x0 + mapping->scale * b[0],
-                mapping->y0 - mapping->scale * b[1],
+    canvas_line(&paper->canvas, a[0], a[1], b[0], b[1],
                 fmax(1, width * paper->unit), colour);
 }
 
-/* The canvas clips. */
-void paper_disc(Paper *paper, const Mapping *mapping, const double *a,
-                double radius, Colour colour)
+static TextStyle paper_style(const Paper *paper, Face face, double size,
+                             Colour colour)
 {
-    canvas_disc(&paper->canvas, mapping->x0 + mapping->scale * a[0],
-                mapping->y0 - mapping->scale * a[1], radius * paper->unit,
-                colour);
+    return (TextStyle){face, size * paper->em, colour};
 }
 
-/* Lets one sixth of what is below shine through. */
-void paper_panel(Paper *paper, Box box)
+int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
+                double y, Align align, const char *format, ...)
 {
-    canvas_rectangle(&paper->canvas, box.x, box.y, box.width, box.height,
-                     COLOUR_PANEL);
+    char words[PAPER_TEXT];
+    TextStyle style = paper_style(paper, face, size, colour);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    return text_draw(paper->text, &paper->canvas, &style, x, y, align, words);
 }
 
-/* The font of the paper on its canvas. */
-void paper_text(Paper *paper, int x, int y, Align align, Colour colour,
-                const char *text)
+int paper_width(Paper *paper, Face face, double size, const char *markup)
 {
-    font_draw(&paper->font, &paper->canvas, x, y, align, colour, text);
+    TextStyle style = paper_style(paper, face, size, 0);
+    return text_width(paper->text, &style, markup);
 }
 
-/* Twice, a little apart. */
-void paper_bold_text(Paper *paper, int x, int y, Align align, Colour colour,
-                     const char *text)
+/* How many bytes of the text fit into this width, at a blank or at its end;
+ * a word that is wider than all stands alone. */
+static size_t fitting_bytes(Paper *paper, Face face, double size, int width,
+                            const char *markup)
 {
-    int apart = paper_pixels(paper, 0.5);
-    paper_text(paper, x, y, align, colour, text);
-    if (apart > 0)
-        paper_text(paper, x + apart, y, align, colour, text);
+    char part[PAPER_TEXT];
+    size_t fits = 0, length = strlen(markup);
+    for (size_t end = 1; end <= length && end < sizeof part; end++) {
+        if (end < length && markup[end] != ' ')
+            continue;
+        memcpy(part, markup, end);
+        part[end] = '\0';
+        if (fits > 0 && paper_width(paper, face, size, part) > width)
+            break;
+        fits = end;
+    }
+    return fits;
+}
+
+int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
+                    Box box, int lines, const char *markup)
+{
+    char part[PAPER_TEXT];
+    TextStyle style = paper_style(paper, face, size, colour);
+    double y = box.y;
+    int line = 0;
+    while (*markup && line < lines) {
+        size_t count = fitting_bytes(paper, face, size, box.width, markup);
+        if (count == 0)
+            break;
+        memcpy(part, markup, count);
+        part[count] = '\0';
+        markup += count;
+        while (*markup == ' ')
+            markup++;
+        line++;
+        if (*markup && line == lines && count + 4 < sizeof part)
+            strcat(part, "\u2026");
+        text_draw(paper->text, &paper->canvas, &style, box.x, y, ALIGN_LEFT,
+                  part);
+        y += text_line(style.size);
+    }
+    return line;
+}
+
+Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
+                   bool *drawn)
+{
+    Canvas *kept = &paper->kept[keep];
+    *drawn = paper->key[keep] == key && kept->pixels && kept->width == width &&
+             kept->height == height;
+    if (*drawn)
+        return kept;
+    paper->key[keep] = 0;
+    if (kept->width != width || kept->height != height) {
+        canvas_free(kept);
+        if (canvas_create(width, height, kept)) {
+            canvas_free(kept);
+            return NULL;
+        }
+    }
+    canvas_clear(kept, 0xffffffffu);
+    paper->key[keep] = key;
+    return kept;
+}
+
+uint64_t paper_key(uint64_t key, const void *bytes, size_t count)
+{
+    const unsigned char *byte = bytes;
+    key = key ? key : 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++)
+        key = (key ^ byte[i]) * 0x100000001b3u;
+    return key ? key : 1;
 }

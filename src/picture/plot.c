@@ -2,19 +2,21 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/colour_map.h"
 
 enum {
-    PLOT_INTERVALS = 4,      /* between numbers, upwards */
-    PLOT_MOST_INTERVALS = 8, /* to the right, where there is room */
-    PLOT_TICK_LETTERS = 7,   /* room for a number to the right */
-    PLOT_NUMBER_SIZE = 32,
-    PLOT_TITLE_SIZE = 96,
-    PLOT_NUMBER_LETTERS = 5 /* room on the left */
+    PLOT_INTERVALS = 4,  /* between numbers, upwards */
+    PLOT_MOST_LINES = 40 /* of any axis */
 };
 
-/* 10^k below value, times 1, 2, 5 or 10. */
+static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
+static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
+static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
+static const double BELOW_ROOM = 1.5;    /* ems, below it */
+static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
+
 double plot_round_up(double value)
 {
     double power = pow(10, floor(log10(value)));
@@ -29,96 +31,146 @@ double plot_round_axis(double value)
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* Distance of the numbers on an axis. */
-static double axis_step(const Axis *axis, double intervals)
+/* 0 at the low end of an axis, 1 at the high one. */
+static double axis_part(const Axis *axis, double value)
 {
-    return plot_round_up((axis->high - axis->low) / intervals);
+    if (axis->log)
+        return log10(value / axis->low) / log10(axis->high / axis->low);
+    return (value - axis->low) / (axis->high - axis->low);
 }
 
-/* Linear in both directions. */
 void plot_place(const Plot *plot, double x, double y, double place[2])
 {
-    double a = (x - plot->x.low) / (plot->x.high - plot->x.low);
-    double b = (y - plot->y.low) / (plot->y.high - plot->y.low);
+    double a = axis_part(&plot->x, x), b = axis_part(&plot->y, y);
     place[0] = plot->box.x + a * plot->box.width;
     place[1] = plot->box.y + (1 - b) * plot->box.height;
 }
 
-/* Number k of an axis with this step; rounding must not show as 1e-17. */
-static void format_tick(char *text, double value, double step)
+void plot_number(char *text, size_t size, double value)
 {
-    double clean = fabs(value) < 1e-9 * step ? 0 : value;
-    snprintf(text, PLOT_NUMBER_SIZE, "%.4g", clean);
+    char plain[32];
+    snprintf(plain, sizeof plain, "%.3g", value);
+    char *power = strchr(plain, 'e');
+    if (!power) {
+        snprintf(text, size, "%s%s", value < 0 ? "\u2212" : "",
+                 plain + (value < 0));
+        return;
+    }
+    *power = '\0';
+    int exponent = 0;
+    sscanf(power + 1, "%d", &exponent);
+    const char *part = plain + (value < 0);
+    bool one = strcmp(part, "1") == 0;
+    snprintf(text, size, "%s%s%s10^{%s%d}", value < 0 ? "\u2212" : "",
+             one ? "" : part, one ? "" : "\u00b7", exponent < 0 ? "\u2212" : "",
+             exponent < 0 ? -exponent : exponent);
 }
 
-/* Vertical grid lines with their numbers below. */
+/* A number of an axis; rounding must not show as 1e-17. */
+static void format_tick(char *text, size_t size, const Axis *axis,
+                        double value)
+{
+    double span = axis->high - axis->low;
+    bool nothing = !axis->log && fabs(value) < 1e-9 * span;
+    plot_number(text, size, nothing ? 0 : value);
+}
+
+/* The values that carry a number on this axis; returns how many. */
+static int axis_ticks(const Axis *axis, double intervals, double *ticks)
+{
+    int count = 0;
+    if (!(axis->high > axis->low) || (axis->log && !(axis->low > 0)))
+        return 0;
+    if (axis->log) {
+        int low = (int)ceil(log10(axis->low) - 1e-9);
+        int high = (int)floor(log10(axis->high) + 1e-9);
+        int step = (int)ceil((high - low) / intervals);
+        step = step < 1 ? 1 : step;
+        for (int k = low; k <= high && count < PLOT_MOST_LINES; k += step)
+            ticks[count++] = pow(10, k);
+        return count;
+    }
+    double step = plot_round_up((axis->high - axis->low) / intervals);
+    if (axis->whole)
+        step = fmax(step, 1);
+    for (double k = ceil(axis->low / step - 1e-9);
+         k * step <= axis->high + 1e-9 * step && count < PLOT_MOST_LINES; k++)
+        ticks[count++] = k * step;
+    return count;
+}
+
+/* Numbers below, the label at the end of the axis. */
 static void draw_x_axis(Paper *paper, const Plot *plot)
 {
     const Box *box = &plot->box;
-    double room = (double)box->width / (PLOT_TICK_LETTERS * paper->font.width);
-    double step = axis_step(&plot->x, fmin(fmax(room, 2), PLOT_MOST_INTERVALS));
-    int y = box->y + box->height + paper_pixels(paper, 3);
-    for (double k = ceil(plot->x.low / step - 1e-9);
-         k * step <= plot->x.high + 1e-9 * step; k++) {
-        char number[PLOT_NUMBER_SIZE];
-        double at[2];
-        format_tick(number, k * step, step);
-        plot_place(plot, k * step, plot->y.low, at);
-        canvas_line(&paper->canvas, at[0], box->y, at[0], box->y + box->height,
-                    fmax(1, 0.5 * paper->unit), COLOUR_GRID);
-        paper_text(paper, (int)at[0], y, ALIGN_CENTRE, COLOUR_FAINT, number);
+    double ticks[PLOT_MOST_LINES], at[2];
+    double room = box->width / (TICK_ROOM * paper->em);
+    int count = axis_ticks(&plot->x, fmin(fmax(room, 2), 8), ticks);
+    double y = box->y + box->height + NUMBER_BELOW * paper->em;
+    int right = box->x + box->width;
+    if (plot->x.label)
+        right -= paper_width(paper, FACE_REGULAR, TICK_SIZE, plot->x.label) +
+                 paper_pixels(paper, 0.5);
+    for (int i = 0; i < count; i++) {
+        char number[48];
+        format_tick(number, sizeof number, &plot->x, ticks[i]);
+        plot_place(plot, ticks[i], plot->y.low, at);
+        int half = paper_width(paper, FACE_REGULAR, TICK_SIZE, number) / 2;
+        if (at[0] + half > right)
+            continue;
+        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, at[0], y,
+                    ALIGN_CENTRE, "%s", number);
     }
+    if (plot->x.label)
+        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
+                    box->x + box->width, y, ALIGN_RIGHT, "%s", plot->x.label);
 }
 
-/* Horizontal grid lines with their numbers on the left. */
+/* Light lines across with their numbers on the left; 0 is darker. */
 static void draw_y_axis(Paper *paper, const Plot *plot)
 {
     const Box *box = &plot->box;
-    double step = axis_step(&plot->y, PLOT_INTERVALS);
-    int x = box->x - paper_pixels(paper, 3);
-    for (double k = ceil(plot->y.low / step - 1e-9);
-         k * step <= plot->y.high + 1e-9 * step; k++) {
-        char number[PLOT_NUMBER_SIZE];
-        double at[2];
-        format_tick(number, k * step, step);
-        plot_place(plot, plot->x.low, k * step, at);
-        canvas_line(&paper->canvas, box->x, at[1], box->x + box->width, at[1],
-                    fmax(1, 0.5 * paper->unit), COLOUR_GRID);
-        paper_text(paper, x, (int)at[1] - paper_pixels(paper, 5), ALIGN_RIGHT,
-                   COLOUR_FAINT, number);
+    double ticks[PLOT_MOST_LINES], at[2];
+    double room = box->height / (1.6 * paper->em);
+    int count =
+        axis_ticks(&plot->y, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
+    double x = box->x - 0.35 * paper->em;
+    for (int i = 0; i < count; i++) {
+        char number[48];
+        bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
+        format_tick(number, sizeof number, &plot->y, ticks[i]);
+        plot_place(plot, plot->x.low, ticks[i], at);
+        double row = floor(at[1]) + 0.5; /* sharp on the screen */
+        canvas_line(&paper->canvas, box->x, row, box->x + box->width, row,
+                    fmax(1, floor(paper->unit)),
+                    zero ? COLOUR_BORDER : COLOUR_GRID);
+        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, x,
+                    at[1] - 0.65 * TICK_SIZE * paper->em, ALIGN_RIGHT, "%s",
+                    number);
     }
+    if (plot->y.label)
+        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT, box->x,
+                    box->y - 0.2 * paper->em, ALIGN_LEFT, "%s", plot->y.label);
 }
 
-/* "energy in kJ over time in s", above the box. */
-static void draw_plot_title(Paper *paper, const Plot *plot)
+void plot_axes(Paper *paper, const Plot *plot)
 {
-    char title[PLOT_TITLE_SIZE];
-    snprintf(title, sizeof title, "%s over %s", plot->y.label, plot->x.label);
-    paper_text(paper, plot->box.x,
-               plot->box.y - paper->font.height - paper_pixels(paper, 2),
-               ALIGN_LEFT, COLOUR_TEXT, title);
+    draw_y_axis(paper, plot);
+    draw_x_axis(paper, plot);
 }
 
-/* Room for the title above and for the numbers on the left and below. */
-Box plot_inner_box(const Paper *paper, Box outer)
-{
-    int letter = paper->font.width, line = paper->font.height;
-    int gap = paper_pixels(paper, 4);
-    Box box = {outer.x + PLOT_NUMBER_LETTERS * letter + gap,
-               outer.y + line + gap, 0, 0};
-    box.width = outer.x + outer.width - 2 * letter - box.x;
-    box.height = outer.y + outer.height - line - gap - box.y;
-    return box;
-}
-
-/* The grid first. */
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y)
 {
-    Plot plot = {plot_inner_box(paper, outer), x, y};
-    paper_panel(paper, outer);
-    draw_x_axis(paper, &plot);
-    draw_y_axis(paper, &plot);
-    draw_plot_title(paper, &plot);
+    int left = paper_pixels(paper, NUMBER_ROOM);
+    int below = paper_pixels(paper, BELOW_ROOM);
+    int above = paper_pixels(paper, 0.5), right = paper_pixels(paper, 0.6);
+    Plot plot = {{outer.x + left, outer.y + above, outer.width - left - right,
+                  outer.height - above - below},
+                 x,
+                 y};
+    plot.box.width = plot.box.width < 1 ? 1 : plot.box.width;
+    plot.box.height = plot.box.height < 1 ? 1 : plot.box.height;
+    plot_axes(paper, &plot);
     return plot;
 }
 
@@ -145,18 +197,17 @@ static bool cut_line(double a[2], double b[2], int k, double low, double high)
 void plot_line(Paper *paper, const Plot *plot, const double *a, const double *b,
                double width, Colour colour)
 {
-    const Axis *x = &plot->x, *y = &plot->y;
-    double from[2] = {a[0], a[1]}, to[2] = {b[0], b[1]}, p[2], q[2];
-    if (!cut_line(from, to, 0, x->low, x->high) ||
-        !cut_line(from, to, 1, y->low, y->high))
+    double p[2], q[2];
+    const Box *box = &plot->box;
+    plot_place(plot, a[0], a[1], p);
+    plot_place(plot, b[0], b[1], q);
+    if (!isfinite(p[0] + p[1]) || !isfinite(q[0] + q[1]))
         return;
-    plot_place(plot, from[0], from[1], p);
-    plot_place(plot, to[0], to[1], q);
-    canvas_line(&paper->canvas, p[0], p[1], q[0], q[1],
-                fmax(1, width * paper->unit), colour);
+    if (cut_line(p, q, 0, box->x, box->x + box->width) &&
+        cut_line(p, q, 1, box->y, box->y + box->height))
+        paper_line(paper, p, q, width, colour);
 }
 
-/* By its centre. */
 bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
                Colour colour)
 {
@@ -169,12 +220,11 @@ bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
     return true;
 }
 
-/* Line by line. */
 void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
-                const double *y, Colour colour)
+                const double *y, double width, Colour colour)
 {
     for (int i = 1; i < count; i++) {
         const double from[2] = {x[i - 1], y[i - 1]}, to[2] = {x[i], y[i]};
-        plot_line(paper, plot, from, to, 1.3, colour);
+        plot_line(paper, plot, from, to, width, colour);
     }
 }

@@ -1,4 +1,4 @@
-/* plot.h - curves over axes with numbers and units.
+/* plot.h - curves over axes with numbers, linear or logarithmic.
  */
 #ifndef ELASTO_PLOT_H
 #define ELASTO_PLOT_H
@@ -6,8 +6,10 @@
 #include "picture/paper.h"
 
 typedef struct Axis {
-    double low, high;  /* high > low */
-    const char *label; /* quantity and unit: "time in s" */
+    double low, high;  /* high > low; > 0 where it is logarithmic */
+    bool log;          /* numbers at powers of ten */
+    bool whole;        /* numbers are whole ones */
+    const char *label; /* at the end of the axis, markup; or NULL */
 } Axis;
 
 typedef struct Plot {
@@ -22,13 +24,13 @@ double plot_round_up(double value);
  * a number. */
 double plot_round_axis(double value);
 
-/* What is left of the outer box without the numbers and the labels. */
-Box plot_inner_box(const Paper *paper, Box outer);
-
-/* Panel, grid, numbers and labels inside the outer box. */
+/* Numbers on the left and below, light lines across. */
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y);
 
-/* Where a point is drawn, pixels. */
+/* The same for a plot whose box is known. */
+void plot_axes(Paper *paper, const Plot *plot);
+
+/* Where a point is drawn, pixels; not finite where it has no place. */
 void plot_place(const Plot *plot, double x, double y, double place[2]);
 
 /* A line and a disc, as far as they are inside the axes.
@@ -43,6 +45,10 @@ bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
 
 /* Joins the points.  x, y [count] in. */
 void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
-                const double *y, Colour colour);
+                const double *y, double width, Colour colour);
+
+/* "1e5" as people write it: 100000, 2.5e7, 0.003; in markup with a
+ * superscript where it needs a power.  text [size] out. */
+void plot_number(char *text, size_t size, double value);
 
 #endif

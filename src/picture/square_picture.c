@@ -1,23 +1,35 @@
 #include "picture/square_picture.h"
 
 #include <math.h>
-#include <stdio.h>
 
+#include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/panels.h"
-#include "picture/plot.h"
+#include "picture/hover.h"
+#include "picture/marks.h"
 
-/* Sizes in units. */
-enum { LEGEND_WIDTH = 208, LEGEND_BAR = 8, LEGEND_MARGIN = 3 };
+enum {
+    GHOST_SPRINGS = 700, /* of more only the outline is drawn as a ghost */
+    ARROW_SPACING = 16   /* pixels between nodes that have arrows, at least */
+};
+
+static const double ROOM = 1.14;      /* of the stage around the square */
+static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
+static const double NODE = 0.1;       /* of the distance of two nodes */
 
 /* What does not change from spring to spring. */
 typedef struct SpringPen {
     Paper *paper;
-    Mapping mapping;
+    const Stage *stage;
+    const Pane *pane;
     const double *x; /* [2n] m */
+    double spacing;  /* pixels, of two nodes at rest */
     double width;    /* units */
     double range;    /* of the strains; 0: all blue */
+    bool plastic;    /* the colour is the plastic strain */
+    bool projected;  /* springs whose block was changed are lit */
 } SpringPen;
+
+/* ---- how much of the world is seen -------------------------------------- */
 
 /* Side lengths that the square may fill: a stretched one springs back, and a
  * squeezed one springs out and bulges. */
@@ -27,38 +39,101 @@ static double square_extent(double stretch)
     return s < 1 ? 1 + 1.5 * (1 - s) : s;
 }
 
-/* These side lengths are 57 % of the paper. */
-static SpringPen square_pen(Paper *paper, const Simulation *simulation,
-                            double range)
+/* The square as it starts; where nodes have left that, 1.5, 1.5^2, ... times
+ * as much around the same middle, so that the view jumps seldom. */
+static void square_bounds(const Show *show, int pane, double bounds[4])
 {
+    const Pane *shown = &show->pane[pane];
+    const Simulation *simulation = shown->simulation;
+    const double *x = pane_x(shown);
+    double extent = square_extent(simulation->options.stretch);
+    double room = show->bare ? BARE_ROOM : ROOM;
+    double half = 0.5 * simulation->mesh.side * room;
+    double need = 1, grow = 1;
+    bounds[2] = half * extent;
+    bounds[3] = show->bare ? half * extent : half * fmin(extent, 1.25);
+    if (shown->frame) {
+        for (int k = 0; k < 4; k++)
+            bounds[k] = shown->frame[k];
+        return;
+    }
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        double reach =
+            fmax(fabs(x[2 * i]) / bounds[2], fabs(x[2 * i + 1]) / bounds[3]);
+        if (isfinite(reach) && reach > need)
+            need = reach;
+    }
+    while (grow < need && grow < 1e30)
+        grow *= 1.5;
+    bounds[2] *= grow;
+    bounds[3] *= grow;
+    bounds[0] = -bounds[2];
+    bounds[1] = -bounds[3];
+}
+
+/* ---- springs and nodes -------------------------------------------------- */
+
+static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = pane->simulation;
     const SquareMesh *mesh = &simulation->mesh;
-    double size = square_extent(simulation->options.stretch) * mesh->side;
-    SpringPen pen = {paper, paper_mapping(paper, size, 0.57),
-                     simulation->run[0].x, 0, range};
-    double spacing = pen.mapping.scale * mesh->side / mesh->segments;
-    pen.width = fmin(fmax(0.12 * spacing / paper->unit, 0.65), 1);
-    pen.width = fmax(pen.width, 1 / paper->unit) * (range > 0 ? 1.4 : 1);
+    const Trace *trace = pane->trace;
+    SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
+    pen.x = pane_x(pane);
+    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
+    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
+    pen.plastic = show->strain && pane->plastic;
+    pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
+    if (show->strain)
+        pen.width *= 1.4;
+    pen.projected = trace && trace->line >= LINE_PROJECT &&
+                    trace->line <= LINE_SEARCH && !show->strain &&
+                    simulation->options.filter != FILTER_NONE &&
+                    trace->projected != 0;
     return pen;
 }
 
-/* The line from node i to node j, l their distance at rest. */
-static void draw_spring(const SpringPen *pen, int i, int j, double l)
+/* Whether the block of this spring has a negative eigenvalue: it is shorter
+ * than at rest. */
+static bool spring_projected(const double *a, const double *b, double l2)
 {
-    const double *a = pen->x + 2 * (size_t)i, *b = pen->x + 2 * (size_t)j;
-    Colour colour = COLOUR_SPRING;
-    if (pen->range > 0) {
-        double strain = hypot(a[0] - b[0], a[1] - b[1]) / l - 1;
-        colour = colour_map_strain(strain, pen->range);
-    }
-    paper_line(pen->paper, &pen->mapping, a, b, pen->width, colour);
+    double dx = a[0] - b[0], dy = a[1] - b[1];
+    return dx * dx + dy * dy < l2;
 }
 
-/* Every spring of the system. */
-static void draw_all_springs(const SpringPen *pen, const System *system)
+/* The line from node i to node j, l2 their squared distance at rest. */
+static void draw_spring(const SpringPen *pen, int i, int j, double l2,
+                        double plastic)
 {
-    for (int s = 0; s < system->springs; s++)
+    const double *a = pen->x + 2 * (size_t)i, *b = pen->x + 2 * (size_t)j;
+    Colour colour = COLOUR_X;
+    double width = pen->width;
+    if (pen->plastic) {
+        colour = colour_map_strain(plastic, pen->range);
+    } else if (pen->range > 0) {
+        double strain = hypot(a[0] - b[0], a[1] - b[1]) / sqrt(l2) - 1;
+        colour = colour_map_strain(strain, pen->range);
+    } else if (pen->projected && spring_projected(a, b, l2)) {
+        colour = COLOUR_PROJECT;
+        width *= 1.15;
+    }
+    stage_line(pen->paper, pen->stage, a, b, width, colour);
+}
+
+static long draw_all_springs(const SpringPen *pen, const System *system)
+{
+    const unsigned char *broken = pen->pane->broken;
+    const double *plastic = pen->pane->plastic;
+    long drawn = 0;
+    for (int s = 0; s < system->springs; s++) {
+        if (broken && broken[s])
+            continue;
         draw_spring(pen, system->e[2 * (size_t)s], system->e[2 * (size_t)s + 1],
-                    sqrt(system->l2[s]));
+                    system->l2[s], plastic ? plastic[s] : 0);
+        drawn++;
+    }
+    return drawn;
 }
 
 /* The springs of a mesh of every stride-th node, the last one included. */
@@ -66,208 +141,407 @@ static long draw_coarse_springs(const SpringPen *pen, const SquareMesh *mesh,
                                 int stride)
 {
     int n = mesh->segments, row = n + 1;
-    double l = mesh->side / n;
+    double l2 = mesh->side / n * (mesh->side / n);
     long drawn = 0;
     for (int i = 0; i <= n; i += stride)
         for (int j = 0; j <= n; j += stride) {
             int di = i + stride <= n ? stride : n - i;
             int dj = j + stride <= n ? stride : n - j;
             int node = i * row + j, right = node + di * row;
+            double diagonal = l2 * (di * di + dj * dj);
             if (di > 0)
-                draw_spring(pen, node, right, l * di);
+                draw_spring(pen, node, right, l2 * di * di, 0);
             if (dj > 0)
-                draw_spring(pen, node, node + dj, l * dj);
+                draw_spring(pen, node, node + dj, l2 * dj * dj, 0);
             if (di > 0 && dj > 0) {
-                draw_spring(pen, node, right + dj, l * hypot(di, dj));
-                draw_spring(pen, node + dj, right, l * hypot(di, dj));
+                draw_spring(pen, node, right + dj, diagonal, 0);
+                draw_spring(pen, node + dj, right, diagonal, 0);
             }
             drawn += (di > 0) + (dj > 0) + 2 * (di > 0 && dj > 0);
         }
     return drawn;
 }
 
-/* Discs at all nodes; those that the springs hide are left out. */
-static void draw_nodes(const SpringPen *pen, const SquareMesh *mesh)
+/* Radius of the nodes' discs, pixels. */
+static double node_radius(const SpringPen *pen, bool bare)
 {
-    double radius = 0.1 * mesh->side / mesh->segments * pen->mapping.scale /
-                    pen->paper->unit;
-    if (radius < 0.5 * pen->width)
-        return;
-    Colour colour = pen->range > 0 ? COLOUR_TEXT : COLOUR_SPRING;
-    for (int i = 0; i < mesh->nodes; i++)
-        paper_disc(pen->paper, &pen->mapping, pen->x + 2 * (size_t)i, radius,
-                   colour);
+    double radius = NODE * pen->spacing;
+    return bare ? radius : fmin(radius, 6.5 * pen->paper->unit);
 }
 
-/* Springs first, nodes on top of them. */
-SpringCount square_picture_draw(Paper *paper, const Simulation *simulation,
-                                double strain_range)
+/* Discs at all nodes; those that the springs hide are left out. */
+static void draw_nodes(const SpringPen *pen, const System *system, bool bare)
 {
-    const SquareMesh *mesh = &simulation->mesh;
+    double radius = node_radius(pen, bare);
+    Colour colour = pen->range > 0 ? COLOUR_TEXT : COLOUR_X;
+    double hidden = 0.5 * fmax(1, pen->width * pen->paper->unit);
+    if (radius >= hidden)
+        for (int i = 0; i < system->nodes; i++)
+            stage_disc(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius,
+                       colour);
+    for (int i = 0; system->pinned && i < system->nodes; i++)
+        if (system->pinned[i])
+            stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
+}
+
+/* ---- outlines, ghosts, cells -------------------------------------------- */
+
+/* Node k of the outline, anticlockwise from the lower left; 4 segments. */
+static int outline_node(const SquareMesh *mesh, int k)
+{
+    int n = mesh->segments, row = n + 1, side = k / n % 4, at = k % n;
+    switch (side) {
+    case 0:
+        return at * row;
+    case 1:
+        return n * row + at;
+    case 2:
+        return (n - at) * row + n;
+    default:
+        return n - at;
+    }
+}
+
+/* The outline of the square at x. */
+static void draw_outline(Paper *paper, const Stage *stage,
+                         const SquareMesh *mesh, const double *x, bool dashed,
+                         Colour colour)
+{
+    double phase = 0, unit = paper->unit;
+    for (int k = 0; k < 4 * mesh->segments; k++) {
+        const double *a = x + 2 * (size_t)outline_node(mesh, k);
+        const double *b = x + 2 * (size_t)outline_node(mesh, k + 1);
+        double p[2], q[2];
+        stage_pixel(stage, a, p);
+        stage_pixel(stage, b, q);
+        if (dashed)
+            canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
+                          fmax(1, 1.4 * unit), 6 * unit, 4 * unit, &phase,
+                          colour);
+        else
+            canvas_line(&paper->canvas, p[0], p[1], q[0], q[1],
+                        fmax(1, 1.4 * unit), colour);
+    }
+}
+
+/* All springs of a small square, faintly, and its outline in dashes. */
+static void draw_ghost(Paper *paper, const Stage *stage,
+                       const Simulation *simulation, const double *x,
+                       Colour colour)
+{
     const System *system = &simulation->system;
-    SpringPen pen = square_pen(paper, simulation, strain_range);
-    double spacing = pen.mapping.scale * mesh->side / mesh->segments;
-    int stride = (int)fmin(ceil(2 / spacing), mesh->segments);
-    SpringCount count = {system->springs, 0};
-    if (stride <= 1)
-        draw_all_springs(&pen, system);
+    Colour faint = (colour & 0xffffff) | 0x50000000u;
+    for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
+         s++)
+        stage_line(paper, stage, x + 2 * (size_t)system->e[2 * s],
+                   x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
+    draw_outline(paper, stage, &simulation->mesh, x, true, colour);
+}
+
+/* Twice the area of the triangle a b c, > 0 if it was not turned over. */
+static double turn(const double *x, int a, int b, int c)
+{
+    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
+                 *r = x + 2 * (size_t)c;
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
+{
+    int row = mesh->segments + 1;
+    int a = cell / mesh->segments * row + cell % mesh->segments;
+    int b = a + row, c = b + 1, d = a + 1;
+    return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
+}
+
+/* Cells whose four sides are whole are filled lightly; those that have turned
+ * over in another colour. */
+static void draw_cells(const SpringPen *pen, const SquareMesh *mesh, bool all)
+{
+    int n = mesh->segments, row = n + 1;
+    for (int cell = 0; cell < n * n; cell++) {
+        int a = cell / n * row + cell % n;
+        const int node[4] = {a, a + row, a + row + 1, a + 1};
+        bool folded = square_picture_folded(mesh, pen->x, cell);
+        double p[4][2];
+        if (!folded && !all)
+            continue;
+        for (int k = 0; k < 4; k++)
+            stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
+        for (int k = 0; k < 2; k++) {
+            const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
+                                       p[1 + k][1], p[2 + k][0], p[2 + k][1]};
+            canvas_triangle(&pen->paper->canvas, corners, false,
+                            folded ? 0x38d00000u : 0x180000ffu);
+        }
+    }
+}
+
+/* ---- what Newton does --------------------------------------------------- */
+
+static int arrow_stride(const SpringPen *pen)
+{
+    int stride = (int)ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
+    return stride < 1 ? 1 : stride;
+}
+
+/* p or forces as arrows, and what their colour means. */
+static void draw_arrows(const SpringPen *pen, const double *d, Colour colour,
+                        const char *what, const char *unit, Legend *legend)
+{
+    const Simulation *simulation = pen->pane->simulation;
+    int stride = arrow_stride(pen);
+    double factor =
+        stage_arrows(pen->paper, pen->stage, simulation->system.nodes, stride,
+                     pen->x, d, 1.6, colour);
+    if (factor == 0 || !pen->stage->text)
+        return;
+    if (factor == 1 || unit[0])
+        stage_legend(pen->paper, pen->stage, legend, colour, "%s", what);
     else
-        count.drawn = draw_coarse_springs(&pen, mesh, stride);
+        stage_legend(pen->paper, pen->stage, legend, colour, "%s \u00d7 %g",
+                     what, factor);
+}
+
+/* The start of the hand's spring, the spring, and its force. */
+static void draw_hand(const SpringPen *pen, const Show *show)
+{
+    const Hand *hand = &show->hand;
+    const Stage *stage = pen->stage;
+    double unit = pen->paper->unit, at[2];
+    if (!hand->on || hand->pane != stage->pane)
+        return;
+    const double *node = pen->x + 2 * (size_t)hand->node;
+    stage_dashes(pen->paper, stage, node, hand->target, 2, COLOUR_HAND);
+    stage_ring(pen->paper, stage, node, node_radius(pen, false) + 4 * unit, 2,
+               COLOUR_HAND);
+    stage_disc(pen->paper, stage, hand->target, 4 * unit, COLOUR_HAND);
+    stage_pixel(stage, hand->target, at);
+    if (hand->force > 0 && stage->text)
+        paper_write(pen->paper, FACE_REGULAR, 0.9, COLOUR_HAND,
+                    at[0] + 8 * unit, at[1] - 18 * unit, ALIGN_LEFT, "%.3g N",
+                    hand->force);
+}
+
+/* What the mouse is over. */
+static void draw_hover(const SpringPen *pen, const Show *show)
+{
+    const Pick *hover = &show->hover;
+    const System *system = &pen->pane->simulation->system;
+    double unit = pen->paper->unit;
+    if (hover->pane != pen->stage->pane)
+        return;
+    if (hover->kind == PICK_NODE && hover->index < system->nodes)
+        stage_ring(pen->paper, pen->stage, pen->x + 2 * (size_t)hover->index,
+                   node_radius(pen, false) + 4 * unit, 2, COLOUR_TEXT);
+    if (hover->kind == PICK_SPRING && hover->index < system->springs)
+        stage_line(pen->paper, pen->stage,
+                   pen->x + 2 * (size_t)system->e[2 * hover->index],
+                   pen->x + 2 * (size_t)system->e[2 * hover->index + 1], 4.5,
+                   COLOUR_TEXT);
+}
+
+/* ---- all of it ---------------------------------------------------------- */
+
+/* Below the springs: obstacles, rest shape, ghosts, cells. */
+static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
+{
+    const Pane *pane = pen->pane;
+    const Simulation *simulation = pane->simulation;
+    const Trace *trace = pane->trace;
+    Paper *paper = pen->paper;
+    const Stage *stage = pen->stage;
+    stage_obstacles(paper, stage, pane);
+    if (!pane->frame) {
+        draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
+                     COLOUR_RULE);
+        if (stage->text)
+            stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
+    }
+    draw_cells(pen, &simulation->mesh, pane->cells);
+    if (pane->ghost) {
+        draw_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
+        if (stage->text)
+            stage_legend(paper, stage, legend, COLOUR_GHOST, "%s",
+                         pane->ghost_label ? pane->ghost_label : "before");
+    }
+    if (trace && trace->x_tilde && (trace->line || show->arrows)) {
+        draw_ghost(paper, stage, simulation, trace->x_tilde, COLOUR_X_TILDE);
+        if (stage->text)
+            stage_legend(paper, stage, legend, COLOUR_X_TILDE,
+                         "{xt}, inertia alone");
+    }
+}
+
+/* Above them. */
+static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
+{
+    const Pane *pane = pen->pane;
+    const Trace *trace = pane->trace;
+    if (pen->projected && pen->stage->text)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_PROJECT,
+                     "projected spring");
+    if (trace && trace->p && trace->line >= LINE_SOLVE &&
+        trace->line <= LINE_SEARCH)
+        draw_arrows(pen, trace->p, COLOUR_P, "search direction p", "", legend);
+    if (pane->force)
+        draw_arrows(pen, pane->force, COLOUR_FORCE, "contact force", "N",
+                    legend);
+    draw_hover(pen, show);
+    draw_hand(pen, show);
+    int folded = pane_folded(pane);
+    if (folded > 0 && pen->stage->text)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+                     "%d cell%s folded over", folded, folded == 1 ? "" : "s");
+}
+
+/* The bar from compressed to stretched, lower right. */
+static void draw_strain_bar(Paper *paper, const Stage *stage, double range,
+                            bool plastic)
+{
+    int width = paper_pixels(paper, 11), height = paper_pixels(paper, 0.6);
+    int x = stage->box.x + stage->box.width - width - paper_pixels(paper, 1);
+    int y = stage->box.y + stage->box.height - paper_pixels(paper, 1.2);
+    for (int i = 0; i < width; i++)
+        canvas_rectangle(&paper->canvas, x + i, y, 1, height,
+                         colour_map_strain(2 * (i + 0.5) / width - 1, 1));
+    double above = y - 1.4 * paper->em;
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_COMPRESS, x, above,
+                ALIGN_LEFT, "\u2212%.3g %%", 100 * fmin(range, 1));
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * width, above,
+                ALIGN_CENTRE, plastic ? "plastic strain" : "strain");
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_STRETCH, x + width, above,
+                ALIGN_RIGHT, "+%.3g %%", 100 * range);
+}
+
+/* From the ground up. */
+static SpringCount square_draw(Paper *paper, const Stage *stage,
+                               const Show *show)
+{
+    SpringPen pen = square_pen(paper, stage, show);
+    const Simulation *simulation = pen.pane->simulation;
+    const System *system = &simulation->system;
+    SpringCount count = {0, 0};
+    Legend legend = {0, 0};
+    int stride =
+        (int)fmin(fmax(ceil(2 / pen.spacing), 1), simulation->mesh.segments);
+    if (!show->bare)
+        draw_ground(&pen, show, &legend);
+    if (stride <= 1 || pen.pane->broken)
+        count.drawn = draw_all_springs(&pen, system);
+    else
+        count.drawn = draw_coarse_springs(&pen, &simulation->mesh, stride);
     count.skipped = system->springs - count.drawn;
-    draw_nodes(&pen, mesh);
+    draw_nodes(&pen, system, show->bare);
+    if (show->bare)
+        return count;
+    draw_signs(&pen, show, &legend);
+    if (stage->text) {
+        stage_scale(paper, stage);
+        if (pen.range > 0)
+            draw_strain_bar(paper, stage, pen.range, pen.plastic);
+    }
     return count;
 }
 
-/* Iterations, residual, methods, direction. */
-static void add_newton_lines(TextBlock *block, const Simulation *simulation,
-                             const Hud *hud)
+/* ---- the mouse ---------------------------------------------------------- */
+
+/* Squared distance of a pixel to a line between two pixels. */
+static double distance2(const double p[2], const double q[2], double x,
+                        double y)
 {
-    const Newton *newton = simulation->run[0].newton;
-    bool uphill = hud->slope > 0, any = hud->iterations > 0;
-    if (!hud->stepped) {
-        panels_add_methods(block, simulation, -1, 0);
+    double dx = q[0] - p[0], dy = q[1] - p[1];
+    double length2 = dx * dx + dy * dy, t = 0;
+    if (length2 > 0)
+        t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
+    double ex = p[0] + t * dx - x, ey = p[1] + t * dy - y;
+    return ex * ex + ey * ey;
+}
+
+/* Before the first step a spring of the left or right edge is that edge. */
+static void pick_edge(const Show *show, const Simulation *simulation,
+                      Pick *pick)
+{
+    const SquareMesh *mesh = &simulation->mesh;
+    const int *e = simulation->system.e + 2 * (size_t)pick->index;
+    int row = mesh->segments + 1, column = e[0] / row;
+    if (!show->paused || simulation->steps > 0 || e[1] / row != column ||
+        (column != 0 && column != mesh->segments))
         return;
+    pick->kind = PICK_EDGE;
+    pick->index = column != 0;
+}
+
+/* The nearest node, else the nearest spring, within reach of the mouse. */
+static Pick square_pick(const Show *show, const Stage *stage, double x,
+                        double y)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const System *system = &pane->simulation->system;
+    const SquareMesh *mesh = &pane->simulation->mesh;
+    const double *at = pane_x(pane);
+    double spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
+    double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach;
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    camera_world(&stage->camera, x, y, pick.point);
+    for (int i = 0; i < system->nodes; i++) {
+        double p[2];
+        stage_pixel(stage, at + 2 * (size_t)i, p);
+        double d2 = (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y);
+        if (d2 < best) {
+            best = d2;
+            pick.kind = PICK_NODE;
+            pick.index = i;
+        }
     }
-    text_block_add(block, COLOUR_TEXT, "Newton      %d iteration%s",
-                   hud->iterations, hud->iterations == 1 ? "" : "s");
-    text_block_add(block, COLOUR_TEXT, "residual    %.2e m/s",
-                   newton->residual);
-    panels_add_methods(block, simulation, any ? hud->projected : -1,
-                       hud->trials);
-    if (any)
-        text_block_add(block, uphill ? COLOUR_WARNING : COLOUR_TEXT,
-                       "direction   %s, alpha %.3g",
-                       uphill ? "UPHILL" : "downhill", hud->alpha);
-}
-
-/* Nothing to tell about explicit methods but that they are. */
-static void draw_newton(Paper *paper, const Simulation *simulation,
-                        const Hud *hud)
-{
-    TextBlock block = {0};
-    if (simulation->run[0].newton) {
-        add_newton_lines(&block, simulation, hud);
-    } else {
-        text_block_add(&block, COLOUR_TEXT, "explicit: no Newton, no matrix");
+    best = reach * reach / 4;
+    for (int s = 0; pick.kind == PICK_NONE && s < system->springs; s++) {
+        double p[2], q[2];
+        if (pane->broken && pane->broken[s])
+            continue;
+        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s], p);
+        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
+        double d2 = distance2(p, q, x, y);
+        if (d2 < best) {
+            best = d2;
+            pick.kind = PICK_SPRING;
+            pick.index = s;
+        }
     }
-    panels_draw_right(paper, &block);
+    if (pick.kind == PICK_SPRING)
+        pick_edge(show, pane->simulation, &pick);
+    return pick;
 }
 
-/* The unit in which an energy up to `high` has few digits. */
-typedef struct EnergyUnit {
-    double joule;
-    const char *name;
-} EnergyUnit;
-
-/* J, or a thousand, a million, ... times more or less. */
-static EnergyUnit energy_unit(double high)
+/* Total, kinetic, elastic energy of the first run, J. */
+static void square_sample(const Simulation *simulation, History *history,
+                          Trail *trail)
 {
-    static const EnergyUnit units[] = {
-        {1e12, "TJ"}, {1e9, "GJ"},  {1e6, "MJ"},  {1e3, "kJ"},
-        {1, "J"},     {1e-3, "mJ"}, {1e-6, "uJ"},
-    };
-    if (high >= 1e16 || high < 1e-6)
-        return (EnergyUnit){1, "J"};
-    size_t i = 0;
-    while (high < units[i].joule)
-        i++;
-    return units[i];
+    static const char *const names[] = {"total", "kinetic", "elastic"};
+    Energies energies = simulation_energies(simulation, 0);
+    const double value[] = {energies.total, energies.kinetic, energies.elastic};
+    (void)trail;
+    history->series = 3;
+    for (int s = 0; s < 3; s++)
+        history->name[s] = names[s];
+    history_add(history, simulation_time(simulation), value);
 }
 
-/* Three curves; the axes grow by round numbers. */
-static void draw_energy_plot(Paper *paper, const Simulation *simulation,
-                             const History *history, EnergyUnit unit)
-{
-    Box outer = panels_plot_box(paper);
-    char label[TEXT_BLOCK_SIZE];
-    snprintf(label, sizeof label, "energy in %s", unit.name);
-    double last = simulation_time(simulation);
-    double least = 100 * simulation->options.timestep;
-    Axis time = {0, plot_round_up(fmax(last, least)), "time in s"};
-    double high = history->high > 0 ? fmin(history->high, 1e300) : 1;
-    Axis energy = {0, plot_round_axis(high / unit.joule), label};
-    Plot plot = plot_create(paper, outer, time, energy);
-    plot.y.high *= unit.joule;
-    const Colour colour[] = {COLOUR_TOTAL, COLOUR_KINETIC,
-                                           COLOUR_ELASTIC};
-    for (int s = 0; s < history->series; s++)
-        plot_curve(paper, &plot, history->count, history->time,
-                   history->value[s], colour[s]);
-}
-
-/* One line of the legend; next to nothing is 0. */
-static void add_energy(TextBlock *block, Colour colour, const char *name,
-                       double energy, double high)
-{
-    text_block_add(block, colour, "%s %10.6g J", name,
-                   fabs(energy) < 1e-15 * high ? 0 : energy);
-}
-
-/* The plot, and its legend with the numbers. */
-static void draw_energies(Paper *paper, const Simulation *simulation,
-                          const Hud *hud)
-{
-    const Energies *energies = &hud->energies;
-    double high = hud->history.high;
-    TextBlock block = {0};
-    draw_energy_plot(paper, simulation, &hud->history, energy_unit(high));
-    add_energy(&block, COLOUR_TOTAL, "total  ", energies->total, high);
-    add_energy(&block, COLOUR_KINETIC, "kinetic", energies->kinetic, high);
-    add_energy(&block, COLOUR_ELASTIC, "elastic", energies->elastic, high);
-    panels_draw_legend(paper, &block);
-}
-
-/* The bar from compressed to stretched. */
-static void draw_strain_bar(Paper *paper, Box bar)
-{
-    for (int i = 0; i < bar.width; i++) {
-        double strain = 2 * (i + 0.5) / bar.width - 1;
-        canvas_rectangle(&paper->canvas, bar.x + i, bar.y, 1, bar.height,
-                         colour_map_strain(strain, 1));
-    }
-}
-
-/* Words above the bar, numbers below, on a panel in the lower right. */
-static void draw_strain_legend(Paper *paper, double range)
-{
-    int margin = paper_pixels(paper, LEGEND_MARGIN);
-    int letter = paper->font.height,
-        bar_height = paper_pixels(paper, LEGEND_BAR);
-    Box plot = panels_plot_box(paper);
-    Box panel = {0, 0, paper_pixels(paper, LEGEND_WIDTH),
-                 2 * letter + bar_height + 4 * margin};
-    panel.x = paper->canvas.width - plot.x - panel.width;
-    panel.y = plot.y + plot.height - panel.height;
-    Box bar = {panel.x + margin, panel.y + letter + 2 * margin,
-               panel.width - 2 * margin, bar_height};
-    int middle = bar.x + bar.width / 2, right = bar.x + bar.width;
-    int above = panel.y + margin, below = bar.y + bar.height + margin;
-    char low[TEXT_BLOCK_SIZE], high[TEXT_BLOCK_SIZE];
-    snprintf(low, sizeof low, "-%.3g %%", 100 * fmin(range, 1));
-    snprintf(high, sizeof high, "+%.3g %%", 100 * range);
-    paper_panel(paper, panel);
-    draw_strain_bar(paper, bar);
-    paper_text(paper, bar.x, above, ALIGN_LEFT, COLOUR_TEXT, "compressed");
-    paper_text(paper, middle, above, ALIGN_CENTRE, COLOUR_TEXT, "at rest");
-    paper_text(paper, right, above, ALIGN_RIGHT, COLOUR_TEXT, "stretched");
-    paper_text(paper, bar.x, below, ALIGN_LEFT, COLOUR_TEXT, low);
-    paper_text(paper, middle, below, ALIGN_CENTRE, COLOUR_TEXT, "strain 0");
-    paper_text(paper, right, below, ALIGN_RIGHT, COLOUR_TEXT, high);
-}
-
-/* Corner by corner. */
-void square_picture_panels(Paper *paper, const Simulation *simulation,
-                           const Hud *hud, double strain_range)
-{
-    draw_newton(paper, simulation, hud);
-    draw_energies(paper, simulation, hud);
-    if (strain_range > 0)
-        draw_strain_legend(paper, strain_range);
-}
-
-/* Half of |stretch - 1|, rounded up: smaller strains should show too. */
 double square_picture_strain_range(const Simulation *simulation)
 {
     double strain = fabs(fabs(simulation->options.stretch) - 1);
     return plot_round_up(fmax(0.5 * strain, 0.05));
 }
+
+static const Card *const square_cards[] = {
+    &card_listing, &card_line, &card_residual, &card_energies, &card_spy, NULL};
+
+const Picture square_picture = {
+    .name = "square",
+    .cards = square_cards,
+    .bounds = square_bounds,
+    .draw = square_draw,
+    .pick = square_pick,
+    .hover = hover_square,
+    .sample = square_sample,
+};

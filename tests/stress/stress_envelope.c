@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "picture/canvas.h"
-#include "picture/font.h"
+#include "picture/text.h"
 #include "play/png_file.h"
 
 double envelope_h(int i)
@@ -97,6 +97,7 @@ bool envelope_read(const char *name, Envelope *envelope)
 
 /* Pixels: cells, and around each panel room for its numbers. */
 enum {
+    LETTERS = 20, /* pixels an em */
     CELL = 12,
     PANELS_ACROSS = 4,
     LEFT = 90,
@@ -129,7 +130,15 @@ static char worse(const Envelope *envelope, int s, int k, int h)
     return worst;
 }
 
-static void draw_panel(const Envelope *envelope, int s, const Font *font,
+/* One line of words; y is its upper edge. */
+static void write_words(Text *words, Canvas *canvas, double x, double y,
+                        Align align, const char *text)
+{
+    const TextStyle style = {FACE_REGULAR, LETTERS, ink};
+    text_draw(words, canvas, &style, x, y, align, text);
+}
+
+static void draw_panel(const Envelope *envelope, int s, Text *words,
                        Canvas *canvas)
 {
     char text[40];
@@ -141,56 +150,57 @@ static void draw_panel(const Envelope *envelope, int s, const Font *font,
                 canvas, x + CELL * h, y + CELL * (ENVELOPE_K - 1 - k), CELL - 1,
                 CELL - 1, verdict_colour(worse(envelope, s, k, h)));
     snprintf(text, sizeof text, "stretch %g", envelope_stretch(s));
-    font_draw(font, canvas, x + WIDTH / 2, y - font->height - 6, ALIGN_CENTRE,
-              ink, text);
+    write_words(words, canvas, x + WIDTH / 2, y - LETTERS - 10, ALIGN_CENTRE,
+                text);
     for (int h = 0; h < ENVELOPE_H; h += 12) {
         snprintf(text, sizeof text, "%.0e", envelope_h(h));
-        font_draw(font, canvas, x + CELL * h + CELL / 2, y + HEIGHT + 4,
-                  h == 0                 ? ALIGN_LEFT
-                  : h + 12 >= ENVELOPE_H ? ALIGN_RIGHT
-                                         : ALIGN_CENTRE,
-                  ink, text);
+        write_words(words, canvas, x + CELL * h + CELL / 2, y + HEIGHT + 4,
+                    h == 0                 ? ALIGN_LEFT
+                    : h + 12 >= ENVELOPE_H ? ALIGN_RIGHT
+                                           : ALIGN_CENTRE,
+                    text);
     }
     for (int k = 0; k < ENVELOPE_K && s % PANELS_ACROSS == 0; k += 7) {
         snprintf(text, sizeof text, "%.0e", envelope_k(k));
-        font_draw(font, canvas, x - 8,
-                  y + CELL * (ENVELOPE_K - 1 - k) + CELL / 2 - font->height / 2,
-                  ALIGN_RIGHT, ink, text);
+        write_words(words, canvas, x - 8,
+                    y + CELL * (ENVELOPE_K - 1 - k) + (CELL - LETTERS) / 2 - 2,
+                    ALIGN_RIGHT, text);
     }
 }
 
-static void draw_legend(const Font *font, Canvas *canvas)
+static void draw_legend(Text *words, Canvas *canvas)
 {
     const char *texts[] = {"converged", "reported", "wrong"};
     int x = LEFT;
-    font_draw(font, canvas, x, 12, ALIGN_LEFT, ink,
-              "Three steps of the default square, the worse of both solvers: "
-              "time step (s, across) by stiffness (J/m^2, up)");
+    const TextStyle style = {FACE_REGULAR, LETTERS, ink};
+    write_words(words, canvas, x, 12, ALIGN_LEFT,
+                "Three steps of the default square, the worse of both solvers: "
+                "time step (s, across) by stiffness (J/m^2, up)");
     for (int i = 0; i < 3; i++) {
         canvas_rectangle(canvas, x, 50, 24, 24, verdict_colour("crw"[i]));
-        font_draw(font, canvas, x + 34, 62 - font->height / 2, ALIGN_LEFT, ink,
-                  texts[i]);
-        x += 34 + font_width(font, texts[i]) + 40;
+        write_words(words, canvas, x + 34, 62 - LETTERS / 2 - 3, ALIGN_LEFT,
+                    texts[i]);
+        x += 34 + text_width(words, &style, texts[i]) + 40;
     }
 }
 
 bool envelope_draw(const char *name, const Envelope *envelope)
 {
     Canvas canvas;
-    Font font;
+    Text *words = NULL;
     int rows = ENVELOPE_STRETCH / PANELS_ACROSS;
     bool good = canvas_create(LEFT + PANELS_ACROSS * (WIDTH + GAP_X),
                               TOP + rows * (HEIGHT + GAP_Y) - GAP_Y / 2,
                               &canvas) == STATUS_OK;
-    good = font_create(2, &font) == STATUS_OK && good;
+    good = text_create(&words) == STATUS_OK && good;
     if (good) {
         canvas_clear(&canvas, white);
-        draw_legend(&font, &canvas);
+        draw_legend(words, &canvas);
         for (int s = 0; s < ENVELOPE_STRETCH; s++)
-            draw_panel(envelope, s, &font, &canvas);
+            draw_panel(envelope, s, words, &canvas);
         good = png_file_write(name, &canvas) == STATUS_OK;
     }
-    font_free(&font);
+    text_free(words);
     canvas_free(&canvas);
     return good;
 }

@@ -12,13 +12,10 @@
 
 #include "picture/colour_map.h"
 #include "picture/draw.h"
-#include "picture/landscape_picture.h"
-#include "picture/panels.h"
 #include "picture/plot.h"
 #include "play/png_file.h"
 #include "play/recording.h"
 #include "scenes/scene.h"
-#include "picture/text_block.h"
 #include "play/view.h"
 
 enum { NAME_SIZE = 256, FRAME = 900 };
@@ -242,82 +239,6 @@ static void rectangles_mix_by_alpha(void **unused)
     canvas_free(&canvas);
 }
 
-/* ---- letters ------------------------------------------------------------ */
-
-/* Every printable character has dots of its own; unknown ones are a box. */
-static void letters_differ(void **unused)
-{
-    (void)unused;
-    unsigned long long seen[FONT_GLYPHS] = {0};
-    for (int c = ' '; c <= 127; c++) {
-        unsigned long long dots = 0;
-        for (int i = 0; i < 45; i++)
-            dots = dots << 1 | font_dot((unsigned char)c, i % 5, i / 5);
-        CHECK((c == ' ') == (dots == 0));
-        for (int k = 0; k < c - ' '; k++)
-            CHECK(seen[k] != dots);
-        seen[c - ' '] = dots;
-    }
-    CHECK(font_dot(7, 0, 0) && font_dot(200, 0, 0));
-    CHECK(!font_dot('X', -1, 0) && !font_dot('X', 5, 0) &&
-          !font_dot('X', 0, 9));
-}
-
-static void text_is_aligned(void **unused)
-{
-    (void)unused;
-    Canvas canvas;
-    Font font;
-    assert_int_equal(canvas_create(100, 30, &canvas), 0);
-    assert_int_equal(font_create(2, &font), 0);
-    CHECK(font.width == 12 && font.height == 20);
-    CHECK(font_width(&font, "abc") == 36);
-    const int left[] = {50, 32, 14};
-    for (int align = ALIGN_LEFT; align <= ALIGN_RIGHT; align++) {
-        int first = 100;
-        canvas_clear(&canvas, COLOUR_WHITE);
-        font_draw(&font, &canvas, 50, 5, (Align)align, 0xff000000, "HHH");
-        for (int i = 0; i < 100 * 30; i++)
-            if (pixel_distance(canvas.pixels[i], COLOUR_WHITE) > 128)
-                first = i % 100 < first ? i % 100 : first;
-        CHECK(first == left[align]);
-    }
-    font_draw(&font, &canvas, -30, -7, ALIGN_LEFT, 0xff000000, "clipped \x80");
-    font_draw(&font, &canvas, 95, 25, ALIGN_LEFT, 0xff000000, "clipped");
-    font_free(&font);
-    canvas_free(&canvas);
-}
-
-static void fonts_have_limits(void **unused)
-{
-    (void)unused;
-    Font font;
-    CHECK_STATUS(font_create(0, &font), STATUS_INVALID_INPUT);
-    CHECK_STATUS(font_create(NAN, &font), STATUS_INVALID_INPUT);
-    CHECK_STATUS(font_create(65, &font), STATUS_INVALID_INPUT);
-    font_free(&font);
-    CHECK_STATUS(font_create(0.002, &font), STATUS_OK);
-    font_free(&font);
-    font_free(NULL);
-}
-
-static void text_blocks_are_cut(void **unused)
-{
-    (void)unused;
-    static TextBlock block;
-    Paper paper;
-    assert_int_equal(paper_create(450, 450, &paper), 0);
-    text_block_draw(&block, &paper, 0, 0, ALIGN_LEFT);
-    CHECK_NEAR(ink(&paper.canvas), 0, 0);
-    for (int i = 0; i < 2 * TEXT_BLOCK_LINES; i++)
-        text_block_add(&block, COLOUR_TEXT, "%0200d", i);
-    CHECK(block.lines == TEXT_BLOCK_LINES);
-    CHECK(strlen(block.text[3]) == TEXT_BLOCK_SIZE - 1);
-    text_block_draw(&block, &paper, 225, 3, ALIGN_CENTRE);
-    paper_free(&paper);
-    paper_free(NULL);
-}
-
 /* ---- colours, history, plot ---------------------------------------------- */
 
 static void strain_has_its_colours(void **unused)
@@ -383,43 +304,57 @@ static void axes_end_at_round_numbers(void **unused)
 
 /* ---- frames ------------------------------------------------------------- */
 
-/* Two drawings of the same state are equal in every pixel. */
-static void frames_are_repeatable(void **unused)
+/* Marks the pixels around those that differ: where words are, whatever the
+ * version of the library that drew them.  mask [FRAME FRAME] out. */
+static void mask_words(const Canvas *words, const Canvas *plain,
+                       unsigned char *mask)
 {
-    (void)unused;
-    static Simulation simulation[2];
-    static Hud hud[2];
-    Paper paper[2];
-    for (int i = 0; i < 2; i++) {
-        simulate("4", 7, &simulation[i], &hud[i]);
-        hud[i].strain = hud[i].keys = true;
-        assert_int_equal(paper_create(500, 400, &paper[i]), 0);
-        draw_frame(&paper[i], &simulation[i], &hud[i]);
-    }
-    draw_frame(&paper[0], &simulation[0], &hud[0]);
-    assert_memory_equal(paper[0].canvas.pixels, paper[1].canvas.pixels,
-                        500 * 400 * 4);
-    for (int i = 0; i < 2; i++) {
-        paper_free(&paper[i]);
-        simulation_free(&simulation[i]);
-    }
+    enum { AROUND = 24, ABOVE = 4 };
+    memset(mask, 0, FRAME * FRAME);
+    for (int j = 0; j < FRAME; j++)
+        for (int i = 0; i < FRAME; i++) {
+            if (words->pixels[FRAME * j + i] == plain->pixels[FRAME * j + i])
+                continue;
+            for (int b = j - ABOVE; b <= j + ABOVE; b++)
+                for (int a = i - AROUND; a <= i + AROUND; a++)
+                    if (a >= 0 && b >= 0 && a < FRAME && b < FRAME)
+                        mask[FRAME * b + a] = 1;
+        }
 }
 
-/* Pixels of tests/data/NAME.png that are off by more than 4 of 255. */
-static int count_far_pixels(const char *name, const Paper *paper)
+/* Pixels of tests/data/NAME.png, away from words, that are off by more than 4
+ * of 255. */
+static int count_far_pixels(const char *name, Paper *paper,
+                            const Simulation *simulation, const Hud *hud)
 {
+    static unsigned char mask[FRAME * FRAME];
     char file[64];
     struct stat info;
-    int far = 0;
+    int far = 0, compared = 0;
+    Paper plain = *paper;
     snprintf(file, sizeof file, "tests/data/%s.png", name);
     Canvas reference = read_png(file);
     assert_int_equal(reference.width, FRAME);
     assert_int_equal(reference.height, FRAME);
+    assert_int_equal(canvas_create(FRAME, FRAME, &plain.canvas), 0);
+    memset(plain.kept, 0, sizeof plain.kept);
+    memset(plain.key, 0, sizeof plain.key);
+    plain.text = NULL;
+    draw_frame(&plain, simulation, hud);
+    mask_words(&reference, &plain.canvas, mask);
     for (int i = 0; i < FRAME * FRAME; i++)
-        far += pixel_distance(paper->canvas.pixels[i], reference.pixels[i]) > 4;
+        if (!mask[i]) {
+            far += pixel_distance(paper->canvas.pixels[i],
+                                  reference.pixels[i]) > 4;
+            compared++;
+        }
+    CHECK(compared > FRAME * FRAME / 2);
     canvas_free(&reference);
+    canvas_free(&plain.canvas);
+    for (int k = 0; k < KEEP_COUNT; k++)
+        canvas_free(&plain.kept[k]);
     assert_int_equal(stat(file, &info), 0);
-    CHECK(info.st_size < 120000);
+    CHECK(info.st_size < 140000);
     return far;
 }
 
@@ -438,7 +373,7 @@ static void readme_shows_what_is_drawn(void **unused)
         simulate_line(line, steps, &simulation, &hud);
         assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
         draw_frame(&paper, &simulation, &hud);
-        int far = count_far_pixels(name, &paper);
+        int far = count_far_pixels(name, &paper, &simulation, &hud);
         if (far)
             print_error("tests/data/%s.png differs\n", name);
         CHECK_AT_MOST(far, 0);
@@ -448,179 +383,6 @@ static void readme_shows_what_is_drawn(void **unused)
     }
     fclose(list);
     CHECK(count == 5);
-}
-
-/* Bare means bare: white, blue and what lies between. */
-static void hidden_text_leaves_the_slide(void **unused)
-{
-    (void)unused;
-    static Simulation simulation;
-    static Hud hud;
-    Paper paper;
-    simulate("4", 3, &simulation, &hud);
-    hud.text = false;
-    assert_int_equal(paper_create(300, 300, &paper), 0);
-    SpringCount count = draw_frame(&paper, &simulation, &hud);
-    CHECK(count.drawn == 72 && count.skipped == 0);
-    for (int i = 0; i < 300 * 300; i++) {
-        Colour pixel = paper.canvas.pixels[i];
-        CHECK((pixel & 255) == 255 &&
-              (pixel >> 8 & 255) == (pixel >> 16 & 255));
-    }
-    CHECK(ink(&paper.canvas) > 1000);
-    paper_free(&paper);
-    simulation_free(&simulation);
-}
-
-/* Trouble is red, and shown even where text is hidden. */
-static void trouble_is_red(void **unused)
-{
-    (void)unused;
-    static Simulation simulation;
-    static Hud hud;
-    Paper paper;
-    simulate("4", 0, &simulation, &hud);
-    hud.text = false;
-    simulation.status = STATUS_LINE_SEARCH_LIMIT;
-    hud_end_step(&hud, &simulation);
-    CHECK_STATUS(hud.trouble, STATUS_LINE_SEARCH_LIMIT);
-    assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-    draw_frame(&paper, &simulation, &hud);
-    int red = 0;
-    for (int i = 0; i < FRAME * FRAME; i++)
-        red += pixel_distance(paper.canvas.pixels[i], COLOUR_WARNING) < 10;
-    CHECK(red > 500);
-    simulation.status = STATUS_INTERRUPTED;
-    hud_restart(&hud);
-    hud_end_step(&hud, &simulation);
-    CHECK_STATUS(hud.trouble, STATUS_OK);
-    paper_free(&paper);
-    simulation_free(&simulation);
-}
-
-/* Springs shorter than two pixels are drawn as a coarser mesh. */
-static void short_springs_are_skipped(void **unused)
-{
-    (void)unused;
-    static Simulation simulation;
-    static Hud hud;
-    Paper paper;
-    simulate("100", 0, &simulation, &hud);
-    assert_int_equal(paper_create(100, 100, &paper), 0);
-    SpringCount count = draw_frame(&paper, &simulation, &hud);
-    CHECK(count.drawn + count.skipped == simulation.system.springs);
-    CHECK(count.skipped > count.drawn);
-    CHECK(count.drawn > 500);
-    paper_free(&paper);
-    simulation_free(&simulation);
-}
-
-/* Any size can be drawn of any scene, and blown-up positions do no harm. */
-static void every_size_is_drawn(void **unused)
-{
-    (void)unused;
-    const int sizes[][2] = {
-        {1, 1}, {1, 900}, {2000, 3}, {199, 201}, {1500, 999}};
-    static Simulation simulation;
-    static Hud hud;
-    for (int i = 0; i < 5 * 5; i++) {
-        Paper paper;
-        const Scene *scene = &scenes[i / 5];
-        const int *size = sizes[i % 5];
-        simulate_line(scene->name, 2, &simulation, &hud);
-        hud.strain = hud.keys = true;
-        hud.trouble = STATUS_NOT_FINITE;
-        simulation.run[0].x[0] = NAN;
-        if (scene->needs & NEEDS_MESH) {
-            simulation.run[0].x[3] = 1e300;
-            simulation.run[0].x[4] = -INFINITY;
-        }
-        for (int text = 0; text < 2; text++) {
-            hud.text = text;
-            assert_int_equal(paper_create(size[0], size[1], &paper), 0);
-            draw_frame(&paper, &simulation, &hud);
-            paper_free(&paper);
-        }
-        simulation_free(&simulation);
-    }
-}
-
-/* Ink of the part of a picture between two lines, 0 ... 1 from above. */
-static double ink_between(const Paper *paper, double from, double to)
-{
-    const Canvas *canvas = &paper->canvas;
-    int first = (int)(from * canvas->height), last = (int)(to * canvas->height);
-    Canvas part = {canvas->width, last - first,
-                   canvas->pixels + first * canvas->width};
-    return ink(&part);
-}
-
-/* Every scene says its sentence, and keeps quiet when text is hidden. */
-static void every_scene_says_its_sentence(void **unused)
-{
-    (void)unused;
-    static Simulation simulation;
-    static Hud hud;
-    for (const Scene *scene = scenes; scene->name; scene++) {
-        Paper paper;
-        simulate_line(scene->name, 0, &simulation, &hud);
-        CHECK(strlen(scene->sentence) <= PAPER_LETTERS);
-        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-        draw_frame(&paper, &simulation, &hud);
-        CHECK(ink_between(&paper, 0, 0.035) > 30 * strlen(scene->sentence));
-        hud.text = false;
-        draw_frame(&paper, &simulation, &hud);
-        if (scene->picture != PICTURE_LANDSCAPE &&
-            scene->picture != PICTURE_CURVE)
-            CHECK_NEAR(ink_between(&paper, 0, 0.035), 0, 0);
-        paper_free(&paper);
-        simulation_free(&simulation);
-    }
-}
-
-/* No line of the texts is cut: the longest that there are fit. */
-static void texts_fit_on_a_line(void **unused)
-{
-    (void)unused;
-    for (int status = 0; status < STATUS_COUNT; status++)
-        CHECK(strlen(status_text((Status)status)) <= PAPER_LETTERS - 1);
-}
-
-/* A click on the black disc picks the place where it is. */
-static void picks_are_where_the_disc_is(void **unused)
-{
-    (void)unused;
-    static Simulation simulation;
-    static Hud hud;
-    Paper paper;
-    assert_int_equal(paper_create(FRAME, 700, &paper), 0);
-    for (int text = 0; text < 2; text++) {
-        double point[2], sum[3] = {0};
-        simulate_line("landscape --start 0.9,0.8 --tolerance 1e9", 0,
-                      &simulation, &hud);
-        hud.text = text;
-        draw_frame(&paper, &simulation, &hud);
-        CHECK(landscape_picture_pick(&paper, text, 450, 350, point));
-        for (int j = 170; j < 350; j++) /* black: the disc, and no letters */
-            for (int i = 460; i < 700; i++)
-                if (paper.canvas.pixels[FRAME * j + i] == COLOUR_TEXT) {
-                    sum[0] += i + 0.5;
-                    sum[1] += j + 0.5;
-                    sum[2] += 1;
-                }
-        CHECK(sum[2] > 50);
-        CHECK(landscape_picture_pick(&paper, text, sum[0] / sum[2],
-                                     sum[1] / sum[2], point));
-        CHECK_NEAR(point[0], 0.9, 0.05);
-        CHECK_NEAR(point[1], 0.8, 0.05);
-        simulation_free(&simulation);
-    }
-    double point[2] = {7, 7};
-    CHECK(!landscape_picture_pick(&paper, true, 5, 5, point));
-    CHECK(!landscape_picture_pick(&paper, true, 450, 699, point));
-    CHECK(landscape_picture_pick(&paper, false, 5, 5, point));
-    CHECK(point[0] < -1.6 && point[1] > 1.6);
-    paper_free(&paper);
 }
 
 /* SDL's software renderer shows exactly the paper. */
@@ -891,22 +653,10 @@ int main(void)
         cmocka_unit_test(discs_have_their_area),
         cmocka_unit_test(shapes_are_clipped),
         cmocka_unit_test(rectangles_mix_by_alpha),
-        cmocka_unit_test(letters_differ),
-        cmocka_unit_test(text_is_aligned),
-        cmocka_unit_test(fonts_have_limits),
-        cmocka_unit_test(text_blocks_are_cut),
         cmocka_unit_test(strain_has_its_colours),
         cmocka_unit_test(history_spans_the_run),
         cmocka_unit_test(axes_end_at_round_numbers),
-        cmocka_unit_test(frames_are_repeatable),
         cmocka_unit_test(readme_shows_what_is_drawn),
-        cmocka_unit_test(hidden_text_leaves_the_slide),
-        cmocka_unit_test(trouble_is_red),
-        cmocka_unit_test(short_springs_are_skipped),
-        cmocka_unit_test(every_size_is_drawn),
-        cmocka_unit_test(every_scene_says_its_sentence),
-        cmocka_unit_test(texts_fit_on_a_line),
-        cmocka_unit_test(picks_are_where_the_disc_is),
         cmocka_unit_test(surface_shows_the_paper),
         cmocka_unit_test(png_files_are_whole),
         cmocka_unit_test(png_failures_have_reasons),

@@ -1,0 +1,149 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+
+enum { LINE_POINTS = 161 };
+
+static const double BEYOND = 1.42; /* the axis ends, in first trials */
+static const double ABOVE = 2.2;   /* the least range above 0, in depths */
+
+/* What is drawn: the two functions on one grid of alpha. */
+typedef struct Curves {
+    double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
+    double low, high; /* of the axis */
+} Curves;
+
+/* E(x + alpha p) - E(x) of a quadratic function with minimum at alpha = 1:
+ * p solves P p = -g, so p P p = -g p, the slope. */
+static double model_value(double slope, double alpha)
+{
+    return slope * (alpha - 0.5 * alpha * alpha);
+}
+
+static double exact_value(const Trace *trace, double alpha)
+{
+    double value = trace->difference(trace->function, alpha);
+    return isfinite(value) ? value : NAN;
+}
+
+/* From the lowest of both curves to a bit above 0; trials that lie far above
+ * are told in words. */
+static void fill_curves(const Trace *trace, Curves *curves)
+{
+    double end = BEYOND * (trace->first > 0 ? trace->first : 1);
+    double low = 0, high = 0;
+    for (int i = 0; i < LINE_POINTS; i++) {
+        double alpha = end * i / (LINE_POINTS - 1);
+        curves->alpha[i] = alpha;
+        curves->exact[i] = exact_value(trace, alpha);
+        curves->model[i] = model_value(trace->slope, alpha);
+        low = fmin(low, fmin(curves->exact[i], curves->model[i]));
+        if (!isnan(curves->exact[i]))
+            high = fmax(high, curves->exact[i]);
+    }
+    double depth = fmax(-low, 1e-300);
+    if (!(low < 0)) /* nothing is below: the first tenth tells the scale */
+        depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
+    curves->low = -1.12 * depth;
+    curves->high = fmin(fmax(high, 0.25 * depth), ABOVE * depth);
+}
+
+/* A trial above the axis is a small arrow at its upper edge. */
+static void draw_trial(Paper *paper, const Plot *plot, double alpha,
+                       double value, bool accepted, bool last)
+{
+    const double point[2] = {alpha, value};
+    Colour colour = accepted ? COLOUR_ALPHA : COLOUR_WARNING;
+    double at[2], unit = paper->unit;
+    char number[48];
+    bool inside = value <= plot->y.high && value >= plot->y.low;
+    plot_place(plot, alpha, inside ? value : plot->y.high, at);
+    if (inside && accepted)
+        plot_disc(paper, plot, point, 5.5, colour);
+    else if (inside)
+        canvas_ring(&paper->canvas, at[0], at[1], 4 * unit, 1.6 * unit, colour);
+    else
+        canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
+                     1.6 * unit, 7 * unit, colour);
+    if (!last)
+        return;
+    char words[128], length[32];
+    plot_number(number, sizeof number, value);
+    alpha_text(length, sizeof length, alpha);
+    snprintf(words, sizeof words, "{alpha} = %s %s: %s%s", length,
+             accepted ? "taken" : "refused", value > 0 ? "+" : "", number);
+    int width = paper_width(paper, FACE_REGULAR, 0.88, words);
+    double x = at[0] + 9 * unit;
+    if (x + width > plot->box.x + plot->box.width)
+        x = at[0] - 9 * unit - width;
+    double y = fmin(fmax(at[1] - 1.5 * paper->em, plot->box.y),
+                    plot->box.y + plot->box.height - 1.4 * paper->em);
+    canvas_rectangle(&paper->canvas, (int)x - 2, (int)y, width + 4,
+                     paper_pixels(paper, 1.15), COLOUR_PANEL);
+    paper_write(paper, FACE_REGULAR, 0.88, colour, x, y, ALIGN_LEFT, "%s",
+                words);
+}
+
+static void draw_words(Paper *paper, const Plot *plot, const Trace *trace)
+{
+    double x = plot->box.x + plot->box.width, y = plot->box.y;
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_X, x, y, ALIGN_RIGHT,
+                "exact");
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_P, x, y + 1.2 * paper->em,
+                ALIGN_RIGHT, "quadratic model");
+    if (trace->slope > 0)
+        paper_write(paper, FACE_BOLD, 0.85, COLOUR_WARNING, x,
+                    y + 2.4 * paper->em, ALIGN_RIGHT, "{p} points uphill");
+}
+
+static void draw_curves(Paper *paper, Box inside, const Trace *trace)
+{
+    static const char *const alpha = "{alpha}";
+    Curves curves;
+    fill_curves(trace, &curves);
+    Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
+    Axis y = {curves.low, curves.high, false, false, NULL};
+    Plot plot = plot_create(paper, inside, x, y);
+    double first = trace->first > 0 ? trace->first : 1;
+    const double origin[2] = {0, 0};
+    plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.model, 1.3,
+               COLOUR_P);
+    plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.exact, 2,
+               COLOUR_X);
+    plot_disc(paper, &plot, origin, 3.5, COLOUR_TEXT);
+    draw_words(paper, &plot, trace);
+    for (int t = 0; t < trace->trials; t++) {
+        double at = ldexp(first, -t);
+        bool last = t == trace->trials - 1;
+        draw_trial(paper, &plot, at, exact_value(trace, at),
+                   last && trace->accepted, last);
+    }
+}
+
+static void draw_line(Paper *paper, Box inside, const Show *show)
+{
+    DescentTrace space;
+    const Trace *trace = cards_trace(show, &space);
+    if (trace && trace->difference && isfinite(trace->slope) &&
+        trace->slope != 0) {
+        draw_curves(paper, inside, trace);
+        return;
+    }
+    paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
+                inside.x + 0.5 * inside.width,
+                inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
+                "drawn from the search direction on");
+}
+
+static const char *line_title(const Show *show)
+{
+    bool scalar =
+        show->pane[show->active].simulation->descent.scalar.f.value != NULL;
+    return scalar ? "f({x} + {alpha} {p}) \u2212 f({x})"
+                  : "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2";
+}
+
+const Card card_line = {"line", "E along p", line_title, 1.1, false, draw_line};

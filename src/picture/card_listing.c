@@ -1,0 +1,240 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+#include "scenes/scene.h"
+
+enum { LISTING_VALUE = 96 };
+
+/* A line of a listing: its place in the run, indent, markup. */
+typedef struct Row {
+    Line line;
+    int indent;
+    const char *markup;
+} Row;
+
+typedef struct Listing {
+    const char *method; /* of the integrator; NULL ends the table */
+    const char *title;
+    const Row *rows; /* the last one has no markup */
+} Listing;
+
+/* Algorithm 3; the last line of other implicit methods is their own. */
+static const Row newton_rows[] = {
+    {LINE_START, 0, "{x}^{i} \u2190 {x}^{n}"},
+    {LINE_DO, 0, "do"},
+    {LINE_PROJECT, 1, "P \u2190 SPDProjection(\u2207\u00b2E({x}^{i}))"},
+    {LINE_SOLVE, 1, "{p} \u2190 \u2212P^{\u22121} \u2207E({x}^{i})"},
+    {LINE_SEARCH, 1, "{alpha} \u2190 BackTrackingLineSearch({x}^{i}, {p})"},
+    {LINE_UPDATE, 1, "{x}^{i} \u2190 {x}^{i} + {alpha} {p}"},
+    {LINE_TEST, 0, "while \u2016{p}\u2016_{\u221e} / h > \u03b5"},
+    {LINE_END, 0,
+     "{x}^{n+1} \u2190 {x}^{i};   v^{n+1} \u2190 ({x}^{n+1} \u2212 {x}^{n}) / "
+     "h"},
+    {LINE_NONE, 0, NULL}};
+
+static const Row newton_end_rows[] = {
+    {LINE_START, 0, "{x}^{i} \u2190 {x}^{n}"},
+    {LINE_DO, 0, "do"},
+    {LINE_PROJECT, 1, "P \u2190 SPDProjection(\u2207\u00b2E({x}^{i}))"},
+    {LINE_SOLVE, 1, "{p} \u2190 \u2212P^{\u22121} \u2207E({x}^{i})"},
+    {LINE_SEARCH, 1, "{alpha} \u2190 BackTrackingLineSearch({x}^{i}, {p})"},
+    {LINE_UPDATE, 1, "{x}^{i} \u2190 {x}^{i} + {alpha} {p}"},
+    {LINE_TEST, 0, "while \u2016{p}\u2016_{\u221e} / h > \u03b5"},
+    {LINE_END, 0, "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it"},
+    {LINE_NONE, 0, NULL}};
+
+/* Algorithm 1 with Algorithm 2 inside. */
+static const Row scalar_rows[] = {
+    {LINE_START, 0, "{x}^{0} \u2190 start"},
+    {LINE_DO, 0, "do"},
+    {LINE_SOLVE, 1, "{p} \u2190 \u2212f \u2032({x}^{i}) / f \u2033({x}^{i})"},
+    {LINE_SEARCH, 1, "{alpha} \u2190 BackTrackingLineSearch({x}^{i}, {p})"},
+    {LINE_UPDATE, 1, "{x}^{i+1} \u2190 {x}^{i} + {alpha} {p}"},
+    {LINE_TEST, 0, "while |{p}| > \u03b5"},
+    {LINE_NONE, 0, NULL}};
+
+static const Row forward_rows[] = {
+    {LINE_START, 0, "{x}^{n+1} \u2190 {x}^{n} + h v^{n}"},
+    {LINE_END, 0, "v^{n+1} \u2190 v^{n} + h M^{\u22121} f({x}^{n})"},
+    {LINE_NONE, 0, NULL}};
+
+static const Row symplectic_rows[] = {
+    {LINE_START, 0, "v^{n+1} \u2190 v^{n} + h M^{\u22121} f({x}^{n})"},
+    {LINE_END, 0, "{x}^{n+1} \u2190 {x}^{n} + h v^{n+1}"},
+    {LINE_NONE, 0, NULL}};
+
+static const Row verlet_rows[] = {
+    {LINE_START, 0,
+     "v^{n+\u00bd} \u2190 v^{n} + \u00bd h M^{\u22121} f({x}^{n})"},
+    {LINE_UPDATE, 0, "{x}^{n+1} \u2190 {x}^{n} + h v^{n+\u00bd}"},
+    {LINE_END, 0,
+     "v^{n+1} \u2190 v^{n+\u00bd} + \u00bd h M^{\u22121} f({x}^{n+1})"},
+    {LINE_NONE, 0, NULL}};
+
+static const Listing listings[] = {
+    {"backward-euler", "Algorithm 3: projected Newton", newton_rows},
+    {"forward-euler", "Forward Euler", forward_rows},
+    {"symplectic-euler", "Symplectic Euler", symplectic_rows},
+    {"verlet", "Velocity Verlet", verlet_rows},
+    {NULL, "Algorithm 3 inside another method", newton_end_rows},
+};
+
+static const Listing scalar_listing = {
+    NULL, "Algorithms 1 and 2: Newton, line search", scalar_rows};
+
+static const Listing *find_listing(const Simulation *simulation)
+{
+    const Listing *row = listings;
+    const IntegratorMethod *method = simulation->run[0].method;
+    if (simulation->descent.scalar.f.value)
+        return &scalar_listing;
+    if (!method) /* a minimisation without time */
+        return &listings[0];
+    while (row->method && strcmp(row->method, method->name) != 0)
+        row++;
+    return row;
+}
+
+/* Whether the settings switch this line off. */
+static bool line_is_off(const Simulation *simulation, Line line)
+{
+    const Options *options = &simulation->options;
+    return (line == LINE_PROJECT && options->filter == FILTER_NONE) ||
+           (line == LINE_SEARCH && options->line_search == LINE_SEARCH_NONE);
+}
+
+/* 1/2, 1/4, ... where it is one of them. */
+void alpha_text(char *text, size_t size, double alpha)
+{
+    int exponent;
+    if (alpha > 0 && alpha < 1 && frexp(alpha, &exponent) == 0.5 &&
+        exponent > -9)
+        snprintf(text, size, "1/%d", 1 << (1 - exponent));
+    else
+        plot_number(text, size, alpha);
+}
+
+/* "52 of 72 projected" */
+static void projected_value(char *value, const Simulation *simulation,
+                            const Trace *trace)
+{
+    if (simulation->options.filter == FILTER_NONE)
+        snprintf(value, LISTING_VALUE, "off: P = \u2207\u00b2E");
+    else if (trace->projected >= 0)
+        snprintf(value, LISTING_VALUE, "%d of %d projected", trace->projected,
+                 simulation->system.springs);
+}
+
+/* "alpha = 1/4, 3rd trial" */
+static void search_value(char *value, const Simulation *simulation,
+                         const Trace *trace)
+{
+    double alpha = trace->first > 0 ? trace->first : 1;
+    char number[32];
+    if (simulation->options.line_search == LINE_SEARCH_NONE) {
+        snprintf(value, LISTING_VALUE, "off: {alpha} = 1");
+        return;
+    }
+    if (trace->trials < 1)
+        return;
+    alpha = ldexp(alpha, 1 - trace->trials);
+    alpha_text(number, sizeof number, alpha);
+    snprintf(value, LISTING_VALUE, "{alpha} = %s%s", number,
+             trace->accepted ? "" : ": refused");
+}
+
+/* What stands at the right of a line that has been reached. */
+static void line_value(char *value, const Simulation *simulation,
+                       const Trace *trace, Line line)
+{
+    double h = simulation->options.timestep;
+    double tolerance = simulation->options.tolerance;
+    bool scalar = simulation->descent.scalar.f.value != NULL;
+    char a[32], b[32];
+    value[0] = '\0';
+    if (line == LINE_PROJECT)
+        projected_value(value, simulation, trace);
+    if (line == LINE_SEARCH)
+        search_value(value, simulation, trace);
+    if (line != LINE_SOLVE && line != LINE_TEST)
+        return;
+    if (!isfinite(trace->residual))
+        return;
+    plot_number(b, sizeof b, tolerance);
+    if (line == LINE_SOLVE) {
+        plot_number(a, sizeof a, trace->residual * (scalar ? 1 : h));
+        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s%s", a,
+                 scalar ? "" : " m");
+    } else {
+        plot_number(a, sizeof a, trace->residual);
+        snprintf(value, LISTING_VALUE, "%s %s %s%s", a,
+                 trace->residual > tolerance ? ">" : "\u2264", b,
+                 scalar ? "" : " m/s");
+    }
+}
+
+/* One line: number, text, value; lit or struck through. */
+static void draw_row(Paper *paper, Box box, const Simulation *simulation,
+                     const Trace *trace, const Row *row, int number)
+{
+    bool off = line_is_off(simulation, row->line);
+    bool lit = trace && trace->line == row->line && row->line != LINE_NONE;
+    bool reached =
+        trace && (trace->line == LINE_NONE || trace->line >= row->line);
+    Colour colour = off ? COLOUR_GREY : COLOUR_TEXT;
+    char value[LISTING_VALUE] = "";
+    double size = 1, line = text_line(paper->em);
+    double y = box.y + 0.5 * (box.height - line);
+    int x = box.x + paper_pixels(paper, 2 + 1.2 * row->indent);
+    int right = box.x + box.width - paper_pixels(paper, 0.6);
+    if (lit)
+        canvas_card(&paper->canvas, box, 0.3 * paper->em, COLOUR_LIT, 0);
+    paper_write(paper, FACE_REGULAR, 0.82, COLOUR_GREY, box.x + 1.2 * paper->em,
+                y + 0.12 * paper->em, ALIGN_RIGHT, "%d", number);
+    if (reached || off)
+        line_value(value, simulation, trace ? trace : &(Trace){0}, row->line);
+    int text = paper_width(paper, FACE_REGULAR, size, row->markup);
+    int room = right - x - text - paper_pixels(paper, 0.8);
+    if (room < 0 && text > right - x)
+        size = fmax(0.75, (double)(right - x) / text);
+    text = paper_write(paper, FACE_REGULAR, size, colour, x, y, ALIGN_LEFT,
+                       "%s", row->markup);
+    if (off) {
+        double middle = floor(y + 0.62 * line) + 0.5;
+        canvas_line(&paper->canvas, x, middle, x + text, middle,
+                    fmax(1, 1.3 * paper->unit), COLOUR_GREY);
+    }
+    if (paper_width(paper, FACE_REGULAR, 0.88, value) <= room)
+        paper_write(paper, FACE_REGULAR, 0.88, lit ? COLOUR_TEXT : COLOUR_FAINT,
+                    right, y + 0.08 * paper->em, ALIGN_RIGHT, "%s", value);
+}
+
+static void draw_listing(Paper *paper, Box inside, const Show *show)
+{
+    DescentTrace space;
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const Listing *listing = find_listing(simulation);
+    const Trace *trace = cards_trace(show, &space);
+    int rows = 0;
+    while (listing->rows[rows].markup)
+        rows++;
+    int pitch = paper_pixels(paper, 1.72);
+    if (pitch * rows > inside.height)
+        pitch = inside.height / rows;
+    for (int i = 0; i < rows; i++) {
+        Box box = {inside.x, inside.y + i * pitch, inside.width, pitch};
+        draw_row(paper, box, simulation, trace, &listing->rows[i], i + 1);
+    }
+}
+
+static const char *listing_title(const Show *show)
+{
+    return find_listing(show->pane[show->active].simulation)->title;
+}
+
+const Card card_listing = {"listing", "Algorithm 3", listing_title,
+                           1.25,      false,         draw_listing};

@@ -1,0 +1,59 @@
+#include <string.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+
+#include <math.h>
+
+/* The two lines of a method, in the order in which they are done. */
+typedef struct Formula {
+    const char *method, *first, *second, *growth;
+} Formula;
+
+static const Formula formulas[] = {
+    {"forward-euler", "{x}^{n+1} = {x}^{n} + h v^{n}",
+     "v^{n+1} = v^{n} + h a({x}^{n})",
+     "radius \u00d7 \u221a(1 + (h\u03c9)\u00b2) a step: it grows"},
+    {"symplectic-euler", "v^{n+1} = v^{n} + h a({x}^{n})",
+     "{x}^{n+1} = {x}^{n} + h v^{n+1}", "stays on an ellipse"},
+    {"backward-euler", "v^{n+1} = v^{n} + h a({x}^{n+1})",
+     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
+     "radius / \u221a(1 + (h\u03c9)\u00b2) a step: it shrinks"},
+};
+enum { FORMULAS = sizeof formulas / sizeof *formulas };
+
+static const Formula *find_formula(const IntegratorMethod *method)
+{
+    for (int i = 0; i < FORMULAS; i++)
+        if (method && strcmp(formulas[i].method, method->name) == 0)
+            return &formulas[i];
+    return NULL;
+}
+
+/* Name, both lines and what they do to the circle, run by run. */
+static void draw_methods(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    double block = fmin(6.1, inside.height / paper->em / simulation->runs);
+    double line = block / 4.5;
+    for (int r = 0; r < simulation->runs; r++) {
+        const IntegratorMethod *method = simulation->run[r].method;
+        const Formula *formula = find_formula(method);
+        double y = inside.y + r * block * paper->em;
+        double step = line * paper->em, x = inside.x + 0.3 * paper->em;
+        paper_write(paper, FACE_BOLD, 1, colour_of_run(r), x, y, ALIGN_LEFT,
+                    "%s", method->label);
+        if (!formula)
+            continue;
+        paper_write(paper, FACE_REGULAR, 1, COLOUR_TEXT, x, y + step,
+                    ALIGN_LEFT, "%s", formula->first);
+        paper_write(paper, FACE_REGULAR, 1, COLOUR_TEXT, x, y + 2 * step,
+                    ALIGN_LEFT, "%s", formula->second);
+        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, y + 3 * step,
+                    ALIGN_LEFT, "%s", formula->growth);
+    }
+}
+
+const Card card_methods = {"methods", "The methods", NULL,
+                           1.5,       false,         draw_methods};

@@ -1,0 +1,107 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+
+/* Smallest and largest power of ten around the residuals, extended. */
+static void extend_range(const NewtonRecord *records, int count, double *low,
+                         double *high)
+{
+    for (int i = 0; i < count; i++) {
+        double residual = records[i].residual;
+        if (!(residual > 0) || !isfinite(residual))
+            continue;
+        *low = fmin(*low, residual);
+        *high = fmax(*high, residual);
+    }
+}
+
+/* The residuals joined by lines, a disc each. */
+static void draw_updates(Paper *paper, const Plot *plot,
+                         const NewtonRecord *records, int count, int begin,
+                         double radius, Colour colour)
+{
+    double before[2] = {NAN, NAN};
+    for (int i = 0; i < count; i++) {
+        const double point[2] = {begin + i, records[i].residual};
+        if (!(point[1] > 0))
+            continue;
+        if (isfinite(before[1]))
+            plot_line(paper, plot, before, point, 1.3, colour);
+        plot_disc(paper, plot, point, radius, colour);
+        before[0] = point[0];
+        before[1] = point[1];
+    }
+}
+
+static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance)
+{
+    double p[2], q[2], unit = paper->unit;
+    plot_place(plot, plot->x.low, tolerance, p);
+    plot_place(plot, plot->x.high, tolerance, q);
+    canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
+                  floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
+                  NULL, COLOUR_TEXT);
+    paper_write(paper, FACE_BOLD, 0.9, COLOUR_TEXT, q[0],
+                q[1] - 1.3 * paper->em, ALIGN_RIGHT, "\u03b5");
+}
+
+/* The last record of the trace is the update whose p is known; its point is
+ * larger. */
+static void draw_residual(Paper *paper, Box inside, const Show *show)
+{
+    DescentTrace space;
+    const Trace *trace = cards_trace(show, &space);
+    const Simulation *simulation = show->pane[show->active].simulation;
+    double tolerance = simulation->options.tolerance;
+    double low = 0.3 * tolerance, high = 30 * tolerance;
+    if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
+                   !(trace->residual > 0))) {
+        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
+                    inside.x + 0.5 * inside.width,
+                    inside.y + 0.5 * inside.height - 0.7 * paper->em,
+                    ALIGN_CENTRE, "a point for each Newton update");
+        return;
+    }
+    bool pending = trace->residual > 0 && isfinite(trace->residual) &&
+                   trace->line >= LINE_SOLVE;
+    NewtonRecord now = {.residual = trace->residual};
+    extend_range(trace->record, trace->updates, &low, &high);
+    extend_range(trace->record_before, trace->updates_before, &low, &high);
+    if (pending)
+        extend_range(&now, 1, &low, &high);
+    int most = trace->updates + pending > trace->updates_before
+                   ? trace->updates + pending
+                   : trace->updates_before;
+    Axis x = {0.5, fmax(most, 4) + 0.5, false, true, "update"};
+    Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
+              false, NULL};
+    Plot plot = plot_create(paper, inside, x, y);
+    draw_updates(paper, &plot, trace->record_before, trace->updates_before, 1,
+                 2.5, COLOUR_BORDER);
+    draw_tolerance(paper, &plot, tolerance);
+    draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
+    if (!pending)
+        return;
+    if (trace->updates > 0) {
+        const double a[2] = {trace->updates,
+                             trace->record[trace->updates - 1].residual};
+        const double b[2] = {trace->updates + 1, trace->residual};
+        plot_line(paper, &plot, a, b, 1.3, COLOUR_P);
+    }
+    draw_updates(paper, &plot, &now, 1, trace->updates + 1, 5.5, COLOUR_P);
+}
+
+static const char *residual_title(const Show *show)
+{
+    bool scalar =
+        show->pane[show->active].simulation->descent.scalar.f.value != NULL;
+    return scalar ? "|{p}| of each update"
+                  : "\u2016{p}\u2016_{\u221e} / h of each update, m/s";
+}
+
+const Card card_residual = {"residual",     "residual of each update",
+                            residual_title, 0.9,
+                            false,          draw_residual};

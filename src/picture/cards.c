@@ -1,0 +1,180 @@
+#include "picture/cards.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/colour_map.h"
+#include "scenes/landscape_scene.h"
+#include "scenes/scene.h"
+
+static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
+
+/* f(x + alpha p) - f(x), or E in the landscape. */
+static double descent_difference(const void *function, double alpha)
+{
+    const DescentTrace *space = function;
+    const Simulation *simulation = space->simulation;
+    const ScalarFunction *f = &simulation->descent.scalar.f;
+    double x = space->from[0] + alpha * space->p[0];
+    double y = space->from[1] + alpha * space->p[1];
+    double value =
+        f->value ? scalar_value(f, x) : landscape_value(simulation, x, y);
+    return value - space->value;
+}
+
+/* The last update of a descent; before the first one, the one to come. */
+static const Trace *descent_trace(const Simulation *simulation,
+                                  DescentTrace *space)
+{
+    const Descent *descent = &simulation->descent;
+    const ScalarFunction *f = &descent->scalar.f;
+    Trace *trace = &space->trace;
+    int last = descent->count - 1;
+    const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
+    *space = (DescentTrace){.simulation = simulation};
+    *trace = (Trace){.updates = descent->count,
+                     .record = descent->record,
+                     .iteration = descent->count,
+                     .projected = -1};
+    bool made = last >= 0 && record->alpha > 0;
+    for (int k = 0; k < 2; k++) {
+        space->from[k] = made ? record->from[k] : descent->point[k];
+        space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
+                           : descent->direction[k];
+    }
+    if (f->value)
+        space->from[1] = space->p[1] = 0;
+    if (space->p[0] == 0 && space->p[1] == 0)
+        return trace;
+    space->value =
+        f->value ? scalar_value(f, space->from[0])
+                 : landscape_value(simulation, space->from[0], space->from[1]);
+    trace->difference = descent_difference;
+    trace->function = space;
+    trace->slope = made ? record->slope : descent->slope;
+    trace->line = made ? LINE_NONE : LINE_SOLVE;
+    trace->trials = made ? record->trials : 0;
+    trace->accepted = made;
+    trace->projected = made ? record->projected : -1;
+    trace->residual = made ? record->residual : NAN;
+    return trace;
+}
+
+const Trace *cards_trace(const Show *show, DescentTrace *space)
+{
+    const Pane *pane = &show->pane[show->active];
+    if (pane->trace)
+        return pane->trace;
+    if (pane->simulation->scene->needs & NEEDS_TIME)
+        return NULL;
+    return descent_trace(pane->simulation, space);
+}
+
+/* Frame, title and cross; returns what is inside. */
+static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
+                      bool closed)
+{
+    const char *title = card->titled ? card->titled(show) : card->title;
+    int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
+    double unit = paper->unit, x = box.x + box.width - bar / 2.0;
+    double y = box.y + bar / 2.0, arm = 3.4 * unit;
+    canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
+                COLOUR_BORDER);
+    Box before =
+        canvas_clip(&paper->canvas, (Box){box.x, box.y, box.width - bar, bar});
+    paper_write(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
+                box.x + margin, y - 0.62 * paper->em, ALIGN_LEFT, "%s", title);
+    canvas_clip(&paper->canvas, before);
+    if (closed) { /* a plus */
+        canvas_line(&paper->canvas, x - arm, y, x + arm, y, 1.4 * unit,
+                    COLOUR_GREY);
+        canvas_line(&paper->canvas, x, y - arm, x, y + arm, 1.4 * unit,
+                    COLOUR_GREY);
+    } else {
+        canvas_line(&paper->canvas, x - arm, y - arm, x + arm, y + arm,
+                    1.4 * unit, COLOUR_GREY);
+        canvas_line(&paper->canvas, x - arm, y + arm, x + arm, y - arm,
+                    1.4 * unit, COLOUR_GREY);
+    }
+    Box inside = {box.x + margin, box.y + bar, box.width - 2 * margin,
+                  box.height - bar - margin / 2};
+    return inside;
+}
+
+/* Key and meaning, row by row; a row without a meaning is a heading. */
+static void draw_help(Paper *paper, Box inside, const Show *show)
+{
+    double line = 1.5;
+    if (show->help_rows * line * paper->em > inside.height)
+        line = fmax(inside.height / (show->help_rows * paper->em), 0.6);
+    double size = fmin(0.95, line / 1.3);
+    double key = 9.5 * size * paper->em;
+    for (int i = 0; i < show->help_rows; i++) {
+        const HelpRow *row = &show->help[i];
+        double y = inside.y + i * line * paper->em;
+        paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, inside.x, y,
+                    ALIGN_LEFT, "%s", row->key);
+        if (row->text)
+            paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, inside.x + key,
+                        y, ALIGN_LEFT, "%s", row->text);
+    }
+}
+
+/* Lines of code with their numbers; those at work are lit. */
+static void draw_code(Paper *paper, Box inside, const Page *page)
+{
+    double size = 0.82, line = 1.24 * size * paper->em;
+    int rows = (int)(inside.height / line);
+    TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT};
+    for (int i = 0; i < rows && page->top + i < page->lines; i++) {
+        int number = page->top + i;
+        double y = inside.y + i * line;
+        if (number >= page->from && number < page->to)
+            canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
+                             (int)ceil(line), COLOUR_LIT);
+        text_draw_plain(paper->text, &paper->canvas, &style,
+                        inside.x + 0.3 * paper->em, y, page->line[number]);
+    }
+}
+
+/* Help or code, over the whole column. */
+static void draw_page(Paper *paper, Box column, const Show *show)
+{
+    const Page *page = &show->page;
+    Box box = box_inset(column, paper_pixels(paper, 0.9));
+    int margin = paper_pixels(paper, 0.9), bar = paper_pixels(paper, 2.4);
+    canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
+                COLOUR_BORDER);
+    paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x + margin,
+                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s",
+                page->title ? page->title : "Keys and mouse");
+    Box inside = {box.x + margin, box.y + bar, box.width - 2 * margin,
+                  box.height - bar - margin / 2};
+    Box before = canvas_clip(&paper->canvas, inside);
+    if (page->kind == PAGE_CODE)
+        draw_code(paper, inside, page);
+    else
+        draw_help(paper, inside, show);
+    canvas_clip(&paper->canvas, before);
+}
+
+void cards_draw(Paper *paper, const Layout *layout, const Show *show)
+{
+    const Picture *picture =
+        picture_of(show->pane[show->active].simulation->scene);
+    if (show->page.kind != PAGE_NONE && layout->column.width > 0) {
+        draw_page(paper, layout->column, show);
+        return;
+    }
+    for (int i = 0; i < layout->cards; i++) {
+        const Card *card = picture->cards[i];
+        Box box = layout->card[i];
+        bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
+        Box inside = draw_frame(paper, box, card, show, closed);
+        if (closed || inside.width < 1 || inside.height < 1)
+            continue;
+        Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
+        card->draw(paper, inside, show);
+        canvas_clip(&paper->canvas, before);
+    }
+}

@@ -1,0 +1,43 @@
+/* cards.h - what the column beside the stage can hold.
+ */
+#ifndef ELASTO_CARDS_H
+#define ELASTO_CARDS_H
+
+#include "picture/picture.h"
+
+/* The listing of the method that runs, the current line lit, lines that are
+ * switched off struck through. */
+extern const Card card_listing;
+
+/* E(x + alpha p) - E(x), exact, with the quadratic model and the trials. */
+extern const Card card_line;
+
+/* Residual of each Newton update on a logarithmic axis. */
+extern const Card card_residual;
+
+/* What the history keeps, over time: energies; radii in the circle. */
+extern const Card card_energies;
+extern const Card card_radius;
+
+/* The formulas of the integrators that run. */
+extern const Card card_methods;
+
+/* The pattern of the Hessian and of its factor. */
+extern const Card card_spy;
+
+/* All cards of the layout, or the page in their place. */
+void cards_draw(Paper *paper, const Layout *layout, const Show *show);
+
+/* The trace that the cards show: that of the active pane; where a descent is
+ * shown iteration by iteration, one made from it.  NULL: none. */
+typedef struct DescentTrace {
+    Trace trace;
+    const Simulation *simulation;
+    double from[2], p[2], value;
+} DescentTrace;
+const Trace *cards_trace(const Show *show, DescentTrace *space);
+
+/* "1/4": a step length as people write it; text [size] out. */
+void alpha_text(char *text, size_t size, double alpha);
+
+#endif

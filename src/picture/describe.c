@@ -1,0 +1,142 @@
+#include <math.h>
+#include <stdio.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "picture/plot.h"
+#include "picture/show.h"
+#include "scenes/scene.h"
+
+/* Formats into a text of SHOW_TEXT bytes that is still empty. */
+static void say(char *text, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    if (text[0] != '\0')
+        return;
+    va_start(arguments, format);
+    vsnprintf(text, size, format, arguments);
+    va_end(arguments);
+}
+
+/* What went wrong, as one says it in a lecture. */
+static const char *trouble_words(Status status)
+{
+    static const struct {
+        Status status;
+        const char *words;
+    } rows[] = {
+        {STATUS_NOT_DESCENT,
+         "the direction points uphill: no step length lowers E"},
+        {STATUS_LINE_SEARCH_LIMIT,
+         "no step length along the direction lowers E"},
+        {STATUS_ITERATION_LIMIT, "the updates do not end"},
+        {STATUS_SINGULAR, "the Hessian has no inverse here: no direction"},
+        {STATUS_NOT_POSITIVE_DEFINITE,
+         "the Hessian has negative eigenvalues: no descent direction"},
+        {STATUS_NOT_FINITE, "the numbers left the range of the computer"},
+        {STATUS_DIVERGED, "the iterates run off beyond all numbers"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].status == status)
+            return rows[i].words;
+    return status_text(status);
+}
+
+/* Line by line. */
+static void describe_line(Show *show, const Simulation *simulation,
+                          const Trace *trace)
+{
+    char *s = show->sentence, number[48], other[48];
+    const Options *options = &simulation->options;
+    double h = options->timestep;
+    plot_number(number, sizeof number, trace->residual);
+    plot_number(other, sizeof other, options->tolerance);
+    switch (trace->line) {
+    case LINE_START:
+        say(s, SHOW_TEXT, "line 1: the iterate begins where the step does");
+        break;
+    case LINE_PROJECT:
+        if (options->filter == FILTER_NONE)
+            say(s, SHOW_TEXT, "line 3: the Hessian stays as it is");
+        else
+            say(s, SHOW_TEXT,
+                "line 3: %d of %d blocks had a negative eigenvalue and were "
+                "projected",
+                trace->projected, simulation->system.springs);
+        break;
+    case LINE_SOLVE:
+        say(s, SHOW_TEXT, "line 4: the direction points %s",
+            trace->slope > 0 ? "uphill" : "downhill");
+        break;
+    case LINE_SEARCH:
+        say(s, SHOW_TEXT, "line 5: {alpha} = 1/%g %s",
+            ldexp(1, trace->trials - 1),
+            trace->accepted ? "is taken" : "is refused: E would rise");
+        break;
+    case LINE_UPDATE:
+        say(s, SHOW_TEXT, "line 6: the square moves by {alpha} {p}");
+        break;
+    case LINE_TEST:
+        say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", number,
+            trace->residual > options->tolerance ? "above" : "not above",
+            other);
+        break;
+    case LINE_END:
+        plot_number(number, sizeof number, h);
+        say(s, SHOW_TEXT, "line 8: the step of %s s is done", number);
+        break;
+    default:
+        break;
+    }
+}
+
+static void describe_method(Show *show, const Simulation *simulation)
+{
+    const IntegratorMethod *method = simulation->run[0].method;
+    if (show->panes > 1)
+        say(show->method, sizeof show->method, "%d side by side", show->panes);
+    else if (!(simulation->scene->needs & NEEDS_TIME))
+        say(show->method, sizeof show->method, "Newton's method");
+    else if (simulation->runs > 1)
+        say(show->method, sizeof show->method, "%d integrators",
+            simulation->runs);
+    else
+        say(show->method, sizeof show->method, "%s", method->label);
+}
+
+static void describe_time(Show *show, const Simulation *simulation)
+{
+    char number[48];
+    if (!(simulation->scene->needs & NEEDS_TIME)) {
+        say(show->time_text, SHOW_TEXT, "iteration %ld", simulation->steps);
+        return;
+    }
+    plot_number(number, sizeof number, simulation_time(simulation));
+    if (show->bars > 0 && show->step >= 1 && show->step <= show->bars)
+        say(show->time_text, SHOW_TEXT, "step %ld   t = %s s   %d update%s",
+            show->step, number, show->bar[show->step - 1].updates,
+            show->bar[show->step - 1].updates == 1 ? "" : "s");
+    else
+        say(show->time_text, SHOW_TEXT, "step %ld   t = %s s",
+            simulation->steps, number);
+}
+
+void show_describe(Show *show)
+{
+    const Pane *pane = &show->pane[show->active];
+    const Simulation *simulation = pane->simulation;
+    if (!show->topic)
+        show->topic = simulation->scene->title ? simulation->scene->title
+                                               : simulation->scene->name;
+    if (pane->trouble && pane->trouble != STATUS_INTERRUPTED)
+        say(show->sentence, SHOW_TEXT, "%s", trouble_words(pane->trouble));
+    else if (pane->trace && pane->trace->line)
+        describe_line(show, simulation, pane->trace);
+    say(show->sentence, SHOW_TEXT, "%s", simulation->scene->sentence);
+    describe_method(show, simulation);
+    describe_time(show, simulation);
+    say(show->state, sizeof show->state, "%s",
+        simulation->done ? "at its end"
+        : show->paused   ? "paused"
+                         : "running");
+}

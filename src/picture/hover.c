@@ -1,0 +1,204 @@
+#include "picture/hover.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "picture/colour_map.h"
+#include "picture/marks.h"
+
+enum { HOVER_LINES = 8, HOVER_TEXT = 128 };
+
+static const double LINE = 1.35; /* ems, of a line */
+static const double SMALL = 0.9; /* ems, size of the letters */
+static const double WIDTH = 17;  /* ems */
+static const double CELL = 4.2;  /* ems, a number of the block */
+static const double BARS = 3.6;  /* ems, the bars of the eigenvalues */
+
+/* Lines of text that the card has. */
+typedef struct Lines {
+    int count;
+    char text[HOVER_LINES][HOVER_TEXT];
+} Lines;
+
+static char *next_line(Lines *lines)
+{
+    return lines->text[lines->count < HOVER_LINES - 1 ? lines->count++
+                                                      : HOVER_LINES - 1];
+}
+
+/* "(0.5, -1.25) m" */
+static void add_vector(Lines *lines, const char *name, const double *a,
+                       const char *unit)
+{
+    char x[48], y[48];
+    plot_number(x, sizeof x, a[0]);
+    plot_number(y, sizeof y, a[1]);
+    snprintf(next_line(lines), HOVER_TEXT, "%s = (%s, %s) %s", name, x, y,
+             unit);
+}
+
+static void draw_lines(Paper *paper, Box *box, const Lines *lines)
+{
+    for (int i = 0; i < lines->count; i++) {
+        paper_write(paper, i == 0 ? FACE_BOLD : FACE_REGULAR, SMALL,
+                    COLOUR_TEXT, box->x, box->y, ALIGN_LEFT, "%s",
+                    lines->text[i]);
+        box->y += paper_pixels(paper, LINE);
+    }
+}
+
+/* Force of the springs on a node, N. */
+static void node_force(const System *system, const double *x, int node,
+                       const unsigned char *broken, double force[2])
+{
+    force[0] = force[1] = 0;
+    for (int s = 0; s < system->springs; s++) {
+        int i = system->e[2 * s], j = system->e[2 * s + 1];
+        if ((i != node && j != node) || (broken && broken[s]))
+            continue;
+        double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
+        double pull = 2 * system->k[s] *
+                      ((dx * dx + dy * dy) / system->l2[s] - 1) *
+                      (i == node ? -1 : 1);
+        force[0] += pull * dx;
+        force[1] += pull * dy;
+    }
+}
+
+/* m, x, v, f, x_tilde. */
+static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
+                       int node)
+{
+    const Simulation *simulation = pane->simulation;
+    const System *system = &simulation->system;
+    const double *x = pane_x(pane), *v = simulation->run[0].v;
+    double h = simulation->options.timestep, force[2], tilde[2], at[2];
+    Lines lines = {0};
+    char mass[48];
+    plot_number(mass, sizeof mass, system->m[node]);
+    node_force(system, x, node, pane->broken, force);
+    for (int k = 0; k < 2; k++)
+        tilde[k] = pane->trace && pane->trace->x_tilde
+                       ? pane->trace->x_tilde[2 * node + k]
+                       : x[2 * node + k] + h * v[2 * node + k];
+    snprintf(next_line(&lines), HOVER_TEXT, "node %d%s", node,
+             system->pinned && system->pinned[node] ? ", pinned" : "");
+    snprintf(next_line(&lines), HOVER_TEXT, "m = %s kg", mass);
+    add_vector(&lines, "{x}", x + 2 * (size_t)node, "m");
+    add_vector(&lines, "v", v + 2 * (size_t)node, "m/s");
+    add_vector(&lines, "f", force, "N");
+    add_vector(&lines, "{xt}", tilde, "m");
+    stage_pixel(stage, x + 2 * (size_t)node, at);
+    Box box = stage_note(paper, stage, at[0], at[1], paper_pixels(paper, WIDTH),
+                         paper_pixels(paper, LINE * lines.count));
+    draw_lines(paper, &box, &lines);
+}
+
+/* The block [[H, -H], [-H, H]], number by number. */
+static void draw_block(Paper *paper, Box *box, const double H[3])
+{
+    const double part[2][2] = {{H[0], H[1]}, {H[1], H[2]}};
+    double most = fmax(fabs(H[0]), fmax(fabs(H[1]), fabs(H[2])));
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            char number[48];
+            double value = part[i % 2][j % 2] * (i / 2 == j / 2 ? 1 : -1);
+            if (fabs(value) < 1e-9 * most)
+                value = 0;
+            plot_number(number, sizeof number, value);
+            paper_write(paper, FACE_REGULAR, 0.78,
+                        value == 0 ? COLOUR_GREY : COLOUR_TEXT,
+                        box->x + (j + 1) * CELL * paper->em, box->y,
+                        ALIGN_RIGHT, "%s", number);
+        }
+        box->y += paper_pixels(paper, 1.15);
+    }
+    box->y += paper_pixels(paper, 0.3);
+}
+
+/* Four pairs of bars: hollow before projection, filled after it. */
+static void draw_eigenvalues(Paper *paper, Box *box, const double before[4],
+                             const double after[4])
+{
+    double most = 1e-300, low = 0;
+    int width = paper_pixels(paper, 1.1), room = paper_pixels(paper, BARS);
+    for (int k = 0; k < 4; k++) {
+        most = fmax(most, fmax(fabs(before[k]), fabs(after[k])));
+        low = fmin(low, before[k]);
+    }
+    double high = fmax(most, -low) - low;
+    double scale = 0.6 * room / high;
+    int base = box->y + (int)(0.62 * room + low * scale);
+    for (int k = 0; k < 4; k++) {
+        int x = box->x + (int)((k + 0.25) * CELL * paper->em);
+        int tall[2] = {(int)(before[k] * scale), (int)(after[k] * scale)};
+        for (int b = 0; b < 2; b++) {
+            int top = base - (tall[b] > 0 ? tall[b] : 0);
+            int size = abs(tall[b]) < 2 ? 2 : abs(tall[b]);
+            Colour colour = b == 1          ? COLOUR_X
+                            : before[k] < 0 ? COLOUR_PROJECT
+                                            : COLOUR_GREY;
+            canvas_rectangle(&paper->canvas, x + b * (width + 2), top, width,
+                             size, colour);
+        }
+        char number[48];
+        plot_number(number, sizeof number, before[k]);
+        paper_write(paper, FACE_REGULAR, 0.78,
+                    before[k] < 0 ? COLOUR_PROJECT : COLOUR_FAINT, x + width,
+                    box->y + 0.64 * room, ALIGN_CENTRE, "%s", number);
+    }
+    box->y += room;
+}
+
+/* e, l2, strain, block, eigenvalues. */
+static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
+                         const Pane *pane, int s)
+{
+    const System *system = &pane->simulation->system;
+    const double *x = pane_x(pane);
+    int i = system->e[2 * s], j = system->e[2 * s + 1];
+    double k = system->k[s], l2 = system->l2[s], H[3], at[2];
+    const double d[2] = {x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]};
+    double d2 = d[0] * d[0] + d[1] * d[1];
+    /* Eigenvalues of the 4x4 block are 0, 0 and twice those of H. */
+    double before[4] = {0, 0, 4 * k / l2 * (d2 - l2),
+                        4 * k / l2 * (3 * d2 - l2)};
+    double after[4] = {0, 0, before[2], before[3]};
+    Filter filter = pane->simulation->options.filter;
+    for (int m = 2; m < 4; m++)
+        if (before[m] < 0 && filter != FILTER_NONE)
+            after[m] = filter == FILTER_ABS ? -before[m] : 0;
+    Lines lines = {0};
+    char number[48], rest[48];
+    spring_hessian(d, l2, k, H);
+    plot_number(number, sizeof number, 100 * (sqrt(d2 / l2) - 1));
+    plot_number(rest, sizeof rest, l2);
+    snprintf(next_line(&lines), HOVER_TEXT, "spring %d\u2013%d", i, j);
+    snprintf(next_line(&lines), HOVER_TEXT,
+             "l\u00b2 = %s m\u00b2,  strain %s %%", rest, number);
+    snprintf(next_line(&lines), HOVER_TEXT,
+             "its block of \u2207\u00b2P, J/m\u00b2");
+    int height = paper_pixels(paper, LINE * (lines.count + 1)) +
+                 paper_pixels(paper, 4 * 1.15 + 0.3 + BARS);
+    stage_pixel(stage, show->hover.point, at);
+    Box box = stage_note(paper, stage, at[0], at[1],
+                         paper_pixels(paper, 4 * CELL + 0.3), height);
+    draw_lines(paper, &box, &lines);
+    draw_block(paper, &box, H);
+    paper_write(paper, FACE_REGULAR, SMALL, COLOUR_TEXT, box.x, box.y,
+                ALIGN_LEFT, "eigenvalues, and after projection");
+    box.y += paper_pixels(paper, LINE);
+    draw_eigenvalues(paper, &box, before, after);
+}
+
+void hover_square(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const Pick *hover = &show->hover;
+    const System *system = &pane->simulation->system;
+    if (hover->kind == PICK_NODE && hover->index < system->nodes)
+        hover_node(paper, stage, pane, hover->index);
+    if (hover->kind == PICK_SPRING && hover->index < system->springs)
+        hover_spring(paper, stage, show, pane, hover->index);
+}

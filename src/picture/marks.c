@@ -1,0 +1,263 @@
+#include "picture/marks.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "picture/colour_map.h"
+
+static const double HEAD = 0.62;        /* ems, length of an arrow's head */
+static const double ARROW_LEAST = 0.9;  /* ems, the longest arrow has */
+static const double LEGEND_SIZE = 0.92; /* ems */
+static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
+
+void stage_line(Paper *paper, const Stage *stage, const double *a,
+                const double *b, double width, Colour colour)
+{
+    double p[2], q[2];
+    stage_pixel(stage, a, p);
+    stage_pixel(stage, b, q);
+    paper_line(paper, p, q, width, colour);
+}
+
+void stage_dashes(Paper *paper, const Stage *stage, const double *a,
+                  const double *b, double width, Colour colour)
+{
+    double p[2], q[2];
+    stage_pixel(stage, a, p);
+    stage_pixel(stage, b, q);
+    canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
+                  fmax(1, width * paper->unit), 5 * paper->unit,
+                  4 * paper->unit, NULL, colour);
+}
+
+void stage_arrow(Paper *paper, const Stage *stage, const double *a,
+                 const double *d, double factor, double width, Colour colour)
+{
+    const double b[2] = {a[0] + factor * d[0], a[1] + factor * d[1]};
+    double p[2], q[2];
+    stage_pixel(stage, a, p);
+    stage_pixel(stage, b, q);
+    canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
+                 fmax(1, width * paper->unit), HEAD * paper->em, colour);
+}
+
+void stage_disc(Paper *paper, const Stage *stage, const double *a,
+                double radius, Colour colour)
+{
+    double p[2];
+    stage_pixel(stage, a, p);
+    canvas_disc(&paper->canvas, p[0], p[1], radius, colour);
+}
+
+void stage_ring(Paper *paper, const Stage *stage, const double *a,
+                double radius, double width, Colour colour)
+{
+    double p[2];
+    stage_pixel(stage, a, p);
+    canvas_ring(&paper->canvas, p[0], p[1], radius,
+                fmax(1, width * paper->unit), colour);
+}
+
+/* A dark square with a light middle. */
+void stage_pin(Paper *paper, const Stage *stage, const double *a, double radius)
+{
+    double p[2], size = fmax(radius, 3 * paper->unit) * 1.15;
+    stage_pixel(stage, a, p);
+    if (!(fabs(p[0]) < 1e6 && fabs(p[1]) < 1e6))
+        return;
+    Box box = {(int)floor(p[0] - size + 0.5), (int)floor(p[1] - size + 0.5),
+               (int)(2 * size + 0.5), (int)(2 * size + 0.5)};
+    canvas_rectangle(&paper->canvas, box.x, box.y, box.width, box.height,
+                     COLOUR_TEXT);
+    box = box_inset(box, (int)fmax(1, 0.45 * size));
+    canvas_rectangle(&paper->canvas, box.x, box.y, box.width, box.height,
+                     COLOUR_WHITE);
+}
+
+/* The longest of every stride-th pair, those that are not finite left out. */
+static double longest(int nodes, int stride, const double *d)
+{
+    double most = 0;
+    for (int i = 0; i < nodes; i += stride) {
+        double length = hypot(d[2 * i], d[2 * i + 1]);
+        if (isfinite(length) && length > most)
+            most = length;
+    }
+    return most;
+}
+
+double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
+                    const double *x, const double *d, double width,
+                    Colour colour)
+{
+    double most = longest(nodes, stride, d) * stage->camera.scale[0];
+    double room = 0.5 * fmin(stage->box.width, stage->box.height), factor = 1;
+    if (!(most > 0) || !isfinite(most))
+        return 0;
+    if (most < ARROW_LEAST * paper->em)
+        factor = pow(10, ceil(log10(ARROW_LEAST * paper->em / most)));
+    if (most > room)
+        factor = pow(10, -ceil(log10(most / room)));
+    for (int i = 0; i < nodes; i += stride)
+        if (hypot(d[2 * i], d[2 * i + 1]) * factor * stage->camera.scale[0] >
+            1.5)
+            stage_arrow(paper, stage, x + 2 * i, d + 2 * i, factor, width,
+                        colour);
+    return factor;
+}
+
+/* ---- obstacles ---------------------------------------------------------- */
+
+/* The half plane as two triangles that reach beyond the stage. */
+static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
+                      double reach)
+{
+    const Box *box = &stage->box;
+    double middle[2], far;
+    camera_world(&stage->camera, box->x + 0.5 * box->width,
+                 box->y + 0.5 * box->height, middle);
+    far = 2 * (box->width + box->height) / stage->camera.scale[0];
+    const double *n = wall->normal;
+    double t[2] = {n[1], -n[0]};
+    double along =
+        (middle[0] - wall->at[0]) * t[0] + (middle[1] - wall->at[1]) * t[1];
+    double foot[2] = {wall->at[0] + along * t[0], wall->at[1] + along * t[1]};
+    const double a[2] = {foot[0] - far * t[0], foot[1] - far * t[1]};
+    const double b[2] = {foot[0] + far * t[0], foot[1] + far * t[1]};
+    const double c[2] = {b[0] - far * n[0], b[1] - far * n[1]};
+    const double d[2] = {a[0] - far * n[0], a[1] - far * n[1]};
+    double p[4][2];
+    stage_pixel(stage, a, p[0]);
+    stage_pixel(stage, b, p[1]);
+    stage_pixel(stage, c, p[2]);
+    stage_pixel(stage, d, p[3]);
+    for (int k = 0; k < 2; k++) {
+        const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
+                                   p[1 + k][1], p[2 + k][0], p[2 + k][1]};
+        canvas_triangle(&paper->canvas, corners, false, COLOUR_SOLID);
+    }
+    stage_line(paper, stage, a, b, 1.5, COLOUR_EDGE);
+    const double a2[2] = {a[0] + reach * n[0], a[1] + reach * n[1]};
+    const double b2[2] = {b[0] + reach * n[0], b[1] + reach * n[1]};
+    if (reach * stage->camera.scale[0] > 2)
+        stage_dashes(paper, stage, a2, b2, 1, COLOUR_GREY);
+}
+
+void stage_obstacles(Paper *paper, const Stage *stage, const Pane *pane)
+{
+    for (int i = 0; i < pane->obstacles; i++) {
+        const Obstacle *obstacle = &pane->obstacle[i];
+        double scale = stage->camera.scale[0];
+        double radius = obstacle->radius * scale;
+        if (!obstacle->ball) {
+            draw_wall(paper, stage, obstacle, pane->reach);
+            continue;
+        }
+        stage_disc(paper, stage, obstacle->at, radius, COLOUR_SOLID);
+        stage_ring(paper, stage, obstacle->at, radius, 1.5, COLOUR_EDGE);
+        if (pane->reach * scale > 2)
+            stage_ring(paper, stage, obstacle->at, radius + pane->reach * scale,
+                       0.8, COLOUR_RULE);
+    }
+}
+
+/* ---- words -------------------------------------------------------------- */
+
+/* 1, 2 or 5 times a power of ten metres. */
+void stage_scale(Paper *paper, const Stage *stage)
+{
+    const Box *box = &stage->box;
+    double scale = stage->camera.scale[0];
+    double metres = plot_round_up(SCALE_PART * box->width / scale / 2.5);
+    double length = metres * scale, x = box->x + paper->em;
+    double y = floor(box->y + box->height - 0.9 * paper->em) + 0.5;
+    const char *name = "m";
+    double shown = metres;
+    if (!(length > 4) || !isfinite(length) || length > 0.6 * box->width)
+        return;
+    if (metres >= 1000) {
+        name = "km";
+        shown = metres / 1000;
+    } else if (metres < 0.01) {
+        name = "mm";
+        shown = metres * 1000;
+    }
+    char number[48];
+    plot_number(number, sizeof number, shown);
+    canvas_line(&paper->canvas, x, y, x + length, y, fmax(1, 1.5 * paper->unit),
+                COLOUR_GREY);
+    for (int k = 0; k < 2; k++)
+        canvas_line(&paper->canvas, x + k * length, y - 0.25 * paper->em,
+                    x + k * length, y + 0.25 * paper->em,
+                    fmax(1, 1.5 * paper->unit), COLOUR_GREY);
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * length,
+                y - 1.4 * paper->em, ALIGN_CENTRE, "%s %s", number, name);
+}
+
+void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
+                  Colour colour, const char *format, ...)
+{
+    char words[128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    int width = paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
+    int margin = paper_pixels(paper, 0.9);
+    if (legend->x > 0 && legend->x + width > stage->box.width - 2 * margin) {
+        legend->x = 0;
+        legend->y += paper_pixels(paper, 1.35);
+    }
+    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour,
+                stage->box.x + margin + legend->x,
+                stage->box.y + 0.6 * paper->em + legend->y, ALIGN_LEFT, "%s",
+                words);
+    legend->x += width + paper_pixels(paper, 1.6);
+}
+
+Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
+                const char *y_label)
+{
+    Plot plot = {stage->box,
+                 {0, 1, false, false, x_label},
+                 {0, 1, false, false, y_label}};
+    double low[2], high[2];
+    if (stage->text) {
+        plot.box.x += paper_pixels(paper, 3.2);
+        plot.box.width -= paper_pixels(paper, 4);
+        plot.box.y += paper_pixels(paper, 2.4);
+        plot.box.height -= paper_pixels(paper, 4.2);
+        if (plot.box.width < 1 || plot.box.height < 1)
+            plot.box = stage->box;
+    }
+    Box box = plot.box;
+    camera_world(&stage->camera, box.x, box.y + box.height, low);
+    camera_world(&stage->camera, box.x + box.width, box.y, high);
+    plot.x.low = low[0];
+    plot.x.high = high[0];
+    plot.y.low = low[1];
+    plot.y.high = high[1];
+    if (stage->text)
+        plot_axes(paper, &plot);
+    return plot;
+}
+
+/* To the right of the mouse and below it, if there is room. */
+Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,
+               int height)
+{
+    const Box *box = &stage->box;
+    int margin = paper_pixels(paper, 0.7), apart = paper_pixels(paper, 1.1);
+    Box note = {(int)x + apart, (int)y + apart, width + 2 * margin,
+                height + 2 * margin};
+    if (note.x + note.width > box->x + box->width)
+        note.x = (int)x - apart - note.width;
+    if (note.y + note.height > box->y + box->height)
+        note.y = box->y + box->height - note.height;
+    note.x = note.x < box->x ? box->x : note.x;
+    note.y = note.y < box->y ? box->y : note.y;
+    canvas_card(&paper->canvas, note, 0.4 * paper->em, 0xf8fffff4u,
+                COLOUR_GREY);
+    return box_inset(note, margin);
+}

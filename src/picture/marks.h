@@ -1,0 +1,67 @@
+/* marks.h - what pictures draw on their stage in metres: lines, arrows, pins,
+ * obstacles, a scale, words, axes.
+ */
+#ifndef ELASTO_MARKS_H
+#define ELASTO_MARKS_H
+
+#include "picture/picture.h"
+#include "picture/plot.h"
+
+/* Where a point is, pixels; the same as camera_pixel. */
+static inline void stage_pixel(const Stage *stage, const double *world,
+                               double pixel[2])
+{
+    camera_pixel(&stage->camera, world, pixel);
+}
+
+/* Width in units. */
+void stage_line(Paper *paper, const Stage *stage, const double *a,
+                const double *b, double width, Colour colour);
+void stage_dashes(Paper *paper, const Stage *stage, const double *a,
+                  const double *b, double width, Colour colour);
+
+/* From a to a + factor d. */
+void stage_arrow(Paper *paper, const Stage *stage, const double *a,
+                 const double *d, double factor, double width, Colour colour);
+
+/* Discs and rings; radius in pixels. */
+void stage_disc(Paper *paper, const Stage *stage, const double *a,
+                double radius, Colour colour);
+void stage_ring(Paper *paper, const Stage *stage, const double *a,
+                double radius, double width, Colour colour);
+
+/* A node that never moves. */
+void stage_pin(Paper *paper, const Stage *stage, const double *a,
+               double radius);
+
+/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten times as
+ * long as they are, so that the longest can be seen and is no longer than the
+ * stage; returns that factor, 0 if there is nothing to draw. */
+double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
+                    const double *x, const double *d, double width,
+                    Colour colour);
+
+/* Walls and balls, and how far their barrier reaches. */
+void stage_obstacles(Paper *paper, const Stage *stage, const Pane *pane);
+
+/* Lower left: a line as long as so many metres. */
+void stage_scale(Paper *paper, const Stage *stage);
+
+/* Words in colours from the upper left corner to the right, on a second line
+ * if there is no room; x, y where the next one goes, in/out (0, 0 at first). */
+typedef struct Legend {
+    int x, y; /* pixels, from the corner */
+} Legend;
+void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
+                  Colour colour, const char *format, ...);
+
+/* Axes over the whole stage, with numbers where there is room for words. */
+Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
+                const char *y_label);
+
+/* A small card beside pixel (x, y), inside the stage.  Returns where its
+ * contents go. */
+Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,
+               int height);
+
+#endif

@@ -1,0 +1,121 @@
+#include "picture/picture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/frame.h"
+#include "picture/kinds.h"
+#include "picture/marks.h"
+#include "picture/square_picture.h"
+#include "scenes/scene.h"
+
+/* By the kind that a scene names. */
+static const Picture *const pictures[PICTURE_COUNT] = {
+    [PICTURE_SQUARE] = &square_picture,
+    [PICTURE_CIRCLE] = &circle_picture,
+    [PICTURE_CURVE] = &curve_picture,
+    [PICTURE_LANDSCAPE] = &landscape_picture,
+};
+
+/* Letters below this size are only noise. */
+static const double LEAST_EM = 7;
+
+const Picture *picture_of(const struct Scene *scene)
+{
+    const Picture *picture = pictures[scene->picture];
+    return picture ? picture : &plain_picture;
+}
+
+int picture_cards(const Picture *picture)
+{
+    int count = 0;
+    while (picture->cards[count])
+        count++;
+    return count;
+}
+
+int picture_card(const Picture *picture, const char *name)
+{
+    for (int c = 0; picture->cards[c]; c++)
+        if (strcmp(picture->cards[c]->name, name) == 0)
+            return c;
+    return -1;
+}
+
+/* What can be dragged is an open circle. */
+static void draw_handles(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    double at[SCENE_MAX_HANDLES][2];
+    int count = simulation->scene->handles
+                    ? simulation->scene->handles(simulation, at)
+                    : 0;
+    for (int i = 0; i < count; i++)
+        stage_ring(paper, stage, at[i], 10 * paper->unit, 2, COLOUR_HAND);
+}
+
+/* Over a pane that is not alone: its label in the colour of its curve. */
+static void draw_label(Paper *paper, const Layout *layout, const Show *show,
+                       int pane)
+{
+    const Box *box = &layout->pane[pane];
+    int thick = (int)fmax(1, paper->unit);
+    canvas_rectangle(&paper->canvas, box->x + box->width, box->y, thick,
+                     box->height, COLOUR_RULE);
+    canvas_rectangle(&paper->canvas, box->x, box->y + box->height, box->width,
+                     thick, COLOUR_RULE);
+    if (!show->pane[pane].label)
+        return;
+    Box before = canvas_clip(&paper->canvas, *box);
+    paper_write(paper, FACE_BOLD, 1, colour_of_run(pane),
+                box->x + 0.5 * box->width,
+                box->y + box->height - 1.7 * paper->em, ALIGN_CENTRE, "%s",
+                show->pane[pane].label);
+    canvas_clip(&paper->canvas, before);
+}
+
+/* One pane and what the mouse is over in it. */
+static SpringCount draw_pane(Paper *paper, const Layout *layout,
+                             const Show *show, int pane)
+{
+    const Picture *picture = picture_of(show->pane[pane].simulation->scene);
+    Stage stage = {layout->pane[pane], show_camera(show, layout, pane), pane,
+                   !show->bare && paper->em >= LEAST_EM};
+    Box before = canvas_clip(&paper->canvas, stage.box);
+    SpringCount count = picture->draw(paper, &stage, show);
+    if (!show->bare)
+        draw_handles(paper, &stage, show);
+    if (picture->hover && stage.text && show->hover.pane == pane &&
+        show->hover.kind != PICK_NONE && !show->hand.on)
+        picture->hover(paper, &stage, show);
+    canvas_clip(&paper->canvas, before);
+    return count;
+}
+
+SpringCount show_draw(Paper *paper, const Show *show)
+{
+    Layout layout =
+        show_layout(show, paper->canvas.width, paper->canvas.height);
+    SpringCount sum = {0, 0};
+    paper->em = layout.em;
+    paper->unit = layout.em / 14;
+    canvas_clear(&paper->canvas, COLOUR_WHITE);
+    for (int pane = 0; pane < layout.panes; pane++) {
+        SpringCount count = draw_pane(paper, &layout, show, pane);
+        sum.drawn += count.drawn;
+        sum.skipped += count.skipped;
+        if (layout.panes > 1)
+            draw_label(paper, &layout, show, pane);
+    }
+    if (show->bare)
+        return sum;
+    if (layout.column.width > 0 && show->page.kind != PAGE_NONE)
+        canvas_rectangle(&paper->canvas, layout.column.x, layout.column.y,
+                         layout.column.width, layout.column.height,
+                         COLOUR_WHITE);
+    cards_draw(paper, &layout, show);
+    frame_draw(paper, &layout, show);
+    return sum;
+}

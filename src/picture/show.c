@@ -1,0 +1,122 @@
+#include "picture/show.h"
+
+#include <string.h>
+
+#include "picture/frame.h"
+#include "picture/picture.h"
+#include "picture/square_picture.h"
+
+void show_create(const Simulation *simulation, Show *show)
+{
+    const Picture *picture = picture_of(simulation->scene);
+    *show = (Show){.panes = 1, .selected = -1, .large = -1};
+    show->pane[0].simulation = simulation;
+    show->lens = LENS_FITS;
+    for (int c = 0; picture->cards[c]; c++)
+        if (picture->cards[c]->closed)
+            show->closed |= 1u << c;
+}
+
+/* Characters of UTF-8, markup and marks not counted apart. */
+static int count_letters(const char *text)
+{
+    int letters = 0;
+    for (; text && *text; text++)
+        letters += (*text & 0xc0) != 0x80;
+    return letters;
+}
+
+Layout show_layout(const Show *show, int width, int height)
+{
+    const Picture *picture =
+        picture_of(show->pane[show->active].simulation->scene);
+    LayoutWish wish = {.bare = show->bare,
+                       .panes = show->panes,
+                       .closed = show->closed,
+                       .large = show->large,
+                       .page = show->page.kind != PAGE_NONE,
+                       .settings = show->settings,
+                       .chips = show->chips};
+    for (; picture->cards[wish.cards]; wish.cards++)
+        wish.weight[wish.cards] = picture->cards[wish.cards]->weight;
+    for (int i = 0; i < wish.settings; i++) {
+        const Setting *setting = &show->setting[i];
+        int value = count_letters(setting->value);
+        value = setting->letters > value ? setting->letters : value;
+        wish.setting_letters[i] = count_letters(setting->name) + value + 1;
+    }
+    for (int i = 0; i < wish.chips; i++)
+        wish.chip_letters[i] = count_letters(show->chip[i].key) +
+                               count_letters(show->chip[i].label) + 1;
+    return layout_create(width, height, &wish);
+}
+
+Camera show_camera(const Show *show, const Layout *layout, int pane)
+{
+    const Picture *picture = picture_of(show->pane[pane].simulation->scene);
+    double bounds[4];
+    picture->bounds(show, pane, bounds);
+    return camera_create(layout->pane[pane], bounds, picture->stretched,
+                         &show->lens);
+}
+
+Pick show_pick(const Show *show, const Layout *layout, double x, double y)
+{
+    Hit hit = layout_hit(layout, x, y);
+    Pick none = {PICK_NONE, 0, 0, {0, 0}};
+    if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
+        return none;
+    Stage stage = {layout->pane[hit.index],
+                   show_camera(show, layout, hit.index), hit.index, true};
+    return picture_of(show->pane[hit.index].simulation->scene)
+        ->pick(show, &stage, x, y);
+}
+
+void show_zoom(Show *show, const Layout *layout, double x, double y,
+               double factor)
+{
+    Hit hit = layout_hit(layout, x, y);
+    if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
+        return;
+    const Picture *picture =
+        picture_of(show->pane[hit.index].simulation->scene);
+    double bounds[4];
+    picture->bounds(show, hit.index, bounds);
+    lens_zoom(&show->lens, layout->pane[hit.index], bounds, picture->stretched,
+              x, y, factor);
+}
+
+void show_move(Show *show, const Layout *layout, int pane, double dx, double dy)
+{
+    lens_move(&show->lens, layout->pane[pane], dx, dy);
+}
+
+long show_step_at(const Show *show, const Layout *layout, double x)
+{
+    double part = layout_time_part(layout, x) * (double)frame_span(show);
+    long step = part < 0.25 ? 0 : (long)part + 1;
+    return step > show->bars ? show->bars : step;
+}
+
+const double *pane_x(const Pane *pane)
+{
+    return pane->x ? pane->x : pane->simulation->run[0].x;
+}
+
+int pane_folded(const Pane *pane)
+{
+    const SquareMesh *mesh = &pane->simulation->mesh;
+    int folded = 0;
+    if (!mesh->nodes || pane->simulation->runs < 1)
+        return 0;
+    for (int cell = 0; cell < mesh->segments * mesh->segments; cell++)
+        folded += square_picture_folded(mesh, pane_x(pane), cell);
+    return folded;
+}
+
+void show_sample(const Simulation *simulation, History *history, Trail *trail)
+{
+    const Picture *picture = picture_of(simulation->scene);
+    if (picture->sample)
+        picture->sample(simulation, history, trail);
+}

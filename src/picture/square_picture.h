@@ -1,0 +1,22 @@
+/* square_picture.h - the springs and nodes of a square, and what a step does
+ * to them.
+ *
+ * From the ground up: obstacles, rest shape, ghosts, folded cells, springs
+ * (broken ones are gone), nodes, pins, directions and forces as arrows, what
+ * the mouse holds.
+ */
+#ifndef ELASTO_SQUARE_PICTURE_H
+#define ELASTO_SQUARE_PICTURE_H
+
+#include "picture/picture.h"
+
+extern const Picture square_picture;
+
+/* A range for the colours: half the strain of the start, at least 5 %. */
+double square_picture_strain_range(const Simulation *simulation);
+
+/* Whether one of the two triangles of a cell has turned over.
+ *   cell  segments * column + row, from the lower left */
+bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell);
+
+#endif

@@ -1,0 +1,438 @@
+/* Frames: what is drawn of a Show, where, and what the mouse finds there. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/colour_map.h"
+#include "picture/picture.h"
+#include "picture/square_picture.h"
+#include "scenes/scene.h"
+#include "testing.h"
+
+/* A scene after some steps, and what a player would show of it. */
+typedef struct Stand {
+    Simulation simulation;
+    History history;
+    Trail trail;
+    Show show;
+    Paper paper;
+} Stand;
+
+static void stand_up(const char *line, int steps, int width, int height,
+                     Stand *stand)
+{
+    memset(stand, 0, sizeof *stand);
+    simulation_from_line(line, NULL, NULL, &stand->simulation);
+    history_clear(&stand->history);
+    show_sample(&stand->simulation, &stand->history, &stand->trail);
+    for (int i = 0; i < steps; i++) {
+        Status status = simulation_step(&stand->simulation);
+        assert_true(!status || status_is_unconverged(status) ||
+                    stand->simulation.done);
+        show_sample(&stand->simulation, &stand->history, &stand->trail);
+    }
+    show_create(&stand->simulation, &stand->show);
+    stand->show.pane[0].history = &stand->history;
+    stand->show.pane[0].trail = &stand->trail;
+    assert_int_equal(paper_create(width, height, &stand->paper), 0);
+}
+
+static void take_down(Stand *stand)
+{
+    paper_free(&stand->paper);
+    simulation_free(&stand->simulation);
+}
+
+static Colour pixel(const Stand *stand, int x, int y)
+{
+    return stand->paper.canvas.pixels[y * stand->paper.canvas.width + x];
+}
+
+/* Pixels of exactly this colour inside a box. */
+static int count_colour(const Stand *stand, Box box, Colour colour)
+{
+    int count = 0;
+    for (int j = box.y; j < box.y + box.height; j++)
+        for (int i = box.x; i < box.x + box.width; i++)
+            count += pixel(stand, i, j) == colour;
+    return count;
+}
+
+static Box whole(const Stand *stand)
+{
+    return (Box){0, 0, stand->paper.canvas.width, stand->paper.canvas.height};
+}
+
+/* Two drawings of the same state are equal in every pixel; so is a second
+ * one on the same paper, which has kept something. */
+static void frames_are_repeatable(void **unused)
+{
+    (void)unused;
+    static Stand stand[2];
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        for (int i = 0; i < 2; i++) {
+            stand_up(scene->name, 2, 700, 560, &stand[i]);
+            stand[i].show.closed = 0;
+            show_describe(&stand[i].show);
+            show_draw(&stand[i].paper, &stand[i].show);
+        }
+        show_draw(&stand[0].paper, &stand[0].show);
+        assert_memory_equal(stand[0].paper.canvas.pixels,
+                            stand[1].paper.canvas.pixels, 700 * 560 * 4);
+        take_down(&stand[0]);
+        take_down(&stand[1]);
+    }
+}
+
+/* Bare means bare: white, blue and what lies between. */
+static void a_bare_square_is_the_slide(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 3, 300, 300, &stand);
+    stand.show.bare = true;
+    SpringCount count = show_draw(&stand.paper, &stand.show);
+    CHECK(count.drawn == 72 && count.skipped == 0);
+    int blue = 0;
+    for (int i = 0; i < 300 * 300; i++) {
+        Colour at = stand.paper.canvas.pixels[i];
+        CHECK((at & 255) == 255 && (at >> 8 & 255) == (at >> 16 & 255));
+        blue += at == COLOUR_X;
+    }
+    CHECK(blue > 1000);
+    take_down(&stand);
+}
+
+/* Springs shorter than two pixels are drawn as a coarser mesh. */
+static void short_springs_are_skipped(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square --segments 100", 0, 100, 100, &stand);
+    SpringCount count = show_draw(&stand.paper, &stand.show);
+    CHECK(count.drawn + count.skipped == stand.simulation.system.springs);
+    CHECK(count.skipped > count.drawn);
+    CHECK(count.drawn > 500);
+    take_down(&stand);
+}
+
+/* Any size can be drawn of any scene, all there is at once, and blown-up
+ * positions do no harm. */
+static void every_size_is_drawn(void **unused)
+{
+    (void)unused;
+    const int sizes[][2] = {{1, 1},     {1, 900},    {2000, 3}, {199, 201},
+                            {400, 300}, {1500, 999}, {900, 900}};
+    static Stand stand;
+    for (const Scene *scene = scenes; scene->name; scene++)
+        for (int i = 0; i < 7; i++)
+            for (int mode = 0; mode < 4; mode++) {
+                stand_up(scene->name, mode, sizes[i][0], sizes[i][1], &stand);
+                Show *show = &stand.show;
+                show->strain = mode & 1;
+                show->bare = mode == 3;
+                show->page.kind = mode == 2 ? PAGE_HELP : PAGE_NONE;
+                show->closed = 0;
+                show->pane[0].trouble = STATUS_NOT_FINITE;
+                show->hover = (Pick){PICK_SPRING, 0, 0, {0, 0}};
+                if (stand.simulation.runs > 0 && mode > 0) {
+                    double *x = stand.simulation.run[0].x;
+                    x[0] = NAN;
+                    x[1] = mode == 1 ? 1e300 : -INFINITY;
+                }
+                show_describe(show);
+                show_draw(&stand.paper, show);
+                take_down(&stand);
+            }
+}
+
+/* Nothing of the stage is drawn over the cards, however near it is seen. */
+static void the_stage_keeps_to_itself(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 1280, 800, &stand);
+    text_free(stand.paper.text); /* letters have colours too */
+    stand.paper.text = NULL;
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    show_draw(&stand.paper, &stand.show);
+    int inside = count_colour(&stand, layout.stage, COLOUR_X);
+    CHECK(inside > 1000);
+    show_zoom(&stand.show, &layout, layout.stage.x + 200, 400, 5);
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_X) != inside);
+    CHECK(count_colour(&stand, whole(&stand), COLOUR_X) ==
+          count_colour(&stand, layout.stage, COLOUR_X));
+    take_down(&stand);
+}
+
+/* Every node is picked where it is drawn, also after zooming; so is the middle
+ * of a spring, and left or right of the square there is nothing. */
+static void the_mouse_finds_nodes_and_springs(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 2, 1280, 800, &stand);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    const System *system = &stand.simulation.system;
+    const double *x = stand.simulation.run[0].x;
+    for (int zoomed = 0; zoomed < 2; zoomed++) {
+        Camera camera = show_camera(&stand.show, &layout, 0);
+        for (int i = 0; i < system->nodes; i++) {
+            double at[2];
+            camera_pixel(&camera, x + 2 * i, at);
+            if (!box_contains(layout.stage, at[0] - 2, at[1] + 3))
+                continue;
+            Pick pick = show_pick(&stand.show, &layout, at[0] - 2, at[1] + 3);
+            CHECK(pick.kind == PICK_NODE && pick.index == i);
+            CHECK_NEAR(pick.point[0], x[2 * i] - 2 / camera.scale[0], 1e-12);
+        }
+        double at[2];
+        const double *a = x + 2 * system->e[0], *b = x + 2 * system->e[1];
+        const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+        camera_pixel(&camera, middle, at);
+        Pick pick = show_pick(&stand.show, &layout, at[0], at[1] + 1);
+        CHECK(pick.kind == PICK_SPRING && pick.index == 0);
+        show_zoom(&stand.show, &layout, at[0], at[1], 2.5);
+    }
+    stand.show.lens = LENS_FITS;
+    CHECK(show_pick(&stand.show, &layout, 5, 200).kind == PICK_NONE);
+    CHECK(show_pick(&stand.show, &layout, 1100, 200).kind == PICK_NONE);
+    take_down(&stand);
+}
+
+/* Before the first step of a paused square its sides are edges. */
+static void edges_set_the_stretch(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 1280, 800, &stand);
+    stand.show.paused = true;
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    Camera camera = show_camera(&stand.show, &layout, 0);
+    for (int side = 0; side < 2; side++) {
+        const double world[2] = {side ? 0.7 : -0.7, 0.125};
+        double at[2];
+        camera_pixel(&camera, world, at);
+        Pick pick = show_pick(&stand.show, &layout, at[0], at[1]);
+        CHECK(pick.kind == PICK_EDGE && pick.index == side);
+    }
+    take_down(&stand);
+}
+
+/* The landscape gives back the point that is drawn there. */
+static void maps_are_where_they_seem(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("landscape --start 0.9,0.8 --tolerance 1e9", 0, 900, 700, &stand);
+    Layout layout = show_layout(&stand.show, 900, 700);
+    text_free(stand.paper.text);
+    stand.paper.text = NULL;
+    show_draw(&stand.paper, &stand.show);
+    Camera camera = show_camera(&stand.show, &layout, 0);
+    double at[2], sum[3] = {0};
+    camera_pixel(&camera, (const double[2]){0.9, 0.8}, at);
+    for (int j = (int)at[1] - 30; j < at[1] + 30; j++)
+        for (int i = (int)at[0] - 30; i < at[0] + 30; i++)
+            if (pixel(&stand, i, j) == COLOUR_TEXT) {
+                sum[0] += i + 0.5;
+                sum[1] += j + 0.5;
+                sum[2] += 1;
+            }
+    CHECK(sum[2] > 50);
+    Pick pick =
+        show_pick(&stand.show, &layout, sum[0] / sum[2], sum[1] / sum[2]);
+    CHECK(pick.kind == PICK_START);
+    CHECK_NEAR(pick.point[0], 0.9, 0.01);
+    CHECK_NEAR(pick.point[1], 0.8, 0.01);
+    CHECK(show_pick(&stand.show, &layout, 300, 350).kind == PICK_PLACE);
+    take_down(&stand);
+}
+
+/* Cells that have turned over are counted. */
+static void folds_are_counted(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 400, 300, &stand);
+    CHECK(pane_folded(&stand.show.pane[0]) == 0);
+    double *x = stand.simulation.run[0].x;
+    x[2 * 12] += 0.6; /* the middle node to the right of its neighbour */
+    CHECK(pane_folded(&stand.show.pane[0]) == 2);
+    take_down(&stand);
+}
+
+/* Six panes side by side, each with its own square. */
+static void panes_are_drawn_apart(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 1, 1280, 800, &stand);
+    stand.show.panes = 6;
+    for (int p = 1; p < 6; p++)
+        stand.show.pane[p] = stand.show.pane[0];
+    for (int p = 0; p < 6; p++)
+        stand.show.pane[p].label = "pane";
+    SpringCount count = show_draw(&stand.paper, &stand.show);
+    CHECK(count.drawn == 6 * 72);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    int first = count_colour(&stand, layout.pane[0], COLOUR_X);
+    CHECK(first > 100);
+    for (int p = 1; p < 6; p++)
+        CHECK(count_colour(&stand, layout.pane[p], COLOUR_X) > first / 2);
+    take_down(&stand);
+}
+
+/* The bar under the mouse is the step that is asked for. */
+static void bars_are_steps(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    static StepBar bars[500];
+    stand_up("square", 0, 1280, 800, &stand);
+    stand.show.bar = bars;
+    for (int s = 0; s < 500; s++)
+        bars[s] = (StepBar){1 + s % 5, s == 250};
+    for (long count = 1; count <= 500; count += 61) {
+        stand.show.bars = count;
+        Layout layout = show_layout(&stand.show, 1280, 800);
+        CHECK(show_step_at(&stand.show, &layout, 0) == 0);
+        CHECK(show_step_at(&stand.show, &layout, 1280) == count);
+        long before = 0;
+        for (int x = 0; x < 1280; x++) {
+            long step = show_step_at(&stand.show, &layout, x);
+            CHECK(step >= before && step <= count);
+            before = step;
+        }
+        show_draw(&stand.paper, &stand.show);
+        int red = count_colour(&stand, layout.bars, COLOUR_WARNING);
+        CHECK((red > 0) == (count > 250));
+    }
+    take_down(&stand);
+}
+
+/* A trace lights its line, the springs whose block has a negative eigenvalue,
+ * the arrows, the trials. */
+static double falling(const void *unused, double alpha)
+{
+    (void)unused;
+    return 20 * alpha * alpha * alpha - 4 * alpha;
+}
+
+static void a_trace_is_seen(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("unprojected --filter clamp", 0, 1280, 800, &stand);
+    text_free(stand.paper.text);
+    stand.paper.text = NULL;
+    const System *system = &stand.simulation.system;
+    double *p = calloc(2 * (size_t)system->nodes, sizeof *p);
+    assert_non_null(p);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        p[i] = i % 2 ? 0 : 0.1;
+    NewtonRecord records[3] = {
+        {.residual = 9}, {.residual = 1}, {.residual = 0.003}};
+    Trace trace = {.line = LINE_START,
+                   .x = stand.simulation.run[0].x,
+                   .projected = 52,
+                   .slope = -4,
+                   .residual = 2,
+                   .record = records,
+                   .updates = 3};
+    stand.show.pane[0].trace = &trace;
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_PROJECT) == 0);
+    CHECK(count_colour(&stand, layout.card[0], COLOUR_LIT) > 1000);
+    CHECK(count_colour(&stand, layout.card[2], COLOUR_P) > 50);
+    trace.line = LINE_PROJECT;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_PROJECT) > 500);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_P) == 0);
+    trace.line = LINE_SEARCH;
+    trace.p = p;
+    trace.difference = falling;
+    trace.trials = 3;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_P) > 500);
+    CHECK(count_colour(&stand, layout.card[1], COLOUR_WARNING) > 20);
+    CHECK(count_colour(&stand, layout.card[1], COLOUR_ALPHA) == 0);
+    trace.accepted = true;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.card[1], COLOUR_ALPHA) > 20);
+    free(p);
+    take_down(&stand);
+}
+
+/* Walls, balls, forces and broken springs. */
+static void contact_is_seen(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 1280, 800, &stand);
+    text_free(stand.paper.text);
+    stand.paper.text = NULL;
+    const Obstacle obstacles[] = {
+        {.at = {0, -0.5}, .normal = {0, 1}},
+        {.ball = true, .at = {0, 0.9}, .radius = 0.2}};
+    unsigned char broken[72];
+    double force[50];
+    const double frame[4] = {-1, -1, 1, 1.3};
+    for (int i = 0; i < 50; i++)
+        force[i] = i % 2 ? 10 : 0;
+    memset(broken, 1, sizeof broken);
+    Pane *pane = &stand.show.pane[0];
+    pane->obstacles = 2;
+    pane->obstacle = obstacles;
+    pane->reach = 0.05;
+    pane->frame = frame;
+    pane->force = force;
+    pane->broken = broken;
+    SpringCount count = show_draw(&stand.paper, &stand.show);
+    CHECK(count.drawn == 0 && count.skipped == 72);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_SOLID) > 10000);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_FORCE) > 100);
+    Camera camera = show_camera(&stand.show, &layout, 0);
+    double at[2];
+    camera_pixel(&camera, (const double[2]){0.1, 0.9}, at);
+    CHECK(pixel(&stand, (int)at[0], (int)at[1]) == COLOUR_SOLID);
+    take_down(&stand);
+}
+
+/* Every card of every picture has a name of its own, and they fit. */
+static void cards_have_names(void **unused)
+{
+    (void)unused;
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        const Picture *picture = picture_of(scene);
+        int count = picture_cards(picture);
+        CHECK(count <= LAYOUT_CARDS);
+        for (int c = 0; c < count; c++)
+            CHECK(picture_card(picture, picture->cards[c]->name) == c);
+        CHECK(picture_card(picture, "nothing") == -1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_are_repeatable),
+        cmocka_unit_test(a_bare_square_is_the_slide),
+        cmocka_unit_test(short_springs_are_skipped),
+        cmocka_unit_test(every_size_is_drawn),
+        cmocka_unit_test(the_stage_keeps_to_itself),
+        cmocka_unit_test(the_mouse_finds_nodes_and_springs),
+        cmocka_unit_test(edges_set_the_stretch),
+        cmocka_unit_test(maps_are_where_they_seem),
+        cmocka_unit_test(folds_are_counted),
+        cmocka_unit_test(panes_are_drawn_apart),
+        cmocka_unit_test(bars_are_steps),
+        cmocka_unit_test(a_trace_is_seen),
+        cmocka_unit_test(contact_is_seen),
+        cmocka_unit_test(cards_have_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
