@@ -14,7 +14,7 @@
 #ifndef ELASTO_CELLS_H
 #define ELASTO_CELLS_H
 
-#include "model/psd.h"
+#include "model/system.h"
 
 #define CELL_J_HAT 0.4
 
@@ -59,5 +59,40 @@ double cell_reach(double J, double J1, double J2);
 
 /* W after the step minus W minus grad W.step, J, without cancellation. */
 double cell_remainder(const Corner *corner, double J1, double J2);
+
+/* ---- the term -------------------------------------------------------- */
+
+/* A triangle that is, or may come, below J_hat along the present direction. */
+typedef struct LiveCorner {
+    int triangle;
+    double J1, J2;
+} LiveCorner;
+
+/* The term's data. */
+typedef struct Cells {
+    int triangles;
+    int *node;   /* [3 triangles] a, b, c */
+    int *spring; /* [3 triangles] its sides; it is gone with any of them */
+    double area; /* m^2, A0 of all */
+    double c;    /* J, A0 k_c */
+    int live;
+    LiveCorner *corner; /* [triangles] room */
+} Cells;
+
+/* sum of W over the triangles whose springs are whole; data: Cells. */
+extern const TermKind cell_energy;
+
+/* Adds the corners of a grid of columns x rows cells, whose nodes and springs
+ * are numbered as those of a SquareMesh.
+ *   step       m, side of a cell
+ *   stiffness  J/m^2, k_c
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status cells_add(System *system, int columns, int rows, double step,
+                 double stiffness);
+
+/* The smallest J in positions x [2n] m; infinite where there are no triangles.
+ *   triangle  out, where it is; NULL: not wanted */
+double cells_smallest(const Cells *cells, const System *system, const double *x,
+                      int *triangle);
 
 #endif

@@ -15,7 +15,7 @@
 #ifndef ELASTO_CONTACT_H
 #define ELASTO_CONTACT_H
 
-#include "model/psd.h"
+#include "model/system.h"
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
@@ -25,7 +25,7 @@ typedef struct Obstacle {
                         not used where the ball is a node */
     double n[2];     /* the wall's unit normal, out of it; balls: not used */
     double radius;   /* m, R > 0; walls: not used */
-    double v[2];     /* m/s, how the obstacle is moved; 0, 0: it stands still */
+    double v[2];     /* m/s, how it is moved in this step; 0, 0: not at all */
     double friction; /* mu >= 0 */
     int node;        /* the ball's centre is this free node; -1: it is o */
 } Obstacle;
@@ -50,8 +50,10 @@ typedef struct Gap {
  * o, or the free node. */
 const double *obstacle_point(const Obstacle *obstacle, const double *x);
 
-/* The gap of a node at x_i [2] to an obstacle whose point is at o [2]. */
-Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i);
+/* The gap of a node with this radius (a point: 0) at x_i [2] to an obstacle
+ * whose point is at o [2]. */
+Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
+                double radius);
 
 /* W, J. */
 double contact_value(const Barrier *barrier, const Gap *gap);
@@ -59,7 +61,7 @@ double contact_value(const Barrier *barrier, const Gap *gap);
 /* -dW/dd >= 0, N: the force that pushes the node along n. */
 double contact_force(const Barrier *barrier, const Gap *gap);
 
-/* H [3] (xx, xy, yy), J/m^2: W's Hessian in x_i, f''/d_hat^2 c n n^T, and where
+/* H [3] (xx, xy, yy), J/m^2: W's Hessian in x_i, c f''/d_hat^2 n n^T, and where
  * nothing is projected the ball's curvature (c/d_hat) f'/r (I - n n^T), which
  * is negative.  In x_i and a ball's node it is [[H, -H], [-H, H]].
  * Returns whether something negative was changed. */
@@ -69,12 +71,68 @@ bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
 /* The largest alpha for which alpha P leaves at least the part
  * 1 - CONTACT_LIMIT of the gap; infinite: any.  P [2] m, in: p of the node
  * minus p of a ball's node. */
-double contact_reach(const Obstacle *obstacle, const Gap *gap,
-                     const double P[2]);
+double contact_reach(const Gap *gap, const double P[2]);
 
 /* W at x + P minus W at x minus grad W.P, J, without cancellation.  P as
  * above, alpha times p. */
 double contact_remainder(const Barrier *barrier, const Gap *gap,
                          const double P[2]);
+
+/* ---- the term -------------------------------------------------------- */
+
+/* Walls and balls of the command line, and a few that a scene moves. */
+enum { CONTACT_MAX_OBSTACLES = 20 };
+
+/* A node and an obstacle near each other. */
+typedef struct ContactPair {
+    int node, obstacle;
+} ContactPair;
+
+/* The term's data. */
+typedef struct Contact {
+    Barrier barrier;
+    int obstacles;
+    Obstacle obstacle[CONTACT_MAX_OBSTACLES];
+    int ball; /* the obstacle whose centre is a node, at most one; -1 */
+    int live; /* pairs that the present direction may bring within */
+    ContactPair *pair; /* d_hat, [nodes obstacles] room */
+} Contact;
+
+/* sum of W over all pairs of nodes and obstacles; data: Contact. */
+extern const TermKind contact_energy;
+
+/* Adds the term with copies of the obstacles.
+ * Returns OK, INVALID_INPUT (too many, or two with a node), TOO_LARGE,
+ * OUT_OF_MEMORY. */
+Status contact_add(System *system, const Barrier *barrier, int obstacles,
+                   const Obstacle *obstacle);
+
+/* The system's obstacles, or NULL. */
+Contact *contact_of(const System *system);
+
+/* Whether this node and this obstacle can touch: not itself, and not what both
+ * are held fast. */
+bool contact_has_pair(const Contact *contact, const System *system, int node,
+                      int obstacle);
+
+/* The gap of a pair in positions x [2n] m. */
+Gap contact_pair_gap(const Contact *contact, const double *x, int node,
+                     int obstacle);
+
+/* The smallest gap in positions x [2n] m; infinite without obstacles.
+ *   pair  out, where it is; NULL: not wanted */
+double contact_smallest_gap(const Contact *contact, const System *system,
+                            const double *x, ContactPair *pair);
+
+/* For terms that act on pairs (contact and friction): their entries in the
+ * Hessian, and a pair's block [[H, -H], [-H, H]], or H alone for an obstacle
+ * that is no node, into slots and into a product. */
+long long contact_entries(const Contact *contact, const System *system);
+void contact_pattern(const Contact *contact, const System *system,
+                     Triplets *triplets);
+void contact_scatter(const Contact *contact, ContactPair pair, double w,
+                     const double H[3], const int *slot, double *values);
+void contact_multiply(const Contact *contact, ContactPair pair, double w,
+                      const double H[3], const double *q, double *y);
 
 #endif

@@ -14,6 +14,8 @@
 #ifndef ELASTO_FRICTION_H
 #define ELASTO_FRICTION_H
 
+#include "model/contact.h"
+
 /* f0 in m, its first derivative, and its second in 1/m.  e > 0, m */
 double friction_value(double y, double e);
 double friction_slope(double y, double e);
@@ -21,5 +23,31 @@ double friction_curvature(double y, double e);
 
 /* f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy. */
 double friction_remainder(double y, double t, double e);
+
+/* ---- the term -------------------------------------------------------- */
+
+/* One contact in this step. */
+typedef struct Slide {
+    ContactPair pair;
+    double t[2];   /* unit tangent at x_n */
+    double weight; /* mu lambda, N */
+    double carry;  /* h t.v_wall, m: how far the obstacle goes along t */
+    double y;      /* m, how far it slid in the last step */
+} Slide;
+
+/* The term's data. */
+typedef struct Friction {
+    double slip_speed; /* eps_v, m/s > 0 */
+    double e;          /* m, eps_v h */
+    int slides;        /* contacts of this step */
+    Slide *slide;      /* [nodes obstacles] room */
+} Friction;
+
+/* sum of W over the contacts at x_n; data: Friction.  The system must have the
+ * obstacles. */
+extern const TermKind friction_energy;
+
+/* Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status friction_add(System *system, double slip_speed);
 
 #endif

@@ -15,7 +15,7 @@
 #ifndef ELASTO_PLASTICITY_H
 #define ELASTO_PLASTICITY_H
 
-#include "model/psd.h"
+#include "model/system.h"
 
 /* How a spring answers in this step. */
 typedef struct SpringLaw {
@@ -39,5 +39,35 @@ double spring_law_flow(SpringLaw law, double e);
  * Returns whether there was a negative eigenvalue that was changed. */
 bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
                         double e, Filter filter, double H[3]);
+
+/* ---- the term -------------------------------------------------------- */
+
+/* A spring that may flow along the present direction. */
+typedef struct LiveSpring {
+    int spring;
+    double B, C; /* its strain becomes E + alpha B + alpha^2 C */
+} LiveSpring;
+
+/* The term's data. */
+typedef struct Plasticity {
+    double yield;     /* Y > 0 */
+    double hardening; /* H >= 0 */
+    double *ep;       /* [springs] plastic strain */
+    double *kappa;    /* [springs] sum of its changes' sizes */
+    int live;
+    LiveSpring *spring; /* [springs] room */
+} Plasticity;
+
+/* sum of W over the springs, in the place of mass_spring_energy; data:
+ * Plasticity.  Its value has what hardening stores, k l2 H kappa^2/2; what
+ * flowing costs, k l2 Y gamma, is booked as lost. */
+extern const TermKind plastic_energy;
+
+/* Puts it in the place of the elastic springs.
+ * Returns OK, OUT_OF_MEMORY. */
+Status plasticity_set(System *system, double yield, double hardening);
+
+/* The system's plastic state, or NULL. */
+Plasticity *plasticity_of(const System *system);
 
 #endif

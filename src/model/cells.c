@@ -1,6 +1,7 @@
 #include "model/cells.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "model/barrier.h"
 #include "model/contact.h"
@@ -184,4 +185,286 @@ double cell_remainder(const Corner *corner, double J1, double J2)
     double s = corner->J / CELL_J_HAT;
     return corner->c * (barrier_slope(s) * J2 / CELL_J_HAT +
                         barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
+}
+
+/* ---- the term -------------------------------------------------------- */
+
+/* Whether a triangle still has its three springs. */
+static bool is_whole(const Cells *cells, const System *system, int t)
+{
+    const int *s = cells->spring + 3 * t;
+    return system->k[s[0]] > 0 && system->k[s[1]] > 0 && system->k[s[2]] > 0;
+}
+
+static Corner corner_at(const Cells *cells, const double *x, int t)
+{
+    const int *node = cells->node + 3 * t;
+    return cell_corner(x + 2 * node[0], x + 2 * node[1], x + 2 * node[2],
+                       cells->area, cells->c);
+}
+
+/* The next whole triangle after *t, which starts at -1, below J_hat at x. */
+static bool next_squeezed(const Cells *cells, const Place *at, int *t,
+                          Corner *corner)
+{
+    while (++*t < cells->triangles) {
+        *corner = corner_at(cells, at->x, *t);
+        if (corner->J < CELL_J_HAT && is_whole(cells, at->system, *t))
+            return true;
+    }
+    return false;
+}
+
+double cells_smallest(const Cells *cells, const System *system, const double *x,
+                      int *triangle)
+{
+    double smallest = INFINITY;
+    for (int t = 0; t < cells->triangles; t++) {
+        double J = corner_at(cells, x, t).J;
+        if (J >= smallest || !is_whole(cells, system, t))
+            continue;
+        smallest = J;
+        if (triangle)
+            *triangle = t;
+    }
+    return smallest;
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Cells *cells = term->data;
+    (void)system;
+    return isfinite(cells->area) && cells->area > 0 && isfinite(cells->c) &&
+           cells->c > 0;
+}
+
+static double value(const Term *term, const Place *at)
+{
+    const Cells *cells = term->data;
+    double sum = 0;
+    Corner corner;
+    for (int t = -1; next_squeezed(cells, at, &t, &corner);)
+        sum += cell_value(&corner);
+    return sum;
+}
+
+static void gradient(const Term *term, const Place *at, double w, double *g)
+{
+    const Cells *cells = term->data;
+    Corner corner;
+    for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
+        double own[6];
+        cell_gradient(&corner, own);
+        for (int k = 0; k < 6; k++)
+            g[2 * cells->node[3 * t + k / 2] + k % 2] += w * own[k];
+    }
+}
+
+static long long entries(const Term *term, const System *system)
+{
+    const Cells *cells = term->data;
+    (void)system;
+    return (long long)CELL_ENTRIES * cells->triangles;
+}
+
+static void pattern(const Term *term, const System *system, Triplets *triplets)
+{
+    const Cells *cells = term->data;
+    for (int t = 0; t < cells->triangles; t++) {
+        const int *node = cells->node + 3 * t;
+        for (int k = 0; k < 3; k++)
+            term_add_block(system, node[k], node[k], triplets);
+        term_add_block(system, node[0], node[1], triplets);
+        term_add_block(system, node[0], node[2], triplets);
+        term_add_block(system, node[1], node[2], triplets);
+    }
+}
+
+static int hessian(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values)
+{
+    const Cells *cells = term->data;
+    int projected = 0;
+    Corner corner;
+    for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
+        double H[CELL_ENTRIES];
+        projected += cell_hessian(&corner, filter, H);
+        for (int k = 0; k < CELL_ENTRIES; k++)
+            values[slot[CELL_ENTRIES * t + k]] += w * H[k];
+    }
+    return projected;
+}
+
+static void product(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y)
+{
+    const Cells *cells = term->data;
+    Corner corner;
+    for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
+        const int *node = cells->node + 3 * t;
+        double H[CELL_ENTRIES];
+        cell_hessian(&corner, filter, H);
+        for (int k = 0; k < CELL_ENTRIES; k++)
+            H[k] *= w;
+        cell_multiply(H, q + 2 * node[0], q + 2 * node[1], q + 2 * node[2],
+                      y + 2 * node[0], y + 2 * node[1], y + 2 * node[2]);
+    }
+}
+
+/* J1 and J2 of a triangle for the step p. */
+static void motion(const Cells *cells, const Corner *corner, const double *p,
+                   int t, double *J1, double *J2)
+{
+    const int *node = cells->node + 3 * t;
+    const double *a = p + 2 * node[0], *b = p + 2 * node[1];
+    const double *c = p + 2 * node[2];
+    cell_along(corner, (double[2]){b[0] - a[0], b[1] - a[1]},
+               (double[2]){c[0] - a[0], c[1] - a[1]}, J1, J2);
+}
+
+static double reach(const Term *term, const Place *at, const double *p)
+{
+    const Cells *cells = term->data;
+    double smallest = INFINITY, J1, J2;
+    for (int t = 0; t < cells->triangles; t++) {
+        Corner corner = corner_at(cells, at->x, t);
+        motion(cells, &corner, p, t, &J1, &J2);
+        double alpha = cell_reach(corner.J, J1, J2);
+        if (alpha < smallest && is_whole(cells, at->system, t))
+            smallest = alpha;
+    }
+    return smallest;
+}
+
+/* Notes the triangles that may be below J_hat on the way. */
+static void along(const Term *term, const Place *at, const double *p, double w,
+                  double reach, double q[3])
+{
+    Cells *cells = term->data;
+    double J1, J2;
+    (void)w;
+    (void)q;
+    cells->live = 0;
+    for (int t = 0; t < cells->triangles; t++) {
+        Corner corner = corner_at(cells, at->x, t);
+        motion(cells, &corner, p, t, &J1, &J2);
+        double lowest = corner.J - reach * fabs(J1) - reach * reach * fabs(J2);
+        if (lowest < CELL_J_HAT && is_whole(cells, at->system, t))
+            cells->corner[cells->live++] = (LiveCorner){t, J1, J2};
+    }
+}
+
+static double remainder_along(const Term *term, const Place *at,
+                              const double *p, double w, double alpha)
+{
+    const Cells *cells = term->data;
+    double sum = 0;
+    (void)p;
+    for (int k = 0; k < cells->live; k++) {
+        const LiveCorner *live = &cells->corner[k];
+        Corner corner = corner_at(cells, at->x, live->triangle);
+        sum +=
+            cell_remainder(&corner, alpha * live->J1, alpha * alpha * live->J2);
+    }
+    return w * sum;
+}
+
+static bool allowed(const Term *term, const Place *at)
+{
+    const Cells *cells = term->data;
+    for (int t = 0; t < cells->triangles; t++)
+        if (!(corner_at(cells, at->x, t).J > 0) &&
+            is_whole(cells, at->system, t))
+            return false;
+    return true;
+}
+
+/* The curvature where the barrier begins, and the force there if it went on
+ * without bending: both by g = K e with sides of the rest length. */
+static double stiffest(const Term *term, const System *system)
+{
+    const Cells *cells = term->data;
+    (void)system;
+    return 2 * cells->c / (CELL_J_HAT * CELL_J_HAT) / cells->area;
+}
+
+static double force(const Term *term, const System *system)
+{
+    const Cells *cells = term->data;
+    (void)system;
+    return 2 * cells->c / CELL_J_HAT / sqrt(cells->area);
+}
+
+static void free_cells(void *data)
+{
+    Cells *cells = data;
+    free(cells->node);
+    free(cells->spring);
+    free(cells->corner);
+    free(cells);
+}
+
+const TermKind cell_energy = {
+    .name = "cells",
+    .valid = valid,
+    .value = value,
+    .gradient = gradient,
+    .entries = entries,
+    .pattern = pattern,
+    .hessian = hessian,
+    .product = product,
+    .along = along,
+    .remainder = remainder_along,
+    .reach = reach,
+    .allowed = allowed,
+    .stiffest = stiffest,
+    .force = force,
+    .free = free_cells,
+    .internal = true,
+    .end_of_step = true,
+};
+
+/* The four corners of the cell with a at (i, j); springs in the mesh's order:
+ * horizontal, vertical, then both diagonals of each cell. */
+static void fill_cell(Cells *cells, int columns, int rows, int i, int j)
+{
+    int high = rows + 1, cell = i * rows + j;
+    int a = i * high + j, b = a + high, c = b + 1, d = a + 1;
+    int upright = columns * high, diagonals = upright + (columns + 1) * rows;
+    int ab = i * high + j, dc = ab + 1;
+    int ad = upright + i * rows + j, bc = ad + rows;
+    int ac = diagonals + 2 * cell, bd = ac + 1;
+    const int node[12] = {a, b, d, b, c, a, c, d, b, d, a, c};
+    const int spring[12] = {ab, bd, ad, bc, ac, ab, dc, bd, bc, ad, ac, dc};
+    for (int k = 0; k < 12; k++) {
+        cells->node[12 * cell + k] = node[k];
+        cells->spring[12 * cell + k] = spring[k];
+    }
+}
+
+Status cells_add(System *system, int columns, int rows, double step,
+                 double stiffness)
+{
+    size_t triangles = 4 * (size_t)columns * (size_t)rows;
+    Cells *cells = calloc(1, sizeof *cells);
+    if (!cells)
+        return STATUS_OUT_OF_MEMORY;
+    cells->triangles = (int)triangles;
+    cells->area = 0.5 * step * step;
+    cells->c = cells->area * stiffness;
+    cells->node = calloc(3 * triangles, sizeof *cells->node);
+    cells->spring = calloc(3 * triangles, sizeof *cells->spring);
+    cells->corner = calloc(triangles, sizeof *cells->corner);
+    Status status = STATUS_OUT_OF_MEMORY;
+    if (cells->node && cells->spring && cells->corner) {
+        for (int i = 0; i < columns; i++)
+            for (int j = 0; j < rows; j++)
+                fill_cell(cells, columns, rows, i, j);
+        status = system_add_term(system, &cell_energy, cells)
+                     ? STATUS_OK
+                     : STATUS_TOO_LARGE;
+    }
+    if (status)
+        free_cells(cells);
+    return status;
 }

@@ -1,22 +1,27 @@
 #include "model/contact.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "model/barrier.h"
+#include "model/mass_spring_energy.h"
 
 const double *obstacle_point(const Obstacle *obstacle, const double *x)
 {
     return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;
 }
 
-Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i)
+Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
+                double radius)
 {
     double D[2] = {x_i[0] - o[0], x_i[1] - o[1]};
     const double *n = obstacle->n;
     if (obstacle->kind == OBSTACLE_WALL)
-        return (Gap){n[0] * D[0] + n[1] * D[1], {n[0], n[1]}, INFINITY};
+        return (Gap){
+            n[0] * D[0] + n[1] * D[1] - radius, {n[0], n[1]}, INFINITY};
     double r = hypot(D[0], D[1]);
-    return (Gap){r - obstacle->radius, {D[0] / r, D[1] / r}, r};
+    return (Gap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
 }
 
 double contact_value(const Barrier *barrier, const Gap *gap)
@@ -48,20 +53,19 @@ bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
     return negative && (filter == FILTER_CLAMP || filter == FILTER_ABS);
 }
 
-/* A ball: |D + alpha P| = R + (1-F) d is the quadratic equation
+/* A ball: |D + alpha P| = r - F d is the quadratic equation
  * a alpha^2 + 2 b alpha + c0 = 0, whose smaller root is written so that nothing
  * cancels. */
-double contact_reach(const Obstacle *obstacle, const Gap *gap,
-                     const double P[2])
+double contact_reach(const Gap *gap, const double P[2])
 {
     const double F = CONTACT_LIMIT;
     double pn = gap->n[0] * P[0] + gap->n[1] * P[1];
     if (!(pn < 0))
         return INFINITY;
-    if (obstacle->kind == OBSTACLE_WALL)
+    if (!isfinite(gap->r))
         return F * gap->d / -pn;
     double b = gap->r * pn, a = P[0] * P[0] + P[1] * P[1];
-    double c0 = F * gap->d * (gap->r + obstacle->radius + (1 - F) * gap->d);
+    double c0 = F * gap->d * (2 * gap->r - F * gap->d);
     double discriminant = b * b - a * c0;
     return discriminant > 0 ? c0 / (-b + sqrt(discriminant)) : INFINITY;
 }
@@ -81,4 +85,378 @@ double contact_remainder(const Barrier *barrier, const Gap *gap,
     }
     return barrier->c * (barrier_slope(s) * k / barrier->d_hat +
                          barrier_remainder(s, (pn + k) / barrier->d_hat));
+}
+
+/* ---- the term -------------------------------------------------------- */
+
+Contact *contact_of(const System *system)
+{
+    Term *term = system_find_term(system, &contact_energy);
+    return term ? term->data : NULL;
+}
+
+static bool is_pinned(const System *system, int i)
+{
+    return system->pinned && system->pinned[i];
+}
+
+bool contact_has_pair(const Contact *contact, const System *system, int node,
+                      int obstacle)
+{
+    int ball = contact->obstacle[obstacle].node;
+    return node != ball &&
+           !(is_pinned(system, node) && (ball < 0 || is_pinned(system, ball)));
+}
+
+/* A node is a point, but for the centre of the free ball. */
+static double node_radius(const Contact *contact, int node)
+{
+    if (contact->ball < 0)
+        return 0;
+    const Obstacle *ball = &contact->obstacle[contact->ball];
+    return ball->node == node ? ball->radius : 0;
+}
+
+Gap contact_pair_gap(const Contact *contact, const double *x, int node,
+                     int obstacle)
+{
+    const Obstacle *other = &contact->obstacle[obstacle];
+    return contact_gap(other, obstacle_point(other, x), x + 2 * node,
+                       node_radius(contact, node));
+}
+
+/* The next pair after *pair, which starts at {-1, 0}: node by node. */
+static bool next_pair(const Contact *contact, const System *system,
+                      ContactPair *pair)
+{
+    do {
+        if (++pair->node == system->nodes) {
+            pair->node = 0;
+            pair->obstacle++;
+        }
+        if (pair->obstacle >= contact->obstacles)
+            return false;
+    } while (!contact_has_pair(contact, system, pair->node, pair->obstacle));
+    return true;
+}
+
+/* The next pair within d_hat at x, and its gap. */
+static bool next_touching(const Contact *contact, const Place *at,
+                          ContactPair *pair, Gap *gap)
+{
+    while (next_pair(contact, at->system, pair)) {
+        *gap = contact_pair_gap(contact, at->x, pair->node, pair->obstacle);
+        if (gap->d < contact->barrier.d_hat)
+            return true;
+    }
+    return false;
+}
+
+double contact_smallest_gap(const Contact *contact, const System *system,
+                            const double *x, ContactPair *pair)
+{
+    double smallest = INFINITY;
+    for (ContactPair next = {-1, 0}; next_pair(contact, system, &next);) {
+        double d = contact_pair_gap(contact, x, next.node, next.obstacle).d;
+        if (d >= smallest)
+            continue;
+        smallest = d;
+        if (pair)
+            *pair = next;
+    }
+    return smallest;
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Contact *contact = term->data;
+    const Barrier *barrier = &contact->barrier;
+    bool good = isfinite(barrier->c) && barrier->c > 0 &&
+                isfinite(barrier->d_hat) && barrier->d_hat > 0;
+    for (int k = 0; k < contact->obstacles; k++) {
+        const Obstacle *it = &contact->obstacle[k];
+        bool wall = it->kind == OBSTACLE_WALL;
+        good = good && isfinite(it->o[0]) && isfinite(it->o[1]) &&
+               isfinite(it->v[0]) && isfinite(it->v[1]) &&
+               isfinite(it->friction) && it->friction >= 0 &&
+               it->node < system->nodes &&
+               (wall ? fabs(hypot(it->n[0], it->n[1]) - 1) < 1e-12
+                     : isfinite(it->radius) && it->radius > 0);
+    }
+    return good;
+}
+
+static double value(const Term *term, const Place *at)
+{
+    const Contact *contact = term->data;
+    double sum = 0;
+    Gap gap;
+    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);)
+        sum += contact_value(&contact->barrier, &gap);
+    return sum;
+}
+
+/* The force pushes the node along n and a free ball back. */
+static void gradient(const Term *term, const Place *at, double w, double *g)
+{
+    const Contact *contact = term->data;
+    Gap gap;
+    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+        double force = w * contact_force(&contact->barrier, &gap);
+        int ball = contact->obstacle[pair.obstacle].node;
+        for (int c = 0; c < 2; c++) {
+            g[2 * pair.node + c] -= force * gap.n[c];
+            if (ball >= 0)
+                g[2 * ball + c] += force * gap.n[c];
+        }
+    }
+}
+
+/* A node has its own diagonal block, and where there is a free ball also the
+ * ball's and the block of both.  (The ball itself lists them too, so that all
+ * nodes have the same number.) */
+static int entries_of_a_node(const Contact *contact)
+{
+    return contact->ball < 0 ? DIAGONAL_ENTRIES
+                             : 2 * DIAGONAL_ENTRIES + BLOCK_ENTRIES;
+}
+
+long long contact_entries(const Contact *contact, const System *system)
+{
+    return (long long)entries_of_a_node(contact) * system->nodes;
+}
+
+void contact_pattern(const Contact *contact, const System *system,
+                     Triplets *triplets)
+{
+    int ball = contact->ball < 0 ? -1 : contact->obstacle[contact->ball].node;
+    for (int i = 0; i < system->nodes; i++) {
+        term_add_block(system, i, i, triplets);
+        if (ball < 0)
+            continue;
+        term_add_block(system, ball, ball, triplets);
+        term_add_block(system,
+                       i != ball ? i
+                       : i > 0   ? i - 1
+                                 : i + 1,
+                       ball, triplets);
+    }
+}
+
+void contact_scatter(const Contact *contact, ContactPair pair, double w,
+                     const double H[3], const int *slot, double *values)
+{
+    slot += (long long)entries_of_a_node(contact) * pair.node;
+    bool shared = contact->obstacle[pair.obstacle].node >= 0;
+    for (int t = 0; t < 3; t++) {
+        values[slot[t]] += w * H[t];
+        if (shared)
+            values[slot[3 + t]] += w * H[t];
+    }
+    for (int t = 0; shared && t < 4; t++)
+        values[slot[6 + t]] -= w * H[(t + 1) / 2];
+}
+
+void contact_multiply(const Contact *contact, ContactPair pair, double w,
+                      const double H[3], const double *q, double *y)
+{
+    int ball = contact->obstacle[pair.obstacle].node;
+    const int e[2] = {pair.node, ball};
+    const double wH[3] = {w * H[0], w * H[1], w * H[2]};
+    if (ball >= 0) {
+        mass_spring_multiply(wH, e, q, y);
+        return;
+    }
+    const double *qi = q + 2 * pair.node;
+    y[2 * pair.node] += wH[0] * qi[0] + wH[1] * qi[1];
+    y[2 * pair.node + 1] += wH[1] * qi[0] + wH[2] * qi[1];
+}
+
+static long long entries(const Term *term, const System *system)
+{
+    return contact_entries(term->data, system);
+}
+
+static void pattern(const Term *term, const System *system, Triplets *triplets)
+{
+    contact_pattern(term->data, system, triplets);
+}
+
+static int hessian(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values)
+{
+    const Contact *contact = term->data;
+    int projected = 0;
+    Gap gap;
+    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+        double H[3];
+        projected += contact_hessian(&contact->barrier, &gap, filter, H);
+        contact_scatter(contact, pair, w, H, slot, values);
+    }
+    return projected;
+}
+
+static void product(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y)
+{
+    const Contact *contact = term->data;
+    Gap gap;
+    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+        double H[3];
+        contact_hessian(&contact->barrier, &gap, filter, H);
+        contact_multiply(contact, pair, w, H, q, y);
+    }
+}
+
+/* P = scale times p of the node minus p of the free ball; returns |P|. */
+static double pair_motion(const Contact *contact, ContactPair pair,
+                          const double *p, double scale, double P[2])
+{
+    int ball = contact->obstacle[pair.obstacle].node;
+    for (int c = 0; c < 2; c++)
+        P[c] =
+            scale * (p[2 * pair.node + c] - (ball < 0 ? 0 : p[2 * ball + c]));
+    return hypot(P[0], P[1]);
+}
+
+static double reach(const Term *term, const Place *at, const double *p)
+{
+    const Contact *contact = term->data;
+    double smallest = INFINITY;
+    for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
+        double P[2];
+        Gap gap = contact_pair_gap(contact, at->x, pair.node, pair.obstacle);
+        pair_motion(contact, pair, p, 1, P);
+        smallest = fmin(smallest, contact_reach(&gap, P));
+    }
+    return smallest;
+}
+
+/* Notes the pairs that may be within d_hat on the way. */
+static void along(const Term *term, const Place *at, const double *p, double w,
+                  double reach, double q[3])
+{
+    Contact *contact = term->data;
+    (void)w;
+    (void)q;
+    contact->live = 0;
+    for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
+        double P[2];
+        Gap gap = contact_pair_gap(contact, at->x, pair.node, pair.obstacle);
+        if (gap.d - pair_motion(contact, pair, p, reach, P) <
+            contact->barrier.d_hat)
+            contact->pair[contact->live++] = pair;
+    }
+}
+
+static double remainder_along(const Term *term, const Place *at,
+                              const double *p, double w, double alpha)
+{
+    const Contact *contact = term->data;
+    double sum = 0;
+    for (int k = 0; k < contact->live; k++) {
+        double P[2];
+        ContactPair pair = contact->pair[k];
+        Gap gap = contact_pair_gap(contact, at->x, pair.node, pair.obstacle);
+        pair_motion(contact, pair, p, alpha, P);
+        sum += contact_remainder(&contact->barrier, &gap, P);
+    }
+    return w * sum;
+}
+
+static bool allowed(const Term *term, const Place *at)
+{
+    const Contact *contact = term->data;
+    for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);)
+        if (!(contact_pair_gap(contact, at->x, pair.node, pair.obstacle).d > 0))
+            return false;
+    return true;
+}
+
+/* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
+static double stiffest(const Term *term, const System *system)
+{
+    const Contact *contact = term->data;
+    (void)system;
+    return 2 * contact->barrier.c /
+           (contact->barrier.d_hat * contact->barrier.d_hat);
+}
+
+static double force(const Term *term, const System *system)
+{
+    const Contact *contact = term->data;
+    (void)system;
+    return 2 * contact->barrier.c / contact->barrier.d_hat;
+}
+
+/* A ball's curvature bends down by force/r across the normal. */
+static void concave(const Term *term, const Place *at, double w, double *sum)
+{
+    const Contact *contact = term->data;
+    Gap gap;
+    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+        double down = w * contact_force(&contact->barrier, &gap) / gap.r;
+        int ball = contact->obstacle[pair.obstacle].node;
+        sum[pair.node] += ball < 0 ? down : 2 * down;
+        if (ball >= 0)
+            sum[ball] += 2 * down;
+    }
+}
+
+static void free_contact(void *data)
+{
+    Contact *contact = data;
+    free(contact->pair);
+    free(contact);
+}
+
+const TermKind contact_energy = {
+    .name = "contact",
+    .valid = valid,
+    .value = value,
+    .gradient = gradient,
+    .entries = entries,
+    .pattern = pattern,
+    .hessian = hessian,
+    .product = product,
+    .along = along,
+    .remainder = remainder_along,
+    .reach = reach,
+    .allowed = allowed,
+    .stiffest = stiffest,
+    .force = force,
+    .concave = concave,
+    .free = free_contact,
+    .end_of_step = true,
+};
+
+Status contact_add(System *system, const Barrier *barrier, int obstacles,
+                   const Obstacle *obstacle)
+{
+    if (obstacles < 0 || obstacles > CONTACT_MAX_OBSTACLES)
+        return STATUS_INVALID_INPUT;
+    Contact *contact = calloc(1, sizeof *contact);
+    if (!contact)
+        return STATUS_OUT_OF_MEMORY;
+    contact->barrier = *barrier;
+    contact->obstacles = obstacles;
+    contact->ball = -1;
+    Status status = STATUS_OK;
+    for (int k = 0; k < obstacles; k++) {
+        contact->obstacle[k] = obstacle[k];
+        if (obstacle[k].node < 0)
+            continue;
+        if (contact->ball >= 0)
+            status = STATUS_INVALID_INPUT;
+        contact->ball = k;
+    }
+    contact->pair = calloc((size_t)system->nodes * (size_t)(obstacles + 1),
+                           sizeof *contact->pair);
+    if (!contact->pair)
+        status = STATUS_OUT_OF_MEMORY;
+    else if (!status && !system_add_term(system, &contact_energy, contact))
+        status = STATUS_TOO_LARGE;
+    if (status)
+        free_contact(contact);
+    return status;
 }

@@ -1,6 +1,7 @@
 #include "model/friction.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 double friction_value(double y, double e)
 {
@@ -58,4 +59,223 @@ double friction_remainder(double y, double t, double e)
         return remainder_on_side(y, t, e);
     return remainder_on_side(y, -y, e) - friction_slope(y, e) * z +
            remainder_on_side(0, -z, e);
+}
+
+/* ---- the term -------------------------------------------------------- */
+
+/* t.(u_i - u_b), of displacements u [2n]. */
+static double slid(const Contact *contact, const Slide *slide, const double *u)
+{
+    int ball = contact->obstacle[slide->pair.obstacle].node;
+    double sum = 0;
+    for (int c = 0; c < 2; c++)
+        sum += slide->t[c] *
+               (u[2 * slide->pair.node + c] - (ball < 0 ? 0 : u[2 * ball + c]));
+    return sum;
+}
+
+/* Normal forces and tangents at x_n. */
+static void begin(Term *term, System *system, const double *x_n,
+                  const double *v_n, double h)
+{
+    Friction *friction = term->data;
+    const Contact *contact = contact_of(system);
+    (void)v_n;
+    friction->e = friction->slip_speed * h;
+    friction->slides = 0;
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int i = 0; i < system->nodes; i++) {
+            const Obstacle *obstacle = &contact->obstacle[k];
+            if (!(obstacle->friction > 0) ||
+                !contact_has_pair(contact, system, i, k))
+                continue;
+            Gap gap = contact_pair_gap(contact, x_n, i, k);
+            if (!(gap.d < contact->barrier.d_hat))
+                continue;
+            double t[2] = {-gap.n[1], gap.n[0]};
+            friction->slide[friction->slides++] = (Slide){
+                .pair = {i, k},
+                .t = {t[0], t[1]},
+                .weight =
+                    obstacle->friction * contact_force(&contact->barrier, &gap),
+                .carry = h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
+        }
+}
+
+/* What was rubbed off in this step. */
+static bool end(Term *term, System *system, const double *x, const double *v,
+                double h)
+{
+    Friction *friction = term->data;
+    const Contact *contact = contact_of(system);
+    (void)x;
+    for (int s = 0; s < friction->slides; s++) {
+        Slide *slide = &friction->slide[s];
+        slide->y = h * slid(contact, slide, v) - slide->carry;
+        term->lost +=
+            slide->weight * friction_slope(slide->y, friction->e) * slide->y;
+    }
+    return false;
+}
+
+static double way(const Contact *contact, const Slide *slide, const Place *at)
+{
+    return slid(contact, slide, at->u) - slide->carry;
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Friction *friction = term->data;
+    return isfinite(friction->slip_speed) && friction->slip_speed > 0 &&
+           contact_of(system);
+}
+
+/* Nothing of it is stored: outside of a step (u NULL) it is 0. */
+static double value(const Term *term, const Place *at)
+{
+    const Friction *friction = term->data;
+    const Contact *contact = contact_of(at->system);
+    double sum = 0;
+    for (int s = 0; at->u && s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        sum += slide->weight *
+               friction_value(way(contact, slide, at), friction->e);
+    }
+    return sum;
+}
+
+static void gradient(const Term *term, const Place *at, double w, double *g)
+{
+    const Friction *friction = term->data;
+    const Contact *contact = contact_of(at->system);
+    for (int s = 0; s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        int ball = contact->obstacle[slide->pair.obstacle].node;
+        double force = w * slide->weight *
+                       friction_slope(way(contact, slide, at), friction->e);
+        for (int c = 0; c < 2; c++) {
+            g[2 * slide->pair.node + c] += force * slide->t[c];
+            if (ball >= 0)
+                g[2 * ball + c] -= force * slide->t[c];
+        }
+    }
+}
+
+static long long entries(const Term *term, const System *system)
+{
+    (void)term;
+    return contact_entries(contact_of(system), system);
+}
+
+static void pattern(const Term *term, const System *system, Triplets *triplets)
+{
+    (void)term;
+    contact_pattern(contact_of(system), system, triplets);
+}
+
+/* mu lambda f0'' t t^T, never negative */
+static void slide_hessian(const Friction *friction, const Slide *slide,
+                          double y, double H[3])
+{
+    const double *t = slide->t;
+    double bend = slide->weight * friction_curvature(y, friction->e);
+    H[0] = bend * t[0] * t[0];
+    H[1] = bend * t[0] * t[1];
+    H[2] = bend * t[1] * t[1];
+}
+
+static int hessian(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values)
+{
+    const Friction *friction = term->data;
+    const Contact *contact = contact_of(at->system);
+    (void)filter;
+    for (int s = 0; s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        double H[3];
+        slide_hessian(friction, slide, way(contact, slide, at), H);
+        contact_scatter(contact, slide->pair, w, H, slot, values);
+    }
+    return 0;
+}
+
+static void product(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y)
+{
+    const Friction *friction = term->data;
+    const Contact *contact = contact_of(at->system);
+    (void)filter;
+    for (int s = 0; s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        double H[3];
+        slide_hessian(friction, slide, way(contact, slide, at), H);
+        contact_multiply(contact, slide->pair, w, H, q, y);
+    }
+}
+
+static double remainder_along(const Term *term, const Place *at,
+                              const double *p, double w, double alpha)
+{
+    const Friction *friction = term->data;
+    const Contact *contact = contact_of(at->system);
+    double sum = 0;
+    for (int s = 0; s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        sum += slide->weight *
+               friction_remainder(way(contact, slide, at),
+                                  alpha * slid(contact, slide, p), friction->e);
+    }
+    return w * sum;
+}
+
+static void concave(const Term *term, const Place *at, double w, double *sum)
+{
+    (void)term; /* it bends up everywhere */
+    (void)at;
+    (void)w;
+    (void)sum;
+}
+
+static void free_friction(void *data)
+{
+    Friction *friction = data;
+    free(friction->slide);
+    free(friction);
+}
+
+const TermKind friction_energy = {
+    .name = "friction",
+    .valid = valid,
+    .value = value,
+    .gradient = gradient,
+    .entries = entries,
+    .pattern = pattern,
+    .hessian = hessian,
+    .product = product,
+    .remainder = remainder_along,
+    .begin = begin,
+    .end = end,
+    .concave = concave,
+    .free = free_friction,
+    .end_of_step = true,
+};
+
+Status friction_add(System *system, double slip_speed)
+{
+    const Contact *contact = contact_of(system);
+    size_t room =
+        (size_t)system->nodes * (size_t)(contact ? contact->obstacles + 1 : 1);
+    Friction *friction = calloc(1, sizeof *friction);
+    Slide *slide = calloc(room, sizeof *slide);
+    if (friction) {
+        friction->slip_speed = slip_speed;
+        friction->slide = slide;
+    }
+    if (friction && slide &&
+        system_add_term(system, &friction_energy, friction))
+        return STATUS_OK;
+    Status status = friction && slide ? STATUS_TOO_LARGE : STATUS_OUT_OF_MEMORY;
+    free(slide);
+    free(friction);
+    return status;
 }

@@ -1,6 +1,9 @@
 #include "model/plasticity.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#include "model/mass_spring_energy.h"
 
 /* (|e| - Y)_+ */
 static double beyond(SpringLaw law, double e)
@@ -65,4 +68,238 @@ bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
     H[1] = factor * difference * d[0] * d[1];
     H[2] = factor * (across + difference * d[1] * d[1]);
     return negative && (filter == FILTER_CLAMP || filter == FILTER_ABS);
+}
+
+/* ---- the term -------------------------------------------------------- */
+
+Plasticity *plasticity_of(const System *system)
+{
+    Term *term = system_find_term(system, &plastic_energy);
+    return term ? term->data : NULL;
+}
+
+static SpringLaw law_of(const Plasticity *plasticity, int s)
+{
+    return (SpringLaw){plasticity->yield +
+                           plasticity->hardening * plasticity->kappa[s],
+                       1 / (1 + plasticity->hardening)};
+}
+
+/* d = x_i - x_j; returns e = |d|^2/l2 - 1 - ep */
+static double strain_at(const Plasticity *plasticity, const System *system,
+                        const double *x, int s, double d[2])
+{
+    const double *xi = x + 2 * system->e[2 * s];
+    const double *xj = x + 2 * system->e[2 * s + 1];
+    d[0] = xi[0] - xj[0];
+    d[1] = xi[1] - xj[1];
+    return (d[0] * d[0] + d[1] * d[1]) / system->l2[s] - 1 - plasticity->ep[s];
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Plasticity *plasticity = term->data;
+    (void)system;
+    return isfinite(plasticity->yield) && plasticity->yield > 0 &&
+           isfinite(plasticity->hardening) && plasticity->hardening >= 0;
+}
+
+static double value(const Term *term, const Place *at)
+{
+    const Plasticity *plasticity = term->data;
+    const System *system = at->system;
+    double sum = 0;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, at->x, s, d);
+        double kappa = plasticity->kappa[s];
+        sum += system->k[s] * system->l2[s] *
+               (spring_law_value(law_of(plasticity, s), e) +
+                0.5 * plasticity->hardening * kappa * kappa);
+    }
+    return sum;
+}
+
+/* 2 k tau d */
+static void gradient(const Term *term, const Place *at, double w, double *g)
+{
+    const Plasticity *plasticity = term->data;
+    const System *system = at->system;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, at->x, s, d);
+        double factor =
+            w * 2 * system->k[s] * spring_law_slope(law_of(plasticity, s), e);
+        for (int c = 0; c < 2; c++) {
+            g[2 * system->e[2 * s] + c] += factor * d[c];
+            g[2 * system->e[2 * s + 1] + c] -= factor * d[c];
+        }
+    }
+}
+
+/* The filtered Hessian of spring s at x, weighted. */
+static bool hessian_at(const Plasticity *plasticity, const Place *at, double w,
+                       Filter filter, int s, double H[3])
+{
+    const System *system = at->system;
+    double d[2], e = strain_at(plasticity, system, at->x, s, d);
+    return spring_law_hessian(law_of(plasticity, s), d, system->l2[s],
+                              w * system->k[s], e, filter, H);
+}
+
+static int hessian(const Term *term, const Place *at, double w, Filter filter,
+                   const int *slot, double *values)
+{
+    int projected = 0;
+    for (int s = 0; s < at->system->springs; s++) {
+        double H[3];
+        projected += hessian_at(term->data, at, w, filter, s, H);
+        mass_spring_scatter(H, s, slot, values);
+    }
+    return projected;
+}
+
+static void product(const Term *term, const Place *at, double w, Filter filter,
+                    const double *q, double *y)
+{
+    for (int s = 0; s < at->system->springs; s++) {
+        double H[3];
+        hessian_at(term->data, at, w, filter, s, H);
+        mass_spring_multiply(H, at->system->e + 2 * s, q, y);
+    }
+}
+
+/* With D = alpha B + alpha^2 C the remainder of k l2 V is
+ * k l2 (tau alpha^2 C + R_V(e, D)).  Springs that stay elastic all the way have
+ * R_V = D^2/2, a polynomial; the others are noted. */
+static void along(const Term *term, const Place *at, const double *p, double w,
+                  double reach, double q[3])
+{
+    Plasticity *plasticity = term->data;
+    const System *system = at->system;
+    plasticity->live = 0;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, at->x, s, d);
+        const double *pi = p + 2 * system->e[2 * s];
+        const double *pj = p + 2 * system->e[2 * s + 1];
+        double P[2] = {pi[0] - pj[0], pi[1] - pj[1]};
+        double B = 2 * (d[0] * P[0] + d[1] * P[1]) / system->l2[s];
+        double C = (P[0] * P[0] + P[1] * P[1]) / system->l2[s];
+        double stiffness = w * system->k[s] * system->l2[s];
+        SpringLaw law = law_of(plasticity, s);
+        q[0] += stiffness * spring_law_slope(law, e) * C;
+        if (fabs(e) + reach * fabs(B) + reach * reach * C < law.yield) {
+            q[0] += stiffness * 0.5 * B * B;
+            q[1] += stiffness * B * C;
+            q[2] += stiffness * 0.5 * C * C;
+        } else {
+            plasticity->spring[plasticity->live++] = (LiveSpring){s, B, C};
+        }
+    }
+}
+
+static double remainder_along(const Term *term, const Place *at,
+                              const double *p, double w, double alpha)
+{
+    const Plasticity *plasticity = term->data;
+    const System *system = at->system;
+    double sum = 0;
+    (void)p;
+    for (int k = 0; k < plasticity->live; k++) {
+        const LiveSpring *live = &plasticity->spring[k];
+        int s = live->spring;
+        double d[2], e = strain_at(plasticity, system, at->x, s, d);
+        sum += system->k[s] * system->l2[s] *
+               spring_law_remainder(law_of(plasticity, s), e,
+                                    alpha * (live->B + alpha * live->C));
+    }
+    return w * sum;
+}
+
+/* What has flowed stays: ep moves by gamma, the yield strain grows. */
+static bool end(Term *term, System *system, const double *x, const double *v,
+                double h)
+{
+    Plasticity *plasticity = term->data;
+    bool changed = false;
+    (void)v;
+    (void)h;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, x, s, d);
+        double gamma = spring_law_flow(law_of(plasticity, s), e);
+        if (!(gamma > 0) || !(system->k[s] > 0))
+            continue;
+        plasticity->ep[s] += copysign(gamma, e);
+        plasticity->kappa[s] += gamma;
+        term->lost += system->k[s] * system->l2[s] * plasticity->yield * gamma;
+        changed = true;
+    }
+    return changed;
+}
+
+/* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
+static void concave(const Term *term, const Place *at, double w, double *sum)
+{
+    const Plasticity *plasticity = term->data;
+    const System *system = at->system;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, at->x, s, d);
+        double tau = spring_law_slope(law_of(plasticity, s), e);
+        if (!(tau < 0))
+            continue;
+        sum[system->e[2 * s]] -= 4 * w * system->k[s] * tau;
+        sum[system->e[2 * s + 1]] -= 4 * w * system->k[s] * tau;
+    }
+}
+
+static void free_plasticity(void *data)
+{
+    Plasticity *plasticity = data;
+    free(plasticity->ep);
+    free(plasticity->kappa);
+    free(plasticity->spring);
+    free(plasticity);
+}
+
+const TermKind plastic_energy = {
+    .name = "plastic springs",
+    .valid = valid,
+    .value = value,
+    .gradient = gradient,
+    .entries = mass_spring_entries,
+    .pattern = mass_spring_pattern,
+    .hessian = hessian,
+    .product = product,
+    .along = along,
+    .remainder = remainder_along,
+    .end = end,
+    .stiffest = mass_spring_stiffest,
+    .force = mass_spring_force,
+    .concave = concave,
+    .free = free_plasticity,
+    .internal = true,
+    .end_of_step = true,
+};
+
+Status plasticity_set(System *system, double yield, double hardening)
+{
+    size_t springs = (size_t)system->springs + 1;
+    Plasticity *plasticity = calloc(1, sizeof *plasticity);
+    if (!plasticity)
+        return STATUS_OUT_OF_MEMORY;
+    plasticity->yield = yield;
+    plasticity->hardening = hardening;
+    plasticity->ep = calloc(springs, sizeof(double));
+    plasticity->kappa = calloc(springs, sizeof(double));
+    plasticity->spring = calloc(springs, sizeof *plasticity->spring);
+    Term *elastic = system_find_term(system, &mass_spring_energy);
+    if (!plasticity->ep || !plasticity->kappa || !plasticity->spring) {
+        free_plasticity(plasticity);
+        return STATUS_OUT_OF_MEMORY;
+    }
+    if (elastic)
+        *elastic = (Term){.kind = &plastic_energy, .data = plasticity};
+    else if (!system_add_term(system, &plastic_energy, plasticity)) {
+        free_plasticity(plasticity);
+        return STATUS_TOO_LARGE;
+    }
+    return STATUS_OK;
 }

@@ -327,9 +327,10 @@ static long double block_value(const Block *block, const long double x[6])
 
 static Gap block_gap(const Block *block, const double x[6])
 {
-    return contact_gap(
-        &block->obstacle,
-        block->obstacle.kind == OBSTACLE_WALL ? block->obstacle.o : x + 2, x);
+    return contact_gap(&block->obstacle,
+                       block->obstacle.kind == OBSTACLE_WALL ? block->obstacle.o
+                                                             : x + 2,
+                       x, 0);
 }
 
 static Corner block_corner(const Block *block, const double x[6])
@@ -629,7 +630,7 @@ static double block_reach(const Block *block, const double x[6],
     Gap gap = block_gap(block, x);
     bool wall = block->obstacle.kind == OBSTACLE_WALL;
     double P[2] = {p[0] - (wall ? 0 : p[2]), p[1] - (wall ? 0 : p[3])};
-    return contact_reach(&block->obstacle, &gap, P);
+    return contact_reach(&gap, P);
 }
 
 static double block_remainder(const Block *block, const double x[6],

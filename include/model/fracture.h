@@ -1,0 +1,42 @@
+/* fracture.h - springs that break (slides: fracture).
+ *
+ * After a step the springs whose strain E = |d|^2/l2 - 1 exceeds their strength
+ * are candidates.  The most overstretched goes first, and at most one a node a
+ * step: its neighbours get its load and the next step to carry it; else whole
+ * rows would shatter at once.  A broken spring has k = 0; it stays in all lists
+ * and in the pattern of the Hessian.
+ *
+ * Strengths differ by up to a tenth, by a hash of the spring's number: in a
+ * symmetric scene rounding would choose otherwise.
+ */
+#ifndef ELASTO_FRACTURE_H
+#define ELASTO_FRACTURE_H
+
+#include "model/system.h"
+
+typedef struct Fracture {
+    double strength;      /* s_c > 0, a strain */
+    double scatter;       /* part of it by which springs differ */
+    int broken;           /* springs so far, without slits of the scene */
+    int *candidate;       /* [springs] room */
+    double *load;         /* [springs] room: strain over strength */
+    unsigned char *taken; /* [nodes] one of its springs broke in this step */
+} Fracture;
+
+/* No energy of its own; at a step's end it breaks springs and books the energy
+ * that goes with them.  data: Fracture.  It must stand last in the list. */
+extern const TermKind fracture;
+
+/* Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status fracture_add(System *system, double strength, double scatter);
+
+/* The system's, or NULL. */
+Fracture *fracture_of(const System *system);
+
+/* The strain at which spring s breaks. */
+double fracture_strength(const Fracture *fracture, int s);
+
+/* Whether spring s is broken, or was cut before the start. */
+bool spring_is_broken(const System *system, int s);
+
+#endif

@@ -1,0 +1,154 @@
+#include "model/fracture.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+Fracture *fracture_of(const System *system)
+{
+    Term *term = system_find_term(system, &fracture);
+    return term ? term->data : NULL;
+}
+
+bool spring_is_broken(const System *system, int s)
+{
+    return system->k[s] == 0;
+}
+
+/* A number from -1 to 1 for each spring: SplitMix64 (Steele et al. 2014). */
+static double scatter_of(int s)
+{
+    uint64_t z = ((uint64_t)s + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return (double)(z >> 11) * 0x1p-52 - 1;
+}
+
+double fracture_strength(const Fracture *fracture, int s)
+{
+    return fracture->strength * (1 + fracture->scatter * scatter_of(s));
+}
+
+/* Strain over strength. */
+static double load_at(const Fracture *fracture, const System *system,
+                      const double *x, int s)
+{
+    const double *xi = x + 2 * system->e[2 * s];
+    const double *xj = x + 2 * system->e[2 * s + 1];
+    double dx = xi[0] - xj[0], dy = xi[1] - xj[1];
+    double strain = (dx * dx + dy * dy) / system->l2[s] - 1;
+    return strain / fracture_strength(fracture, s);
+}
+
+/* The most loaded candidates first, by a heap; equal loads by number. */
+static bool before(const Fracture *fracture, int a, int b)
+{
+    return fracture->load[a] > fracture->load[b] ||
+           (fracture->load[a] == fracture->load[b] && a < b);
+}
+
+static void sink(Fracture *fracture, int count, int place)
+{
+    int *heap = fracture->candidate, it = heap[place];
+    for (int child; (child = 2 * place + 1) < count; place = child) {
+        if (child + 1 < count && before(fracture, heap[child + 1], heap[child]))
+            child++;
+        if (!before(fracture, heap[child], it))
+            break;
+        heap[place] = heap[child];
+    }
+    heap[place] = it;
+}
+
+/* Collects the candidates; returns how many. */
+static int find_candidates(Fracture *fracture, const System *system,
+                           const double *x)
+{
+    int count = 0;
+    for (int s = 0; s < system->springs; s++) {
+        if (spring_is_broken(system, s))
+            continue;
+        fracture->load[s] = load_at(fracture, system, x, s);
+        if (fracture->load[s] > 1)
+            fracture->candidate[count++] = s;
+    }
+    for (int place = count / 2 - 1; place >= 0; place--)
+        sink(fracture, count, place);
+    return count;
+}
+
+/* Breaks them; the energy that was in them, and in cells that end with them, is
+ * what the potential has less afterwards. */
+static bool end(Term *term, System *system, const double *x, const double *v,
+                double h)
+{
+    Fracture *fracture = term->data;
+    int count = find_candidates(fracture, system, x);
+    (void)v;
+    (void)h;
+    if (count == 0)
+        return false;
+    double energy = system_potential(system, x);
+    memset(fracture->taken, 0, (size_t)system->nodes);
+    while (count > 0) {
+        int s = fracture->candidate[0];
+        unsigned char *i = &fracture->taken[system->e[2 * s]];
+        unsigned char *j = &fracture->taken[system->e[2 * s + 1]];
+        fracture->candidate[0] = fracture->candidate[--count];
+        sink(fracture, count, 0);
+        if (*i || *j)
+            continue;
+        *i = *j = 1;
+        system->k[s] = 0;
+        fracture->broken++;
+    }
+    term->lost += energy - system_potential(system, x);
+    return true;
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Fracture *fracture = term->data;
+    (void)system;
+    return isfinite(fracture->strength) && fracture->strength > 0 &&
+           fracture->scatter >= 0 && fracture->scatter < 1;
+}
+
+static void free_fracture(void *data)
+{
+    Fracture *fracture = data;
+    free(fracture->candidate);
+    free(fracture->load);
+    free(fracture->taken);
+    free(fracture);
+}
+
+const TermKind fracture = {
+    .name = "fracture",
+    .valid = valid,
+    .end = end,
+    .free = free_fracture,
+    .internal = true,
+};
+
+Status fracture_add(System *system, double strength, double scatter)
+{
+    size_t springs = (size_t)system->springs + 1;
+    Fracture *data = calloc(1, sizeof *data);
+    if (!data)
+        return STATUS_OUT_OF_MEMORY;
+    data->strength = strength;
+    data->scatter = scatter;
+    data->candidate = calloc(springs, sizeof *data->candidate);
+    data->load = calloc(springs, sizeof *data->load);
+    data->taken = calloc((size_t)system->nodes, sizeof *data->taken);
+    Status status = STATUS_OUT_OF_MEMORY;
+    if (data->candidate && data->load && data->taken)
+        status = system_add_term(system, &fracture, data) ? STATUS_OK
+                                                          : STATUS_TOO_LARGE;
+    if (status)
+        free_fracture(data);
+    return status;
+}
