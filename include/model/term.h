@@ -32,7 +32,9 @@ typedef struct TermKind {
     /* Whether its numbers are finite and in their ranges; NULL: always. */
     bool (*valid)(const Term *term, const System *system);
 
-    /* P(x), J.  Where averaged: along the way from x_n, 0 for u = 0. */
+    /* P(x), J.  Where averaged: along the way from x_n, 0 for u = 0.  NULL: the
+     * term has no energy, only a begin or an end, and none of the functions of
+     * one. */
     double (*value)(const Term *term, const Place *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1

@@ -93,8 +93,9 @@ static bool spring_is_valid(const System *system, int s)
 {
     int i = system->e[2 * s], j = system->e[2 * s + 1];
     return i >= 0 && i < system->nodes && j >= 0 && j < system->nodes &&
-           i != j && is_positive(system->l2[s]) && is_positive(system->k[s]) &&
-           is_positive(system->k[s] / system->l2[s]);
+           i != j && is_positive(system->l2[s]) &&
+           (system->k[s] == 0 || (is_positive(system->k[s]) &&
+                                  is_positive(system->k[s] / system->l2[s])));
 }
 
 /* At x, at rest since the start of a step. */
@@ -149,7 +150,8 @@ double system_potential(const System *system, const double *x)
     Place at = place_at(system, x);
     double sum = 0;
     for (int t = 0; t < system->terms; t++)
-        sum += system->term[t].kind->value(&system->term[t], &at);
+        if (system->term[t].kind->value)
+            sum += system->term[t].kind->value(&system->term[t], &at);
     return sum;
 }
 
@@ -176,7 +178,8 @@ void system_acceleration(const System *system, const double *x, double *a)
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
     for (int t = 0; t < system->terms; t++)
-        system->term[t].kind->gradient(&system->term[t], &at, -1, a);
+        if (system->term[t].kind->value)
+            system->term[t].kind->gradient(&system->term[t], &at, -1, a);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] /= system->m[i / 2];
     if (system_has_gravity(system))

@@ -8,7 +8,7 @@
 const TermKind *incremental_potential_kind(const IncrementalPotential *E, int t)
 {
     const TermKind *kind = E->system->term[t].kind;
-    return E->averaged ? kind->averaged : kind;
+    return E->averaged && kind->value ? kind->averaged : kind;
 }
 
 static Place place_of(const IncrementalPotential *E, const double *u,
@@ -24,7 +24,9 @@ double incremental_potential_value(const IncrementalPotential *E,
     Place at = place_of(E, u, x);
     double sum = 0;
     for (int t = 0; t < system->terms; t++)
-        sum += incremental_potential_kind(E, t)->value(&system->term[t], &at);
+        if (system->term[t].kind->value)
+            sum +=
+                incremental_potential_kind(E, t)->value(&system->term[t], &at);
     return inertia_energy_value(system->nodes, u, E->u_tilde, system->m) +
            E->weight * sum;
 }
@@ -37,7 +39,8 @@ double incremental_potential_scale(const IncrementalPotential *E,
     Place at = place_of(E, u, x);
     double sum = 0;
     for (int t = 0; t < system->terms; t++)
-        sum += fabs(system->term[t].kind->value(&system->term[t], &at));
+        if (system->term[t].kind->value)
+            sum += fabs(system->term[t].kind->value(&system->term[t], &at));
     return inertia_energy_value(system->nodes, u, E->u_tilde, system->m) +
            E->weight * sum;
 }
@@ -51,8 +54,9 @@ void incremental_potential_gradient(const IncrementalPotential *E,
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
     for (int t = 0; t < system->terms; t++)
-        incremental_potential_kind(E, t)->gradient(&system->term[t], &at,
-                                                   E->weight, g);
+        if (system->term[t].kind->value)
+            incremental_potential_kind(E, t)->gradient(&system->term[t], &at,
+                                                       E->weight, g);
     system_clear_pinned(system, g);
 }
 
@@ -61,7 +65,8 @@ static Status create_triplets(const System *system, Triplets *triplets)
 {
     long long count = 2LL * system->nodes;
     for (int t = 0; t < system->terms; t++)
-        count += system->term[t].kind->entries(&system->term[t], system);
+        if (system->term[t].kind->value)
+            count += system->term[t].kind->entries(&system->term[t], system);
     Status status = triplets_create(2 * system->nodes, count, triplets);
     if (status)
         return status;
@@ -71,7 +76,8 @@ static Status create_triplets(const System *system, Triplets *triplets)
         triplets_add(triplets, 2 * place + 1, 2 * place + 1);
     }
     for (int t = 0; t < system->terms; t++)
-        system->term[t].kind->pattern(&system->term[t], system, triplets);
+        if (system->term[t].kind->value)
+            system->term[t].kind->pattern(&system->term[t], system, triplets);
     return STATUS_OK;
 }
 
@@ -124,6 +130,8 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     for (int t = 0; t < system->terms; t++) {
         const Term *term = &system->term[t];
         const TermKind *kind = incremental_potential_kind(E, t);
+        if (!kind->value)
+            continue;
         projected +=
             kind->hessian(term, &place, E->weight, filter, slot, A->value);
         slot += kind->entries(term, system);
@@ -140,8 +148,9 @@ void incremental_potential_product(const Iterate *at, Filter filter,
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
     for (int t = 0; t < system->terms; t++)
-        incremental_potential_kind(E, t)->product(&system->term[t], &place,
-                                                  E->weight, filter, q, y);
+        if (system->term[t].kind->value)
+            incremental_potential_kind(E, t)->product(&system->term[t], &place,
+                                                      E->weight, filter, q, y);
     system_clear_pinned(system, y);
 }
 
@@ -225,6 +234,8 @@ bool incremental_potential_is_convex(const Iterate *at, double *sum)
         sum[i] = 0;
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = incremental_potential_kind(&at->E, t);
+        if (!kind->value)
+            continue;
         if (!kind->concave)
             return false;
         kind->concave(&system->term[t], &place, at->E.weight, sum);

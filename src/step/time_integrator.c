@@ -60,7 +60,7 @@ const Term *integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if ((method->averaged && !kind->averaged) ||
+        if ((method->averaged && kind->value && !kind->averaged) ||
             (kind->end_of_step && !method->at_end))
             return &system->term[t];
     }
