@@ -12,10 +12,11 @@
 enum { SQUARE_MESH_MAX_SEGMENTS = 4096 };
 
 typedef struct SquareMesh {
-    int segments; /* segments per side */
+    int segments; /* segments per side; of a beam: columns of cells */
+    int rows;     /* of cells */
     double side;  /* m */
-    int nodes;    /* n = (segments+1)^2 */
-    int springs;  /* 2 segments (segments+1) + 2 segments^2 */
+    int nodes;    /* n = (segments+1) (rows+1) */
+    int springs;  /* in a square 2 segments (segments+1) + 2 segments^2 */
     double *x;    /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
     int *e;       /* [2 springs] nodes of each spring */
     int *order;   /* [n] place of node i in the elimination order */
@@ -27,6 +28,11 @@ typedef struct SquareMesh {
  *   mesh      out; free it with square_mesh_free, also after a failure
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status square_mesh_create(int segments, double side, SquareMesh *mesh);
+
+/* The same with another number of rows of cells: a beam of squares.  Springs
+ * come in the same order; node i*(rows+1)+j is column i, row j. */
+Status square_mesh_create_beam(int columns, int rows, double side,
+                               SquareMesh *mesh);
 
 /* Accepts NULL and a zeroed struct. */
 void square_mesh_free(SquareMesh *mesh);

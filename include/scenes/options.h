@@ -11,33 +11,48 @@
 
 struct Scene;
 
+enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
+
 typedef struct Options {
     const struct Scene *scene;
     int segments;
-    double side;                        /* m */
-    double density;                     /* kg/m^2 */
-    double stiffness;                   /* J/m^2 */
-    double stretch;                     /* initial horizontal factor */
-    double turn;                        /* degrees, anticlockwise, after it */
-    double at[2];                       /* m, then moved by this */
-    double velocity[2];                 /* m/s, of every node at the start */
-    double gravity;                     /* m/s^2, downwards */
-    const char *pin;                    /* which nodes never move, or NULL */
-    double timestep;                    /* s */
-    double tolerance;                   /* m/s */
+    double side;        /* m */
+    double density;     /* kg/m^2 */
+    double stiffness;   /* J/m^2 */
+    double stretch;     /* initial horizontal factor */
+    double turn;        /* degrees, anticlockwise, after it */
+    double at[2];       /* m, then moved by this */
+    double velocity[2]; /* m/s, of every node at the start */
+    double gravity;     /* m/s^2, downwards */
+    const char *pin;    /* which nodes never move, or NULL */
+    int grounds, balls; /* obstacles */
+    double ground[OPTIONS_MAX_GROUNDS][4]; /* normal, m: a point of it */
+    double ball[OPTIONS_MAX_BALLS][3];     /* m, centre and radius */
+    double barrier[2]; /* d_hat in m, kappa in J/m^3; 0: side/100, 4 k */
+    double friction;   /* mu of the obstacles */
+    double slip_speed; /* m/s, eps_v: above it a contact slides */
+    int cells;         /* 1: they cannot turn over */
+    double yield;      /* strain at which springs flow; 0: never */
+    double hardening;  /* of the yield strain for flowing by 1 */
+    double tear;       /* strain at which springs break; 0: never */
+    double timestep;   /* s */
+    double tolerance;  /* m/s */
     const IntegratorMethod *integrator; /* NULL: the scene's choice */
     Solver solver;
     Filter filter;
     LineSearch line_search;
-    double start[2];    /* m, where scenes with a start begin */
-    long steps;         /* -1: until closed, or 100 without a screen */
-    bool headless;      /* no window even where there is a screen */
-    const char *frames; /* folder for PNG frames, or NULL */
-    const char *states; /* file for states, "-" for stdout, or NULL */
-    const char *log;    /* file for the Newton log, or NULL */
-    const char *film;   /* file for a film of all drawn steps, or NULL */
-    const char *script; /* file of commands, or NULL */
-    bool paused;        /* at the start */
+    double start[2]; /* m, where scenes with a start begin */
+    double height;   /* m, of a beam; 0: a square.  Only scenes set this */
+    double cell_stiffness; /* and these: k_c over k; */
+    bool moving_pins;      /* whether pins are moved */
+    long steps;            /* -1: until closed, or 100 without a screen */
+    bool headless;         /* no window even where there is a screen */
+    const char *frames;    /* folder for PNG frames, or NULL */
+    const char *states;    /* file for states, "-" for stdout, or NULL */
+    const char *log;       /* file for the Newton log, or NULL */
+    const char *film;      /* file for a film of all drawn steps, or NULL */
+    const char *script;    /* file of commands, or NULL */
+    bool paused;           /* at the start */
     bool fullscreen;
     int size[2];  /* pixels of window or frames; 0: the usual ones */
     double speed; /* steps a frame; 0: the scene's */

@@ -3,16 +3,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* x_(i,j) = (-side/2 + i step, -side/2 + j step), step = side/segments */
+/* x_(i,j) = (-side/2 + i step, -high/2 + j step), step = side/segments */
 static void square_mesh_nodes(SquareMesh *mesh)
 {
-    int row = mesh->segments + 1;
+    int row = mesh->rows + 1;
     double step = mesh->side / mesh->segments;
-    for (int i = 0; i < row; i++)
+    double high = mesh->rows == mesh->segments ? mesh->side : mesh->rows * step;
+    for (int i = 0; i <= mesh->segments; i++)
         for (int j = 0; j < row; j++) {
             double *x = mesh->x + 2 * (i * row + j);
             x[0] = -mesh->side / 2 + i * step;
-            x[1] = -mesh->side / 2 + j * step;
+            x[1] = -high / 2 + j * step;
         }
 }
 
@@ -27,16 +28,16 @@ static int *square_mesh_spring(int *e, int a, int b)
 /* Springs in the order of the slide: horizontal, vertical, diagonals. */
 static void square_mesh_springs(SquareMesh *mesh)
 {
-    int n_seg = mesh->segments, row = n_seg + 1;
+    int n_seg = mesh->segments, rows = mesh->rows, row = rows + 1;
     int *e = mesh->e;
     for (int i = 0; i < n_seg; i++)
-        for (int j = 0; j <= n_seg; j++)
+        for (int j = 0; j <= rows; j++)
             e = square_mesh_spring(e, i * row + j, (i + 1) * row + j);
     for (int i = 0; i <= n_seg; i++)
-        for (int j = 0; j < n_seg; j++)
+        for (int j = 0; j < rows; j++)
             e = square_mesh_spring(e, i * row + j, i * row + j + 1);
     for (int i = 0; i < n_seg; i++)
-        for (int j = 0; j < n_seg; j++) {
+        for (int j = 0; j < rows; j++) {
             int a = i * row + j, b = (i + 1) * row + j;
             e = square_mesh_spring(e, a, b + 1);
             e = square_mesh_spring(e, b, a + 1);
@@ -45,13 +46,21 @@ static void square_mesh_springs(SquareMesh *mesh)
 
 Status square_mesh_create(int segments, double side, SquareMesh *mesh)
 {
-    *mesh = (SquareMesh){.segments = segments, .side = side};
-    if (segments < 1 || segments > SQUARE_MESH_MAX_SEGMENTS ||
-        !isfinite(side) || !(side > 0))
+    return square_mesh_create_beam(segments, segments, side, mesh);
+}
+
+static void order_grid(int columns, int rows, int *order);
+
+Status square_mesh_create_beam(int columns, int rows, double side,
+                               SquareMesh *mesh)
+{
+    *mesh = (SquareMesh){.segments = columns, .rows = rows, .side = side};
+    if (columns < 1 || columns > SQUARE_MESH_MAX_SEGMENTS || rows < 1 ||
+        rows > SQUARE_MESH_MAX_SEGMENTS || !isfinite(side) || !(side > 0))
         return STATUS_INVALID_INPUT;
-    int row = segments + 1;
-    mesh->nodes = row * row;
-    mesh->springs = 2 * segments * row + 2 * segments * segments;
+    mesh->nodes = (columns + 1) * (rows + 1);
+    mesh->springs =
+        columns * (rows + 1) + rows * (columns + 1) + 2 * columns * rows;
     size_t n = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     mesh->x = malloc(2 * n * sizeof *mesh->x);
     mesh->e = malloc(2 * springs * sizeof *mesh->e);
@@ -60,7 +69,7 @@ Status square_mesh_create(int segments, double side, SquareMesh *mesh)
         return STATUS_OUT_OF_MEMORY;
     square_mesh_nodes(mesh);
     square_mesh_springs(mesh);
-    square_mesh_order(segments, mesh->order);
+    order_grid(columns, rows, mesh->order);
     return STATUS_OK;
 }
 
@@ -112,8 +121,12 @@ static int dissect_grid(GridPart part, int row, int *order, int next)
     return next;
 }
 
+static void order_grid(int columns, int rows, int *order)
+{
+    dissect_grid((GridPart){0, columns + 1, 0, rows + 1}, rows + 1, order, 0);
+}
+
 void square_mesh_order(int segments, int *order)
 {
-    int row = segments + 1;
-    dissect_grid((GridPart){0, row, 0, row}, row, order, 0);
+    order_grid(segments, segments, order);
 }

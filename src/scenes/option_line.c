@@ -1,3 +1,4 @@
+#include "scenes/body.h"
 #include "scenes/option_row.h"
 #include "scenes/pins.h"
 
@@ -195,7 +196,16 @@ static Status find_scene(const char *word, Options *options,
 /* What the first look at a line finds. */
 typedef struct Line {
     const char *list[OPTION_MOST]; /* values to be compared, or NULL */
+    bool given[OPTION_MOST];       /* options that the line has */
 } Line;
+
+static bool is_given(const Line *line, const char *name)
+{
+    for (int i = 0; option_rows[i].name; i++)
+        if (strcmp(option_rows[i].name, name) == 0)
+            return line->given[i];
+    return false;
+}
 
 static int count_values(const char *list)
 {
@@ -227,6 +237,7 @@ static Status read_line(int argc, char **argv, bool compare, Options *options,
     for (; !status && word.text; status = next_word(&words, &word, complaint)) {
         if (word.row) {
             int i = (int)(word.row - option_rows);
+            line->given[i] = true;
             if (compare && word.row->compared)
                 line->list[i] = strchr(word.text, ',') ? word.text : NULL;
         } else if (options->scene) {
@@ -284,6 +295,11 @@ static Status apply_line(int argc, char **argv, const Line *line,
 {
     Words words = {argc, argv, 1, false};
     Word word;
+    const int none = 0;
+    for (int i = 0; option_rows[i].name; i++) /* not on top of the scene's */
+        if (line->given[i] && option_rows[i].times > 1)
+            memcpy((char *)options + option_rows[i].counter, &none,
+                   sizeof none);
     Status status = next_word(&words, &word, complaint);
     for (; !status && word.text; status = next_word(&words, &word, complaint)) {
         if (!word.row)
@@ -305,13 +321,55 @@ static Status apply_line(int argc, char **argv, const Line *line,
 /* Which numbers --pin may name depends on --segments. */
 static Status check_pins(const Options *options, const Complaint *complaint)
 {
-    if (!options->pin || !pins_read(options->pin, options->segments, NULL))
+    int columns = options->segments, rows = body_rows(options);
+    if (!options->pin || !pins_read(options->pin, columns, rows, NULL))
         return STATUS_OK;
-    int n = options->segments + 1;
     return complain(complaint,
                     "--pin: '%s' is no list of node numbers from 0 to %d, "
                     "or of: " PINS_WORDS,
-                    typed(options->pin).text, n * n - 1);
+                    typed(options->pin).text, (columns + 1) * (rows + 1) - 1);
+}
+
+/* Options that say something about what the line does not have. */
+static Status check_meaning(const Line *line, const Options *options,
+                            const Complaint *complaint)
+{
+    static const char *const about_obstacles[] = {"barrier", "friction",
+                                                  "slip-speed"};
+    for (int i = 0; i < 3; i++)
+        if (is_given(line, about_obstacles[i]) && options->grounds == 0 &&
+            options->balls == 0)
+            return complain(complaint,
+                            "--%s: there is nothing to touch; --ground or "
+                            "--ball put it there",
+                            about_obstacles[i]);
+    if (is_given(line, "hardening") && !(options->yield > 0))
+        return complain(complaint, "--hardening: the springs do not flow; "
+                                   "--yield lets them");
+    const char *end = body_needs_end_of_step(options);
+    if (end && options->integrator && !options->integrator->at_end)
+        return complain(complaint,
+                        "--integrator: '%s' has no %s; of all methods only "
+                        "backward-euler has",
+                        options->integrator->name, end);
+    return STATUS_OK;
+}
+
+/* What depends on several options: the projection, unless it was chosen, and
+ * where the body begins. */
+static Status check_body(const Line *line, Options *options,
+                         const Complaint *complaint)
+{
+    if (!(options->scene->needs & NEEDS_BODY))
+        return STATUS_OK;
+    Status status = check_pins(options, complaint);
+    if (!status)
+        status = check_meaning(line, options, complaint);
+    if (status)
+        return status;
+    if (options->cells && !is_given(line, "filter"))
+        options->filter = FILTER_ON_DEMAND;
+    return body_check(options, complaint->text, complaint->size);
 }
 
 /* Options of one pane; lists are read as such or refused. */
@@ -329,7 +387,7 @@ static Status parse_line(int argc, char **argv, int pane, bool compare,
     if (options->scene->defaults)
         options->scene->defaults(options);
     status = apply_line(argc, argv, &line, chosen, options, complaint);
-    return status ? status : check_pins(options, complaint);
+    return status ? status : check_body(&line, options, complaint);
 }
 
 Status options_parse(int argc, char **argv, Options *options, char *message,

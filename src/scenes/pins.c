@@ -5,17 +5,18 @@
 
 /* Column and row of a node, from the lower left. */
 typedef struct Cell {
-    int column, row, last; /* 0 ... last */
+    int column, row;
+    int right, top; /* the last of each */
 } Cell;
 
 static bool is_top_corner(Cell at)
 {
-    return at.row == at.last && (at.column == 0 || at.column == at.last);
+    return at.row == at.top && (at.column == 0 || at.column == at.right);
 }
 
 static bool is_top(Cell at)
 {
-    return at.row == at.last;
+    return at.row == at.top;
 }
 
 static bool is_bottom(Cell at)
@@ -30,7 +31,7 @@ static bool is_left(Cell at)
 
 static bool is_right(Cell at)
 {
-    return at.column == at.last;
+    return at.column == at.right;
 }
 
 static const struct PinWord {
@@ -47,16 +48,17 @@ static const struct PinWord {
 enum { PIN_WORDS = sizeof pin_words / sizeof *pin_words };
 
 /* Pins the nodes that the word names; false: it is no word. */
-static bool pin_word(const char *text, size_t length, int segments,
+static bool pin_word(const char *text, size_t length, int columns, int rows,
                      unsigned char *pinned)
 {
     for (int i = 0; i < PIN_WORDS; i++) {
         if (strlen(pin_words[i].word) != length ||
             strncmp(pin_words[i].word, text, length) != 0)
             continue;
-        int n = segments + 1;
-        for (int node = 0; pinned && node < n * n; node++)
-            if (pin_words[i].holds((Cell){node / n, node % n, segments}))
+        int row = rows + 1;
+        for (int node = 0; pinned && node < row * (columns + 1); node++)
+            if (pin_words[i].holds(
+                    (Cell){node / row, node % row, columns, rows}))
                 pinned[node] = 1;
         return true;
     }
@@ -64,10 +66,10 @@ static bool pin_word(const char *text, size_t length, int segments,
 }
 
 /* Pins the node of this number; false: it is no number of a node. */
-static bool pin_number(const char *text, size_t length, int segments,
+static bool pin_number(const char *text, size_t length, int columns, int rows,
                        unsigned char *pinned)
 {
-    long long number = 0, nodes = (segments + 1LL) * (segments + 1LL);
+    long long number = 0, nodes = (columns + 1LL) * (rows + 1LL);
     if (length == 0)
         return false;
     for (size_t i = 0; i < length; i++) {
@@ -82,12 +84,12 @@ static bool pin_number(const char *text, size_t length, int segments,
     return true;
 }
 
-Status pins_read(const char *text, int segments, unsigned char *pinned)
+Status pins_read(const char *text, int columns, int rows, unsigned char *pinned)
 {
     for (;; text++) {
         size_t length = strcspn(text, ",");
-        if (!pin_word(text, length, segments, pinned) &&
-            !pin_number(text, length, segments, pinned))
+        if (!pin_word(text, length, columns, rows, pinned) &&
+            !pin_number(text, length, columns, rows, pinned))
             return STATUS_INVALID_INPUT;
         text += length;
         if (*text == '\0')

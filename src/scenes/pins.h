@@ -9,10 +9,11 @@
 #define PINS_WORDS "top-corners, top, bottom, left, right"
 
 /* Reads node numbers and words, separated by commas.
- *   segments  in, of the square, whose nodes are numbered column by column
- *   pinned    [(segments+1)^2] in/out: 1 for each that is named; NULL: the text
- *             is only checked
+ *   columns, rows  in, of cells; nodes are numbered column by column
+ *   pinned  [(columns+1) (rows+1)] in/out: 1 for each that is named; NULL: the
+ *           text is only checked
  * Returns OK or INVALID_INPUT. */
-Status pins_read(const char *text, int segments, unsigned char *pinned);
+Status pins_read(const char *text, int columns, int rows,
+                 unsigned char *pinned);
 
 #endif

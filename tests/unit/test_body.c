@@ -174,7 +174,7 @@ static void the_words_of_pin_name_their_nodes(void **unused)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char pinned[9] = {0};
-        CHECK_STATUS(pins_read(cases[i].text, 2, pinned), STATUS_OK);
+        CHECK_STATUS(pins_read(cases[i].text, 2, 2, pinned), STATUS_OK);
         for (int node = 0; node < 9; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }
@@ -187,7 +187,7 @@ static void the_words_of_pin_name_their_nodes(void **unused)
         "1e0", "4294967296", "99999999999999999999999999999999",
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        CHECK_STATUS(pins_read(bad[i], 2, NULL), STATUS_INVALID_INPUT);
+        CHECK_STATUS(pins_read(bad[i], 2, 2, NULL), STATUS_INVALID_INPUT);
 }
 
 static void pins_are_refused_in_one_line(void **unused)
