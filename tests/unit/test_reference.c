@@ -4,12 +4,11 @@
 #include "testing.h"
 
 #include <math.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 400 };
+enum { ROWS = 1024 };
 
 /* One file of Newton updates, and our own beside it. */
 typedef struct Updates {
