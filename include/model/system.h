@@ -20,9 +20,10 @@ struct System {
     int *e;                /* [2 springs] nodes of each spring */
     double *m;             /* [n] kg, > 0 */
     double *l2;            /* [springs] m^2, rest length squared, > 0 */
-    double *k;             /* [springs] J/m^2, stiffness, > 0; 0: it is broken */
+    double *k;             /* [springs] J/m^2, stiffness, > 0 */
     double gravity[2];     /* m/s^2, acceleration of every node */
     unsigned char *pinned; /* [n] 1: the node never moves; NULL: no pins */
+    bool breaks;           /* springs may be broken: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */

@@ -150,5 +150,7 @@ Status fracture_add(System *system, double strength, double scatter)
                                                           : STATUS_TOO_LARGE;
     if (status)
         free_fracture(data);
+    else
+        system->breaks = true;
     return status;
 }
