@@ -39,8 +39,13 @@ int landscape_switches(const Simulation *simulation,
                        Switch out[SCENE_MAX_SWITCHES]);
 void landscape_flip(Simulation *simulation, int number);
 
-/* Whether the Hessian of E, not projected, is positive definite there: then
+/* Whether the Hessian of the parts of E on the map, not projected, is positive definite there: then
  * Newton's direction is downhill with and without projection. */
 bool landscape_is_convex(const Simulation *simulation, double x, double y);
+
+/* p = -H^-1 g from the iterate with this filter, m, whatever the run's own
+ * filter is; where both parts are on the map.  Returns grad E . p, J s^2. */
+double landscape_direction(const Simulation *simulation, Filter filter,
+                           double p[2]);
 
 #endif

@@ -191,21 +191,44 @@ double landscape_value(const Simulation *simulation, double x, double y)
     return incremental_potential_value(&newton->at.E, u, at);
 }
 
-/* Positive trace and determinant of m I + h^2 sum of H over the springs. */
-bool landscape_is_convex(const Simulation *simulation, double x, double y)
+/* The Hessian of the parts that are on the map, springs filtered: H_xx, H_xy,
+ * H_yy. */
+static void node_hessian(const Simulation *simulation, Filter filter, double x,
+                         double y, double H[3])
 {
     const System *system = &simulation->system;
     const double *pins = simulation->run[0].x;
-    double weight = simulation->run[0].newton->at.E.weight;
-    double a = system->m[0], b = 0, c = system->m[0];
-    for (int s = 0; s < system->springs; s++) {
+    double weight = simulation->run[0].h * simulation->run[0].h;
+    unsigned parts = simulation->exhibit.parts;
+    H[0] = H[2] = parts & PART_INERTIA ? system->m[0] : 0;
+    H[1] = 0;
+    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {x - pin[0], y - pin[1]};
-        double H[3];
-        spring_hessian(d, system->l2[s], system->k[s], H);
-        a += weight * H[0];
-        b += weight * H[1];
-        c += weight * H[2];
+        double own[3];
+        spring_hessian_filtered(d, system->l2[s], system->k[s], filter, own);
+        for (int i = 0; i < 3; i++)
+            H[i] += weight * own[i];
     }
-    return a + c > 0 && a * c - b * b > 0;
+}
+
+/* Positive trace and determinant. */
+bool landscape_is_convex(const Simulation *simulation, double x, double y)
+{
+    double H[3];
+    node_hessian(simulation, FILTER_NONE, x, y, H);
+    return H[0] + H[2] > 0 && H[0] * H[2] - H[1] * H[1] > 0;
+}
+
+/* The gradient is that of the minimisation; the Hessian is made here. */
+double landscape_direction(const Simulation *simulation, Filter filter,
+                           double p[2])
+{
+    const Iterate *at = &simulation->run[0].newton->at;
+    double H[3], determinant;
+    node_hessian(simulation, filter, at->x[0], at->x[1], H);
+    determinant = H[0] * H[2] - H[1] * H[1];
+    p[0] = (H[1] * at->g[1] - H[2] * at->g[0]) / determinant;
+    p[1] = (H[1] * at->g[0] - H[0] * at->g[1]) / determinant;
+    return at->g[0] * p[0] + at->g[1] * p[1];
 }

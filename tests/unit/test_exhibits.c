@@ -298,6 +298,28 @@ static void landscape_is_dragged(void **unused)
     simulation_free(&fresh);
 }
 
+/* Both directions are those that Newton has with that filter. */
+static void landscape_knows_both_directions(void **unused)
+{
+    (void)unused;
+    static const Filter filters[2] = {FILTER_NONE, FILTER_CLAMP};
+    Simulation simulation;
+    simulation_from_line("landscape", NULL, NULL, &simulation);
+    for (int i = 0; i < 2; i++) {
+        double p[2];
+        simulation_set_filter(&simulation, filters[i]);
+        double slope = landscape_direction(&simulation, filters[i], p);
+        CHECK_NEAR(slope, simulation.descent.slope, 1e-12);
+        CHECK_NEAR(p[0], simulation.descent.direction[0], 1e-13);
+        CHECK_NEAR(p[1], simulation.descent.direction[1], 1e-13);
+        CHECK((slope > 0) == (i == 0));
+    }
+    CHECK(!landscape_is_convex(&simulation, 0.1, -0.35));
+    landscape_flip(&simulation, 1);
+    CHECK(landscape_is_convex(&simulation, 0.1, -0.35)); /* inertia alone */
+    simulation_free(&simulation);
+}
+
 /* ---- one spring --------------------------------------------------------- */
 
 static long double spring_P(long double x, long double y)
@@ -551,6 +573,7 @@ int main(void)
         cmocka_unit_test(dial_turns_from_target_to_rest),
         cmocka_unit_test(landscape_has_two_parts),
         cmocka_unit_test(landscape_is_dragged),
+        cmocka_unit_test(landscape_knows_both_directions),
         cmocka_unit_test(spring_facts_are_derivatives),
         cmocka_unit_test(spring_eigenvalues_are_those_of_the_block),
         cmocka_unit_test(spring_with_a_square_root_is_worse),
