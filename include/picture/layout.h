@@ -36,6 +36,7 @@ typedef struct LayoutWish {
     int cards;
     double weight[LAYOUT_CARDS]; /* share of the column's height, > 0 */
     unsigned closed;             /* bit c: card c is closed */
+    unsigned hidden;             /* bit c: card c is not there */
     int large;    /* this card has most of the column; -1: none */
     bool page;    /* the column is one page instead of cards */
     int settings; /* letters: room for name and longest value */

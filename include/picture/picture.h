@@ -15,6 +15,7 @@ typedef struct Stage {
     Camera camera;
     int pane;  /* index in the show */
     bool text; /* there is room for words */
+    double em; /* pixels */
 } Stage;
 
 /* Springs drawn, and those left out because they would be below 2 pixels. */
@@ -38,6 +39,7 @@ typedef struct Picture {
     const char *name;
     const Card *const *cards; /* NULL at the end */
     bool stretched;           /* x and y have scales of their own */
+    bool own_handles;         /* it draws and picks the scene's handles */
     /* The part of the world that fits the stage: left, bottom, right, top. */
     void (*bounds)(const Show *show, int pane, double bounds[4]);
     SpringCount (*draw)(Paper *paper, const Stage *stage, const Show *show);

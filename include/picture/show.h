@@ -15,6 +15,7 @@
 #include "picture/history.h"
 #include "picture/layout.h"
 #include "picture/trail.h"
+#include "scenes/pages.h"
 #include "scenes/simulation.h"
 
 enum {
@@ -105,7 +106,10 @@ typedef enum PickKind {
     PICK_SPRING, /* index: the spring */
     PICK_EDGE,   /* index: 0 left, 1 right edge: sets the stretch */
     PICK_START,  /* the iterate that can be dragged, in curve and landscape */
-    PICK_PLACE   /* any other point of a map or curve: a click starts there */
+    PICK_PLACE,  /* any other point of a map or curve: a click starts there */
+    PICK_HANDLE, /* index: one of the scene's handles, which can be dragged */
+    PICK_SWITCH, /* index: one of its switches */
+    PICK_CELL    /* index: row ENVELOPE_COLUMNS + column of the envelope */
 } PickKind;
 
 typedef struct Pick {
@@ -198,6 +202,7 @@ typedef struct Show {
 
     /* Cards. */
     unsigned closed; /* bit c: the picture's card c is closed */
+    unsigned hidden; /* bit c: it is not there at all */
     int large;       /* the enlarged one; -1: none */
     Page page;
     int help_rows;
@@ -211,6 +216,11 @@ typedef struct Show {
     bool strain; /* springs coloured by strain */
     bool bare;   /* the picture of the slide and nothing else */
     bool arrows; /* p and forces as arrows also while running */
+
+    /* The lecture: the page that is shown, or NULL outside of it. */
+    const LecturePage *lecture;
+    int lecture_number, lecture_count;
+    char lecture_title[48]; /* of the card with its words */
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */

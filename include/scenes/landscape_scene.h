@@ -43,8 +43,8 @@ void landscape_flip(Simulation *simulation, int number);
  * Newton's direction is downhill with and without projection. */
 bool landscape_is_convex(const Simulation *simulation, double x, double y);
 
-/* p = -H^-1 g from the iterate with this filter, m, whatever the run's own
- * filter is; where both parts are on the map.  Returns grad E . p, J s^2. */
+/* p = -H^-1 g from the iterate with this filter, m, for the parts of E on the
+ * map, whatever the run's own filter is.  Returns grad E . p, J s^2. */
 double landscape_direction(const Simulation *simulation, Filter filter,
                            double p[2]);
 

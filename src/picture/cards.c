@@ -169,6 +169,8 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
     for (int i = 0; i < layout->cards; i++) {
         const Card *card = picture->cards[i];
         Box box = layout->card[i];
+        if (box.width < 1)
+            continue; /* hidden */
         bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
         Box inside = draw_frame(paper, box, card, show, closed);
         if (closed || inside.width < 1 || inside.height < 1)

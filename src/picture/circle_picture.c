@@ -2,6 +2,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/kinds.h"
 #include "picture/marks.h"
 
@@ -112,7 +113,8 @@ static void circle_sample(const Simulation *simulation, History *history,
         trail_add(trail, simulation->runs, point);
 }
 
-static const Card *const circle_cards[] = {&card_radius, &card_methods, NULL};
+static const Card *const circle_cards[] = {&card_page, &card_radius,
+                                           &card_methods, NULL};
 
 const Picture circle_picture = {
     .name = "circle",

@@ -22,16 +22,17 @@
 #define COLOUR_BAR     0xffccd6eau /* a step in the time line */
 
 /* The slides' letters, the same wherever they stand. */
-#define COLOUR_X       0xff0000ffu /* x: positions, springs; as on the slides */
-#define COLOUR_X_TILDE 0xff8e3fb0u /* where inertia alone leads */
-#define COLOUR_P       0xffc96a00u /* the search direction, and its model */
-#define COLOUR_ALPHA   0xff00796bu /* step lengths */
-#define COLOUR_PROJECT 0xffd3156bu /* springs whose block was changed */
-#define COLOUR_GHOST   0xffb08d57u /* the outcome with other settings */
-#define COLOUR_HAND    0xff2e7d32u /* what the mouse holds */
-#define COLOUR_FORCE   0xff9a5b00u /* contact forces */
-#define COLOUR_SOLID   0xffe9e6e0u /* walls, balls */
-#define COLOUR_EDGE    0xff8b8578u /* their outline */
+#define COLOUR_X        0xff0000ffu /* x: positions, springs; as on the slides */
+#define COLOUR_X_TILDE  0xff8e3fb0u /* where inertia alone leads */
+#define COLOUR_P        0xffc96a00u /* the search direction, and its model */
+#define COLOUR_ALPHA    0xff00796bu /* step lengths */
+#define COLOUR_PROJECT  0xffd3156bu /* springs whose block was changed */
+#define COLOUR_GHOST    0xffb08d57u /* the outcome with other settings */
+#define COLOUR_HAND     0xff2e7d32u /* what the mouse holds */
+#define COLOUR_VELOCITY 0xff117733u /* v of one mass */
+#define COLOUR_FORCE    0xff9a5b00u /* contact forces */
+#define COLOUR_SOLID    0xffe9e6e0u /* walls, balls */
+#define COLOUR_EDGE     0xff8b8578u /* their outline */
 
 /* Strain. */
 #define COLOUR_STRETCH  0xffd55e00u

@@ -3,6 +3,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/kinds.h"
 #include "picture/marks.h"
 
@@ -183,7 +184,7 @@ static Pick curve_pick(const Show *show, const Stage *stage, double x, double y)
     return pick;
 }
 
-static const Card *const curve_cards[] = {&card_listing, &card_line,
+static const Card *const curve_cards[] = {&card_page, &card_listing, &card_line,
                                           &card_residual, NULL};
 
 const Picture curve_picture = {

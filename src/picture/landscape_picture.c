@@ -3,6 +3,8 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
+#include "picture/handles.h"
 #include "picture/kinds.h"
 #include "picture/marks.h"
 #include "scenes/landscape_scene.h"
@@ -16,7 +18,7 @@ static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-static void landscape_bounds(const Show *show, int pane, double bounds[4])
+void landscape_bounds(const Show *show, int pane, double bounds[4])
 {
     (void)show;
     (void)pane;
@@ -76,6 +78,21 @@ static void draw_cell(Paper *paper, const Plot *plot, const double corner[4][3],
     }
 }
 
+/* With a long step elasticity is large: the levels grow with h^2 then. */
+static double level_factor(const Simulation *simulation)
+{
+    double h = simulation->run[0].h / 0.2;
+    bool elastic = (simulation->exhibit.parts & PART_ELASTICITY) != 0;
+    return elastic && h > 1 ? h * h : 1;
+}
+
+/* E on the map: the parts that are switched on, over the factor. */
+static double map_value(const Simulation *simulation, double x, double y)
+{
+    return landscape_part_value(simulation, simulation->exhibit.parts, x, y) /
+           level_factor(simulation);
+}
+
 /* All levels in one cell. */
 static void draw_levels(Paper *paper, const Plot *plot,
                         const double corner[4][3])
@@ -96,8 +113,8 @@ static void draw_contours(Paper *paper, const Plot *plot,
     double E[MAP_CELLS + 1][MAP_CELLS + 1];
     for (int i = 0; i <= MAP_CELLS; i++)
         for (int j = 0; j <= MAP_CELLS; j++)
-            E[i][j] = landscape_value(simulation, map_grid(&plot->x, i),
-                                      map_grid(&plot->y, j));
+            E[i][j] = map_value(simulation, map_grid(&plot->x, i),
+                                map_grid(&plot->y, j));
     for (int i = 0; i < MAP_CELLS; i++)
         for (int j = 0; j < MAP_CELLS; j++) {
             double x = map_grid(&plot->x, i), right = map_grid(&plot->x, i + 1);
@@ -116,7 +133,7 @@ static void draw_level_number(Paper *paper, const Plot *plot, double x,
 {
     char text[16];
     double at[2];
-    snprintf(text, sizeof text, "%g", level);
+    snprintf(text, sizeof text, "%.3g", level);
     plot_place(plot, x, y, at);
     int width = paper_width(paper, FACE_REGULAR, 0.82, text);
     int height = paper_pixels(paper, 1.05);
@@ -134,14 +151,15 @@ static void draw_level_numbers(Paper *paper, const Plot *plot,
 {
     double unit = (plot->x.high - plot->x.low) / plot->box.width * paper->unit;
     double step = x1 > x0 ? unit : -unit, last = x0;
-    double before = landscape_value(simulation, x0, y);
+    double before = map_value(simulation, x0, y);
+    double factor = level_factor(simulation);
     int count = (int)(fabs(x1 - x0) / unit) - MAP_NUMBER_ROOM;
     for (int i = 1; i <= count; i++) {
-        double x = x0 + i * step, E = landscape_value(simulation, x, y);
+        double x = x0 + i * step, E = map_value(simulation, x, y);
         for (int k = 0; k < MAP_LEVELS; k++)
             if ((before < map_levels[k]) != (E < map_levels[k]) &&
                 fabs(x - last) >= MAP_LABEL_ROOM * unit) {
-                draw_level_number(paper, plot, x, y, map_levels[k]);
+                draw_level_number(paper, plot, x, y, factor * map_levels[k]);
                 last = x;
             }
         before = E;
@@ -171,7 +189,9 @@ static uint64_t map_key(const Plot *plot, const Simulation *simulation,
     const double axes[4] = {plot->x.low, plot->x.high, plot->y.low,
                             plot->y.high};
     uint64_t key = paper_key(0, axes, sizeof axes);
-    key = paper_key(key, &simulation->options.timestep, sizeof(double));
+    key = paper_key(key, &simulation->run[0].h, sizeof(double));
+    key = paper_key(key, &simulation->exhibit.parts, sizeof(unsigned));
+    key = paper_key(key, simulation->exhibit.target, 2 * sizeof(double));
     key = paper_key(key, system->k, s * sizeof(double));
     key = paper_key(key, system->l2, s * sizeof(double));
     key = paper_key(key, system->m, n * sizeof(double));
@@ -243,12 +263,60 @@ static void draw_updates(Paper *paper, const Plot *plot, const Descent *descent)
     }
 }
 
+/* A direction with words at its tip. */
+static void draw_named_direction(Paper *paper, const Plot *plot,
+                                 const double from[2], const double p[2],
+                                 Colour colour, const char *name, double slope)
+{
+    const double tip[2] = {from[0] + p[0], from[1] + p[1]};
+    double at[2], start[2];
+    draw_arrow(paper, plot, from, p, 2.2, colour);
+    plot_place(plot, tip[0], tip[1], at);
+    plot_place(plot, from[0], from[1], start);
+    if (!box_contains(plot->box, at[0], at[1]))
+        return;
+    bool left = at[0] < start[0];
+    paper_write(paper, FACE_BOLD, 0.95, colour,
+                at[0] + (left ? -0.5 : 0.5) * paper->em, at[1] - paper->em,
+                left ? ALIGN_RIGHT : ALIGN_LEFT, "%s (slope %.2g)", name,
+                slope);
+}
+
+/* The direction that the run does not take: projected where its own is not, as
+ * it is where its own is projected.  With a single part on the map: the
+ * direction in that part. */
+static void draw_other_direction(Paper *paper, const Plot *plot,
+                                 const Simulation *simulation)
+{
+    const Descent *descent = &simulation->descent;
+    unsigned parts = simulation->exhibit.parts;
+    bool raw = simulation->options.filter == FILTER_NONE;
+    double p[2], slope;
+    if (parts != PART_BOTH) {
+        slope = landscape_direction(simulation, FILTER_CLAMP, p);
+        draw_named_direction(paper, plot, descent->point, p, COLOUR_P,
+                             parts == PART_INERTIA ? "inertia alone"
+                                                   : "elasticity alone",
+                             slope);
+        return;
+    }
+    if (descent->direction[0] == 0 && descent->direction[1] == 0)
+        return;
+    slope =
+        landscape_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
+    if (hypot(p[0] - descent->direction[0], p[1] - descent->direction[1]) >
+        1e-9)
+        draw_named_direction(paper, plot, descent->point, p,
+                             slope > 0 ? COLOUR_WARNING : COLOUR_GHOST,
+                             raw ? "with projection" : "without", slope);
+}
+
 /* The direction from here, and here. */
 static void draw_direction(Paper *paper, const Plot *plot,
-                           const Descent *descent)
+                           const Descent *descent, bool arrow)
 {
     const double *p = descent->direction;
-    if (p[0] != 0 || p[1] != 0)
+    if (arrow && (p[0] != 0 || p[1] != 0))
         draw_arrow(paper, plot, descent->point, p, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
     plot_disc(paper, plot, descent->point, 7, COLOUR_TEXT);
@@ -266,9 +334,8 @@ static void draw_words(Paper *paper, const Stage *stage, const Descent *descent)
         stage_legend(paper, stage, &legend, COLOUR_WARNING, "uphill");
 }
 
-/* From the ground up. */
-static SpringCount landscape_draw(Paper *paper, const Stage *stage,
-                                  const Show *show)
+/* The map, the springs and the pins. */
+Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const System *system = &simulation->system;
@@ -279,8 +346,29 @@ static SpringCount landscape_draw(Paper *paper, const Stage *stage,
     for (int i = 1; i < system->nodes; i++)
         stage_pin(paper, stage, simulation->run[0].x + 2 * i, 5 * paper->unit);
     canvas_clip(&paper->canvas, before);
+    if (plot_disc(paper, &plot, simulation->exhibit.target, 6,
+                  COLOUR_X_TILDE) &&
+        stage->text && !show->bare) {
+        double at[2];
+        stage_pixel(stage, simulation->exhibit.target, at);
+        paper_write(paper, FACE_BOLD, 1.1, COLOUR_X_TILDE,
+                    at[0] + 0.9 * paper->em, at[1] - 1.2 * paper->em,
+                    ALIGN_LEFT, "{xt}");
+    }
+    return plot;
+}
+
+/* From the ground up. */
+static SpringCount landscape_draw(Paper *paper, const Stage *stage,
+                                  const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    Plot plot = landscape_ground(paper, stage, show);
     draw_updates(paper, &plot, &simulation->descent);
-    draw_direction(paper, &plot, &simulation->descent);
+    if (!show->bare)
+        draw_other_direction(paper, &plot, simulation);
+    draw_direction(paper, &plot, &simulation->descent,
+                   simulation->exhibit.parts == PART_BOTH);
     if (!show->bare && stage->text)
         draw_words(paper, stage, &simulation->descent);
     return (SpringCount){0, 0};
@@ -300,8 +388,8 @@ static Pick landscape_pick(const Show *show, const Stage *stage, double x,
     return pick;
 }
 
-static const Card *const landscape_cards[] = {&card_listing, &card_line,
-                                              &card_residual, NULL};
+static const Card *const landscape_cards[] = {&card_page, &card_listing,
+                                              &card_line, &card_residual, NULL};
 
 const Picture landscape_picture = {
     .name = "landscape",

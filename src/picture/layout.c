@@ -146,16 +146,23 @@ static void place_cards(const LayoutWish *wish, Layout *layout)
     Box inner = box_inset(layout->column, pixels(layout, GAP));
     int room = inner.height, y = inner.y;
     double weights = 0;
+    int shown = 0;
     bool bars[LAYOUT_CARDS];
     layout->cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
     for (int i = 0; i < layout->cards; i++) {
         bool large = wish->large >= 0 && wish->large < layout->cards;
+        if (wish->hidden >> i & 1)
+            continue;
+        shown++;
         bars[i] = (wish->closed >> i & 1) || (large && i != wish->large);
         room -= bars[i] ? bar : 0;
         weights += bars[i] ? 0 : wish->weight[i];
     }
-    room -= (layout->cards - 1) * gap;
+    room -= (shown - 1) * gap;
     for (int i = 0; i < layout->cards; i++) {
+        layout->card[i] = (Box){0, 0, 0, 0};
+        if (wish->hidden >> i & 1)
+            continue;
         int height = bars[i] ? bar : (int)(room * wish->weight[i] / weights);
         height = height < bar ? bar : height;
         layout->card[i] = (Box){inner.x, y, inner.width, height};

@@ -5,7 +5,9 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/frame.h"
+#include "picture/handles.h"
 #include "picture/kinds.h"
 #include "picture/marks.h"
 #include "picture/square_picture.h"
@@ -17,6 +19,12 @@ static const Picture *const pictures[PICTURE_COUNT] = {
     [PICTURE_CIRCLE] = &circle_picture,
     [PICTURE_CURVE] = &curve_picture,
     [PICTURE_LANDSCAPE] = &landscape_picture,
+    [PICTURE_MASS] = &mass_picture,
+    [PICTURE_TANGENT] = &tangent_picture,
+    [PICTURE_DIAL] = &dial_picture,
+    [PICTURE_SPRING] = &spring_picture,
+    [PICTURE_RACE] = &race_picture,
+    [PICTURE_ENVELOPE] = &envelope_picture,
 };
 
 /* Letters below this size are only noise. */
@@ -42,18 +50,6 @@ int picture_card(const Picture *picture, const char *name)
         if (strcmp(picture->cards[c]->name, name) == 0)
             return c;
     return -1;
-}
-
-/* What can be dragged is an open circle. */
-static void draw_handles(Paper *paper, const Stage *stage, const Show *show)
-{
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    double at[SCENE_MAX_HANDLES][2];
-    int count = simulation->scene->handles
-                    ? simulation->scene->handles(simulation, at)
-                    : 0;
-    for (int i = 0; i < count; i++)
-        stage_ring(paper, stage, at[i], 10 * paper->unit, 2, COLOUR_HAND);
 }
 
 /* Over a pane that is not alone: its label in the colour of its curve. */
@@ -82,11 +78,13 @@ static SpringCount draw_pane(Paper *paper, const Layout *layout,
 {
     const Picture *picture = picture_of(show->pane[pane].simulation->scene);
     Stage stage = {layout->pane[pane], show_camera(show, layout, pane), pane,
-                   !show->bare && paper->em >= LEAST_EM};
+                   !show->bare && paper->em >= LEAST_EM, paper->em};
     Box before = canvas_clip(&paper->canvas, stage.box);
     SpringCount count = picture->draw(paper, &stage, show);
-    if (!show->bare)
-        draw_handles(paper, &stage, show);
+    if (!picture->own_handles)
+        stage_handles(paper, &stage, show);
+    stage_switches(paper, &stage, show);
+    stage_prediction(paper, &stage, show);
     if (picture->hover && stage.text && show->hover.pane == pane &&
         show->hover.kind != PICK_NONE && !show->hand.on)
         picture->hover(paper, &stage, show);

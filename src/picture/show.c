@@ -2,7 +2,9 @@
 
 #include <string.h>
 
+#include "picture/exhibits.h"
 #include "picture/frame.h"
+#include "picture/handles.h"
 #include "picture/picture.h"
 #include "picture/square_picture.h"
 
@@ -15,6 +17,8 @@ void show_create(const Simulation *simulation, Show *show)
     for (int c = 0; picture->cards[c]; c++)
         if (picture->cards[c]->closed)
             show->closed |= 1u << c;
+    if (picture->cards[0] == &card_page)
+        show->hidden = 1; /* outside of the lecture */
 }
 
 /* Characters of UTF-8, markup and marks not counted apart. */
@@ -33,6 +37,7 @@ Layout show_layout(const Show *show, int width, int height)
     LayoutWish wish = {.bare = show->bare,
                        .panes = show->panes,
                        .closed = show->closed,
+                       .hidden = show->hidden,
                        .large = show->large,
                        .page = show->page.kind != PAGE_NONE,
                        .settings = show->settings,
@@ -67,9 +72,15 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
         return none;
     Stage stage = {layout->pane[hit.index],
-                   show_camera(show, layout, hit.index), hit.index, true};
-    return picture_of(show->pane[hit.index].simulation->scene)
-        ->pick(show, &stage, x, y);
+                   show_camera(show, layout, hit.index), hit.index, true,
+                   layout->em};
+    const Picture *picture =
+        picture_of(show->pane[hit.index].simulation->scene);
+    Pick pick = {PICK_NONE, hit.index, 0, {0, 0}};
+    camera_world(&stage.camera, x, y, pick.point);
+    if (!picture->own_handles && handles_pick(show, &stage, x, y, &pick))
+        return pick;
+    return picture->pick(show, &stage, x, y);
 }
 
 void show_zoom(Show *show, const Layout *layout, double x, double y,

@@ -4,6 +4,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/hover.h"
 #include "picture/marks.h"
 
@@ -534,7 +535,8 @@ double square_picture_strain_range(const Simulation *simulation)
 }
 
 static const Card *const square_cards[] = {
-    &card_listing, &card_line, &card_residual, &card_energies, &card_spy, NULL};
+    &card_page,     &card_listing, &card_line, &card_residual,
+    &card_energies, &card_spy,     NULL};
 
 const Picture square_picture = {
     .name = "square",

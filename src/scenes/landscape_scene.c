@@ -220,15 +220,26 @@ bool landscape_is_convex(const Simulation *simulation, double x, double y)
     return H[0] + H[2] > 0 && H[0] * H[2] - H[1] * H[1] > 0;
 }
 
-/* The gradient is that of the minimisation; the Hessian is made here. */
 double landscape_direction(const Simulation *simulation, Filter filter,
                            double p[2])
 {
-    const Iterate *at = &simulation->run[0].newton->at;
-    double H[3], determinant;
-    node_hessian(simulation, filter, at->x[0], at->x[1], H);
-    determinant = H[0] * H[2] - H[1] * H[1];
-    p[0] = (H[1] * at->g[1] - H[2] * at->g[0]) / determinant;
-    p[1] = (H[1] * at->g[0] - H[0] * at->g[1]) / determinant;
-    return at->g[0] * p[0] + at->g[1] * p[1];
+    const System *system = &simulation->system;
+    const double *x = simulation->descent.point, *pins = simulation->run[0].x;
+    double h = simulation->run[0].h, H[3], g[2] = {0, 0};
+    unsigned parts = simulation->exhibit.parts;
+    for (int i = 0; i < 2 && (parts & PART_INERTIA); i++)
+        g[i] = system->m[0] * (x[i] - simulation->exhibit.target[i]);
+    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {x[0] - pin[0], x[1] - pin[1]};
+        double l2 = system->l2[s];
+        double strain = (d[0] * d[0] + d[1] * d[1] - l2) / l2;
+        for (int i = 0; i < 2; i++)
+            g[i] += h * h * 2 * system->k[s] * strain * d[i];
+    }
+    node_hessian(simulation, filter, x[0], x[1], H);
+    double determinant = H[0] * H[2] - H[1] * H[1];
+    p[0] = (H[1] * g[1] - H[2] * g[0]) / determinant;
+    p[1] = (H[1] * g[0] - H[0] * g[1]) / determinant;
+    return g[0] * p[0] + g[1] * p[1];
 }

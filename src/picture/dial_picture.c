@@ -1,0 +1,83 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/exhibits.h"
+#include "picture/handles.h"
+#include "scenes/dial_scene.h"
+
+/* The path of the minimiser, a disc for every power of ten of h. */
+static void dial_path(Paper *paper, const Plot *plot, const Walk *walk,
+                      bool text)
+{
+    for (int i = 1; i < WALK_POINTS; i++)
+        plot_line(paper, plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
+    for (int i = 20; i < WALK_POINTS; i += 20) {
+        double at[2];
+        plot_disc(paper, plot, walk->point[i], 4.5, COLOUR_X);
+        plot_place(plot, walk->point[i][0], walk->point[i][1], at);
+        if (text)
+            paper_write(paper, FACE_REGULAR, 0.9, COLOUR_X,
+                        at[0] + 0.7 * paper->em, at[1] - 0.6 * paper->em,
+                        ALIGN_LEFT, "h = %g s", round(walk->h[i] * 1e6) / 1e6);
+    }
+}
+
+static SpringCount dial_draw(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    bool text = stage->text && !show->bare;
+    Legend legend = {0, 0};
+    Plot plot = landscape_ground(paper, stage, show);
+    dial_path(paper, &plot, &simulation->exhibit.walk, text);
+    plot_disc(paper, &plot, simulation->run[0].x, 9, COLOUR_TEXT);
+    if (!text)
+        return (SpringCount){0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_X_TILDE,
+                 "{xt}: inertia is lowest");
+    stage_legend(paper, stage, &legend, COLOUR_X, "minimiser of E for every h");
+    stage_legend(paper, stage, &legend, COLOUR_TEXT, "for the h of now");
+    return (SpringCount){0, 0};
+}
+
+static Pick dial_pick(const Show *show, const Stage *stage, double x, double y)
+{
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    (void)show;
+    camera_world(&stage->camera, x, y, pick.point);
+    return pick;
+}
+
+static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const double *x = simulation->run[0].x, h = simulation->run[0].h;
+    const double *target = simulation->exhibit.target;
+    Lines lines = {0};
+    lines_add(&lines, COLOUR_TEXT, "h = %.4g s", h);
+    lines_add(&lines, COLOUR_X, "{x} = (%.4f, %.4f) m", x[0], x[1]);
+    lines_add(&lines, COLOUR_X_TILDE, "from {xt}: %.4g m",
+              hypot(x[0] - target[0], x[1] - target[1]));
+    lines_add(&lines, COLOUR_TEXT, "inertia %.4g J s\u00b2",
+              landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    lines_add(&lines, COLOUR_TEXT, "elasticity h\u00b2 P %.4g J s\u00b2",
+              landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]));
+    lines_add(&lines, COLOUR_TEXT, "P = %.4g J",
+              landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]) /
+                  (h * h));
+    lines_draw(paper, inside, &lines);
+}
+
+static const Card card_dial_numbers = {
+    "numbers", "the minimiser in numbers", NULL, 1, false, dial_draw_numbers};
+
+static const Card *const dial_cards[] = {&card_page, &card_dial_numbers, NULL};
+
+const Picture dial_picture = {
+    .name = "dial",
+    .cards = dial_cards,
+    .bounds = landscape_bounds,
+    .draw = dial_draw,
+    .pick = dial_pick,
+};

@@ -1,0 +1,199 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/exhibits.h"
+#include "picture/handles.h"
+#include "scenes/envelope_scene.h"
+
+/* Powers of ten: h in s across, k in J/m^2 upwards; half a cell around. */
+static const double ENVELOPE_BOUNDS[4] = {-10.6, -8.6, 3.6, 17.6};
+
+/* From few updates (light) to many (dark), by powers of two. */
+static const Colour envelope_shades[] = {0xffe3f2e8u, 0xffbfe3ccu, 0xff94cfb0u,
+                                         0xff5fb38cu, 0xff2f8f6du, 0xff12684fu,
+                                         0xff064a38u};
+enum { ENVELOPE_SHADES = sizeof envelope_shades / sizeof *envelope_shades };
+
+#define COLOUR_REFUSED 0xffe08a1eu
+
+static void envelope_bounds(const Show *show, int pane, double bounds[4])
+{
+    (void)show;
+    (void)pane;
+    for (int i = 0; i < 4; i++)
+        bounds[i] = ENVELOPE_BOUNDS[i];
+}
+
+static Colour envelope_colour(const EnvelopeCell *cell)
+{
+    int shade = 0;
+    if (!cell->known)
+        return COLOUR_CHIP;
+    if (cell->worst)
+        return COLOUR_REFUSED;
+    while (shade < ENVELOPE_SHADES - 1 && cell->updates > 4 << shade)
+        shade++;
+    return envelope_shades[shade];
+}
+
+/* Pixels of a cell. */
+static Box envelope_box(const Stage *stage, int column, int row)
+{
+    double x = log10(envelope_timestep(column));
+    double y = log10(envelope_stiffness(row));
+    const double low[2] = {x - 0.25, y - 0.5}, high[2] = {x + 0.25, y + 0.5};
+    double p[2], q[2];
+    stage_pixel(stage, low, p);
+    stage_pixel(stage, high, q);
+    int left = (int)ceil(p[0]), top = (int)ceil(q[1]);
+    return (Box){left, top, (int)ceil(q[0]) - left, (int)ceil(p[1]) - top};
+}
+
+/* Powers of ten along the lower and the left edge. */
+static void envelope_axes(Paper *paper, const Stage *stage)
+{
+    for (int column = 0; column < ENVELOPE_COLUMNS; column += 4) {
+        Box box = envelope_box(stage, column, 0);
+        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_FAINT,
+                    box.x + 0.5 * box.width,
+                    box.y + box.height + 0.3 * paper->em, ALIGN_CENTRE,
+                    "10^{%g}", round(2 * log10(envelope_timestep(column))) / 2);
+    }
+    for (int row = 0; row < ENVELOPE_ROWS; row += 3) {
+        Box box = envelope_box(stage, 0, row);
+        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_FAINT,
+                    box.x - 0.4 * paper->em,
+                    box.y + 0.5 * box.height - 0.7 * paper->em, ALIGN_RIGHT,
+                    "10^{%g}", round(log10(envelope_stiffness(row))));
+    }
+    Box last = envelope_box(stage, ENVELOPE_COLUMNS - 1, 0);
+    Box top = envelope_box(stage, 0, ENVELOPE_ROWS - 1);
+    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, last.x + last.width,
+                last.y + last.height + 1.5 * paper->em, ALIGN_RIGHT,
+                "time step h in s");
+    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, top.x,
+                top.y - 1.5 * paper->em, ALIGN_LEFT,
+                "stiffness k in J/m\u00b2");
+}
+
+/* A frame of four lines around a cell. */
+static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
+{
+    const double c[4][2] = {{box.x, box.y},
+                            {box.x + box.width, box.y},
+                            {box.x + box.width, box.y + box.height},
+                            {box.x, box.y + box.height}};
+    for (int i = 0; i < 4; i++)
+        paper_line(paper, c[i], c[(i + 1) % 4], width, colour);
+}
+
+static SpringCount envelope_draw(Paper *paper, const Stage *stage,
+                                 const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const EnvelopeMap *map = &simulation->exhibit.map;
+    Legend legend = {0, 0};
+    for (int row = 0; row < ENVELOPE_ROWS; row++)
+        for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
+            Box box = envelope_box(stage, column, row);
+            canvas_rectangle(&paper->canvas, box.x, box.y, box.width - 1,
+                             box.height - 1,
+                             envelope_colour(&map->cell[row][column]));
+        }
+    envelope_frame(paper, envelope_box(stage, map->column, map->row), 2.4,
+                   COLOUR_TEXT);
+    if (show->bare || !stage->text)
+        return (SpringCount){0, 0};
+    envelope_axes(paper, stage);
+    stage_legend(paper, stage, &legend, envelope_shades[3],
+                 "converged: darker is more updates");
+    stage_legend(paper, stage, &legend, COLOUR_REFUSED,
+                 "ended otherwise, and said so");
+    return (SpringCount){0, 0};
+}
+
+static Pick envelope_pick(const Show *show, const Stage *stage, double x,
+                          double y)
+{
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    (void)show;
+    camera_world(&stage->camera, x, y, pick.point);
+    double column = round(2 * (pick.point[0] + 9));
+    double row = round(pick.point[1] + 6);
+    if (column >= 0 && column < ENVELOPE_COLUMNS && row >= 0 &&
+        row < ENVELOPE_ROWS) {
+        pick.kind = PICK_CELL;
+        pick.index = (int)row * ENVELOPE_COLUMNS + (int)column;
+    }
+    return pick;
+}
+
+/* ---- cards -------------------------------------------------------------- */
+
+static void envelope_draw_numbers(Paper *paper, Box inside, const Show *show)
+{
+    const EnvelopeMap *map = &show->pane[show->active].simulation->exhibit.map;
+    const EnvelopeCell *cell = &map->cell[map->row][map->column];
+    int known = 0, converged = 0;
+    Lines lines = {0};
+    for (int row = 0; row < ENVELOPE_ROWS; row++)
+        for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
+            const EnvelopeCell *one = &map->cell[row][column];
+            known += one->known;
+            converged += one->known && !one->worst;
+        }
+    lines_add(&lines, COLOUR_TEXT, "%d of %d cells converge", converged, known);
+    lines_add(&lines, COLOUR_TEXT, "%s", "");
+    lines_add(&lines, COLOUR_TEXT, "h = %.3g s,  k = %.3g J/m\u00b2",
+              envelope_timestep(map->column), envelope_stiffness(map->row));
+    lines_add(&lines, COLOUR_TEXT, "%d steps, %d Newton updates",
+              ENVELOPE_STEPS, cell->updates);
+    lines_add(&lines, cell->worst ? COLOUR_REFUSED : envelope_shades[4], "%s",
+              cell->worst ? status_text(cell->worst) : "every step converged");
+    lines_draw(paper, inside, &lines);
+}
+
+/* The square of the cell after its steps, fitted into the card. */
+static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x;
+    double bounds[4] = {-0.5, -0.5, 0.5, 0.5};
+    for (int i = 0; i < system->nodes && x; i++)
+        for (int k = 0; k < 2; k++) {
+            bounds[k] = fmin(bounds[k], x[2 * i + k]);
+            bounds[2 + k] = fmax(bounds[2 + k], x[2 * i + k]);
+        }
+    Stage stage = {box_inset(inside, paper_pixels(paper, 0.6)),
+                   {{1, 1}, {0, 0}},
+                   0,
+                   true,
+                   paper->em};
+    stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
+    for (int s = 0; s < system->springs && x; s++)
+        stage_line(paper, &stage, x + 2 * system->e[2 * s],
+                   x + 2 * system->e[2 * s + 1], 1.2, COLOUR_X);
+    for (int i = 0; i < system->nodes && x; i++)
+        stage_disc(paper, &stage, x + 2 * i, 3 * paper->unit, COLOUR_X);
+}
+
+static const Card card_envelope_numbers = {
+    "numbers", "this cell", NULL, 0.8, false, envelope_draw_numbers};
+static const Card card_cell = {"cell", "its square after three steps",
+                               NULL,   1.2,
+                               false,  envelope_draw_cell};
+
+static const Card *const envelope_cards[] = {&card_page, &card_envelope_numbers,
+                                             &card_cell, NULL};
+
+const Picture envelope_picture = {
+    .name = "envelope",
+    .cards = envelope_cards,
+    .stretched = true,
+    .bounds = envelope_bounds,
+    .draw = envelope_draw,
+    .pick = envelope_pick,
+};

@@ -1,0 +1,171 @@
+#include "picture/handles.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "picture/colour_map.h"
+
+static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
+static const double SWITCH_WIDE = 11;  /* ems */
+static const double SWITCH_HIGH = 1.8;
+
+void stage_handles(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    double at[SCENE_MAX_HANDLES][2];
+    if (!simulation->scene->handles || show->bare)
+        return;
+    int count = simulation->scene->handles(simulation, at);
+    for (int i = 0; i < count; i++) {
+        bool over = show->hover.kind == PICK_HANDLE &&
+                    show->hover.pane == stage->pane && show->hover.index == i;
+        stage_ring(paper, stage, at[i], (over ? 13 : 10) * paper->unit,
+                   over ? 3 : 1.8, COLOUR_HAND);
+    }
+}
+
+/* Where switch i is; pixels. */
+static Box switch_box(const Stage *stage, int i)
+{
+    const Box *box = &stage->box;
+    int wide = (int)(SWITCH_WIDE * stage->em);
+    int high = (int)(SWITCH_HIGH * stage->em), gap = (int)(0.4 * stage->em);
+    return (Box){box->x + box->width - wide - gap,
+                 box->y + 3 * gap + i * (high + gap) + high, wide, high};
+}
+
+void stage_switches(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    Switch out[SCENE_MAX_SWITCHES];
+    if (!simulation->scene->switches || show->bare || !stage->text)
+        return;
+    int count = simulation->scene->switches(simulation, out);
+    for (int i = 0; i < count; i++) {
+        Box box = switch_box(stage, i);
+        double x = box.x + 0.5 * paper->em, size = 0.8 * paper->em;
+        double y = box.y + 0.5 * (box.height - size);
+        canvas_card(&paper->canvas, box, 0.4 * paper->em,
+                    out[i].on ? COLOUR_LIT : COLOUR_CHIP, COLOUR_BORDER);
+        canvas_card(&paper->canvas, (Box){(int)x, (int)y, (int)size, (int)size},
+                    0.15 * paper->em, out[i].on ? COLOUR_VALUE : COLOUR_WHITE,
+                    COLOUR_FAINT);
+        paper_write(paper, FACE_REGULAR, 0.92,
+                    out[i].on ? COLOUR_TEXT : COLOUR_FAINT, x + 1.2 * paper->em,
+                    box.y + 0.28 * paper->em, ALIGN_LEFT, "%s", out[i].label);
+    }
+}
+
+bool handles_pick(const Show *show, const Stage *stage, double x, double y,
+                  Pick *pick)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Scene *scene = simulation->scene;
+    double at[SCENE_MAX_HANDLES][2], best = HANDLE_REACH;
+    Switch out[SCENE_MAX_SWITCHES];
+    bool found = false;
+    int switches = scene->switches ? scene->switches(simulation, out) : 0;
+    int handles = scene->handles ? scene->handles(simulation, at) : 0;
+    for (int i = 0; i < switches && stage->text; i++)
+        if (box_contains(switch_box(stage, i), x, y)) {
+            pick->kind = PICK_SWITCH;
+            pick->index = i;
+            return true;
+        }
+    for (int i = handles - 1; i >= 0; i--) {
+        double pixel[2];
+        stage_pixel(stage, at[i], pixel);
+        double distance = hypot(pixel[0] - x, pixel[1] - y);
+        if (!(distance < best))
+            continue;
+        best = distance;
+        pick->kind = PICK_HANDLE;
+        pick->index = i;
+        found = true;
+    }
+    return found;
+}
+
+/* A cross. */
+static void draw_guess_cross(Paper *paper, const double at[2], Colour colour)
+{
+    double arm = 7 * paper->unit;
+    const double corners[4][2] = {{at[0] - arm, at[1] - arm},
+                                  {at[0] + arm, at[1] + arm},
+                                  {at[0] - arm, at[1] + arm},
+                                  {at[0] + arm, at[1] - arm}};
+    paper_line(paper, corners[0], corners[1], 3, colour);
+    paper_line(paper, corners[2], corners[3], 3, colour);
+}
+
+/* Along x alone the guess is a line from top to bottom. */
+void stage_prediction(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Prediction *guess = &simulation->prediction;
+    const Box *box = &stage->box;
+    double at[2], came[2], point[2];
+    bool line = simulation_point(simulation, point) == 1;
+    char number[48];
+    if (!guess->made || show->bare)
+        return;
+    stage_pixel(stage, guess->at, at);
+    stage_pixel(stage, guess->came, came);
+    if (line) {
+        const double low[2] = {at[0], box->y + box->height};
+        const double high[2] = {at[0], box->y};
+        paper_line(paper, low, high, 1.5, COLOUR_HAND);
+        came[1] = at[1];
+    }
+    draw_guess_cross(paper, at, COLOUR_HAND);
+    if (!guess->shown) {
+        paper_write(paper, FACE_BOLD, 1, COLOUR_HAND, at[0] + paper->em,
+                    at[1] - 0.6 * paper->em, ALIGN_LEFT,
+                    "your guess; N shows the step");
+        return;
+    }
+    canvas_dashes(&paper->canvas, at[0], at[1], came[0], came[1],
+                  1.6 * paper->unit, 5 * paper->unit, 4 * paper->unit, NULL,
+                  COLOUR_HAND);
+    plot_number(number, sizeof number, guess->distance);
+    paper_write(paper, FACE_BOLD, 1, COLOUR_HAND, at[0] + paper->em,
+                at[1] - 0.6 * paper->em, ALIGN_LEFT, "%s m off", number);
+}
+
+/* ---- numbers in a card -------------------------------------------------- */
+
+void lines_add(Lines *lines, Colour colour, const char *format, ...)
+{
+    va_list arguments;
+    if (lines->count >= LINES_MOST)
+        return;
+    va_start(arguments, format);
+    vsnprintf(lines->text[lines->count], LINE_TEXT, format, arguments);
+    va_end(arguments);
+    lines->colour[lines->count++] = colour;
+}
+
+void lines_draw(Paper *paper, Box inside, const Lines *lines)
+{
+    double height = 0, size = 1;
+    for (int i = 0; i < lines->count; i++) {
+        int width = paper_width(paper, FACE_REGULAR, 1, lines->text[i]);
+        height += lines->text[i][0] ? 1.5 : 0.6;
+        if (width > inside.width)
+            size = fmin(size, (double)inside.width / width);
+    }
+    size = fmin(size, inside.height / (height * paper->em));
+    double y = inside.y;
+    for (int i = 0; i < lines->count; i++) {
+        if (lines->text[i][0])
+            paper_write(paper, FACE_REGULAR, size, lines->colour[i], inside.x,
+                        y, ALIGN_LEFT, "%s", lines->text[i]);
+        y += (lines->text[i][0] ? 1.5 : 0.6) * size * paper->em;
+    }
+}
+
+void point_text(char *text, size_t size, const double point[2])
+{
+    snprintf(text, size, "(%.3g, %.3g)", point[0] + 0.0, point[1] + 0.0);
+}

@@ -1,0 +1,39 @@
+/* handles.h - what the mouse can drag and switch on a stage, and numbers in a
+ * card: shared by the pictures of the lecture's small scenes.
+ */
+#ifndef ELASTO_HANDLES_H
+#define ELASTO_HANDLES_H
+
+#include "picture/marks.h"
+#include "scenes/scene.h"
+
+/* Open rings where the scene's handles are. */
+void stage_handles(Paper *paper, const Stage *stage, const Show *show);
+
+/* The scene's switches as chips in the upper right corner. */
+void stage_switches(Paper *paper, const Stage *stage, const Show *show);
+
+/* A switch or a handle under pixel (x, y): fills kind and index. */
+bool handles_pick(const Show *show, const Stage *stage, double x, double y,
+                  Pick *pick);
+
+/* The guess, and where the step led: over any picture. */
+void stage_prediction(Paper *paper, const Stage *stage, const Show *show);
+
+/* Lines of markup in a card, one below the other, as large as fits but no
+ * larger than plain text.  An empty line is half as high. */
+enum { LINES_MOST = 16, LINE_TEXT = 160 };
+
+typedef struct Lines {
+    int count;
+    char text[LINES_MOST][LINE_TEXT];
+    Colour colour[LINES_MOST];
+} Lines;
+
+void lines_add(Lines *lines, Colour colour, const char *format, ...);
+void lines_draw(Paper *paper, Box inside, const Lines *lines);
+
+/* "(1.00, 0.50)" */
+void point_text(char *text, size_t size, const double point[2]);
+
+#endif

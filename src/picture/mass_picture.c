@@ -1,0 +1,262 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/exhibits.h"
+#include "picture/handles.h"
+#include "scenes/mass_scene.h"
+
+enum { MASS_CORNERS = 120 };
+
+static const double MASS_REACH = 1.9; /* m, seen at least */
+static const double MASS_TURN = 6.283185307179586;
+
+/* What is farthest from the middle, in steps of sqrt(2), so that the view does
+ * not move all the time. */
+static void mass_bounds(const Show *show, int pane, double bounds[4])
+{
+    const Simulation *simulation = show->pane[pane].simulation;
+    double reach = MASS_REACH, most = 0;
+    for (int r = 0; r < simulation->runs; r++) {
+        MassStep step;
+        mass_next_step(simulation, r, &step);
+        most = fmax(most, hypot(step.new_x[0], step.new_x[1]));
+        most = fmax(most, hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
+    }
+    while (reach < 1.1 * most && reach < 1e100)
+        reach *= 1.4142135623730951;
+    bounds[2] = bounds[3] = reach;
+    bounds[0] = bounds[1] = -reach;
+}
+
+/* The exact path from here: a circle where v is across and as long as x. */
+static void draw_mass_circle(Paper *paper, const Stage *stage)
+{
+    for (int i = 0; i < MASS_CORNERS; i++) {
+        double s = MASS_TURN * i / MASS_CORNERS;
+        double t = MASS_TURN * (i + 1) / MASS_CORNERS;
+        const double a[2] = {cos(s), sin(s)}, b[2] = {cos(t), sin(t)};
+        stage_line(paper, stage, a, b, 4, COLOUR_GRID);
+    }
+}
+
+/* A word beside the middle of an arrow from a along d. */
+static void label_mass_arrow(Paper *paper, const Stage *stage, const double *a,
+                             const double *d, Colour colour, const char *word)
+{
+    const double middle[2] = {a[0] + 0.55 * d[0], a[1] + 0.55 * d[1]};
+    double at[2], length = hypot(d[0], d[1]);
+    if (!stage->text || !(length * stage->camera.scale[0] > 2 * stage->em))
+        return;
+    stage_pixel(stage, middle, at);
+    paper_write(paper, FACE_BOLD, 1.1, colour,
+                at[0] + 0.9 * paper->em * d[1] / length,
+                at[1] - 0.7 * paper->em + 0.9 * paper->em * d[0] / length,
+                ALIGN_CENTRE, "%s", word);
+}
+
+/* An arrow with its word. */
+static void draw_mass_arrow(Paper *paper, const Stage *stage, const double *a,
+                            const double *d, double width, Colour colour,
+                            const char *word)
+{
+    stage_arrow(paper, stage, a, d, 1, width, colour);
+    label_mass_arrow(paper, stage, a, d, colour, word);
+}
+
+/* The arrows of one method in the order in which it makes them. */
+static void draw_mass_step(Paper *paper, const Stage *stage,
+                           const Simulation *simulation)
+{
+    MassStep step;
+    double h = simulation->run[0].h, tip[2], way[2], push[2], dv[2];
+    if (!mass_next_step(simulation, 0, &step))
+        return;
+    bool backward = simulation->run[0].method->implicit;
+    for (int i = 0; i < 2; i++) {
+        tip[i] = step.x[i] + step.v[i];
+        way[i] = step.new_x[i] - step.x[i];
+        dv[i] = step.new_v[i] - step.v[i];
+        push[i] = h * (backward ? step.new_a[i] : step.a[i]);
+    }
+    draw_mass_arrow(paper, stage, step.x, step.v, 2.6, COLOUR_VELOCITY, "v");
+    draw_mass_arrow(paper, stage, tip, push, 2.6, COLOUR_FORCE,
+                    backward ? "h a(x\u2032)" : "h a(x)");
+    stage_arrow(paper, stage, step.x, step.new_v, 1, 1.4, COLOUR_VELOCITY);
+    label_mass_arrow(paper, stage, step.x, step.new_v, COLOUR_VELOCITY,
+                     "v\u2032");
+    draw_mass_arrow(paper, stage, step.x, way, 4, COLOUR_X,
+                    way[0] == h * step.v[0] && dv[0] != 0 ? "h v"
+                                                          : "h v\u2032");
+    if (backward)
+        draw_mass_arrow(paper, stage, step.new_x, step.new_a, 1.6, COLOUR_FORCE,
+                        "a(x\u2032)");
+    stage_ring(paper, stage, step.new_x, 9 * paper->unit, 2.4, COLOUR_X);
+    if (stage->text) {
+        double at[2];
+        stage_pixel(stage, step.new_x, at);
+        paper_write(paper, FACE_BOLD, 1.1, COLOUR_X, at[0] + 0.9 * paper->em,
+                    at[1] + 0.2 * paper->em, ALIGN_LEFT, "x\u2032");
+    }
+}
+
+/* All three: the way that each goes next. */
+static void draw_mass_ways(Paper *paper, const Stage *stage,
+                           const Simulation *simulation)
+{
+    for (int r = 0; r < simulation->runs; r++) {
+        MassStep step;
+        mass_next_step(simulation, r, &step);
+        const double way[2] = {step.new_x[0] - step.x[0],
+                               step.new_x[1] - step.x[1]};
+        stage_arrow(paper, stage, step.x, way, 1, 3, colour_of_run(r));
+        stage_ring(paper, stage, step.new_x, 8 * paper->unit, 2.2,
+                   colour_of_run(r));
+    }
+}
+
+/* While a guess is awaited the arrows would tell. */
+static bool mass_is_hidden(const Show *show, const Simulation *simulation)
+{
+    const Prediction *guess = &simulation->prediction;
+    return show->lecture && show->lecture->predict && guess->made &&
+           !guess->shown;
+}
+
+static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = pane->simulation;
+    const Trail *trail = pane->trail;
+    const double origin[2] = {0, 0};
+    Legend legend = {0, 0};
+    draw_mass_circle(paper, stage);
+    for (int r = 0; r < simulation->runs; r++)
+        stage_line(paper, stage, origin, simulation->run[r].x, 1.4,
+                   COLOUR_REST);
+    stage_pin(paper, stage, origin, 5 * paper->unit);
+    for (int r = 0; trail && r < simulation->runs; r++)
+        for (int i = 0; i < trail->count; i++) {
+            Colour colour = simulation->runs > 1 ? colour_of_run(r) : COLOUR_X;
+            stage_disc(paper, stage, trail->point[r][i], 3.5 * paper->unit,
+                       colour);
+            if (i > 0)
+                stage_line(paper, stage, trail->point[r][i - 1],
+                           trail->point[r][i], 1.6, colour);
+        }
+    if (simulation->runs > 1)
+        draw_mass_ways(paper, stage, simulation);
+    else if (!mass_is_hidden(show, simulation))
+        draw_mass_step(paper, stage, simulation);
+    for (int r = 0; r < simulation->runs; r++)
+        stage_disc(paper, stage, simulation->run[r].x, 8 * paper->unit,
+                   simulation->runs > 1 ? colour_of_run(r) : COLOUR_X);
+    if (show->bare || !stage->text)
+        return (SpringCount){0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_GREY, "the exact path");
+    for (int r = 0; r < simulation->runs && simulation->runs > 1; r++)
+        stage_legend(paper, stage, &legend, colour_of_run(r), "%s",
+                     simulation->run[r].method->label);
+    stage_scale(paper, stage);
+    return (SpringCount){0, 0};
+}
+
+static Pick mass_pick(const Show *show, const Stage *stage, double x, double y)
+{
+    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
+    (void)show;
+    camera_world(&stage->camera, x, y, pick.point);
+    return pick;
+}
+
+/* The trail of each run, and the energies of the first. */
+static void mass_sample(const Simulation *simulation, History *history,
+                        Trail *trail)
+{
+    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
+    history->series = simulation->runs;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = simulation->run[r].x, *v = simulation->run[r].v;
+        history->name[r] = simulation->run[r].method->label;
+        value[r] =
+            0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
+        point[2 * r] = x[0];
+        point[2 * r + 1] = x[1];
+    }
+    history_add(history, simulation_time(simulation), value);
+    if (trail)
+        trail_add(trail, simulation->runs, point);
+}
+
+/* ---- the formula with its numbers --------------------------------------- */
+
+static void add_mass_lines(const Simulation *simulation, Lines *lines)
+{
+    MassStep step;
+    char x[64], v[64], a[64], new_x[64], new_v[64];
+    double h = simulation->run[0].h;
+    if (!mass_next_step(simulation, 0, &step)) {
+        lines_add(lines, COLOUR_FAINT, "%s has more stages than arrows",
+                  simulation->run[0].method->label);
+        return;
+    }
+    bool backward = simulation->run[0].method->implicit;
+    bool forward = step.new_x[0] == step.x[0] + h * step.v[0] &&
+                   step.new_x[1] == step.x[1] + h * step.v[1];
+    point_text(x, sizeof x, step.x);
+    point_text(v, sizeof v, step.v);
+    point_text(a, sizeof a, backward ? step.new_a : step.a);
+    point_text(new_x, sizeof new_x, step.new_x);
+    point_text(new_v, sizeof new_v, step.new_v);
+    lines_add(lines, COLOUR_TEXT, "v\u2032 = v + h a(%s)",
+              backward ? "x\u2032" : "x");
+    lines_add(lines, COLOUR_VELOCITY, "    = %s + %.3g %s = %s", v, h, a,
+              new_v);
+    lines_add(lines, COLOUR_TEXT, "{x}\u2032 = {x} + h %s",
+              forward ? "v" : "v\u2032");
+    lines_add(lines, COLOUR_X, "    = %s + %.3g %s = %s", x, h,
+              forward ? v : new_v, new_x);
+    lines_add(lines, COLOUR_TEXT, "%s", "");
+}
+
+static double mass_step_energy(const double *x, const double *v)
+{
+    return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
+}
+
+static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    Lines lines = {0};
+    if (simulation->runs == 1)
+        add_mass_lines(simulation, &lines);
+    for (int r = 0; r < simulation->runs; r++) {
+        MassStep step;
+        mass_next_step(simulation, r, &step);
+        double before = mass_step_energy(step.x, step.v);
+        double after = mass_step_energy(step.new_x, step.new_v);
+        lines_add(&lines, simulation->runs > 1 ? colour_of_run(r) : COLOUR_TEXT,
+                  "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
+                  simulation->runs > 1 ? simulation->run[r].method->label : "",
+                  simulation->runs > 1 ? ": " : "", before, after,
+                  after / before);
+    }
+    lines_draw(paper, inside, &lines);
+}
+
+static const Card card_mass_numbers = {"numbers", "the step with its numbers",
+                                       NULL,      1.1,
+                                       false,     draw_mass_numbers};
+
+static const Card *const mass_cards[] = {&card_page, &card_mass_numbers,
+                                         &card_energies, NULL};
+
+const Picture mass_picture = {
+    .name = "mass",
+    .cards = mass_cards,
+    .bounds = mass_bounds,
+    .draw = mass_draw,
+    .pick = mass_pick,
+    .sample = mass_sample,
+};

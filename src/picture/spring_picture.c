@@ -1,0 +1,237 @@
+#include <math.h>
+#include <stdio.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/exhibits.h"
+#include "picture/handles.h"
+#include "scenes/spring_scene.h"
+
+enum { SPRING_CORNERS = 120, SPRING_COILS = 12, PROFILE_POINTS = 200 };
+
+static const double SPRING_REACH = 1.7; /* m, seen at least */
+static const double SPRING_TURN = 6.283185307179586;
+
+static void spring_bounds(const Show *show, int pane, double bounds[4])
+{
+    const double *x = show->pane[pane].simulation->run[0].x;
+    double reach = SPRING_REACH;
+    while (reach < 1.1 * hypot(x[0], x[1]) && reach < 1e100)
+        reach *= 1.4142135623730951;
+    bounds[2] = bounds[3] = reach;
+    bounds[0] = bounds[1] = -reach;
+}
+
+static SpringFacts facts_of(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    SpringFacts facts;
+    spring_facts(simulation->run[0].x, system->l2[0], system->k[0], &facts);
+    return facts;
+}
+
+/* A circle of this radius around the held end, in dashes. */
+static void spring_circle(Paper *paper, const Stage *stage, double radius,
+                          Colour colour, const char *word)
+{
+    double phase = 0, last[2], at[2];
+    for (int i = 0; i <= SPRING_CORNERS; i++) {
+        double s = SPRING_TURN * i / SPRING_CORNERS;
+        const double point[2] = {radius * cos(s), radius * sin(s)};
+        stage_pixel(stage, point, at);
+        if (i > 0)
+            canvas_dashes(&paper->canvas, last[0], last[1], at[0], at[1],
+                          1.4 * paper->unit, 7 * paper->unit, 5 * paper->unit,
+                          &phase, colour);
+        last[0] = at[0];
+        last[1] = at[1];
+    }
+    const double label[2] = {-0.7071 * radius, -0.7071 * radius};
+    stage_pixel(stage, label, at);
+    if (stage->text)
+        paper_write(paper, FACE_REGULAR, 0.95, colour, at[0] - 0.4 * paper->em,
+                    at[1] + 0.1 * paper->em, ALIGN_RIGHT, "%s", word);
+}
+
+/* A zigzag from the held end to x. */
+static void spring_coil(Paper *paper, const Stage *stage, const double *x,
+                        Colour colour)
+{
+    double length = hypot(x[0], x[1]), from[2] = {0, 0};
+    if (!(length > 0))
+        return;
+    const double across[2] = {-x[1] / length, x[0] / length};
+    for (int i = 1; i <= 2 * SPRING_COILS; i++) {
+        double t = (double)i / (2 * SPRING_COILS);
+        double side =
+            i == 2 * SPRING_COILS || i == 1 || i == 2 * SPRING_COILS - 1
+                ? 0
+                : (i % 2 ? 0.06 : -0.06);
+        const double to[2] = {t * x[0] + side * across[0],
+                              t * x[1] + side * across[1]};
+        stage_line(paper, stage, from, to, 2.4, colour);
+        from[0] = to[0];
+        from[1] = to[1];
+    }
+}
+
+/* Shorter than at rest: projection changes its block. */
+static SpringCount spring_draw(Paper *paper, const Stage *stage,
+                               const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const double *x = simulation->run[0].x, origin[2] = {0, 0};
+    double l = sqrt(simulation->system.l2[0]);
+    SpringFacts facts = facts_of(simulation);
+    Legend legend = {0, 0};
+    bool projects = facts.across < 0;
+    spring_circle(paper, stage, l, COLOUR_FAINT, "l");
+    spring_circle(paper, stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
+    spring_coil(paper, stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
+    stage_pin(paper, stage, origin, 6 * paper->unit);
+    stage_arrows(paper, stage, 1, 1, x, facts.force, 3.2, COLOUR_FORCE);
+    stage_disc(paper, stage, x, 9 * paper->unit, COLOUR_X);
+    if (show->bare || !stage->text)
+        return (SpringCount){1, 0};
+    stage_legend(paper, stage, &legend, COLOUR_FORCE, "force");
+    stage_legend(paper, stage, &legend, COLOUR_FAINT, "rest length");
+    stage_legend(paper, stage, &legend, COLOUR_PROJECT,
+                 "shorter than l: its block is projected");
+    stage_scale(paper, stage);
+    return (SpringCount){1, 0};
+}
+
+static Pick spring_pick(const Show *show, const Stage *stage, double x,
+                        double y)
+{
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    (void)show;
+    camera_world(&stage->camera, x, y, pick.point);
+    return pick;
+}
+
+/* ---- cards -------------------------------------------------------------- */
+
+static void spring_draw_numbers(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    SpringFacts facts = facts_of(simulation);
+    const double *x = simulation->run[0].x;
+    double k = simulation->system.k[0], l = sqrt(simulation->system.l2[0]);
+    Lines lines = {0};
+    lines_add(&lines, COLOUR_TEXT,
+              "d = (%.3g, %.3g) m   |d| = %.4g m   l = %.3g m", x[0], x[1],
+              facts.length, l);
+    lines_add(&lines, COLOUR_TEXT, "s = |d|\u00b2/l\u00b2 \u2212 1 = %.4g",
+              facts.strain);
+    lines_add(&lines, COLOUR_X,
+              "P = l\u00b2 k/2 s\u00b2 = %.3g \u00b7 %.3g/2 \u00b7 %.4g\u00b2 "
+              "= %.5g J",
+              l * l, k, facts.strain, facts.energy);
+    lines_add(&lines, COLOUR_FORCE, "f = \u22122 k s d = (%.4g, %.4g) N",
+              facts.force[0], facts.force[1]);
+    lines_add(&lines, COLOUR_TEXT,
+              "curvature along %.4g, across %.4g J/m\u00b2", facts.along,
+              facts.across);
+    if (simulation->exhibit.root) {
+        lines_add(&lines, COLOUR_TEXT, "%s", "");
+        lines_add(&lines, COLOUR_GHOST,
+                  "with the root: 2k (|d| \u2212 l)\u00b2 = %.5g J",
+                  facts.root_energy);
+        lines_add(&lines, COLOUR_GHOST,
+                  "curvature along %.4g, across %.4g J/m\u00b2",
+                  facts.root_along, facts.root_across);
+    }
+    lines_draw(paper, inside, &lines);
+}
+
+/* Four bars up or down from a line, with numbers. */
+static void spring_bars(Paper *paper, Box box, const double value[4],
+                        double most, const char *title)
+{
+    double middle = box.y + 0.56 * box.height, room = 0.3 * box.height;
+    double wide = box.width / 4.0;
+    paper_write(paper, FACE_BOLD, 0.95, COLOUR_TEXT, box.x, box.y, ALIGN_LEFT,
+                "%s", title);
+    for (int i = 0; i < 4; i++) {
+        double x = box.x + (i + 0.5) * wide;
+        double high = value[i] / most * room;
+        char number[48];
+        Colour colour = value[i] < 0 ? COLOUR_WARNING : COLOUR_X;
+        int top = (int)(high > 0 ? middle - high : middle);
+        canvas_rectangle(&paper->canvas, (int)(x - 0.28 * wide), top,
+                         (int)(0.56 * wide), (int)fmax(fabs(high), 2),
+                         value[i] == 0 ? COLOUR_GREY : colour);
+        plot_number(number, sizeof number, round(value[i] * 10) / 10);
+        paper_write(paper, FACE_REGULAR, 0.92, colour, x,
+                    value[i] < 0 ? middle - high + 0.1 * paper->em
+                                 : middle + 0.15 * paper->em,
+                    ALIGN_CENTRE, "%s", number);
+    }
+}
+
+static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
+{
+    SpringFacts facts = facts_of(show->pane[show->active].simulation);
+    double most = 1e-300;
+    for (int i = 0; i < 4; i++)
+        most = fmax(most, fabs(facts.block[i]));
+    for (int k = 0; k < 2; k++) {
+        Box half = {inside.x + k * inside.width / 2, inside.y,
+                    inside.width / 2 - paper_pixels(paper, 0.6), inside.height};
+        spring_bars(paper, half, k ? facts.projected : facts.block, most,
+                    k ? "after projection" : "before");
+    }
+}
+
+/* The energies over the signed length along d. */
+static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const System *system = &simulation->system;
+    SpringFacts now = facts_of(simulation), facts;
+    double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
+    double high = plot_round_axis(fmax(0.6 * system->k[0], 1.1 * now.energy));
+    Axis x = {-reach, reach, false, false, "d in m"};
+    Axis y = {0, high, false, false, "J"};
+    Plot plot = plot_create(paper, inside, x, y);
+    double from[2][2] = {{0, 0}, {0, 0}};
+    for (int i = 0; i <= PROFILE_POINTS; i++) {
+        const double d[2] = {reach * (2.0 * i / PROFILE_POINTS - 1), 0};
+        spring_facts(d, system->l2[0], system->k[0], &facts);
+        for (int root = 0; root < 2; root++) {
+            const double to[2] = {d[0],
+                                  root ? facts.root_energy : facts.energy};
+            if (i > 0 && (!root || simulation->exhibit.root))
+                plot_line(paper, &plot, from[root], to, root ? 1.8 : 2.4,
+                          root ? COLOUR_GHOST : COLOUR_X);
+            from[root][0] = to[0];
+            from[root][1] = to[1];
+        }
+    }
+    const double at[2] = {now.length, now.energy};
+    const double root[2] = {now.length, now.root_energy};
+    if (simulation->exhibit.root)
+        plot_disc(paper, &plot, root, 5, COLOUR_GHOST);
+    plot_disc(paper, &plot, at, 6, COLOUR_TEXT);
+}
+
+static const Card card_spring_numbers = {
+    "numbers", "the spring in numbers", NULL, 1.1, false, spring_draw_numbers};
+static const Card card_eigenvalues = {
+    "eigenvalues", "eigenvalues of its 4 \u00d7 4 block",
+    NULL,          0.9,
+    false,         spring_draw_eigenvalues};
+static const Card card_profile = {"profile", "energy over its length", NULL, 1,
+                                  false,     spring_draw_profile};
+
+static const Card *const spring_cards[] = {
+    &card_page, &card_spring_numbers, &card_eigenvalues, &card_profile, NULL};
+
+const Picture spring_picture = {
+    .name = "spring",
+    .cards = spring_cards,
+    .bounds = spring_bounds,
+    .draw = spring_draw,
+    .pick = spring_pick,
+};
