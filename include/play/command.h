@@ -46,6 +46,8 @@ typedef enum CommandKind {
     COMMAND_DRAG,     /* x, y: where it pulls it, m */
     COMMAND_RELEASE,  /* the hand lets go */
     COMMAND_PIN,      /* number: the node that is pinned or set free */
+    COMMAND_HANDLE,   /* number, x, y: a point of the scene moves there, m */
+    COMMAND_FLIP,     /* number: a part of the scene is switched off or on */
     COMMAND_ZOOM,     /* number percent, x, y: the point that stays, m */
     COMMAND_PAN,      /* x, y: how far the picture moves, m */
     COMMAND_FIT,      /* all of it in the picture */

@@ -27,8 +27,11 @@ typedef struct StepRow {
 /* What can be changed while a run goes on, as it is now. */
 typedef struct Settings {
     Options options;
-    int *pin; /* [pins] nodes pinned by hand, ascending */
+    int *pin; /* [pins] nodes that are pinned, ascending */
     int pins;
+    bool held;    /* a hand holds a node */
+    int node;     /* that one, */
+    double at[2]; /* m, and where the hand is */
 } Settings;
 
 /* A kept state. */
@@ -40,6 +43,7 @@ typedef struct KeptState {
 typedef struct Track {
     Simulation simulation;
     Options options;   /* at step 0 */
+    Settings start;    /* there: the same options, and its pins */
     Settings settings; /* now */
     bool keeps;        /* states are kept: somebody may go back */
     bool remembers;    /* some step depends on more than the state before it */
@@ -52,7 +56,7 @@ typedef struct Track {
 
     StepRow *row; /* [newest] steps 1, 2, ... */
     long newest, row_size;
-    Script changes; /* SET and PIN with the step they were made at */
+    Script changes; /* with the step they were made at */
 
     bool repeating; /* steps are being made again: the observer looks at it */
     StepRow now;    /* of the step that is being made */
@@ -78,7 +82,8 @@ Status track_show(Track *track, long step);
 
 /* Changes something from here on; forgets what came after.
  *   change   COMMAND_SET with "NAME VALUE"; COMMAND_PIN with a node, x = 1 to
- *            pin it and 0 to set it free
+ *            pin it and 0 to set it free; COMMAND_GRAB with a node and where
+ *            the hand is, m; COMMAND_DRAG; COMMAND_RELEASE
  *   message  [size] out, why not, after INVALID_INPUT
  * Returns OK, INVALID_INPUT, or a failure. */
 Status track_change(Track *track, const Command *change, char *message,

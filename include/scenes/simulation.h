@@ -41,20 +41,24 @@ typedef struct Simulation {
     Descent descent;         /* zeroed in scenes that move through time */
     Exhibit exhibit;         /* zeroed in scenes without one */
     Prediction prediction;   /* of where the next step leads */
+    double work[SIMULATION_MAX_RUNS]; /* J, done by the hand in each run */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
     long steps;       /* done so far */
-    long steps_before;  /* of them with another timestep, */
+    long steps_before; /* of them with another timestep, */
     double time_before; /* s, which took this long */
     long unconverged; /* of them not converged */
     Status first;     /* how the first of these ended */
     Status status;    /* of the last step */
 } Simulation;
 
-/* J; total is their sum. */
+/* J; total is the sum of the first four.  work is what the hand has put in by
+ * moving, taking and letting go: where time is resolved exactly, total - work
+ * never changes. */
 typedef struct Energies {
-    double kinetic, elastic, gravity, total;
+    double kinetic, elastic, gravity, hand, total;
+    double work;
 } Energies;
 
 /* Sets up options->scene.  simulation out; free it in any case.
@@ -67,8 +71,9 @@ void simulation_free(Simulation *simulation);
 /* One step: of time in every run, or one Newton iteration; none where
  * simulation->done.  Before each SIMULATION_FORGETS-th step solvers forget what
  * they remember from step to step, so that any state can be reached again, bit
- * for bit, from a saved one at most that many steps before.  OK; an unconverged status: the step was made; a failure
- * or INTERRUPTED: nothing moved in the run that failed. */
+ * for bit, from a saved one at most that many steps before.
+ * OK; an unconverged status: the step was made; a failure or INTERRUPTED:
+ * nothing moved in the run that failed. */
 Status simulation_step(Simulation *simulation);
 
 /* For scenes that show iterations: keeps the record and passes it on to the
@@ -107,9 +112,15 @@ void simulation_set_solver(Simulation *simulation, Solver solver);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
 bool simulation_is_pinned(const Simulation *simulation, int node);
 
+/* A hand takes a node of every run where it is, pulls it to (x, y), m, and lets
+ * it go.  Returns OK, OUT_OF_MEMORY, INVALID_INPUT (no such node, or no finite
+ * place), TOO_LARGE. */
+Status simulation_grab(Simulation *simulation, int node, double x, double y);
+void simulation_release(Simulation *simulation);
+
 /* Goes on from the present state with other options, such as another stiffness
  * or integrator; the scene, the mesh and the start must be the same ones.  Pins
- * set by simulation_pin are those of the new options.
+ * are those of the new options, and no hand holds anything.
  * Returns as simulation_create; after a failure only simulation_free is
  * allowed. */
 Status simulation_change(Simulation *simulation, const Options *options);

@@ -161,22 +161,55 @@ static Status switch_integrator(Player *player)
     return status;
 }
 
+/* A change from here on, that makes no step again. */
+static Status change_here(Player *player, const Command *change)
+{
+    Status status = track_change(&player->track, change, player->message,
+                                 sizeof player->message);
+    player->changed = true;
+    player->sampled = -1;
+    return status ? status
+                  : recording_cut(&player->recording, step_shown(player));
+}
+
 /* Pins a node, or sets it free. */
 static Status switch_pin(Player *player, long node)
 {
     const Simulation *simulation = &player->track.simulation;
-    if (!(simulation->scene->needs & NEEDS_MESH))
+    if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
         return refuse_command(player, "only nodes of a square can be pinned");
-    if (node >= simulation->system.nodes)
-        return refuse_command(player, "there is no such node");
-    bool pinned = simulation_is_pinned(simulation, (int)node);
+    bool pinned = node < simulation->system.nodes &&
+                  simulation_is_pinned(simulation, (int)node);
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = track_change(&player->track, &change, player->message,
-                                 sizeof player->message);
+    Status status = change_here(player, &change);
     if (!status)
-        status = recording_cut(&player->recording, step_shown(player));
-    player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
+        player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
+}
+
+/* The hand takes a node where it is. */
+static Status grab(Player *player, long node)
+{
+    const Simulation *simulation = &player->track.simulation;
+    if (state_size(simulation) == 0)
+        return refuse_command(player, "nothing to take hold of here");
+    Command change = {.kind = COMMAND_GRAB, .number = node};
+    if (node < simulation->system.nodes) {
+        change.x = simulation->run[0].x[2 * node];
+        change.y = simulation->run[0].x[2 * node + 1];
+    }
+    Status status = change_here(player, &change);
+    player->holds = player->holds || !status;
+    return status;
+}
+
+/* It pulls, or lets go. */
+static Status pull(Player *player, const Command *command)
+{
+    if (!player->track.settings.held)
+        return refuse_command(player, "the hand holds nothing");
+    player->holds = command->kind == COMMAND_DRAG;
+    return change_here(player, command);
 }
 
 /* ---- other scenes ------------------------------------------------------- */
@@ -416,6 +449,14 @@ static Status obey_in_time(Player *player, const Command *command)
         return set_option(player, command->text);
     case COMMAND_PIN:
         return switch_pin(player, command->number);
+    case COMMAND_GRAB:
+        return grab(player, command->number);
+    case COMMAND_DRAG:
+    case COMMAND_RELEASE:
+        return pull(player, command);
+    case COMMAND_HANDLE:
+    case COMMAND_FLIP:
+        return change_here(player, command);
     default:
         return obey_on_screen(player, command->kind);
     }

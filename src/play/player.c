@@ -129,6 +129,7 @@ Status player_restart(Player *player, const Options *options)
 Status player_show(Player *player, long step)
 {
     player->changed = true;
+    player->holds = false;
     player->hud.paused = true;
     Status status = track_show(&player->track, step);
     if (status == STATUS_INTERRUPTED)
@@ -160,6 +161,10 @@ Status player_step(Player *player)
     const Simulation *simulation = &player->track.simulation;
     long before = simulation->steps;
     Status status = forget_later(player);
+    if (!status && player->track.settings.held && !player->holds) {
+        Command release = {.kind = COMMAND_RELEASE};
+        status = player_obey(player, &release); /* it was held long ago */
+    }
     if (status)
         return status;
     hud_begin_step(&player->hud);

@@ -1,9 +1,11 @@
 #include "play/track.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/hand_energy.h"
 #include "scenes/scene.h"
 
 /* Options that may change from one step to the next. */
@@ -142,6 +144,31 @@ static Status settings_pin(Settings *settings, int node, bool pinned)
     return STATUS_OK;
 }
 
+/* All of them, pins too.  Returns OK, OUT_OF_MEMORY. */
+static Status settings_copy(const Settings *from, Settings *to)
+{
+    int *pin = to->pin;
+    if (from->pins > 0) {
+        pin = realloc(pin, (size_t)from->pins * sizeof *pin);
+        if (!pin)
+            return STATUS_OUT_OF_MEMORY;
+        memcpy(pin, from->pin, (size_t)from->pins * sizeof *pin);
+    }
+    *to = *from;
+    to->pin = pin;
+    return STATUS_OK;
+}
+
+/* The pins that a new simulation has. */
+static Status find_pins(const Simulation *simulation, Settings *settings)
+{
+    Status status = STATUS_OK;
+    for (int i = 0; i < simulation->system.nodes && !status; i++)
+        if (simulation_is_pinned(simulation, i))
+            status = settings_pin(settings, i, true);
+    return status;
+}
+
 /* "NAME VALUE" into its two words. */
 static void split(const char *text, char name[COMMAND_TEXT_SIZE],
                   char value[COMMAND_TEXT_SIZE])
@@ -159,6 +186,14 @@ static Status settings_change(Settings *settings, const Command *change,
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
     if (change->kind == COMMAND_PIN)
         return settings_pin(settings, (int)change->number, change->x != 0);
+    if (change->kind != COMMAND_SET) {
+        if (change->kind == COMMAND_GRAB)
+            settings->node = (int)change->number;
+        settings->held = change->kind != COMMAND_RELEASE;
+        settings->at[0] = change->x;
+        settings->at[1] = change->y;
+        return STATUS_OK;
+    }
     split(change->text, name, value);
     return options_set(&settings->options, name, value, message, size);
 }
@@ -170,19 +205,14 @@ static bool needs_rebuilding(const Options *now, const Options *wanted)
            now->stiffness != wanted->stiffness;
 }
 
-/* Makes the simulation one with the present settings. */
-static Status use_settings(Track *track)
+/* Options, as far as they differ. */
+static Status use_options(Track *track)
 {
     Simulation *simulation = &track->simulation;
-    const Settings *settings = &track->settings;
-    const Options *now = &simulation->options, *wanted = &settings->options;
-    Status status = STATUS_OK;
-    if (needs_rebuilding(now, wanted)) {
-        status = simulation_change(simulation, wanted);
-        for (int i = 0; i < settings->pins && !status; i++)
-            status = simulation_pin(simulation, settings->pin[i], true);
-        return status;
-    }
+    const Options *now = &simulation->options;
+    const Options *wanted = &track->settings.options;
+    if (needs_rebuilding(now, wanted))
+        return simulation_change(simulation, wanted);
     if (now->timestep != wanted->timestep)
         simulation_set_timestep(simulation, wanted->timestep);
     if (now->tolerance != wanted->tolerance)
@@ -193,13 +223,59 @@ static Status use_settings(Track *track)
         simulation_set_filter(simulation, wanted->filter);
     if (now->line_search != wanted->line_search)
         simulation_set_line_search(simulation, wanted->line_search);
-    for (int i = 0; i < simulation->system.nodes && !status; i++) {
-        int at = pin_place(settings, i);
+    return STATUS_OK;
+}
+
+/* Pins and the hand, as far as they differ. */
+static Status use_hands(Track *track)
+{
+    Simulation *simulation = &track->simulation;
+    const Settings *settings = &track->settings;
+    Status status = STATUS_OK;
+    for (int i = 0, at = 0; i < simulation->system.nodes && !status; i++) {
         bool pinned = at < settings->pins && settings->pin[at] == i;
+        at += pinned;
         if (simulation_is_pinned(simulation, i) != pinned)
             status = simulation_pin(simulation, i, pinned);
     }
+    const HandEnergy *hand = hand_energy_of(&simulation->system);
+    if (!settings->held) {
+        simulation_release(simulation);
+        return status;
+    }
+    bool same = hand && hand->node == settings->node &&
+                hand->target[0] == settings->at[0] &&
+                hand->target[1] == settings->at[1];
+    if (!status && !same)
+        status = simulation_grab(simulation, settings->node, settings->at[0],
+                                 settings->at[1]);
     return status;
+}
+
+/* Makes the simulation one with the present settings. */
+static Status use_settings(Track *track)
+{
+    Status status = use_options(track);
+    return status ? status : use_hands(track);
+}
+
+/* One change of what is there now. */
+static Status apply_change(Track *track, const Command *change, char *message,
+                           size_t size)
+{
+    Simulation *simulation = &track->simulation;
+    const Scene *scene = simulation->scene;
+    int number = (int)change->number;
+    if (change->kind == COMMAND_HANDLE) {
+        scene->drag(simulation, number, change->x, change->y);
+        return STATUS_OK;
+    }
+    if (change->kind == COMMAND_FLIP) {
+        scene->flip(simulation, number);
+        return STATUS_OK;
+    }
+    Status status = settings_change(&track->settings, change, message, size);
+    return status ? status : use_settings(track);
 }
 
 /* ---- going back --------------------------------------------------------- */
@@ -220,9 +296,7 @@ static Status settings_at(Track *track, long step, size_t *next)
 {
     char message[256];
     const Script *changes = &track->changes;
-    track->settings.options = track->options;
-    track->settings.pins = 0;
-    Status status = STATUS_OK;
+    Status status = settings_copy(&track->start, &track->settings);
     for (*next = 0; *next < changes->count && !status; (*next)++) {
         if (changes->line[*next].step >= step)
             break;
@@ -351,35 +425,47 @@ Status track_step(Track *track)
     return status;
 }
 
+/* Whether a change makes sense here; message [size] out: why not. */
+static Status check_change(const Track *track, const Command *change,
+                           char *message, size_t size)
+{
+    const Simulation *simulation = &track->simulation;
+    const Scene *scene = simulation->scene;
+    double at[SCENE_MAX_HANDLES][2];
+    Switch part[SCENE_MAX_SWITCHES];
+    Settings trial = track->settings;
+    long limit = LONG_MAX;
+    message[0] = '\0';
+    if (change->kind == COMMAND_SET)
+        return settings_change(&trial, change, message, size);
+    if (change->kind == COMMAND_HANDLE)
+        limit = scene->handles ? scene->handles(simulation, at) : 0;
+    if (change->kind == COMMAND_FLIP)
+        limit = scene->switches ? scene->switches(simulation, part) : 0;
+    if (change->kind == COMMAND_PIN || change->kind == COMMAND_GRAB)
+        limit = simulation->system.nodes;
+    if (change->number >= 0 && change->number < limit)
+        return STATUS_OK;
+    snprintf(message, size, "there is none with number %ld", change->number);
+    return STATUS_INVALID_INPUT;
+}
+
 Status track_change(Track *track, const Command *change, char *message,
                     size_t size)
 {
-    Settings trial = track->settings;
-    snprintf(message, size, "%s", "");
-    if (change->kind == COMMAND_PIN &&
-        (change->number < 0 ||
-         change->number >= track->simulation.system.nodes)) {
-        snprintf(message, size, "there is no node %ld", change->number);
-        return STATUS_INVALID_INPUT;
-    }
-    if (change->kind == COMMAND_SET) {
-        Status status = settings_change(&trial, change, message, size);
-        if (status)
-            return status;
-    }
+    Status status = check_change(track, change, message, size);
+    if (status)
+        return status;
     track_forget(track);
-    Status status =
-        script_add(&track->changes, track_step_shown(track), change);
-    if (!status)
-        status = settings_change(&track->settings, change, message, size);
-    return status ? status : use_settings(track);
+    status = script_add(&track->changes, track_step_shown(track), change);
+    return status ? status : apply_change(track, change, message, size);
 }
 
 Status track_create(const Options *options, bool keeps, NewtonObserver observer,
                     void *user, Track *track)
 {
     *track = (Track){.options = *options,
-                     .settings = {.options = *options},
+                     .start = {.options = *options},
                      .keeps = keeps,
                      .limit = TRACK_BYTES,
                      .stride = 1,
@@ -387,6 +473,10 @@ Status track_create(const Options *options, bool keeps, NewtonObserver observer,
                      .user = user};
     Status status =
         simulation_create(options, watch, track, &track->simulation);
+    if (!status)
+        status = find_pins(&track->simulation, &track->start);
+    if (!status)
+        status = settings_copy(&track->start, &track->settings);
     if (!status)
         keep_state(track);
     return status;
@@ -399,6 +489,7 @@ void track_free(Track *track)
     free(track->kept);
     free(track->row);
     free(track->settings.pin);
+    free(track->start.pin);
     script_free(&track->changes);
     simulation_free(&track->simulation);
     *track = (Track){0};

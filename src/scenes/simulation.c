@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/hand_energy.h"
 #include "scenes/scene.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
@@ -200,6 +201,53 @@ bool simulation_is_pinned(const Simulation *simulation, int node)
     return simulation->system.pinned && simulation->system.pinned[node];
 }
 
+/* The hand is as stiff as the springs that hold a node, and so is its reach in
+ * what it can do: it bends the square, and does not tear nodes out of it. */
+static double hand_stiffness(const Simulation *simulation, int node)
+{
+    double k = 0.25 * system_stiffest(&simulation->system);
+    return k > 0 ? k : 100 * simulation->system.m[node];
+}
+
+/* work += sign P of the hand, in every run. */
+static void book_hand(Simulation *simulation, double sign)
+{
+    for (int r = 0; r < simulation->runs; r++)
+        simulation->work[r] +=
+            sign *
+            hand_energy_value(&simulation->system, simulation->run[r].x);
+}
+
+Status simulation_grab(Simulation *simulation, int node, double x, double y)
+{
+    System *system = &simulation->system;
+    HandEnergy *hand = hand_energy_of(system);
+    HandEnergy wanted = {.node = node, .target = {x, y}};
+    if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
+        return STATUS_INVALID_INPUT;
+    bool other = !hand || hand->node != node;
+    if (other)
+        simulation_release(simulation);
+    hand = hand_energy_of(system);
+    wanted.k = hand ? hand->k : hand_stiffness(simulation, node);
+    book_hand(simulation, -1);
+    Status status = hand_energy_set(system, &wanted);
+    book_hand(simulation, 1);
+    for (int r = 0; r < simulation->runs && !status; r++)
+        time_integrator_forget(&simulation->run[r], other);
+    return status;
+}
+
+void simulation_release(Simulation *simulation)
+{
+    if (!hand_energy_of(&simulation->system))
+        return;
+    book_hand(simulation, -1);
+    hand_energy_remove(&simulation->system);
+    for (int r = 0; r < simulation->runs; r++)
+        time_integrator_forget(&simulation->run[r], true);
+}
+
 /* Positions and velocities of all runs, [runs 4 nodes], or NULL. */
 static double *copy_motion(const Simulation *simulation)
 {
@@ -222,6 +270,9 @@ Status simulation_change(Simulation *simulation, const Options *options)
     void *user = simulation->user;
     size_t size = 2 * (size_t)simulation->system.nodes;
     int runs = simulation->runs;
+    double work[SIMULATION_MAX_RUNS];
+    simulation_release(simulation);
+    memcpy(work, simulation->work, sizeof work);
     double *motion = copy_motion(simulation);
     if (!motion)
         return STATUS_OUT_OF_MEMORY;
@@ -237,6 +288,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
     simulation->unconverged = unconverged;
     simulation->first = first;
     simulation->time_before = time;
+    memcpy(simulation->work, work, sizeof work);
     free(motion);
     return status;
 }
@@ -248,8 +300,12 @@ Energies simulation_energies(const Simulation *simulation, int run)
     energies.kinetic = system_kinetic(&simulation->system, integrator->v);
     energies.gravity =
         system_gravity_potential(integrator->system, integrator->x);
-    energies.elastic = system_potential(integrator->system, integrator->x);
-    energies.total = energies.kinetic + energies.elastic + energies.gravity;
+    energies.hand = hand_energy_value(integrator->system, integrator->x);
+    energies.elastic =
+        system_potential(integrator->system, integrator->x) - energies.hand;
+    energies.total = energies.kinetic + energies.elastic + energies.gravity +
+                     energies.hand;
+    energies.work = simulation->work[run];
     return energies;
 }
 

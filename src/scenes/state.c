@@ -9,6 +9,7 @@ typedef struct StateHead {
     long steps, unconverged;
     long steps_before; /* of which the timestep was another */
     double time_before;
+    double work[SIMULATION_MAX_RUNS];
     Status first, status;
     bool done;
 } StateHead;
@@ -28,7 +29,8 @@ static size_t array_size(const Simulation *simulation)
 
 size_t state_size(const Simulation *simulation)
 {
-    if (!(simulation->scene->needs & NEEDS_TIME))
+    const Scene *scene = simulation->scene;
+    if (!(scene->needs & NEEDS_TIME) || scene->step || scene->handles)
         return 0;
     size_t bytes = sizeof(StateHead), arrays = 0;
     for (int r = 0; r < simulation->runs; r++) {
@@ -64,6 +66,7 @@ void state_save(const Simulation *simulation, void *bytes)
     head.unconverged = simulation->unconverged;
     head.steps_before = simulation->steps_before;
     head.time_before = simulation->time_before;
+    memcpy(head.work, simulation->work, sizeof head.work);
     head.first = simulation->first;
     head.status = simulation->status;
     head.done = simulation->done;
@@ -94,6 +97,7 @@ void state_restore(const void *bytes, Simulation *simulation)
     simulation->unconverged = head.unconverged;
     simulation->steps_before = head.steps_before;
     simulation->time_before = head.time_before;
+    memcpy(simulation->work, head.work, sizeof head.work);
     simulation->first = head.first;
     simulation->status = head.status;
     simulation->done = head.done;
