@@ -29,6 +29,7 @@ typedef struct Player {
     bool quit;         /* somebody asked for the end */
     bool changed;      /* the window must be drawn again */
     bool warned;       /* paused once because a step did not converge */
+    bool holds;        /* the hand has not let go since it took a node */
     bool blank;        /* the screen is black */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */

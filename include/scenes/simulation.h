@@ -38,19 +38,19 @@ typedef struct Simulation {
     System system;
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
-    Descent descent;         /* zeroed in scenes that move through time */
-    Exhibit exhibit;         /* zeroed in scenes without one */
-    Prediction prediction;   /* of where the next step leads */
+    Descent descent;       /* zeroed in scenes that move through time */
+    Exhibit exhibit;       /* zeroed in scenes without one */
+    Prediction prediction; /* of where the next step leads */
     double work[SIMULATION_MAX_RUNS]; /* J, done by the hand in each run */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
-    long steps;       /* done so far */
-    long steps_before; /* of them with another timestep, */
+    long steps;         /* done so far */
+    long steps_before;  /* of them with another timestep, */
     double time_before; /* s, which took this long */
-    long unconverged; /* of them not converged */
-    Status first;     /* how the first of these ended */
-    Status status;    /* of the last step */
+    long unconverged;   /* of them not converged */
+    Status first;       /* how the first of these ended */
+    Status status;      /* of the last step */
 } Simulation;
 
 /* J; total is the sum of the first four.  work is what the hand has put in by

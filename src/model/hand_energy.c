@@ -89,8 +89,7 @@ static double average_value(const Term *term, const Place *at)
     double sum = 0;
     for (int c = 0; c < 2; c++) {
         int i = 2 * hand->node + c;
-        sum += at->u[i] *
-               (at->x_n[i] - hand->target[c] + 0.25 * at->u[i]);
+        sum += at->u[i] * (at->x_n[i] - hand->target[c] + 0.25 * at->u[i]);
     }
     return hand->k * sum;
 }
@@ -101,8 +100,7 @@ static void average_gradient(const Term *term, const Place *at, double w,
     const HandEnergy *hand = hand_of(term);
     for (int c = 0; c < 2; c++) {
         int i = 2 * hand->node + c;
-        g[i] += w * hand->k *
-                (at->x_n[i] + 0.5 * at->u[i] - hand->target[c]);
+        g[i] += w * hand->k * (at->x_n[i] + 0.5 * at->u[i] - hand->target[c]);
     }
 }
 

@@ -179,6 +179,17 @@ void simulation_set_solver(Simulation *simulation, Solver solver)
     forget_runs(simulation);
 }
 
+/* A system whose last pin is gone is the one that never had any: its centre of
+ * mass is free again. */
+static void drop_empty_pins(System *system)
+{
+    for (int i = 0; i < system->nodes; i++)
+        if (system->pinned[i])
+            return;
+    free(system->pinned);
+    system->pinned = NULL;
+}
+
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
     System *system = &simulation->system;
@@ -187,6 +198,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
     if (!system->pinned && system_create_pins(system))
         return STATUS_OUT_OF_MEMORY;
     system->pinned[node] = pinned;
+    drop_empty_pins(system);
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];
         run->v[2 * node] = run->v[2 * node + 1] = 0;
@@ -214,8 +226,7 @@ static void book_hand(Simulation *simulation, double sign)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->work[r] +=
-            sign *
-            hand_energy_value(&simulation->system, simulation->run[r].x);
+            sign * hand_energy_value(&simulation->system, simulation->run[r].x);
 }
 
 Status simulation_grab(Simulation *simulation, int node, double x, double y)
@@ -303,8 +314,8 @@ Energies simulation_energies(const Simulation *simulation, int run)
     energies.hand = hand_energy_value(integrator->system, integrator->x);
     energies.elastic =
         system_potential(integrator->system, integrator->x) - energies.hand;
-    energies.total = energies.kinetic + energies.elastic + energies.gravity +
-                     energies.hand;
+    energies.total =
+        energies.kinetic + energies.elastic + energies.gravity + energies.hand;
     energies.work = simulation->work[run];
     return energies;
 }

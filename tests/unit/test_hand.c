@@ -1,0 +1,266 @@
+/* The hand: a term of E with the derivatives it claims, whose work is booked;
+ * whatever the mouse does, every step ends.
+ */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/hand_energy.h"
+#include "play/track.h"
+
+static void begin(const char *line, Track *track)
+{
+    Simulation simulation;
+    simulation_from_line(line, NULL, NULL, &simulation);
+    Options options = simulation.options;
+    simulation_free(&simulation);
+    CHECK_STATUS(track_create(&options, true, NULL, NULL, track), STATUS_OK);
+}
+
+static void change(Track *track, CommandKind kind, long number, double x,
+                   double y)
+{
+    char message[256];
+    Command command = {.kind = kind, .number = number, .x = x, .y = y};
+    CHECK_STATUS(track_change(track, &command, message, sizeof message),
+                 STATUS_OK);
+}
+
+/* Value, gradient and Hessian against the formula, in random places; what a
+ * line and the averaged twin say against both. */
+static void derivatives_are_those_of_the_formula(void **unused)
+{
+    (void)unused;
+    Random random = {11};
+    for (int round = 0; round < 50; round++) {
+        System system;
+        double x[MAX_SIZE], u[MAX_SIZE], end[MAX_SIZE], g[MAX_SIZE] = {0};
+        random_system(&random, SPRINGS_MIXED, &system, x);
+        HandEnergy hand = {.node = random_below(&random, system.nodes),
+                           .k = random_uniform(&random, 1, 100),
+                           .target = {random_uniform(&random, -2, 2),
+                                      random_uniform(&random, -2, 2)}};
+        CHECK_STATUS(hand_energy_set(&system, &hand), STATUS_OK);
+        const Term *term = system_find_term(&system, &hand_energy);
+        CHECK(term && term->kind->valid(term, &system));
+        for (int i = 0; i < 2 * system.nodes; i++) {
+            u[i] = random_uniform(&random, -1, 1);
+            end[i] = x[i] + u[i];
+        }
+        Place at = {&system, x, u, end};
+        int i = 2 * hand.node;
+        double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
+        double P = hand.k / 2 * (dx * dx + dy * dy);
+        CHECK_NEAR(hand_energy_value(&system, end), P, 1e-14 * P);
+        term->kind->gradient(term, &at, 3, g);
+        for (int j = 0; j < 2 * system.nodes; j++) {
+            double exact = j == i ? dx : j == i + 1 ? dy : 0;
+            CHECK_NEAR(g[j], 3 * hand.k * exact, 1e-13 * hand.k);
+        }
+        /* The averaged gradient is the mean over the way: Simpson's rule is
+         * exact for a linear function. */
+        double mean[MAX_SIZE] = {0};
+        const TermKind *averaged = term->kind->averaged;
+        averaged->gradient(term, &at, 1, mean);
+        double start = hand.k * (x[i] - hand.target[0]);
+        CHECK_NEAR(mean[i], (start + hand.k * dx) / 2, 1e-13 * hand.k);
+        /* And u . mean is what P gains from x_n to x_n + u. */
+        double gained = P - hand_energy_value(&system, x);
+        CHECK_NEAR(mean[i] * u[i] + mean[i + 1] * u[i + 1], gained,
+                   1e-12 * hand.k);
+        /* Along u from x_n: gradient at x_n times alpha, and this. */
+        double q[3] = {0}, half[3] = {0};
+        Place begin = {&system, x, g, x};
+        term->kind->along(term, &begin, u, 1, 1, q);
+        averaged->along(term, &begin, u, 1, 1, half);
+        double slope =
+            start * u[i] + hand.k * (x[i + 1] - hand.target[1]) * u[i + 1];
+        CHECK_NEAR(slope + q[0], gained, 1e-12 * hand.k);
+        CHECK(half[0] == q[0] / 2 && q[1] == 0 && q[2] == 0);
+        double y[MAX_SIZE] = {0}, d = u[i] * u[i] + u[i + 1] * u[i + 1];
+        term->kind->product(term, &begin, 1, FILTER_CLAMP, u, y);
+        CHECK_NEAR(y[i] * u[i] + y[i + 1] * u[i + 1], 2 * q[0],
+                   1e-13 * hand.k * d);
+        hand_energy_remove(&system);
+        CHECK(hand_energy_value(&system, end) == 0 && !hand_energy_of(&system));
+        system_free(&system);
+    }
+}
+
+/* Averaged vector field conserves energy exactly, so all that is there was
+ * there at the start or is the work of the hand: taking, moving, letting go. */
+static void work_is_what_energy_gains(void **unused)
+{
+    (void)unused;
+    const char *lines[] = {
+        "square --segments 3 --integrator avf --tolerance 1e-10",
+        "square --segments 2 --integrator avf4 --tolerance 1e-10 --timestep "
+        "0.002",
+        "circle --integrator avf",
+    };
+    for (int line = 0; line < 3; line++) {
+        Track track;
+        begin(lines[line], &track);
+        const Simulation *simulation = &track.simulation;
+        double start = simulation_energies(simulation, 0).total, high = start;
+        for (int step = 0; step < 60; step++) {
+            const double *x = simulation->run[0].x;
+            if (step == 5)
+                change(&track, COMMAND_GRAB, 0, x[0], x[1]);
+            if (step > 5 && step < 40)
+                change(&track, COMMAND_DRAG, 0, -1 - 0.05 * step,
+                       0.3 * sin(step));
+            if (step == 40)
+                change(&track, COMMAND_RELEASE, 0, 0, 0);
+            CHECK_STATUS(track_step(&track), STATUS_OK);
+            Energies energies = simulation_energies(simulation, 0);
+            high = fmax(high, energies.total);
+            /* What Newton's tolerance leaves: measured 2e-9 of the highest. */
+            CHECK_NEAR(energies.total - energies.work, start, 1e-7 * high);
+            CHECK(step < 5 || step >= 40 || energies.hand >= 0);
+        }
+        Energies end = simulation_energies(simulation, 0);
+        CHECK(end.hand == 0 && fabs(end.work) > 1e-3 * start);
+        track_free(&track);
+    }
+}
+
+/* A node pulled for a while is where the hand is. */
+static void the_node_follows(void **unused)
+{
+    (void)unused;
+    Track track;
+    begin("square --segments 4 --stretch 1 --timestep 0.02", &track);
+    const double *x = track.simulation.run[0].x;
+    change(&track, COMMAND_GRAB, 24, x[48], x[49]);
+    change(&track, COMMAND_DRAG, 24, 1.5, 1);
+    for (int i = 0; i < 400; i++)
+        CHECK_STATUS(track_step(&track), STATUS_OK);
+    CHECK_NEAR(track.simulation.run[0].x[48], 1.5, 0.01);
+    CHECK_NEAR(track.simulation.run[0].x[49], 1, 0.01);
+    change(&track, COMMAND_RELEASE, 0, 0, 0);
+    CHECK(!hand_energy_of(&track.simulation.system));
+    track_free(&track);
+}
+
+/* Going back into a drag and out of it again. */
+static void drags_are_repeated(void **unused)
+{
+    (void)unused;
+    for (int thin = 0; thin < 2; thin++) {
+        enum { STEPS = 50 };
+        Track track;
+        uint64_t hash[STEPS + 1];
+        begin("square --segments 3 --integrator bdf2 --solver lagged", &track);
+        if (thin)
+            track.limit = 4 * state_size(&track.simulation);
+        for (int i = 0; i <= STEPS; i++) {
+            if (i == 8)
+                change(&track, COMMAND_GRAB, 5, 0, 0);
+            if (i > 8 && i < 30 && i % 3 == 0)
+                change(&track, COMMAND_DRAG, 5, 0.1 * i, -1);
+            if (i == 20)
+                change(&track, COMMAND_PIN, 2, 1, 0);
+            if (i == 33)
+                change(&track, COMMAND_RELEASE, 0, 0, 0);
+            hash[i] = state_hash(&track.simulation, STATE_HASH_SEED);
+            if (i < STEPS)
+                CHECK(!track_step(&track));
+        }
+        double work = track.simulation.work[0];
+        for (int i = STEPS; i >= 0; i--) {
+            CHECK_STATUS(track_show(&track, i), STATUS_OK);
+            CHECK(state_hash(&track.simulation, STATE_HASH_SEED) == hash[i]);
+            CHECK((hand_energy_of(&track.simulation.system) != NULL) ==
+                  (i >= 8 && i < 33));
+        }
+        CHECK(track.simulation.work[0] == 0);
+        CHECK_STATUS(track_show(&track, STEPS), STATUS_OK);
+        CHECK(track.simulation.work[0] == work);
+        track_free(&track);
+    }
+}
+
+/* sum m |v - v_n|^2/2, J */
+static double change_of_motion(const Simulation *simulation, const double *v_n)
+{
+    const double *v = simulation->run[0].v;
+    double sum = 0;
+    for (int i = 0; i < 2 * simulation->system.nodes; i++)
+        sum += simulation->system.m[i / 2] * (v[i] - v_n[i]) * (v[i] - v_n[i]);
+    return 0.5 * sum;
+}
+
+/* Random jerks of the mouse, any timestep, implicit methods: every step ends
+ * and nothing is NaN.  A step of backward Euler ends where E is at most what it
+ * was at x_n, so sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 + P_n, the hand's
+ * energy in P.  (The midpoint rule is left out: under such abuse its energy
+ * grows without bound.)  ELASTO_DRAGS asks for more steps of the first three.
+ */
+static void random_drags_end(void **unused)
+{
+    (void)unused;
+    static const char *const methods[] = {
+        "backward-euler", "backward-euler", "bdf2", "sdirk2", "avf",
+    };
+    const char *more = getenv("ELASTO_DRAGS");
+    Random random = {2026};
+    for (int i = 0; i < 5; i++) {
+        char line[160];
+        Track track;
+        snprintf(line, sizeof line,
+                 "square --segments %d --integrator %s --solver %s", 2 + i % 3,
+                 methods[i], i % 2 ? "lagged" : "newton");
+        begin(line, &track);
+        Simulation *simulation = &track.simulation;
+        int steps = more && i < 3 ? atoi(more) : 150;
+        for (int step = 0; step < steps; step++) {
+            char message[256];
+            int n = simulation->system.nodes;
+            Command set = {.kind = COMMAND_SET};
+            double h = random_logarithmic(&random, 1e-4, 1);
+            snprintf(set.text, sizeof set.text, "timestep %.17g", h);
+            if (step % 10 == 0)
+                CHECK_STATUS(
+                    track_change(&track, &set, message, sizeof message),
+                    STATUS_OK);
+            if (step % 25 == 0)
+                change(&track, COMMAND_GRAB, random_below(&random, n),
+                       random_uniform(&random, -1, 1),
+                       random_uniform(&random, -1, 1));
+            else if (step % 25 == 20)
+                change(&track, COMMAND_RELEASE, 0, 0, 0);
+            else if (track.settings.held)
+                change(&track, COMMAND_DRAG, 0, random_uniform(&random, -5, 5),
+                       random_uniform(&random, -5, 5));
+            double v[MAX_SIZE * 3], high;
+            memcpy(v, simulation->run[0].v, 2 * (size_t)n * sizeof *v);
+            high = simulation_energies(simulation, 0).total;
+            Status status = track_step(&track);
+            CHECK(!status || status_is_unconverged(status));
+            CHECK(track_step_shown(&track) == step + 1);
+            Energies now = simulation_energies(simulation, 0);
+            CHECK(isfinite(now.total) && isfinite(now.work));
+            if (i < 2) /* up to the rounding of the energies themselves */
+                CHECK_AT_MOST(change_of_motion(simulation, v) + now.total -
+                                  now.kinetic,
+                              high * (1 + 1e-12));
+        }
+        track_free(&track);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(derivatives_are_those_of_the_formula),
+        cmocka_unit_test(work_is_what_energy_gains),
+        cmocka_unit_test(the_node_follows),
+        cmocka_unit_test(drags_are_repeated),
+        cmocka_unit_test(random_drags_end),
+    };
+    return cmocka_run_group_tests_name("hand", tests, NULL, NULL);
+}
