@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "play/event_wait.h"
+
 enum {
     WINDOW_WIDTH = 1280,
     WINDOW_HEIGHT = 800,
@@ -442,7 +444,7 @@ void view_wait(View *view, int milliseconds)
     if (!view->window)
         return;
     if (milliseconds > 0)
-        SDL_WaitEventTimeout(NULL, milliseconds);
+        event_wait(view->window, milliseconds);
 }
 
 /* Whether this event asks for the end of the program. */
