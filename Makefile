@@ -329,7 +329,7 @@ envelope: build/stress
 CHECK_ENVIRONMENT = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' \
   DEP_LIBS='$(DEP_LIBS)' SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto
 
-same-bits: build/elasto_single.c build/elasto
+same-bits: build/elasto
 	@$(CHECK_ENVIRONMENT) sh tests/checks/same_bits.sh
 
 mutants: $(CONFIG)

@@ -157,8 +157,16 @@ faults_of folders_cannot_be_made folder '' 'frames: No space left' 1 \
     --frames frames
 
 # ---- signals ----------------------------------------------------------------
-milliseconds() {
-    echo $(($(date +%s%N) / 1000000))
+# Processor time, so that a busy machine changes nothing: in ms, into $spent, of
+# all children that have ended; and of one that runs.
+ended_milliseconds() {
+    times >clock
+    spent=$(awk 'NR == 2 { gsub(/[ms]/, " ")
+        print int(1000 * ($1 * 60 + $2 + $3 * 60 + $4)) }' clock)
+}
+running_milliseconds() { # process
+    awk -v hertz="$(getconf CLK_TCK)" \
+        '{ print int(1000 * ($14 + $15) / hertz) }' "/proc/$1/stat"
 }
 
 # A pause of 0.1 ... LIMIT/1000 s, another one each time.
@@ -168,7 +176,7 @@ random_pause() {
         'BEGIN { srand(seed); printf "%.3f", 0.1 + rand() * limit / 1000 }')"
 }
 
-# The slowest of some ends at 128 segments goes to "slowest".
+# What the slowest end at 128 segments took goes to "ends".
 signals() {
     : >ends
     for round in $(seq "$1"); do
@@ -178,11 +186,14 @@ signals() {
                 --steps 100000 --log l.csv 2>error &
             child=$!
             random_pause 1500
-            start=$(milliseconds)
+            used=$(running_milliseconds "$child")
+            ended_milliseconds
+            before=$spent
             kill -s "$name" "$child"
             wait "$child"
             code=$?
-            echo $(($(milliseconds) - start)) >>ends
+            ended_milliseconds
+            echo $((spent - before - used)) >>ends
             [ "$code" -eq 0 ] || echo "$name: exit $code: $(cat error)"
             [ ! -s error ] || echo "$name: $(cat error)"
             check_table l.csv step,iteration 0
@@ -196,21 +207,35 @@ signals() {
 rounds=2 limit=300
 [ -z "$all" ] || rounds=25
 [ -z "${SANITIZE:-}" ] || limit=3000
-verdict signals_end_the_run $((2 * rounds)) "$(signals "$rounds" "$limit")"
-echo "# slowest end: $(sort -n ends | tail -n 1) ms"
+if [ -r /proc/self/stat ]; then
+    verdict signals_end_the_run $((2 * rounds)) "$(signals "$rounds" "$limit")"
+    echo "# slowest end: $(sort -n ends | tail -n 1) ms of processor time"
+else
+    echo 'skipped signals_end_the_run: no /proc'
+fi
 
-# Whatever is killed: what stands under a final name is whole.
+# Whatever is killed: what stands under a final name is whole.  Half of all
+# victims at least must have been caught while they wrote.
 kills() {
+    caught=0
     for round in $(seq "$1"); do
         begin_files
         "$elasto" --headless --segments 2 --quiet --steps 100000 \
             --states s.csv --log l.csv --frames frames >out 2>&1 &
         child=$!
+        tries=0
+        while [ $((round % 2)) = 0 ] && [ ! -s s.csv.part ] &&
+            [ $tries -lt 500 ]; do
+            sleep 0.01 # every second one is killed when it has written
+            tries=$((tries + 1))
+        done
         sleep "0.0$((round * 7 % 90 + 10))"
         kill -s KILL "$child"
         wait "$child" 2>/dev/null
+        [ ! -s s.csv.part ] || caught=$((caught + 1))
         check_files
     done
+    [ $((2 * caught)) -ge "$1" ] || echo "only $caught of $1 had written"
 }
 rounds=50
 [ -z "$all" ] || rounds=500
@@ -218,22 +243,24 @@ verdict kills_leave_no_half_file "$rounds" "$(kills "$rounds" 2>/dev/null)"
 
 # ---- streams and locales ----------------------------------------------------
 closed_streams() {
-    run="$elasto --headless --steps 2 --segments 2"
-    $run --quiet <&- >&- 2>&- || echo "all closed, quiet: $?"
-    $run --quiet --states s.csv >&- || echo "output closed, quiet: $?"
+    run() {
+        "$elasto" --headless --steps 2 --segments 2 "$@"
+    }
+    run --quiet <&- >&- 2>&- || echo "all closed, quiet: $?"
+    run --quiet --states s.csv >&- || echo "output closed, quiet: $?"
     check_table s.csv step,time 9
-    $run >&- 2>error
+    run >&- 2>error
     [ $? -eq 1 ] || echo "output closed: not 1"
     grep -q '^elasto: standard output: ' error || echo "closed: $(cat error)"
     rm -f s.csv
-    $run --states s.csv >&- 2>error # the table must not become the output
+    run --states s.csv >&- 2>error # the table must not become the output
     [ $? -eq 1 ] || echo "output closed, with a table: not 1"
     check_table s.csv step,time 9
-    $run --states - >&- 2>error
+    run --states - >&- 2>error
     [ $? -eq 1 ] || echo "states to a closed output: not 1"
-    $run --states s.csv 2>&- >out || echo "error closed: $?"
+    run --states s.csv 2>&- >out || echo "error closed: $?"
     check_table s.csv step,time 9
-    $run --states nowhere/s.csv 2>&- >out
+    run --states nowhere/s.csv 2>&- >out
     [ $? -eq 1 ] || echo "failure with error closed: not 1"
 }
 verdict streams_may_be_closed 7 "$(closed_streams)"
@@ -252,15 +279,31 @@ broken_pipes() {
 }
 verdict broken_pipes_end_the_run 1 "$(broken_pipes)"
 
+# Locales with a decimal comma; made here, because a bare system has none.
+mkdir locales
+for name in de_DE fr_FR; do
+    localedef -i $name -f UTF-8 "locales/$name.UTF-8" >/dev/null 2>&1
+done
+has_comma() {
+    [ "$(LOCPATH=$work/locales LC_ALL=$1 env printf %.1f 1.5 2>/dev/null)" = \
+        1,5 ]
+}
 locales() {
-    expected=$("$elasto" --headless --steps 3 --quiet --states - | cksum)
-    for name in de_DE.UTF-8 de_DE fr_FR.UTF-8 C.UTF-8 tr_TR.UTF-8 nonsense; do
-        got=$(LC_ALL=$name LANG=$name "$elasto" --headless --steps 3 --quiet \
-            --stiffness 1e5 --timestep 0.004 --states - | cksum)
+    line='--headless --steps 3 --quiet --stiffness 1.5e5 --states -'
+    # shellcheck disable=SC2086
+    expected=$("$elasto" $line | cksum)
+    for name in de_DE.UTF-8 fr_FR.UTF-8 C.UTF-8 nonsense; do
+        # shellcheck disable=SC2086
+        got=$(LOCPATH=$work/locales LC_ALL=$name LANG=$name "$elasto" $line |
+            cksum)
         [ "$got" = "$expected" ] || echo "$name: other numbers"
     done
 }
-verdict locales_change_nothing 6 "$(locales)"
+if has_comma de_DE.UTF-8 || has_comma fr_FR.UTF-8; then
+    verdict locales_change_nothing 4 "$(locales)"
+else
+    echo 'skipped locales_change_nothing: no locale with a decimal comma'
+fi
 
 # ---- command lines ----------------------------------------------------------
 lines=0

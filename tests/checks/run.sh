@@ -4,11 +4,13 @@
 # shell checks print "ok NAME" or "not ok NAME: reason", a line per test, or
 # "skipped NAME: reason" where something is missing that the test needs.
 #
-# The two checks that mostly wait (for windows, for signals) run beside the
-# rest; what each printed is shown in one piece afterwards.
+# What each printed is shown in one piece afterwards.  The last line counts what
+# passed, failed and was skipped.
 set -u
 passed=0
 failed=0
+skipped=0
+checks=${CHECKS:-tests/checks}
 outputs=$(mktemp -d) || exit 1
 trap 'rm -rf "$outputs"' EXIT
 
@@ -25,49 +27,59 @@ sum() {
     sed -n "s/$1/\\1/p" "$2" | awk '{ sum += $1 } END { print sum + 0 }'
 }
 
-report() { # name passed failed
+report() { # name passed failed skipped
     output=$outputs/$1
     if [ "$(cat "$output.code")" != 0 ] && [ "$3" -eq 0 ]; then
-        set -- "$1" "$2" 1 # it crashed, or counted nothing
+        set -- "$1" "$2" 1 "$4" # it crashed, or counted nothing
     fi
     grep '^skipped ' "$output"
-    if [ "$2" -eq 0 ] && [ "$3" -eq 0 ] && ! grep -q '^skipped ' "$output"; then
+    if [ "$2" -eq 0 ] && [ "$3" -eq 0 ] && [ "$4" -eq 0 ]; then
         echo "$1 ran no test"
-        set -- "$1" 0 1
+        set -- "$1" 0 1 0
     fi
     if [ "$3" -ne 0 ]; then
         cat "$output"
     fi
-    printf '%-28s %4d passed, %d failed\n' "$1" "$2" "$3"
+    printf '%-28s %4d passed, %d failed' "$1" "$2" "$3"
+    [ "$4" -eq 0 ] || printf ', %d skipped' "$4"
+    echo
     passed=$((passed + $2))
     failed=$((failed + $3))
+    skipped=$((skipped + $4))
 }
 
-run check_faults.sh sh tests/checks/check_faults.sh &
-faults=$!
-run check_window.sh sh tests/checks/check_window.sh &
-window=$!
+# These wait most of the time: for windows, for signals.
+beside='check_faults.sh check_window.sh check_files.sh'
+is_beside() {
+    case " $beside " in
+    *" $(basename "$1") "*) return 0 ;;
+    *) return 1 ;;
+    esac
+}
+
+for check in "$checks"/check_*.sh; do
+    ! is_beside "$check" || run "$(basename "$check")" sh "$check" &
+done
 for suite in "$@"; do
     run "$(basename "$suite")" "$suite"
 done
-for check in tests/checks/check_*.sh; do
-    case $check in
-    */check_faults.sh | */check_window.sh) ;;
-    *) run "$(basename "$check")" sh "$check" ;;
-    esac
+for check in "$checks"/check_*.sh; do
+    is_beside "$check" || run "$(basename "$check")" sh "$check"
 done
-wait $faults $window
+wait
 
 for suite in "$@"; do
     name=$(basename "$suite")
     report "$name" "$(sum '^\[  PASSED  \] \([0-9]*\) test(s)\..*' \
         "$outputs/$name")" \
-        "$(sum '^\[  FAILED  \] \([0-9]*\) test(s).*' "$outputs/$name")"
+        "$(sum '^\[  FAILED  \] \([0-9]*\) test(s).*' "$outputs/$name")" \
+        "$(sum '^\[  SKIPPED \] \([0-9]*\) test(s).*' "$outputs/$name")"
 done
-for check in tests/checks/check_*.sh; do
+for check in "$checks"/check_*.sh; do
     name=$(basename "$check")
     report "$name" "$(grep -c '^ok ' "$outputs/$name")" \
-        "$(grep -c '^not ok ' "$outputs/$name")"
+        "$(grep -c '^not ok ' "$outputs/$name")" \
+        "$(grep -c '^skipped ' "$outputs/$name")"
 done
-echo "$passed passed, $failed failed"
+echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

@@ -43,7 +43,7 @@ static void run(const char *arguments)
     static char command[8192];
     snprintf(command, sizeof command,
              "cd %s && unset DISPLAY WAYLAND_DISPLAY && "
-             "( timeout 60 %s %s ) >out 2>error",
+             "( timeout 60 '%s' %s ) >out 2>error",
              folder, program, arguments);
     char path[64];
     int status = system(command);
