@@ -37,18 +37,22 @@ COMPILE      = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS)
 Q = $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' $(1) $(2))
 
-.PHONY: all run test bench figures single pictures install uninstall clean \
-        help FORCE
+.PHONY: all run run-lecture test bench figures pictures install uninstall \
+        clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: elasto
+all: elasto lecture
 
 elasto: build/elasto
-.PHONY: elasto
+lecture: build/lecture
+.PHONY: elasto lecture
 
 run: build/elasto
 	./build/elasto $(ARGS)
+
+run-lecture: build/lecture
+	./build/lecture $(ARGS)
 
 # ---- dependencies ----------------------------------------------------------
 # build/config.mk holds their flags.  Its recipe installs what is missing; make
@@ -147,6 +151,14 @@ $(B)/elasto: $(OBJECTS) $(B)/main.o
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
 
+# The whole lecture in one file; it needs nothing of ours.
+build/lecture: $(B)/lecture FORCE
+	@cmp -s $< $@ || cp $< $@
+
+$(B)/lecture: $(B)/lecture.o
+	$(call say,LINK,$@)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
+
 # Objects are made again when the compiler or its flags change.
 $(B)/flags: FORCE
 	@mkdir -p $(B)
@@ -169,7 +181,7 @@ LISTED = $(wildcard src/lecture.c) src/solve/scalar_newton.c src/scenes/circle_s
 define LISTING_AWK
 FNR == 1 { print (NR > 1 ? "};\n" : "") "static const char *const text_" ++files "[] = {"
            name[files] = FILENAME }
-{ gsub(/\\/, "\\\\"); gsub(/"/, "\\\""); print "\"" $$0 "\","; lines[files]++ }
+{ gsub(/\\/, "&&"); gsub(/"/, "\\\""); print "\"" $$0 "\","; lines[files]++ }
 END {
     print "};\n\nconst Listing listings[] = {"
     for (i = 1; i <= files; i++)
@@ -214,43 +226,6 @@ figures:
 	  exit 1; }
 	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
 
-# ---- one file --------------------------------------------------------------
-# Each local #include becomes the header itself, the first time it is met; a
-# .inc each time, for it is made for several types.
-define SINGLE_AWK
-function paste(file,    line, name) {
-    while ((getline line < file) > 0) {
-        if (line !~ /^#include "/) { print line; continue }
-        name = line; gsub(/.*include "|".*/, "", name)
-        if (!(name in pasted) || index(name, ".inc")) { pasted[name] = 1; paste((system("test -f include/" name) ? "src/" : "include/") name) }
-    }
-    close(file)
-}
-BEGIN {
-    for (i = 1; i < ARGC; i++) {
-        printf "\n/* ======== %s ======== */\n", ARGV[i]
-        paste(ARGV[i])
-    }
-}
-endef
-export SINGLE_AWK
-
-single: build/elasto_single.c
-
-build/elasto_single.c: $(wildcard include/*/*.h src/*/*.h) $(SOURCES) \
-                       $(wildcard include/*/*.inc src/*/*.inc) \
-                       $(B)/listing_text.c src/main.c Makefile
-	$(call say,WRITE,$@)
-	@mkdir -p build
-	@{ echo '/* elasto, the whole demo as one file, from the ground up.'; \
-	   echo ' * Compile it with one line:'; \
-	   echo ' *   $(CC) -std=c11 -O2 -ffp-contract=off elasto_single.c'; \
-	   echo ' *   -o elasto $(DEP_CFLAGS)'; \
-	   echo ' *   $(DEP_LIBS)'; \
-	   echo ' */'; \
-	   echo '#define _GNU_SOURCE'; \
-	   awk "$$SINGLE_AWK" $(SOURCES) $(B)/listing_text.c src/main.c; } >$@
-
 # ---- tests -----------------------------------------------------------------
 $(B)/tests/%.o: tests/%.c $(B)/flags
 	$(call say,CC,$<)
@@ -263,7 +238,6 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o $(OBJ
 	  $(DEP_LIBS) $(LDLIBS)
 
 # These need more than the demo has.
-$(B)/tests/unit/test_plain_newton: $(B)/bench/plain_newton.o
 $(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
 
 # This suite makes allocations fail one by one.
@@ -277,9 +251,10 @@ $(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
 suites: $(SUITES)
 .PHONY: suites
 
-test: $(SUITES) $(B)/elasto $(B)/elasto-bench build/elasto_single.c
+test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
 	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
 	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
+	  LECTURE=$(B)/lecture \
 	  sh tests/checks/run.sh $(SUITES)
 
 # ---- pictures of the README -----------------------------------------------
@@ -357,9 +332,9 @@ clean:
 help:
 	@echo 'make run        build, then watch the stretched square relax'
 	@echo '                (ARGS="--segments 16" gives it options)'
+	@echo 'make run-lecture  the same as one file, src/lecture.c (ARGS="k=1e6")'
 	@echo 'make            build build/elasto'
 	@echo 'make test       build and run all tests (SANITIZE=address,undefined)'
-	@echo 'make single     write the whole demo as build/elasto_single.c'
 	@echo 'make pictures   draw the pictures of the README again'
 	@echo 'make bench      measure run time against error, for minutes'
 	@echo '                (ARGS="--quick" or "--only PART"; --help)'

@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #include "bench/bench_cost.h"
+#include "bench/bench_lecture.h"
 #include "bench/bench_work.h"
-#include "bench/plain_newton.h"
 
 enum {
     CLAIM_STEPS = 10,
@@ -114,7 +114,7 @@ static Status plain_seconds(const Problem *problem, double steps,
     double h = problem->motion.time / steps;
     double tolerance = problem_tolerance(problem, (long)steps, claim_error);
     int size = 2 * system->nodes, count = problem->segments > 16 ? 8 : 100;
-    PlainCounters counters = {0};
+    LectureCounters counters = {0};
     double *x = problem->simulation.run[0].x, *v = problem->simulation.run[0].v;
     for (int i = 0; i < size; i++) {
         x[i] = problem->x[i];
@@ -122,8 +122,7 @@ static Status plain_seconds(const Problem *problem, double steps,
     }
     double start = bench_clock();
     for (int i = 0; i < count; i++) {
-        Status status =
-            plain_newton_step(system, h, tolerance, 1000, x, v, &counters);
+        Status status = lecture_step(system, h, tolerance, x, v, &counters);
         if (status && !status_is_unconverged(status))
             return status;
     }

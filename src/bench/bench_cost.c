@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "bench/bench_lecture.h"
 #include "bench/bench_report.h"
-#include "bench/plain_newton.h"
 
-/* Calls whose median is the bare time of one; updates of a plain step. */
-enum { BARE_CALLS = 21, PLAIN_MAX_ITERATIONS = 10000 };
+/* Calls whose median is the bare time of one. */
+enum { BARE_CALLS = 21 };
 
 const char *cost_name(int solver)
 {
@@ -85,21 +85,21 @@ static Status cost_newton(Simulation *simulation, long steps, double deadline,
     return measure_bare(simulation->run[0].newton, cost);
 }
 
-/* Steps of plain_newton.h, with the state of the simulation. */
+/* Steps of lecture.c, with the state of the simulation. */
 static Status cost_plain(Simulation *simulation, long steps, double deadline,
                          Cost *cost)
 {
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[0];
-    PlainCounters counters = {0};
+    LectureCounters counters = {0};
     double start = bench_clock();
     while (cost->steps < steps) {
         cost->timed_out = bench_clock() >= deadline;
         if (cost->timed_out)
             return STATUS_OK;
-        Status status = plain_newton_step(
-            &simulation->system, options->timestep, options->tolerance,
-            PLAIN_MAX_ITERATIONS, run->x, run->v, &counters);
+        Status status =
+            lecture_step(&simulation->system, options->timestep,
+                         options->tolerance, run->x, run->v, &counters);
         if (status && !status_is_unconverged(status))
             return status;
         cost->unconverged += status != STATUS_OK;
@@ -111,7 +111,7 @@ static Status cost_plain(Simulation *simulation, long steps, double deadline,
     cost->factor = counters.seconds_factor;
     cost->solve = counters.seconds_solve;
     cost->search = counters.seconds_search;
-    cost->iterations = counters.iterations;
+    cost->iterations = counters.factorisations - cost->steps;
     cost->factorisations = cost->solves = counters.factorisations;
     cost->rest = cost->total - cost->assembly - cost->analysis - cost->factor -
                  cost->solve - cost->search;

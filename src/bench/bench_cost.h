@@ -5,7 +5,7 @@
 
 #include "scenes/simulation.h"
 
-/* Who makes the steps: a solver of newton.h, or plain_newton.h. */
+/* Who makes the steps: a solver of newton.h, or lecture.c. */
 enum { COST_PLAIN = SOLVER_COUNT, COST_SOLVERS };
 
 /* Sums over all steps; s. */

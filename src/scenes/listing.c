@@ -30,15 +30,18 @@ static bool names_function(const char *line, const char *function)
 /* The line after the closing brace of what begins here; 0: a declaration. */
 static int find_end(const Listing *listing, int from)
 {
+    bool body = false;
     for (int i = from; i < listing->lines; i++) {
         const char *line = listing->line[i];
         size_t length = strlen(line);
-        if (line[0] == '}' || (i == from && strstr(line, "{ ") &&
-                               line[length - 1] == '}'))
+        body = body || line[0] == '{';
+        if (line[0] == '}' ||
+            (i == from && strstr(line, "{ ") && line[length - 1] == '}'))
             return i + 1;
         if (length > 0 && line[length - 1] == ';' && line[0] != ' ')
             return 0; /* on one line, or ... */
-        if (i > from && length > 1 && strcmp(line + length - 2, ");") == 0 &&
+        if (!body && i > from && length > 1 &&
+            strcmp(line + length - 2, ");") == 0 &&
             listing->line[from][0] != '}' && line[0] == ' ' &&
             listing->line[i + 1 < listing->lines ? i + 1 : i][0] == '\0')
             return 0; /* ... on several */

@@ -417,7 +417,7 @@ const LecturePage lecture_pages[] = {
              "from the energy shows in the total.",
      .touch = "Pull at a node. Drag k, h, the stretch.",
      .file = LECTURE,
-     .function = "step",
+     .function = "main",
      .claim = "In 50 steps every one converges, and the total energy never "
               "rises.",
      .film = 100,

@@ -1,0 +1,599 @@
+/* lecture.c - the lecture "Reliable Simulation of Elastodynamics" (Minchen Li,
+ * CMU 15-362/662) as one program, in the order of the slides:
+ *   square_mesh.py       square
+ *   InertiaEnergy.py     inertia_val, inertia_grad, inertia_hess
+ *   utils.py             make_psd
+ *   MassSpringEnergy.py  spring_val, spring_grad, spring_hess
+ *   time_integrator.py   ip_val, ip_grad, ip_hess, search_dir,
+ *                        line_search: Algorithm 2, step_forward: Algorithm 3
+ *   simulator.py         draw, main
+ * Nothing is kept from one Newton iteration to the next; nothing is clever.
+ *   cc -O2 lecture.c -o lecture $(sdl2-config --cflags --libs) \
+ *      -I/usr/include/suitesparse -lcholmod -lm
+ *   ./lecture                  a window; Esc closes it
+ *   ./lecture k=1e6 n_seg=8    other parameters; their names stand in main
+ *   ./lecture steps=50         no window; prints a line for each Newton update
+ *   ./lecture states=FILE      also writes x and v of every step
+ */
+#include <SDL.h>
+#include <cholmod.h>
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* n of these lie in memory like one vector of 2n numbers, x and y in turns. */
+/* clang-format off */
+typedef struct Vec2 { double x, y; } Vec2;
+static Vec2 add(Vec2 a, Vec2 b) { return (Vec2){a.x + b.x, a.y + b.y}; }
+static Vec2 sub(Vec2 a, Vec2 b) { return (Vec2){a.x - b.x, a.y - b.y}; }
+static Vec2 mul(double s, Vec2 a) { return (Vec2){s * a.x, s * a.y}; }
+static double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+/* clang-format on */
+
+/* Ends with one line.  code 2: an argument is wrong; 1: something failed. */
+#define FAIL(code, ...) exit((fprintf(stderr, "lecture: " __VA_ARGS__), (code)))
+
+/* Memory for count elements, all zero. */
+static void *allocate(int count, size_t size)
+{
+    void *memory = calloc((size_t)count, size);
+    if (!memory)
+        FAIL(1, "not enough memory\n");
+    return memory;
+}
+
+/* ==== Mass-spring representation of solids (square_mesh.py) =============== */
+typedef struct Spring {
+    int i, j;     /* the two nodes that it connects */
+    double l2, k; /* m^2, squared rest length; J/m^2, stiffness */
+} Spring;
+
+typedef struct Solid {
+    int nodes, springs;
+    Vec2 *x, *v; /* [nodes] m, positions; m/s, velocities */
+    double *m;   /* [nodes] kg, masses */
+    Spring *e;   /* [springs] the slides' edges */
+} Solid;
+
+/* One more spring, at rest where its nodes are now. */
+static void add_spring(Solid *solid, int i, int j, double k)
+{
+    Vec2 d = sub(solid->x[i], solid->x[j]);
+    solid->e[solid->springs++] = (Spring){i, j, dot(d, d), k};
+}
+
+/* The square in its rest shape, around the origin; n_seg segments on a side.
+ *   2-----5-----8    n_seg = 2.  Nodes are numbered upwards, column by column:
+ *   | \ / | \ / |    node (i, j) has the number i (n_seg + 1) + j.
+ *   | / \ | / \ |
+ *   1-----4-----7    Every cell has two crossing diagonals.  Without them it
+ *   | \ / | \ / |    could shear into a rhombus and no spring would notice.
+ *   | / \ | / \ |    Where they cross there is no node.
+ *   0-----3-----6
+ *   side_len m; rho kg/m^2, density: all nodes get the same mass; k J/m^2 */
+static Solid square(double side_len, int n_seg, double rho, double k)
+{
+    int row = n_seg + 1, nodes = row * row;
+    double step = side_len / n_seg;
+    Solid solid = {.nodes = nodes,
+                   .x = allocate(nodes, sizeof(Vec2)),
+                   .v = allocate(nodes, sizeof(Vec2)),
+                   .m = allocate(nodes, sizeof(double)),
+                   .e = allocate(4 * nodes, sizeof(Spring))};
+    for (int i = 0; i < row; i++)
+        for (int j = 0; j < row; j++) {
+            solid.x[i * row + j].x = -side_len / 2 + i * step;
+            solid.x[i * row + j].y = -side_len / 2 + j * step;
+            solid.m[i * row + j] = rho * side_len * side_len / nodes;
+        }
+    for (int i = 0; i < n_seg; i++) /* horizontal springs */
+        for (int j = 0; j < row; j++)
+            add_spring(&solid, i * row + j, (i + 1) * row + j, k);
+    for (int i = 0; i < row; i++) /* vertical springs */
+        for (int j = 0; j < n_seg; j++)
+            add_spring(&solid, i * row + j, i * row + j + 1, k);
+    for (int i = 0; i < n_seg; i++) /* the diagonals of each cell */
+        for (int j = 0; j < n_seg; j++) {
+            add_spring(&solid, i * row + j, (i + 1) * row + j + 1, k);
+            add_spring(&solid, (i + 1) * row + j, i * row + j + 1, k);
+        }
+    return solid;
+}
+
+/* ==== Inertia energy (InertiaEnergy.py) =================================== */
+/* sum of m |x - x_tilde|^2 / 2: smallest at x_tilde = x_n + h v_n, where the
+ * nodes would be if no spring pulled at them. */
+static double inertia_val(const Solid *solid, const Vec2 *x,
+                          const Vec2 *x_tilde)
+{
+    double sum = 0;
+    for (int i = 0; i < solid->nodes; i++) {
+        Vec2 diff = sub(x[i], x_tilde[i]);
+        sum += 0.5 * solid->m[i] * dot(diff, diff);
+    }
+    return sum;
+}
+
+/* g += M (x - x_tilde) */
+static void inertia_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
+                         Vec2 *g)
+{
+    for (int i = 0; i < solid->nodes; i++)
+        g[i] = add(g[i], mul(solid->m[i], sub(x[i], x_tilde[i])));
+}
+
+/* A Hessian is a list of triplets, the slides' IJV.  Values at the same place
+ * are added up later.  H is symmetric: CHOLMOD wants the upper triangle only.
+ */
+static void add_entry(cholmod_triplet *H, int row, int column, double value)
+{
+    if (row > column)
+        return;
+    ((int *)H->i)[H->nnz] = row;
+    ((int *)H->j)[H->nnz] = column;
+    ((double *)H->x)[H->nnz++] = value;
+}
+
+/* H += M, diagonal: row 2i is x of node i, and row 2i + 1 is y. */
+static void inertia_hess(const Solid *solid, cholmod_triplet *H)
+{
+    for (int row = 0; row < 2 * solid->nodes; row++)
+        add_entry(H, row, row, solid->m[row / 2]);
+}
+
+/* ==== Projection to positive semi-definite (utils.py: make_PSD) =========== */
+static void rotate(double *a, double *b, double cosine, double sine)
+{
+    double old = *a;
+    *a = cosine * old - sine * *b;
+    *b = sine * old + cosine * *b;
+}
+
+/* A = Q L Q^T, numpy's eigh, by Jacobi's method: a rotation in the plane of r
+ * and c makes a[r][c] zero.  It spoils older zeros, but ten sweeps are plenty.
+ * Eigenvalues end on the diagonal of a, eigenvectors in the columns of q. */
+static void eigh(double a[4][4], double q[4][4])
+{
+    for (int i = 0; i < 16; i++)
+        q[i / 4][i % 4] = i / 4 == i % 4;
+    for (int sweep = 0; sweep < 10; sweep++)
+        for (int r = 0; r < 4; r++)
+            for (int c = r + 1; c < 4; c++) {
+                if (a[r][c] == 0)
+                    continue;
+                double theta = (a[c][c] - a[r][r]) / (2 * a[r][c]);
+                double t = copysign(1, theta) / (fabs(theta) + hypot(1, theta));
+                double cosine = 1 / hypot(1, t), sine = t * cosine;
+                for (int i = 0; i < 4; i++) {
+                    rotate(&a[i][r], &a[i][c], cosine, sine);
+                    rotate(&q[i][r], &q[i][c], cosine, sine);
+                }
+                for (int i = 0; i < 4; i++)
+                    rotate(&a[r][i], &a[c][i], cosine, sine);
+                a[r][c] = a[c][r] = 0;
+            }
+}
+
+/* Negative eigenvalues become 0: hess = Q max(L, 0) Q^T. */
+static void make_psd(double hess[4][4])
+{
+    double l[4][4], q[4][4];
+    memcpy(l, hess, sizeof l);
+    eigh(l, q);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) {
+            hess[r][c] = 0;
+            for (int i = 0; i < 4; i++)
+                hess[r][c] += q[r][i] * fmax(l[i][i], 0) * q[c][i];
+        }
+}
+
+/* ==== Mass-spring elasticity (MassSpringEnergy.py) ======================== */
+/* P = sum of l^2 k/2 (|d|^2/l^2 - 1)^2, d = x_i - x_j.  Why not (|d| - l)^2, as
+ * at school?  This is a polynomial in x: no root, smooth also at |d| = 0. */
+static double spring_val(const Solid *solid, const Vec2 *x)
+{
+    double sum = 0;
+    for (const Spring *e = solid->e; e < solid->e + solid->springs; e++) {
+        Vec2 d = sub(x[e->i], x[e->j]);
+        double strain = dot(d, d) / e->l2 - 1;
+        sum += e->l2 * 0.5 * e->k * strain * strain;
+    }
+    return sum;
+}
+
+/* g += scale grad P.  A spring pulls its two nodes in opposite directions. */
+static void spring_grad(const Solid *solid, const Vec2 *x, double scale,
+                        Vec2 *g)
+{
+    for (const Spring *e = solid->e; e < solid->e + solid->springs; e++) {
+        Vec2 d = sub(x[e->i], x[e->j]);
+        Vec2 g_diff = mul(scale * 2 * e->k * (dot(d, d) / e->l2 - 1), d);
+        g[e->i] = add(g[e->i], g_diff);
+        g[e->j] = sub(g[e->j], g_diff);
+    }
+}
+
+/* H += scale (Hessian of P), the 4x4 block of each spring projected:
+ *   [ D -D]
+ *   [-D  D],  D = 2k/l^2 (2 d d^T + (|d|^2 - l^2) I)
+ * A compressed spring, |d| < l, would rather turn aside than stay compressed:
+ * its block has a negative eigenvalue, and Newton's p may lead uphill.  Why not
+ * project the whole H?  Its eigenvalues are expensive, and a sum of positive
+ * semi-definite blocks is positive semi-definite anyway. */
+static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
+                        cholmod_triplet *H)
+{
+    for (const Spring *e = solid->e; e < solid->e + solid->springs; e++) {
+        Vec2 d = sub(x[e->i], x[e->j]);
+        double factor = 2 * e->k / e->l2, excess = dot(d, d) - e->l2;
+        double D[2][2] = {
+            {factor * (2 * d.x * d.x + excess), factor * 2 * d.x * d.y},
+            {factor * 2 * d.x * d.y, factor * (2 * d.y * d.y + excess)}};
+        double block[4][4];
+        for (int r = 0; r < 4; r++)
+            for (int c = 0; c < 4; c++)
+                block[r][c] = (r / 2 == c / 2 ? 1 : -1) * D[r % 2][c % 2];
+        make_psd(block);
+        int place[4] = {2 * e->i, 2 * e->i + 1, 2 * e->j, 2 * e->j + 1};
+        for (int r = 0; r < 4; r++)
+            for (int c = 0; c < 4; c++)
+                add_entry(H, place[r], place[c], scale * block[r][c]);
+    }
+}
+
+/* ==== Incremental potential and search direction (time_integrator.py) ===== */
+/* E(x) = |x - x_tilde|_M^2 / 2 + h^2 P(x).  Implicit Euler wants the x with
+ *   x = x_n + h v,   v = v_n - h M^-1 grad P(x).
+ * Put v into the first equation and multiply by M: it says grad E(x) = 0.  So
+ * the end of the time step is a minimum of E. */
+static double ip_val(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
+                     double h)
+{
+    return inertia_val(solid, x, x_tilde) + h * h * spring_val(solid, x);
+}
+
+/* g += M (x - x_tilde) + h^2 grad P(x) */
+static void ip_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
+                    double h, Vec2 *g)
+{
+    inertia_grad(solid, x, x_tilde, g);
+    spring_grad(solid, x, h * h, g);
+}
+
+/* H = M + h^2 (projected Hessian of P): positive definite, because M is. */
+static cholmod_sparse *ip_hess(const Solid *solid, const Vec2 *x, double h,
+                               cholmod_common *common)
+{
+    size_t n = 2 * (size_t)solid->nodes; /* and 10 of a block's 16 entries: */
+    cholmod_triplet *IJV = cholmod_allocate_triplet(
+        n, n, n + 10 * (size_t)solid->springs, 1, CHOLMOD_REAL, common);
+    if (!IJV)
+        return NULL;
+    inertia_hess(solid, IJV);
+    spring_hess(solid, x, h * h, IJV);
+    cholmod_sparse *H = cholmod_triplet_to_sparse(IJV, 0, common);
+    cholmod_free_triplet(&IJV, common);
+    return H;
+}
+
+/* p = -H^-1 g.  It leads downhill, because g.p = -p^T H p < 0.  The slides call
+ * spsolve; here Cholesky's H = L L^T does it: `analyze` finds a good order of
+ * elimination and the places where L is not zero, `factorize` computes L. */
+static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
+                       double h, Vec2 *p)
+{
+    size_t n = 2 * (size_t)solid->nodes;
+    cholmod_common common;
+    cholmod_start(&common);
+    common.print = 0;    /* no messages of its own */
+    common.final_ll = 1; /* with L D L^T it would not see an indefinite H */
+    cholmod_sparse *H = ip_hess(solid, x, h, &common);
+    cholmod_dense *g = cholmod_zeros(n, 1, CHOLMOD_REAL, &common), *y = NULL;
+    if (g)
+        ip_grad(solid, x, x_tilde, h, g->x);
+    /* A call that is given NULL returns NULL, so one check is enough.  L has
+     * all n columns only if all its pivots were positive. */
+    cholmod_factor *L = cholmod_analyze(H, &common);
+    cholmod_factorize(H, L, &common);
+    if (common.status == CHOLMOD_OK && L->minor == n)
+        y = cholmod_solve(CHOLMOD_A, L, g, &common);
+    if (!y || !isfinite(cholmod_norm_dense(y, 0, &common)))
+        FAIL(1, "CHOLMOD cannot solve H p = -g: %s\n",
+             common.status < 0 ? "not enough memory" : "rounding, or overflow");
+    for (int i = 0; i < solid->nodes; i++)
+        p[i] = mul(-1, ((Vec2 *)y->x)[i]);
+    cholmod_free_dense(&y, &common);
+    cholmod_free_factor(&L, &common);
+    cholmod_free_dense(&g, &common);
+    cholmod_free_sparse(&H, &common);
+    cholmod_finish(&common);
+}
+
+/* ==== Backtracking line search (Algorithm 2) ============================== */
+/* alpha = 1, 1/2, 1/4, ... until E does not rise; x_new = x + alpha p.  Why
+ * does that end?  p leads downhill.  The slide has no limit: this loop needs
+ * one for numbers that overflow, and where rounding hides what is left to gain.
+ */
+static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
+                          const Vec2 *x_tilde, double h, Vec2 *x_new)
+{
+    double E_last = ip_val(solid, x, x_tilde, h), alpha = 1;
+    for (int halvings = 0; halvings <= 64; halvings++, alpha /= 2) {
+        for (int i = 0; i < solid->nodes; i++)
+            x_new[i] = add(x[i], mul(alpha, p[i]));
+        if (ip_val(solid, x_new, x_tilde, h) <= E_last)
+            return alpha;
+    }
+    FAIL(1,
+         "no step length lowers E: overflow, or tol below rounding errors\n");
+}
+
+/* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */
+/* max over nodes of |p_x| + |p_y|, over h: by how much the next update would
+ * change a velocity, m/s.  So tol means the same for each h and each mesh.
+ * (numpy's norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
+static double residual(const Solid *solid, const Vec2 *p, double h)
+{
+    double largest = 0;
+    for (int i = 0; i < solid->nodes; i++)
+        largest = fmax(largest, fabs(p[i].x) + fabs(p[i].y));
+    return largest / h;
+}
+
+/* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
+ * The slide's loop has no limit: it never ends if tol is below the rounding
+ * errors of p.  `table` gets a line for each update, or is NULL. */
+static void step_forward(Solid *solid, double h, double tol, int step,
+                         FILE *table)
+{
+    int n = solid->nodes;
+    Vec2 *x = solid->x, *v = solid->v;
+    Vec2 *x_n = allocate(4 * n, sizeof(Vec2)), *x_tilde = x_n + n;
+    Vec2 *p = x_tilde + n, *x_new = p + n;
+
+    for (int i = 0; i < n; i++) {
+        x_n[i] = x[i]; /* Newton's method starts here too */
+        x_tilde[i] = add(x[i], mul(h, v[i]));
+    }
+
+    search_dir(solid, x, x_tilde, h, p);
+    for (int update = 0; residual(solid, p, h) > tol; update++) {
+        if (update == 10000)
+            FAIL(1, "step %d does not end: residual %g m/s after %d updates\n",
+                 step, residual(solid, p, h), update);
+        double alpha = line_search(solid, x, p, x_tilde, h, x_new);
+        if (table)
+            fprintf(table, "%d,%d,%.17g,%.17g\n", step, update,
+                    residual(solid, p, h), alpha);
+        memcpy(x, x_new, (size_t)n * sizeof(Vec2));
+        search_dir(solid, x, x_tilde, h, p);
+    }
+
+    for (int i = 0; i < n; i++)
+        v[i] = mul(1 / h, sub(x[i], x_n[i]));
+    free(x_n);
+}
+
+/* ==== Forward and symplectic Euler ======================================== */
+/* Nothing to solve, but each step adds energy until the square explodes. */
+static void forward_euler(Solid *solid, double h)
+{
+    Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
+    spring_grad(solid, x, 1, g); /* the force on node i is -g[i] */
+    for (int i = 0; i < solid->nodes; i++) {
+        x[i] = add(x[i], mul(h, v[i]));
+        v[i] = sub(v[i], mul(h / solid->m[i], g[i]));
+    }
+    free(g);
+}
+
+/* The same, but x moves with the new v: the energy stays near the true one, as
+ * long as h is small, here below about 0.035/n_seg s. */
+static void symplectic_euler(Solid *solid, double h)
+{
+    Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
+    spring_grad(solid, x, 1, g);
+    for (int i = 0; i < solid->nodes; i++) {
+        v[i] = sub(v[i], mul(h / solid->m[i], g[i]));
+        x[i] = add(x[i], mul(h, v[i]));
+    }
+    free(g);
+}
+
+/* ==== Drawing (simulator.py) ============================================== */
+#define FOLDER "lecture_pictures"
+enum { PIXELS = 720, PICTURES = 100 };
+typedef struct Screen {
+    SDL_Surface *picture; /* drawn on if there is no window, or NULL */
+    SDL_Renderer *renderer;
+    double scale, radius; /* pixels in a metre; of a node */
+} Screen;
+
+/* From metres, y upwards, to pixels, y downwards. */
+static Vec2 screen_projection(const Screen *screen, Vec2 x)
+{
+    return (Vec2){PIXELS / 2 + screen->scale * x.x,
+                  PIXELS / 2 - screen->scale * x.y};
+}
+
+/* A line from a to b with round ends; a disc if a = b.  SDL's lines are jagged;
+ * this is a blue polygon, and around it a ring in which the colour fades. */
+static void draw_line(const Screen *screen, Vec2 a, Vec2 b, double radius)
+{
+    enum { N = 24 }; /* corners */
+    SDL_Vertex vertex[2 * N];
+    int index[9 * N];
+    a = screen_projection(screen, a);
+    b = screen_projection(screen, b);
+    if (!(dot(a, a) + dot(b, b) < 1e8))
+        return; /* too far away for SDL */
+    double direction = atan2(b.y - a.y, b.x - a.x);
+    for (int i = 0; i < N; i++) {
+        double angle = 2 * M_PI * (i + 0.5) / N;
+        Vec2 out = {cos(direction + angle), sin(direction + angle)};
+        Vec2 in = add(cos(angle) > 0 ? b : a, mul(radius - 0.5, out));
+        vertex[i] = (SDL_Vertex){{in.x, in.y}, {0, 0, 255, 255}, {0, 0}};
+        vertex[N + i] =
+            (SDL_Vertex){{in.x + out.x, in.y + out.y}, {0, 0, 255, 0}, {0, 0}};
+        int next = (i + 1) % N;
+        int triangles[] = {0, i, next, i, next, N + i, N + i, next, N + next};
+        memcpy(index + 9 * i, triangles, sizeof triangles);
+    }
+    SDL_RenderGeometry(screen->renderer, NULL, vertex, 2 * N, index, 9 * N);
+}
+
+static void draw(const Screen *screen, const Solid *solid)
+{
+    SDL_SetRenderDrawColor(screen->renderer, 255, 255, 255, 255);
+    SDL_RenderClear(screen->renderer);
+    for (const Spring *e = solid->e; e < solid->e + solid->springs; e++)
+        draw_line(screen, solid->x[e->i], solid->x[e->j], 1);
+    for (int i = 0; i < solid->nodes; i++)
+        draw_line(screen, solid->x[i], solid->x[i], screen->radius);
+    SDL_RenderPresent(screen->renderer);
+}
+
+/* Opens a window.  Where SDL finds no display it fails, or goes on with a
+ * driver that shows nothing; then a picture in memory takes its place. */
+static Screen open_screen(const Solid *solid)
+{
+    double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
+    Screen screen = {.scale = PIXELS / (4 * size)};
+    screen.radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
+    SDL_Window *window = NULL;
+    if (SDL_Init(SDL_INIT_VIDEO) == 0 &&
+        strcmp(SDL_GetCurrentVideoDriver(), "dummy") != 0 &&
+        strcmp(SDL_GetCurrentVideoDriver(), "offscreen") != 0)
+        SDL_CreateWindowAndRenderer(PIXELS, PIXELS, SDL_WINDOW_RESIZABLE,
+                                    &window, &screen.renderer);
+    SDL_SetWindowTitle(window, "lecture");
+    if (!window) {
+        printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
+        mkdir(FOLDER, 0777); /* if that fails, saving a picture will say so */
+        screen.picture = SDL_CreateRGBSurfaceWithFormat(
+            0, PIXELS / 2, PIXELS / 2, 24, SDL_PIXELFORMAT_RGB24);
+        screen.renderer = SDL_CreateSoftwareRenderer(screen.picture);
+    }
+    if (!screen.renderer)
+        FAIL(1, "cannot draw: %s\n", SDL_GetError());
+    SDL_RenderSetLogicalSize(screen.renderer, PIXELS, PIXELS);
+    SDL_SetRenderDrawBlendMode(screen.renderer, SDL_BLENDMODE_BLEND);
+    return screen;
+}
+
+/* Shows the solid for a while, or saves a picture.  Returns false at the end:
+ * the window was closed, or it was the last picture. */
+static bool show(const Screen *screen, const Solid *solid, int step)
+{
+    draw(screen, solid);
+    if (screen->picture) {
+        char name[40];
+        snprintf(name, sizeof name, FOLDER "/step_%03d.bmp", step);
+        if (SDL_SaveBMP(screen->picture, name) != 0) {
+            remove(name); /* half a picture */
+            FAIL(1, "cannot write %s: %s\n", name, SDL_GetError());
+        }
+        return step < PICTURES;
+    }
+    SDL_Event event;
+    int left = step == 0 ? 1000 : 40; /* ms: real time would be too fast */
+    Uint32 end = SDL_GetTicks() + (Uint32)left;
+    while (SDL_WaitEventTimeout(&event, SDL_max(left, 0))) {
+        if (event.type == SDL_QUIT ||
+            (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE))
+            return false;
+        if (event.type == SDL_WINDOWEVENT)
+            draw(screen, solid); /* it was uncovered or resized */
+        left = (int)(end - SDL_GetTicks());
+    }
+    return true;
+}
+
+/* ==== Simulator (simulator.py) ============================================ */
+typedef struct Parameter {
+    const char *name;
+    double value, least, most;
+} Parameter;
+#define NAMES "side_len rho k initial_stretch n_seg h tol method steps states"
+/* NAME=VALUE; p ends with NULL. */
+static void read_argument(const char *text, Parameter *const *p)
+{
+    char name[20] = "", rest;
+    double value = 0;
+    int read = sscanf(text, "%19[a-z_]=%lf%c", name, &value, &rest);
+    while (*p && strcmp(name, (*p)->name) != 0)
+        p++;
+    if (!*p)
+        FAIL(2, "'%s' is not NAME=VALUE with a NAME out of %s\n", text, NAMES);
+    bool whole = (*p)->most < 1e30; /* it counts something */
+    if (read != 2 || !(value >= (*p)->least && value <= (*p)->most) ||
+        (whole && value != floor(value)))
+        FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,
+             whole ? "whole " : "", (*p)->least, (*p)->most);
+    (*p)->value = value;
+}
+
+int main(int argc, char **argv)
+{
+    Parameter side_len = {"side_len", 1, 1e-30, 1e30}; /* m */
+    Parameter rho = {"rho", 1000, 1e-30, 1e30};        /* kg/m^2, density */
+    Parameter k = {"k", 1e5, 1e-30, 1e30};             /* J/m^2, stiffness */
+    Parameter stretch = {"initial_stretch", 1.4, -1e30, 1e30};
+    Parameter n_seg = {"n_seg", 4, 1, 1000};    /* on a side */
+    Parameter h = {"h", 0.004, 1e-30, 1e30};    /* s */
+    Parameter tol = {"tol", 1e-2, 1e-30, 1e30}; /* m/s */
+    Parameter method = {"method", 0, 0, 2};  /* implicit, symplectic, forward */
+    Parameter steps = {"steps", -1, 0, 1e9}; /* -1: a window */
+    Parameter *all[] = {&side_len, &rho, &k,      &stretch, &n_seg,
+                        &h,        &tol, &method, &steps,   NULL};
+    const char *states = "/dev/null"; /* the file for x and v */
+    for (int a = 1; a < argc; a++)
+        if (strncmp(argv[a], "states=", 7) == 0)
+            states = argv[a] + 7;
+        else
+            read_argument(argv[a], all);
+
+    Solid solid = square(side_len.value, (int)n_seg.value, rho.value, k.value);
+    for (int i = 0; i < solid.nodes; i++)
+        solid.x[i].x *= stretch.value; /* the springs keep their rest length */
+
+    /* FILE.part becomes FILE when it is complete; a device has no .part. */
+    char part[2 * FILENAME_MAX];
+    snprintf(part, sizeof part, "%s%s", states,
+             strncmp(states, "/dev/", 5) == 0 ? "" : ".part");
+    FILE *file = fopen(part, "w"), *table = steps.value < 0 ? NULL : stdout;
+    if (!file)
+        FAIL(1, "cannot write %s: %s\n", part, strerror(errno));
+    fputs("step,time,node,x,y,vx,vy\n", file);
+    if (table)
+        fputs("step,iteration,residual,alpha\n", table);
+    Screen screen = table ? (Screen){0} : open_screen(&solid);
+    for (int step = 0;; step++) {
+        for (int i = 0; i < solid.nodes; i++)
+            fprintf(file, "%d,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n", step,
+                    step * h.value, i, solid.x[i].x, solid.x[i].y, solid.v[i].x,
+                    solid.v[i].y);
+        if (fflush(NULL) != 0 || ferror(file) || ferror(stdout))
+            FAIL(1, "cannot write %s: %s\n",
+                 ferror(file) ? part : "standard output", strerror(errno));
+        if (table ? step == steps.value : !show(&screen, &solid, step))
+            break;
+        if (method.value == 0)
+            step_forward(&solid, h.value, tol.value, step + 1, table);
+        else if (method.value == 1)
+            symplectic_euler(&solid, h.value);
+        else
+            forward_euler(&solid, h.value);
+        if (!isfinite(spring_val(&solid, solid.x)))
+            FAIL(1, "step %d: the square has exploded\n", step + 1);
+    }
+    if (fclose(file) != 0 || (strcmp(part, states) && rename(part, states)))
+        FAIL(1, "cannot write %s: %s\n", states, strerror(errno));
+    SDL_Quit();
+    return 0;
+}

@@ -1,0 +1,213 @@
+#!/bin/sh
+# build/lecture as a program: one line compiles it, it is short, arguments and
+# failures end it as they should, its tables are elasto's, it draws without a
+# screen, and its window closes.
+set -u
+failed=0
+
+. "$(dirname "$0")/verdict.sh"
+
+source=$(realpath src/lecture.c)
+tests=$(realpath "$(dirname "$0")")
+lecture=$(realpath "${LECTURE:-build/lecture}")
+elasto=$(realpath "${ELASTO:-build/elasto}")
+folder=$(mktemp -d) || exit 1
+screen=
+pid=
+finish() {
+    [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
+    [ -z "$screen" ] || kill "$screen" 2>/dev/null
+    wait 2>/dev/null
+    rm -rf "$folder"
+}
+trap finish EXIT
+trap 'exit 1' INT TERM HUP
+cd "$folder" || exit 1
+unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+# The program ends without giving back what it still uses.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+verdict lecture_is_under_600_lines "$(
+    lines=$(wc -l <"$source")
+    [ "$lines" -lt 600 ] || echo "it has $lines"
+)"
+
+verdict lecture_needs_no_header_of_ours "$(grep -n '#include "' "$source")"
+
+# The line of its own head, over two lines there; CC as it is set.
+verdict one_line_compiles_it "$(
+    line=$(sed -n '/^ \*   cc /{N;s/^ \*  *//;s/\\\n \*//p;}' "$source")
+    [ "$line" ] || echo 'no such line'
+    command -v sdl2-config >/dev/null || line=$(echo "$line" |
+        sed 's/\$(sdl2-config[^)]*)/$(pkg-config --cflags --libs sdl2)/')
+    cp "$source" . && eval "${CC:-cc} ${line#cc}" 2>&1 | head -n 1
+    [ -x lecture ] && ./lecture steps=1 | grep -c . | grep -qx 3 ||
+        echo 'what it made does not run'
+)"
+
+# ends CODE ARGUMENT...: with this exit code and one line on standard error.
+ends() {
+    code=$1
+    shift
+    "$lecture" "$@" >out 2>err
+    got=$?
+    [ "$got" = "$code" ] || echo "lecture $*: exit code $got, not $code"
+    [ "$(wc -l <err)" = 1 ] && grep -q '^lecture: .' err ||
+        echo "lecture $*: $(wc -l <err) lines on standard error"
+}
+verdict bad_arguments_end_with_2 "$(
+    for argument in --help -h foo k k= =1 k=x k=1x 'k= ' k=nan k=inf k=0 k=-1 \
+        rho=0 side_len=0 h=0 h=-1 tol=0 tol=-1 initial_stretch=nan n_seg=0 \
+        n_seg=1.5 n_seg=1e9 steps=-1 steps=0.5 method=3 K=1 states k=1=2 \
+        'k=1 h=2' 1e5 initial_stretc=1; do
+        ends 2 "$argument"
+        ends 2 steps=1 "$argument"
+    done
+)"
+verdict the_line_names_value_and_range "$(
+    ends 2 n_seg=0
+    grep -q "n_seg=0.*from 1 to 1000" err || cat err
+    ends 2 side=2
+    grep -q "side=2.*side_len rho k" err || cat err
+)"
+verdict what_does_not_end_is_ended "$(
+    ends 1 steps=1 tol=1e-30
+    ends 1 steps=1 k=1e30 rho=1e-30
+    ends 1 steps=2000 method=2 h=0.1
+)"
+
+if [ -w /dev/full ]; then
+    full() {
+        "$lecture" steps=3 >/dev/full 2>err
+        [ $? = 1 ] && grep -q 'standard output: No space' err || cat err
+        ends 1 steps=3 states=/dev/full
+        [ -c /dev/full ] && [ ! -e /dev/full.part ] || echo '/dev/full is gone'
+    }
+    verdict a_full_disk_is_a_failure "$(full)"
+else
+    echo "skipped a_full_disk_is_a_failure: no /dev/full"
+fi
+verdict states_need_their_folder "$(ends 1 steps=1 states=nowhere/states)"
+
+# The file has its name when it is whole, and not before.
+verdict states_are_whole_or_not_there "$(
+    "$lecture" steps=2 states=whole >/dev/null || echo 'it failed'
+    [ "$(wc -l <whole)" = 76 ] || echo "whole has $(wc -l <whole) lines"
+    ends 1 steps=2 tol=1e-30 states=broken
+    [ ! -e broken ] && [ -s broken.part ] || echo 'a broken run left a file'
+    [ ! -e whole.part ] || echo 'whole.part is left'
+)"
+
+# close_to FILE FILE: the same rows, numbers to 1e-9 (velocities 1e-7).
+close_to() {
+    awk -F , -v file="$1" '
+        { line = FNR == 1 ? "" : $0 }
+        NR == FNR { first[FNR] = $0; rows = FNR; next }
+        { n = split(first[FNR], a, ","); seen = FNR
+          for (c = 1; c <= n && FNR > 1; c++) {
+              off = a[c] - $c
+              if (off < 0) off = -off
+              if (!(off <= (c > 5 ? 1e-7 : 1e-9))) bad = FNR ": column " c
+          } }
+        END { if (bad) print file ": row " bad
+              if (rows != seen || rows < 3) print file ": " rows " rows, " seen }
+        ' "$1" "$2"
+}
+# same LECTURE-ARGUMENTS | ELASTO-OPTIONS: equal states, and as many updates.
+same() {
+    "$lecture" $1 states=ours >updates || echo "lecture $1 failed"
+    "$elasto" --headless --quiet $2 --states theirs --log log ||
+        echo "elasto $2 failed"
+    close_to ours theirs
+    "$elasto" --headless --quiet $2 --log log
+    # log: step,iteration,residual,alpha,...
+    awk -F , 'NR == FNR { a[FNR] = $1 "," $2 "," $4 + 0; n = FNR; next }
+        FNR > 1 && a[FNR] != $1 "," $2 "," $4 + 0 { print "update " FNR ": " $0 }
+        END { if (n != FNR) print n " and " FNR " updates" }' updates log
+}
+verdict tables_are_elasto_s "$(
+    same 'steps=50' '--steps 50'
+    same 'steps=20 initial_stretch=0.5 h=0.02' \
+        '--steps 20 --stretch 0.5 --timestep 0.02'
+    same 'steps=10 n_seg=7 side_len=0.3 rho=300 k=2e4 initial_stretch=1.3
+        tol=1e-4' '--steps 10 --segments 7 --side 0.3 --density 300
+        --stiffness 2e4 --stretch 1.3 --tolerance 1e-4'
+)"
+
+verdict without_a_screen_it_draws_pictures "$(
+    "$lecture" states=drawn >out 2>err || echo "failed: $(tail -n 1 err)"
+    grep -q '^no screen: 100 pictures go to lecture_pictures/$' out ||
+        echo 'it does not say so'
+    [ "$(ls lecture_pictures | grep -c '^step_[0-9]*\.bmp$')" = 101 ] ||
+        echo "$(ls lecture_pictures | wc -l) pictures"
+    [ "$(cksum lecture_pictures/*.bmp | cut -d ' ' -f 1 | sort -u |
+        wc -l)" -gt 50 ] || echo 'they are all alike'
+    # the middle node, a disc: blue, green, red of a BMP
+    [ "$(od -An -tx1 -v lecture_pictures/step_000.bmp | tr -d ' \n' |
+        grep -o ff0000 | wc -l)" -gt 500 ] || echo 'nothing blue'
+    [ "$(wc -l <drawn)" = 2526 ] || echo "drawn has $(wc -l <drawn) lines"
+)"
+verdict pictures_that_cannot_be_written_fail "$(
+    mkdir closed && : >closed/lecture_pictures && cd closed &&
+        "$lecture" >out 2>err
+    [ $? = 1 ] && grep -q '^lecture: cannot write' err || cat err
+)"
+
+for program in Xvfb xdotool; do
+    if ! command -v $program >/dev/null 2>&1; then
+        echo "skipped the_window_closes: no $program"
+        exit $failed
+    fi
+done
+until_true() {
+    end=$(($(date +%s) + 20))
+    until "$@" >/dev/null 2>&1; do
+        [ "$(date +%s)" -lt $end ] || return 1
+        sleep 0.05
+    done
+}
+find_window() {
+    window=$(xdotool search --name '^lecture$' 2>/dev/null | tail -n 1)
+    [ -n "$window" ]
+}
+ended() {
+    ! kill -0 "$pid" || grep -q '^State:.Z' "/proc/$pid/status"
+}
+# closes COMMAND...: the window that comes up closes by this; states are whole.
+closes() {
+    rm -f seen
+    "$lecture" states=seen >out 2>err &
+    pid=$!
+    until_true find_window || echo 'no window'
+    sleep 1.3
+    window=$(xdotool search --name '^lecture$' | tail -n 1)
+    "$@" "$window" || echo "$1 failed"
+    until_true ended || {
+        echo 'it does not close'
+        kill -KILL "$pid"
+    }
+    wait "$pid"
+    code=$?
+    [ $code = 0 ] || echo "exit code $code: $(tail -n 1 err)"
+    pid=
+    [ -s seen ] && [ ! -e seen.part ] || echo 'states are not whole'
+}
+escape() {
+    timeout 20 xdotool windowfocus --sync "$1" key Escape
+}
+Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
+    3>display >screen.log 2>&1 &
+screen=$!
+until_true test -s display || verdict the_screen_starts 'it does not'
+DISPLAY=:$(cat display)
+export DISPLAY
+verdict escape_closes_the_window "$(closes escape)"
+x11=$(ls /usr/lib/*/libX11.so.6 /usr/lib*/libX11.so.6 2>/dev/null | head -n 1)
+if [ "$x11" ] && ${CC:-cc} "$tests/close_window.c" "$x11" -o close_window \
+    2>log; then
+    verdict the_cross_closes_the_window "$(closes ./close_window)"
+else
+    echo "skipped the_cross_closes_the_window: no libX11"
+fi
+
+exit $failed
