@@ -45,12 +45,13 @@ typedef struct Simulation {
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
-    long steps;         /* done so far */
-    long steps_before;  /* of them with another timestep, */
-    double time_before; /* s, which took this long */
-    long unconverged;   /* of them not converged */
-    Status first;       /* how the first of these ended */
-    Status status;      /* of the last step */
+    long steps;                /* done so far */
+    long steps_before;         /* of them with another timestep, */
+    double time_before;        /* s, which took this long */
+    long unconverged;          /* of them not converged */
+    Status first;              /* how the first of these ended */
+    int reasons[STATUS_COUNT]; /* how many of these ended in this way */
+    Status status;             /* of the last step */
 } Simulation;
 
 /* J; total is the sum of the first four.  work is what the hand has put in by

@@ -69,6 +69,10 @@ void summary_print(FILE *file, const Player *player)
     fprintf(file, "steps not converged %ld", simulation->unconverged);
     if (simulation->unconverged > 0)
         fprintf(file, ", the first: %s", status_name(simulation->first));
+    for (int i = 0; i < STATUS_COUNT; i++)
+        if (simulation->reasons[i] > 0)
+            fprintf(file, "\n  %-17s %d", status_name((Status)i),
+                    simulation->reasons[i]);
     fprintf(file, "\nstate hash          %016llx\n",
             (unsigned long long)player_hash(player));
 }

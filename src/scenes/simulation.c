@@ -113,6 +113,8 @@ Status simulation_step(Simulation *simulation)
         return simulation->status;
     simulation->steps++;
     compare_prediction(simulation);
+    if (simulation->status)
+        simulation->reasons[simulation->status]++;
     if (simulation->status && simulation->unconverged++ == 0)
         simulation->first = simulation->status;
     return simulation->status;
@@ -282,6 +284,8 @@ Status simulation_change(Simulation *simulation, const Options *options)
     size_t size = 2 * (size_t)simulation->system.nodes;
     int runs = simulation->runs;
     double work[SIMULATION_MAX_RUNS];
+    int reasons[STATUS_COUNT];
+    memcpy(reasons, simulation->reasons, sizeof reasons);
     simulation_release(simulation);
     memcpy(work, simulation->work, sizeof work);
     double *motion = copy_motion(simulation);
@@ -298,6 +302,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
     simulation->steps = simulation->steps_before = steps;
     simulation->unconverged = unconverged;
     simulation->first = first;
+    memcpy(simulation->reasons, reasons, sizeof reasons);
     simulation->time_before = time;
     memcpy(simulation->work, work, sizeof work);
     free(motion);

@@ -12,6 +12,7 @@ typedef struct StateHead {
     double work[SIMULATION_MAX_RUNS];
     Status first, status;
     bool done;
+    int reasons[STATUS_COUNT];
 } StateHead;
 
 /* The same for one run. */
@@ -68,6 +69,7 @@ void state_save(const Simulation *simulation, void *bytes)
     head.time_before = simulation->time_before;
     memcpy(head.work, simulation->work, sizeof head.work);
     head.first = simulation->first;
+    memcpy(head.reasons, simulation->reasons, sizeof head.reasons);
     head.status = simulation->status;
     head.done = simulation->done;
     put(&cursor, &head, sizeof head);
@@ -99,6 +101,7 @@ void state_restore(const void *bytes, Simulation *simulation)
     simulation->time_before = head.time_before;
     memcpy(simulation->work, head.work, sizeof head.work);
     simulation->first = head.first;
+    memcpy(simulation->reasons, head.reasons, sizeof head.reasons);
     simulation->status = head.status;
     simulation->done = head.done;
     size_t array = array_size(simulation) * sizeof(double);

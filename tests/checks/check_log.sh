@@ -1,0 +1,76 @@
+#!/bin/sh
+# The log tells how each minimisation ended, also one that ended where it began
+# or changed at its finish; the summary counts the same.
+set -u
+failed=0
+elasto=$(realpath "${ELASTO:-build/elasto}")
+. "$(dirname "$0")/verdict.sh"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+# ends STAGES LINE: complains unless the log of this line has one end for each
+# of so many minimisations a step, and names as many steps that did not converge
+# as the summary, with the same reasons.
+ends() {
+    stages=$1
+    shift
+    "$elasto" --headless --log log "$@" >summary 2>error
+    code=$?
+    steps=$(sed -n 's/^steps  *\([0-9]*\)$/\1/p' summary)
+    awk -F, -v stages="$stages" -v steps="$steps" -v line="$*" '
+        NR == 1 { next }
+        $2 == "" && stages == 1 && ends[$1] {
+            ends[$1]--; all-- # its finish has changed how it ended
+        }
+        $11 != "running" { ends[$1]++; all++ }
+        $11 != "running" && $11 != "ok" { bad[$1] = $11 }
+        END {
+            if (all != stages * steps)
+                print line ": " all " ends of " stages * steps
+            for (step in ends)
+                if (ends[step] != stages)
+                    print line ": step " step " has " ends[step] " ends"
+            for (step in bad)
+                count++
+            print count + 0 >"bad"
+            for (step in bad)
+                reasons[bad[step]]++
+            for (name in reasons)
+                print "  " name " " reasons[name] >"reasons"
+        }' log
+    told=$(sed -n 's/^steps not converged \([0-9]*\).*/\1/p' summary)
+    [ "$told" = "$(cat bad)" ] ||
+        echo "$*: the log names $(cat bad) steps, the summary $told"
+    [ "$code" -eq $((told > 0 ? 3 : 0)) ] || echo "$*: exit $code"
+    touch reasons
+    [ "$(sed -n 's/^  \([a-z_]*\)  *\([0-9]*\)$/  \1 \2/p' summary | sort)" = \
+        "$(sort reasons)" ] || echo "$*: other reasons in the summary"
+    rm -f reasons
+}
+
+verdict every_end_is_told "$(
+    ends 1 --steps 40
+    ends 1 --steps 20 --tolerance 1e-30
+    ends 1 --steps 20 --tolerance 1e-14 --stretch 1
+    ends 2 --steps 20 --integrator sdirk2
+    ends 2 --steps 20 --integrator sdirk2 --tolerance 1e-30
+    ends 1 --steps 60 --integrator bdf2 --tolerance 1e-13
+    ends 1 --steps 30 --solver lagged --tolerance 1e-30
+    ends 1 --steps 20 --integrator midpoint --tolerance 1e-12 --timestep 1
+)"
+verdict ends_that_did_not_converge_are_told "$(
+    ends 1 --steps 10 --filter none --timestep 0.02 --stretch 0.5
+    ends 1 --steps 10 --line-search none --timestep 0.05 --stretch 0.3
+    ends 1 --steps 10 --line-search none --filter none --timestep 0.05 \
+        --stretch 0.5 --segments 1
+    ends 1 --steps 5 --segments 1 --stiffness 1e30 --tolerance 1e-14
+    ends 1 --steps 5 --stiffness 1e15 --timestep 100
+    ends 1 --steps 30 unprojected
+)"
+verdict a_start_that_is_the_minimum_is_told "$(
+    ends 1 --steps 5 --stretch 1
+    [ "$(grep -c ,ok, log)" -eq 5 ] || echo 'steps at rest are not told'
+)"
+
+exit $failed
