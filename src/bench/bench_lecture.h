@@ -1,4 +1,4 @@
-/* bench_lecture.h - the slides' algorithm as src/lecture.c has it, with a clock.
+/* bench_lecture.h - the slides' algorithm as src/lecture.c has it, timed.
  *
  * Every iteration makes all triplets anew, projects 4x4 blocks by their
  * eigenvalues, sorts, analyses the pattern, factors and solves with CHOLMOD's

@@ -121,9 +121,11 @@ same() {
     close_to ours theirs
     "$elasto" --headless --quiet $2 --log log
     # log: step,iteration,residual,alpha,...
-    awk -F , 'NR == FNR { a[FNR] = $1 "," $2 "," $4 + 0; n = FNR; next }
-        FNR > 1 && a[FNR] != $1 "," $2 "," $4 + 0 { print "update " FNR ": " $0 }
-        END { if (n != FNR) print n " and " FNR " updates" }' updates log
+    awk -F , '$2 == "" { next } # a step without updates
+        NR == FNR { a[++n] = $1 "," $2 "," $4 + 0; next }
+        a[++seen] != $1 "," $2 "," $4 + 0 { print "update " seen ": " $0 }
+        END { if (n != seen || n < 2) print n " and " seen " updates" }' \
+        updates log
 }
 verdict tables_are_elasto_s "$(
     same 'steps=50' '--steps 50'

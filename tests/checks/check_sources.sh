@@ -97,6 +97,9 @@ includes_looking_up() {
         for used in $(sed -n 's/^#include "\(.*\)"/\1/p' "$file"); do
             case $used in
             */*) ;;
+            lecture.c) # compiled into the benchmark, with a clock
+                [ "$file" != src/bench/bench_lecture.c ] || continue
+                echo "$file includes $used" ;;
             *) echo "$file includes $used without its room" ;;
             esac
             [ "$(floor "$used")" -le "$own" ] || echo "$file includes $used"
