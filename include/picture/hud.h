@@ -14,6 +14,7 @@ typedef struct Hud {
     bool text;   /* numbers, plot and legend */
     bool strain; /* springs coloured by strain */
     bool keys;   /* the list of keys */
+    int column;  /* enum LectureColumn of show.h */
     bool paused;
     double speed;      /* simulated over real time, as it is set */
     double measured;   /* the same as it is reached; 0: unknown */

@@ -22,7 +22,8 @@ enum {
     SHOW_TEXT = 160,   /* bytes of a sentence */
     SHOW_VALUE = 32,   /* bytes of a setting's value */
     SHOW_TOUCHED = 64, /* springs or nodes listed one by one */
-    SHOW_CODE_LINES = 400
+    SHOW_CODE_LINES = 400,
+    SHOW_PAGES = 64 /* of the lecture, at most */
 };
 
 /* ---- Algorithm 3 -------------------------------------------------------- */
@@ -162,7 +163,7 @@ typedef struct Page {
     const char *title; /* "src/lecture.c: step_forward" */
     int lines;         /* of text, at most SHOW_CODE_LINES are drawn */
     const char *const *line;
-    int from, to; /* lines lit, 0-based, from <= line < to */
+    unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is lit */
     int top;      /* first line shown */
 } Page;
 
@@ -221,6 +222,8 @@ typedef struct Show {
     const LecturePage *lecture;
     int lecture_number, lecture_count;
     char lecture_title[48]; /* of the card with its words */
+    HelpRow page_row[SHOW_PAGES]; /* the list of pages */
+    char page_key[SHOW_PAGES][4];
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */
@@ -250,6 +253,16 @@ const double *pane_x(const Pane *pane);
 /* Cells that have turned over: one of their two triangles has; 0 where there
  * is no square. */
 int pane_folded(const Pane *pane);
+
+/* What the lecture adds, where the simulation's options name a page: topic,
+ * number, cards that are hidden; and in the column, if asked for, the text of
+ * its function or the list of pages.  Before show_describe. */
+typedef enum LectureColumn {
+    LECTURE_CARDS,
+    LECTURE_CODE,
+    LECTURE_PAGES
+} LectureColumn;
+void show_lecture(LectureColumn column, Show *show);
 
 /* Fills topic, sentence, method, state and time_text in plain words, as far as
  * they are empty, from the active pane and its trace. */

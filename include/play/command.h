@@ -20,48 +20,53 @@ typedef enum CommandKind {
     COMMAND_TOGGLE_PAUSE, /* runs, or stops */
     COMMAND_PLAY,
     COMMAND_PAUSE,
-    COMMAND_NEXT,     /* one on: a step, an update or a line */
-    COMMAND_BACK,     /* one back, the same */
-    COMMAND_STEP,     /* a whole new step from here */
-    COMMAND_FINER,    /* from steps to updates to lines to steps */
-    COMMAND_HOME,     /* step 0 */
-    COMMAND_END,      /* the newest step */
-    COMMAND_GOTO,     /* number: the step */
-    COMMAND_RESTART,  /* begins again */
-    COMMAND_FASTER,   /* twice as many steps a second */
-    COMMAND_SLOWER,   /* half as many */
-    COMMAND_FILTER,   /* projection off, or on again */
-    COMMAND_SEARCH,   /* line search off, or on again */
-    COMMAND_METHOD,   /* the next integrator */
-    COMMAND_ADD_PANE, /* the next integrator, beside this one */
-    COMMAND_END_PANE, /* the last pane goes */
-    COMMAND_SET,      /* text: an option and its value, "timestep 0.01" */
-    COMMAND_DEFAULT,  /* text: an option, back to its default */
-    COMMAND_SELECT,   /* the next number of the row */
-    COMMAND_RAISE,    /* the selected number, a step up */
-    COMMAND_LOWER,    /* or down */
-    COMMAND_SCENE,    /* text: name or number, 1 is the first */
-    COMMAND_START,    /* x, y: where the scene begins, m */
-    COMMAND_GRAB,     /* number: the node that the hand takes */
-    COMMAND_DRAG,     /* x, y: where it pulls it, m */
-    COMMAND_RELEASE,  /* the hand lets go */
-    COMMAND_PIN,      /* number: the node that is pinned or set free */
-    COMMAND_HANDLE,   /* number, x, y: a point of the scene moves there, m */
-    COMMAND_FLIP,     /* number: a part of the scene is switched off or on */
-    COMMAND_ZOOM,     /* number percent, x, y: the point that stays, m */
-    COMMAND_PAN,      /* x, y: how far the picture moves, m */
-    COMMAND_FIT,      /* all of it in the picture */
-    COMMAND_COLOURS,  /* springs by their strain */
-    COMMAND_BARE,     /* the picture alone */
-    COMMAND_KEYS,     /* the list of keys */
-    COMMAND_CARD,     /* number: the card that is closed or opened */
-    COMMAND_ENLARGE,  /* number: the card that takes the column */
-    COMMAND_HASH,     /* the hash of the state, and how to get there */
-    COMMAND_SHOT,     /* a picture */
-    COMMAND_FILM,     /* begins a film, or ends it */
-    COMMAND_FULL,     /* full screen and back */
-    COMMAND_BLANK,    /* a black screen and back */
-    COMMAND_ESCAPE,   /* help or full screen end; else the program */
+    COMMAND_NEXT,      /* one on: a step, an update or a line */
+    COMMAND_BACK,      /* one back, the same */
+    COMMAND_STEP,      /* a whole new step from here */
+    COMMAND_FINER,     /* from steps to updates to lines to steps */
+    COMMAND_HOME,      /* step 0 */
+    COMMAND_END,       /* the newest step */
+    COMMAND_GOTO,      /* number: the step */
+    COMMAND_RESTART,   /* begins again */
+    COMMAND_FASTER,    /* twice as many steps a second */
+    COMMAND_SLOWER,    /* half as many */
+    COMMAND_FILTER,    /* projection off, or on again */
+    COMMAND_SEARCH,    /* line search off, or on again */
+    COMMAND_METHOD,    /* the next integrator */
+    COMMAND_ADD_PANE,  /* the next integrator, beside this one */
+    COMMAND_END_PANE,  /* the last pane goes */
+    COMMAND_SET,       /* text: an option and its value, "timestep 0.01" */
+    COMMAND_DEFAULT,   /* text: an option, back to its default */
+    COMMAND_SELECT,    /* the next number of the row */
+    COMMAND_RAISE,     /* the selected number, a step up */
+    COMMAND_LOWER,     /* or down */
+    COMMAND_SCENE,     /* text: name or number, 1 is the first */
+    COMMAND_START,     /* x, y: where the scene begins, m */
+    COMMAND_GRAB,      /* number: the node that the hand takes */
+    COMMAND_DRAG,      /* x, y: where it pulls it, m */
+    COMMAND_RELEASE,   /* the hand lets go */
+    COMMAND_PIN,       /* number: the node that is pinned or set free */
+    COMMAND_HANDLE,    /* number, x, y: a point of the scene moves there, m */
+    COMMAND_FLIP,      /* number: a part of the scene is switched off or on */
+    COMMAND_ZOOM,      /* number percent, x, y: the point that stays, m */
+    COMMAND_PAN,       /* x, y: how far the picture moves, m */
+    COMMAND_FIT,       /* all of it in the picture */
+    COMMAND_COLOURS,   /* springs by their strain */
+    COMMAND_BARE,      /* the picture alone */
+    COMMAND_KEYS,      /* the list of keys */
+    COMMAND_CARD,      /* number: the card that is closed or opened */
+    COMMAND_ENLARGE,   /* number: the card that takes the column */
+    COMMAND_PAGE,      /* text: a page of the lecture, number or name */
+    COMMAND_PAGE_ON,   /* the next one; outside of the lecture the first */
+    COMMAND_PAGE_BACK, /* the one before */
+    COMMAND_PAGES,     /* the list of pages */
+    COMMAND_CODE,      /* the text of the page's function */
+    COMMAND_HASH,      /* the hash of the state, and how to get there */
+    COMMAND_SHOT,      /* a picture */
+    COMMAND_FILM,      /* begins a film, or ends it */
+    COMMAND_FULL,      /* full screen and back */
+    COMMAND_BLANK,     /* a black screen and back */
+    COMMAND_ESCAPE,    /* help or full screen end; else the program */
     COMMAND_KINDS
 } CommandKind;
 

@@ -10,6 +10,7 @@
 #define ELASTO_VERSION "1.0.0"
 
 struct Scene;
+struct LecturePage;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
@@ -56,6 +57,10 @@ typedef struct Options {
     bool fullscreen;
     int size[2];  /* pixels of window or frames; 0: the usual ones */
     double speed; /* steps a frame; 0: the scene's */
+    const struct LecturePage *page; /* of the lecture, or NULL */
+    unsigned flips;      /* bit s: switch s of the scene is turned over at the
+                            start; only pages set this */
+    const char *handout; /* file for the pages as one HTML file, or NULL */
     bool quiet;
     bool help, version, list; /* print that and stop */
     int panes;                /* side by side, 1: no lists of values */

@@ -19,11 +19,13 @@ typedef struct LecturePage {
     const char *touch; /* what to change, and how */
     const char *file;  /* where its code is: a file that listing.h knows */
     const char *function; /* and a function in it */
+    const char *lit;      /* its lines with this text are those at work */
     const char *claim;    /* what a test holds */
     unsigned flips;       /* bit s: switch s of the scene is turned over */
     int steps;            /* made before it is shown */
     int film;     /* steps that the handout's film shows; 0: a picture */
     bool plays;   /* runs at once instead of waiting */
+    double speed; /* steps a frame; 0: the scene's */
     bool predict; /* a click says where the next step leads */
 } LecturePage;
 

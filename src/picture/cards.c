@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/colour_map.h"
 #include "scenes/landscape_scene.h"
@@ -120,16 +121,22 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* Lines of code with their numbers; those at work are lit. */
+/* Lines of code, as large as the longest one fits; those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
-    double size = 0.82, line = 1.24 * size * paper->em;
+    size_t letters = 40;
+    for (int i = 0; i < page->lines; i++)
+        if (strlen(page->line[i]) > letters)
+            letters = strlen(page->line[i]);
+    double size = fmin(
+        0.95, inside.width / (0.61 * ((double)letters + 1) * paper->em));
+    double line = 1.24 * size * paper->em;
     int rows = (int)(inside.height / line);
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT};
     for (int i = 0; i < rows && page->top + i < page->lines; i++) {
         int number = page->top + i;
         double y = inside.y + i * line;
-        if (number >= page->from && number < page->to)
+        if (number < SHOW_CODE_LINES && page->lit[number])
             canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
                              (int)ceil(line), COLOUR_LIT);
         text_draw_plain(paper->text, &paper->canvas, &style,

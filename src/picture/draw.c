@@ -104,6 +104,7 @@ static void fill_show(const Simulation *simulation, const Hud *hud, Show *show)
     }
     add_settings(show, simulation);
     add_chips(show, simulation, hud);
+    show_lecture((LectureColumn)hud->column, show);
     show_describe(show);
 }
 

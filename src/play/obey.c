@@ -7,6 +7,7 @@
 #include "picture/draw.h"
 #include "play/playing.h"
 #include "play/png_file.h"
+#include "picture/show.h"
 #include "scenes/scene.h"
 
 /* Says why a command makes no sense here. */
@@ -229,12 +230,7 @@ static Status find_options(Player *player, const char *name, Options *options)
         *options = *given;
         return STATUS_OK;
     }
-    options->steps = given->steps;
-    options->quiet = given->quiet;
-    options->frames = given->frames;
-    options->film = given->film;
-    options->states = given->states;
-    options->log = given->log;
+    player_keep_files(player, options);
     options->speed = given->speed;
     return STATUS_OK;
 }
@@ -360,6 +356,8 @@ static Status leave(Player *player)
 {
     if (player->hud.keys)
         player->hud.keys = false;
+    else if (player->hud.column)
+        player->hud.column = LECTURE_CARDS;
     else if (player->blank)
         player->blank = false;
     else if (player->view && view_is_full(player->view))
@@ -387,6 +385,16 @@ static Status obey_on_screen(Player *player, CommandKind kind)
         break;
     case COMMAND_KEYS:
         hud->keys = !hud->keys;
+        break;
+    case COMMAND_PAGES:
+        hud->keys = false;
+        hud->column =
+            hud->column == LECTURE_PAGES ? LECTURE_CARDS : LECTURE_PAGES;
+        break;
+    case COMMAND_CODE:
+        hud->keys = false;
+        hud->column =
+            hud->column == LECTURE_CODE ? LECTURE_CARDS : LECTURE_CODE;
         break;
     case COMMAND_BLANK:
         player->blank = !player->blank;
@@ -439,6 +447,10 @@ static Status obey_in_time(Player *player, const Command *command)
         return switch_scene(player, command->text);
     case COMMAND_START:
         return pick_start(player, command->x, command->y);
+    case COMMAND_PAGE:
+    case COMMAND_PAGE_ON:
+    case COMMAND_PAGE_BACK:
+        return lesson_turn(player, command);
     case COMMAND_FILTER:
         return switch_filter(player);
     case COMMAND_SEARCH:

@@ -11,6 +11,7 @@
 #include "base/one_line.h"
 #include "picture/draw.h"
 #include "play/playing.h"
+#include "scenes/pages.h"
 #include "scenes/scene.h"
 
 enum {
@@ -41,7 +42,7 @@ static double player_rate(const Player *player)
 
 /* What the command line says; else one step a frame through time, and
  * iterations one at a time. */
-static int first_speed(const Options *options)
+int player_first_speed(const Options *options)
 {
     if (options->speed > 0)
         return (int)lrint(
@@ -74,7 +75,7 @@ uint64_t player_hash(const Player *player)
 
 bool player_escape_ends(const Player *player)
 {
-    return !player->hud.keys && !player->blank &&
+    return !player->hud.keys && !player->hud.column && !player->blank &&
            !(player->view && view_is_full(player->view));
 }
 
@@ -122,7 +123,7 @@ Status player_restart(Player *player, const Options *options)
     track_free(&player->track);
     Status status = recording_restart(&player->recording, &copy);
     if (other)
-        player->speed = first_speed(&copy);
+        player->speed = player_first_speed(&copy);
     return status ? status : begin_run(player, &copy);
 }
 
@@ -466,12 +467,29 @@ static Status read_script(Player *player)
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 
+void player_keep_files(const Player *player, Options *options)
+{
+    const Options *given = &player->given;
+    options->steps = given->steps;
+    options->quiet = given->quiet;
+    options->frames = given->frames;
+    options->film = given->film;
+    options->states = given->states;
+    options->log = given->log;
+}
+
+/* Whether the window begins with a pause. */
+static bool explains(const Options *options)
+{
+    return options->page ? !options->page->plays : options->scene->explains;
+}
+
 Status player_create(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player)
 {
     *player = (Player){.given = *options, .stop = stop};
     player->started = player_clock();
-    player->speed = first_speed(options);
+    player->speed = player_first_speed(options);
     hud_create(&player->hud);
     Status status = read_script(player);
     if (!status)
@@ -482,7 +500,7 @@ Status player_create(const Options *options, const volatile sig_atomic_t *stop,
     player->hud.hints = player->window;
     player->hud.paused =
         options->paused || (player->window && !options->script &&
-                            options->scene->explains && options->steps < 0);
+                            options->steps < 0 && explains(options));
     status = recording_open(&player->given, &player->recording);
     return status ? status : begin_run(player, &player->given);
 }

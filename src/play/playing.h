@@ -17,6 +17,16 @@ void player_note(Player *player, const char *format, ...);
 /* Of the window. */
 void player_title(const Player *player, char *title, size_t size);
 
+/* Steps, files and the like are those of the command line. */
+void player_keep_files(const Player *player, Options *options);
+
+/* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a
+ * frame through time, and iterations one at a time. */
+int player_first_speed(const Options *options);
+
+/* A page of the lecture: by name or number, the next or the one before. */
+Status lesson_turn(Player *player, const Command *command);
+
 /* Whether Escape ends the program: nothing else is open. */
 bool player_escape_ends(const Player *player);
 

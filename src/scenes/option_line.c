@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scenes/nearest.h"
+#include "scenes/pages.h"
 
 /* Whether a word is an option, rightly spelt or not. */
 static bool is_option(const char *word)
@@ -126,6 +127,9 @@ static Status next_word(Words *words, Word *word, const Complaint *complaint)
         if (value)
             return complain(complaint, "%s: --%s takes no value",
                             typed(text).text, word->row->name);
+    } else if (!value && word->row->optional) {
+        if (words->at < words->argc && words->argv[words->at][0] != '-')
+            word->text = words->argv[words->at++];
     } else if (!value) {
         const OptionRow *next = NULL;
         char unread[2];
@@ -240,6 +244,9 @@ static Status read_line(int argc, char **argv, bool compare, Options *options,
             line->given[i] = true;
             if (compare && word.row->compared)
                 line->list[i] = strchr(word.text, ',') ? word.text : NULL;
+            if (word.row->optional &&
+                parse_page(word.row, word.text, options, complaint))
+                return STATUS_INVALID_INPUT;
         } else if (options->scene) {
             return complain(complaint, "'%s': one scene at a time, please",
                             typed(word.text).text);
@@ -247,9 +254,28 @@ static Status read_line(int argc, char **argv, bool compare, Options *options,
             return STATUS_INVALID_INPUT;
         }
     }
+    if (options->scene && options->page)
+        return complain(complaint,
+                        "--lecture: its pages have scenes of their own, '%s' "
+                        "cannot be asked for",
+                        options->scene->name);
     if (!options->scene)
         options->scene = &scenes[0];
     return status;
+}
+
+/* The options of the page, before the rest of the line; that may not say again
+ * what the page says. */
+static Status take_page(const Line *line, Options *options,
+                        const Complaint *complaint)
+{
+    for (int i = 0; option_rows[i].name; i++)
+        if (line->given[i] && option_rows[i].needs)
+            return complain(complaint,
+                            "--%s: the lecture's pages say that themselves",
+                            option_rows[i].name);
+    return lecture_options(options->page, options, complaint->text,
+                           complaint->size);
 }
 
 /* The number of combinations; which value of each list this pane has.  The
@@ -384,8 +410,12 @@ static Status parse_line(int argc, char **argv, int pane, bool compare,
         status = choose_values(&line, pane, chosen, options, complaint);
     if (status)
         return status;
-    if (options->scene->defaults)
+    if (options->page)
+        status = take_page(&line, options, complaint);
+    else if (options->scene->defaults)
         options->scene->defaults(options);
+    if (status)
+        return status;
     status = apply_line(argc, argv, &line, chosen, options, complaint);
     return status ? status : check_body(&line, options, complaint);
 }

@@ -47,12 +47,16 @@ struct OptionRow {
     ParseFunction *parse;    /* KIND_OWN */
     unsigned needs;          /* of enum SceneNeeds, one of them; 0: nothing */
     bool compared;           /* a list of values is side by side */
+    bool optional;           /* the value may be left out */
 };
 
 /* The table; a row that has an empty name begins a section of --help, and a
  * row whose name is NULL ends it. */
 extern const OptionRow option_rows[];
 enum { OPTION_MOST = 64 }; /* rows */
+
+/* A page of the lecture, by number or name; empty: the first. */
+ParseFunction parse_page;
 
 /* The slides' numbers. */
 Options option_defaults(void);

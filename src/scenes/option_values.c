@@ -1,4 +1,6 @@
+#include "scenes/nearest.h"
 #include "scenes/option_row.h"
+#include "scenes/pages.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -7,7 +9,6 @@
 #include <string.h>
 
 #include "base/one_line.h"
-#include "scenes/nearest.h"
 
 Status complain(const Complaint *complaint, const char *format, ...)
 {
@@ -268,4 +269,20 @@ Status parse_size(const OptionRow *row, const char *text, Options *options,
                     "--%s: '%s' is not WIDTHxHEIGHT, each from %s to %s",
                     row->name, typed(text).text, number_text(row->low).text,
                     number_text(row->high).text);
+}
+
+Status parse_page(const OptionRow *row, const char *text, Options *options,
+                  const Complaint *complaint)
+{
+    const LecturePage *page = lecture_find(text[0] ? text : "1");
+    if (page) {
+        options->page = page;
+        return STATUS_OK;
+    }
+    const LecturePage *near =
+        nearest_row(lecture_pages, sizeof *lecture_pages, text);
+    return complain(complaint, "--%s: there is no page '%s': from 1 to %d%s%s",
+                    row->name, typed(text).text, lecture_count(),
+                    near ? "; did you mean " : ", or a name",
+                    near ? near->name : "");
 }

@@ -23,6 +23,7 @@ const LecturePage lecture_pages[] = {
               "1000 kg.",
      .file = LECTURE,
      .function = "square",
+     .lit = "add_spring",
      .claim = "4 segments give 25 masses and 72 springs; with any number of "
               "segments all masses together weigh 1000 kg."},
     {.name = "mesh",
@@ -37,6 +38,7 @@ const LecturePage lecture_pages[] = {
               "the Hessian, are shown.",
      .file = LECTURE,
      .function = "square",
+     .lit = "add_spring",
      .claim = "In the mesh of 2 segments node 1 is above node 0 and node 3 to "
               "its right; the first spring joins 0 and 3, and every squared "
               "rest length is 1/4 or 1/2."},
@@ -52,6 +54,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag the stretch, or pull at a node.",
      .file = LECTURE,
      .function = "spring_grad",
+     .lit = "g_diff",
      .claim = "Each of the 25 masses is 40 kg, the forces of all springs add "
               "up to zero, and after 50 steps the middle of the square has "
               "not moved.",
@@ -69,6 +72,7 @@ const LecturePage lecture_pages[] = {
               "next step leads, then press N.",
      .file = LECTURE,
      .function = "forward_euler",
+     .lit = "x[i] = add",
      .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
               "(1, 0.5), and every step multiplies the energy by 1 + h^2.",
      .film = 12,
@@ -85,6 +89,7 @@ const LecturePage lecture_pages[] = {
               "it the step explodes too.",
      .file = LECTURE,
      .function = "symplectic_euler",
+     .lit = "x[i] = add",
      .claim = "|x|^2 + |v|^2 - h x.v stays what it was at the start, to "
               "rounding, through 1000 steps with h = 0.5.",
      .film = 14,
@@ -102,6 +107,7 @@ const LecturePage lecture_pages[] = {
               "never away.",
      .file = LECTURE,
      .function = "step_forward",
+     .lit = "v[i] = mul(1 / h",
      .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
               "(0.8, 0.4), and every step divides the energy by 1 + h^2.",
      .film = 12,
@@ -118,6 +124,7 @@ const LecturePage lecture_pages[] = {
               "three does not.",
      .file = "src/scenes/circle_scene.c",
      .function = "create_circle",
+     .lit = "names[i]",
      .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
               "1.00786 a step, that of backward Euler shrinks by it, and the "
               "symplectic one stays within 4 percent.",
@@ -134,6 +141,7 @@ const LecturePage lecture_pages[] = {
               "any h does.",
      .file = LECTURE,
      .function = "symplectic_euler",
+     .lit = "v[i] = sub",
      .claim = "With h = 0.006 s symplectic Euler leaves all numbers behind "
               "within 60 steps, with 0.003 s it swings on for 1000; backward "
               "Euler ends every step with 0.006 s and with 1 s.",
@@ -152,6 +160,7 @@ const LecturePage lecture_pages[] = {
               "be, then press N.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_start",
+     .lit = "newton->p =",
      .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
               "error is g''/(2 g') = 0.95 times the square of the one before.",
      .film = 6,
@@ -168,6 +177,7 @@ const LecturePage lecture_pages[] = {
               "Algorithm 1 is lost there.",
      .file = LECTURE,
      .function = "search_dir",
+     .lit = "cholmod_solve",
      .claim = "From (0.6, 0.9) Algorithm 1 needs 5 updates, and each "
               "direction solves H p = -g to 12 digits.",
      .film = 5,
@@ -185,6 +195,7 @@ const LecturePage lecture_pages[] = {
               "turns the line search on.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_iterate",
+     .lit = "newton->x +=",
      .claim = "From 2 the first update leads to -11.645 and the next beyond "
               "3e9; from 1.08 it converges, from 1.09 it makes seven swings, "
               "each wider.",
@@ -203,6 +214,7 @@ const LecturePage lecture_pages[] = {
               "keeps E from rising.",
      .file = LECTURE,
      .function = "step_forward",
+     .lit = "line_search(",
      .claim =
          "Within the first step E rises above 1e16 and a node is more "
          "than a kilometre away; with projection it converges in 5 updates, "
@@ -220,6 +232,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag h: the longer the step, the farther from the ghost.",
      .file = LECTURE,
      .function = "ip_val",
+     .lit = "return",
      .claim = "At the end of a step M (x - x_tilde) + h^2 grad P(x) is zero "
               "within the tolerance: x is backward Euler's x'.",
      .film = 20},
@@ -235,6 +248,7 @@ const LecturePage lecture_pages[] = {
               "valleys stay.",
      .file = LECTURE,
      .function = "ip_grad",
+     .lit = "spring_grad",
      .claim = "Inertia is lowest in x_tilde, elasticity where the springs "
               "have their rest length, and the minimiser of the sum lies "
               "higher than both on either."},
@@ -249,9 +263,11 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag h, or x_tilde; Space turns the dial by itself.",
      .file = "src/scenes/dial_scene.c",
      .function = "dial_minimise",
+     .lit = "const double p[2]",
      .claim = "At h = 1 ms the minimiser is within 1 mm of x_tilde, at 10 s "
               "within 1 mm of rest, and on the way elasticity falls and "
               "inertia rises from point to point.",
+     .speed = 0.25,
      .film = 60},
     {.name = "inertia",
      .topic = "Inertia energy",
@@ -264,6 +280,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag x_tilde, or switch elasticity on.",
      .file = LECTURE,
      .function = "inertia_val",
+     .lit = "dot",
      .claim = "At (0.6, 0.9) E_I is 0.26 J s^2, as the formula says, and "
               "Newton finds its minimum in a single update.",
      .flips = 2},
@@ -280,6 +297,7 @@ const LecturePage lecture_pages[] = {
               "by line with I. L turns it off.",
      .file = LECTURE,
      .function = "line_search",
+     .lit = "alpha /= 2",
      .claim = "In the first step alpha = 1 would raise E, and one of its "
               "updates is made with alpha = 1/8."},
     {.name = "algorithm2",
@@ -294,6 +312,7 @@ const LecturePage lecture_pages[] = {
               "the next one leads.",
      .file = LECTURE,
      .function = "line_search",
+     .lit = "alpha /= 2",
      .claim = "From 2 the step lengths are 1/4, 1/2, 1, 1, 1, 1, and f falls "
               "in every update.",
      .film = 6,
@@ -312,6 +331,7 @@ const LecturePage lecture_pages[] = {
               "switches the projection on.",
      .file = LECTURE,
      .function = "spring_hess",
+     .lit = "make_psd",
      .claim = "At (0.1, -0.35) grad E . p is above 0.1 without and below -0.1 "
               "with projection; from each of 289 starts the projected "
               "direction is downhill."},
@@ -327,6 +347,7 @@ const LecturePage lecture_pages[] = {
               "0.577 m nothing is left.",
      .file = LECTURE,
      .function = "make_psd",
+     .lit = "fmax",
      .claim = "The block has the eigenvalues 0, 0, and twice those along and "
               "across; below |d| = l/sqrt(3) all that projection leaves is "
               "0."},
@@ -342,6 +363,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag the end through the held one, and look at the numbers.",
      .file = LECTURE,
      .function = "spring_val",
+     .lit = "sum +=",
      .claim = "At rest both have the curvature 4k along the spring. At 1 mm "
               "the curvature across is -2k for P and -3996 k with the square "
               "root.",
@@ -358,6 +380,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Drag the end: all numbers follow. Space lets go.",
      .file = LECTURE,
      .function = "spring_grad",
+     .lit = "g_diff",
      .claim = "At d = (1.2, 0.5) the energy is 23.805 J and the force "
               "(-165.6, -69) N; both agree with differences of P.",
      .film = 60},
@@ -374,6 +397,7 @@ const LecturePage lecture_pages[] = {
               "segments.",
      .file = LECTURE,
      .function = "ip_hess",
+     .lit = "cholmod_triplet_to_sparse",
      .claim = "50 + 72 x 16 triplets fall on 676 of the 2500 places, and "
               "the matrix times q is the slope of the gradient along q."},
     /* ---- the whole ------------------------------------------------------ */
@@ -389,6 +413,7 @@ const LecturePage lecture_pages[] = {
               "and L strike a line through.",
      .file = LECTURE,
      .function = "step_forward",
+     .lit = "search_dir",
      .claim = "The first step projects 52 of 72 springs, takes 5 updates with "
               "alpha = 1, and E falls in each.",
      .film = 30},
@@ -404,6 +429,7 @@ const LecturePage lecture_pages[] = {
               "only two updates more.",
      .file = LECTURE,
      .function = "residual",
+     .lit = "fmax",
      .claim = "In the first step a tolerance of 1e-6 m/s costs 2 updates "
               "more than 1e-2 m/s, and E falls in all of them.",
      .film = 30},
@@ -418,6 +444,7 @@ const LecturePage lecture_pages[] = {
      .touch = "Pull at a node. Drag k, h, the stretch.",
      .file = LECTURE,
      .function = "main",
+     .lit = "step_forward",
      .claim = "In 50 steps every one converges, and the total energy never "
               "rises.",
      .film = 100,
@@ -435,8 +462,10 @@ const LecturePage lecture_pages[] = {
               "explicit methods can take.",
      .file = "src/scenes/race_scene.c",
      .function = "run_to_end",
+     .lit = "time_integrator_step",
      .claim = "Halving h divides the error by 2 for the Euler methods, by 4 "
               "for Verlet and midpoint, by 16 for AVF of 4th order.",
+     .speed = 0.25,
      .film = 42,
      .plays = true},
     {.name = "trust",
@@ -451,8 +480,10 @@ const LecturePage lecture_pages[] = {
               "the stretch for another map.",
      .file = "src/scenes/envelope_scene.c",
      .function = "envelope_visit",
+     .lit = "time_integrator_step",
      .claim = "At least 99 of 100 cells of the default stretch converge, and "
               "every state is finite.",
+     .speed = 0.25,
      .film = 22,
      .plays = true},
     {.name = NULL},
@@ -493,5 +524,9 @@ Status lecture_options(const LecturePage *page, Options *options, char *message,
          word = strtok_r(NULL, " ", &rest))
         argv[argc++] = word;
     argv[argc] = NULL;
-    return options_parse(argc, argv, options, message, size);
+    Status status = options_parse(argc, argv, options, message, size);
+    options->page = page;
+    options->flips = page->flips;
+    options->speed = page->speed;
+    return status;
 }

@@ -28,7 +28,11 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         .observer = observer,
         .user = user,
     };
-    return options->scene->create(simulation, &settings);
+    Status status = options->scene->create(simulation, &settings);
+    for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
+        if (options->flips >> i & 1 && options->scene->flip)
+            options->scene->flip(simulation, i);
+    return status;
 }
 
 void simulation_free(Simulation *simulation)
