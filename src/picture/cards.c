@@ -109,7 +109,8 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     if (show->help_rows * line * paper->em > inside.height)
         line = fmax(inside.height / (show->help_rows * paper->em), 0.6);
     double size = fmin(0.95, line / 1.3);
-    double key = 9.5 * size * paper->em;
+    bool pages = show->help == show->page_row;
+    double key = (pages ? 2.6 : 9.5) * size * paper->em;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
         double y = inside.y + i * line * paper->em;
@@ -121,26 +122,44 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* Lines of code, as large as the longest one fits; those at work are lit. */
+/* How many letters of the text fit into so many columns: all, or up to the
+ * last blank. */
+static int fitting_letters(const char *text, int columns)
+{
+    int length = (int)strlen(text), cut = columns;
+    if (length <= columns)
+        return length;
+    while (cut > columns / 2 && text[cut - 1] != ' ')
+        cut--;
+    return cut > columns / 2 ? cut : columns;
+}
+
+/* Lines of code; what does not fit goes on below.  Those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
-    size_t letters = 40;
-    for (int i = 0; i < page->lines; i++)
-        if (strlen(page->line[i]) > letters)
-            letters = strlen(page->line[i]);
-    double size = fmin(
-        0.95, inside.width / (0.61 * ((double)letters + 1) * paper->em));
-    double line = 1.24 * size * paper->em;
-    int rows = (int)(inside.height / line);
+    double size = 0.88, line = 1.24 * size * paper->em, y = inside.y;
+    int columns = (int)(inside.width / (0.603 * size * paper->em)) - 1;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT};
-    for (int i = 0; i < rows && page->top + i < page->lines; i++) {
-        int number = page->top + i;
-        double y = inside.y + i * line;
-        if (number < SHOW_CODE_LINES && page->lit[number])
-            canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
-                             (int)ceil(line), COLOUR_LIT);
-        text_draw_plain(paper->text, &paper->canvas, &style,
-                        inside.x + 0.3 * paper->em, y, page->line[number]);
+    for (int i = page->top; i < page->lines && columns > 10; i++) {
+        const char *text = page->line[i];
+        int indent = (int)strspn(text, " "), column = 0;
+        do {
+            char part[256];
+            int letters = fitting_letters(text, columns - column);
+            if (y + line > inside.y + inside.height)
+                return;
+            snprintf(part, sizeof part, "%.*s", letters, text);
+            if (i < SHOW_CODE_LINES && page->lit[i])
+                canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
+                                 (int)ceil(line), COLOUR_LIT);
+            text_draw_plain(paper->text, &paper->canvas, &style,
+                            inside.x + 0.3 * paper->em +
+                                column * 0.602 * size * paper->em,
+                            y, part);
+            y += line;
+            text += letters;
+            column = indent + 4;
+        } while (*text);
     }
 }
 

@@ -56,7 +56,7 @@ static void fill_pages(Show *show)
 {
     int count = lecture_count();
     show->page.kind = PAGE_HELP;
-    show->page.title = "The lecture: number and Enter, or a click";
+    show->page.title = "The pages of the lecture";
     show->help = show->page_row;
     show->help_rows = count < SHOW_PAGES ? count : SHOW_PAGES;
     for (int i = 0; i < show->help_rows; i++) {

@@ -45,7 +45,7 @@ const LecturePage lecture_pages[] = {
     {.name = "equation",
      .topic = "Equation of motion and mass matrix",
      .text = "Mass times acceleration is force, and the force is minus the "
-             "slope of the energy: M dv/dt = -grad P(x). M is diagonal: each "
+             "slope of the energy: M dv/dt = −∇P(x). M is diagonal: each "
              "coordinate has the mass of its node.",
      .line = "square --stretch 1.4",
      .cards = "page energies",
@@ -63,7 +63,7 @@ const LecturePage lecture_pages[] = {
     {.name = "forward",
      .topic = "Forward Euler",
      .text = "Velocity and force of now carry the mass over the whole step: "
-             "x' = x + h v, v' = v + h a(x).",
+             "x′ = x + h v, v′ = v + h a(x).",
      .line = "arrows --integrator forward-euler",
      .cards = "page numbers energies",
      .look = "The step leaves the circle along its tangent: each one gains "
@@ -74,13 +74,13 @@ const LecturePage lecture_pages[] = {
      .function = "forward_euler",
      .lit = "x[i] = add",
      .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
-              "(1, 0.5), and every step multiplies the energy by 1 + h^2.",
+              "(1, 0.5), and every step multiplies the energy by 1 + h².",
      .film = 12,
      .predict = true},
     {.name = "symplectic",
      .topic = "Symplectic Euler",
      .text = "First the velocity, then the place with the new velocity: "
-             "v' = v + h a(x), x' = x + h v'.",
+             "v′ = v + h a(x), x′ = x + h v′.",
      .line = "arrows --integrator symplectic-euler",
      .cards = "page numbers energies",
      .look = "One exchange of two lines, and the energy only wavers: the path "
@@ -90,14 +90,14 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "x[i] = add",
-     .claim = "|x|^2 + |v|^2 - h x.v stays what it was at the start, to "
+     .claim = "|x|² + |v|² − h x·v stays what it was at the start, to "
               "rounding, through 1000 steps with h = 0.5.",
      .film = 14,
      .predict = true},
     {.name = "backward",
      .topic = "Backward Euler",
-     .text = "The force is asked where the step ends: v' = v + h a(x'), "
-             "x' = x + h v'. The unknown x' stands on both sides: an equation "
+     .text = "The force is asked where the step ends: v′ = v + h a(x′), "
+             "x′ = x + h v′. The unknown x′ stands on both sides: an equation "
              "has to be solved.",
      .line = "arrows --integrator backward-euler",
      .cards = "page numbers energies",
@@ -109,7 +109,7 @@ const LecturePage lecture_pages[] = {
      .function = "step_forward",
      .lit = "v[i] = mul(1 / h",
      .claim = "One step from (1, 0) with v = (0, 1) and h = 0.5 leads to "
-              "(0.8, 0.4), and every step divides the energy by 1 + h^2.",
+              "(0.8, 0.4), and every step divides the energy by 1 + h².",
      .film = 12,
      .predict = true},
     {.name = "stability",
@@ -118,7 +118,7 @@ const LecturePage lecture_pages[] = {
              "one spirals inwards.",
      .line = "circle",
      .cards = "page radius",
-     .look = "The radius over time: forward grows by sqrt(1 + (h w)^2) in each "
+     .look = "The radius over time: forward grows by √(1 + h²ω²) in each "
              "step, backward shrinks by as much.",
      .touch = "Drag h while it runs: the factor follows, the order of the "
               "three does not.",
@@ -156,19 +156,19 @@ const LecturePage lecture_pages[] = {
      .cards = "page numbers residual",
      .look = "Tangent above and parabola below end at the same x. Near the "
              "root the number of right digits doubles.",
-     .touch = "Drag the start or x_tilde. Click where the next iterate will "
+     .touch = "Drag the start or x̃. Click where the next iterate will "
               "be, then press N.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_start",
      .lit = "newton->p =",
      .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
-              "error is g''/(2 g') = 0.95 times the square of the one before.",
+              "error is g″/(2 g′) = 0.95 times the square of the one before.",
      .film = 6,
      .predict = true},
     {.name = "newton",
      .topic = "Newton in n dimensions: Algorithm 1",
      .text = "Slope and curvature become a vector and a matrix: solve "
-             "H p = -g, go on by p, until p is short.",
+             "H p = −g, go on by p, until p is short.",
      .line = "landscape --filter none --line-search none --start 0.6,0.9",
      .cards = "page listing residual",
      .look = "The path jumps from the slope to the bottom of the valley; the "
@@ -179,7 +179,7 @@ const LecturePage lecture_pages[] = {
      .function = "search_dir",
      .lit = "cholmod_solve",
      .claim = "From (0.6, 0.9) Algorithm 1 needs 5 updates, and each "
-              "direction solves H p = -g to 12 digits.",
+              "direction solves H p = −g to 12 digits.",
      .film = 5,
      .predict = true},
     {.name = "overshoot",
@@ -189,14 +189,14 @@ const LecturePage lecture_pages[] = {
              "still.",
      .line = "overshoot",
      .cards = "page line residual",
-     .look = "f has a single valley, and yet from 2 the step leads to -11.6 "
+     .look = "f has a single valley, and yet from 2 the step leads to −11.6 "
              "and then beyond all bounds.",
      .touch = "Drag the start: below 1.0886 it comes home, above it flies. L "
               "turns the line search on.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_iterate",
      .lit = "newton->x +=",
-     .claim = "From 2 the first update leads to -11.645 and the next beyond "
+     .claim = "From 2 the first update leads to −11.645 and the next beyond "
               "3e9; from 1.08 it converges, from 1.09 it makes seven swings, "
               "each wider.",
      .film = 2,
@@ -222,73 +222,74 @@ const LecturePage lecture_pages[] = {
     /* ---- a step as a minimisation --------------------------------------- */
     {.name = "minimise",
      .topic = "A time step is a minimisation",
-     .text = "Backward Euler's equation says that a slope is zero: that of "
-             "E(x) = |x - x_tilde|^2_M / 2 + h^2 P(x). So its solution is "
-             "found by walking downhill, and there always is one.",
+     .text =
+         "Backward Euler's equation says that a slope is zero: that of "
+         "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its solution is "
+         "found by walking downhill, and there always is one.",
      .line = "square",
      .cards = CARDS_NEWTON,
-     .look = "x_tilde, the dashed ghost, is where the masses would fly by "
+     .look = "x̃, the dashed ghost, is where the masses would fly by "
              "themselves; the springs pull them off it.",
      .touch = "Drag h: the longer the step, the farther from the ghost.",
      .file = LECTURE,
      .function = "ip_val",
      .lit = "return",
-     .claim = "At the end of a step M (x - x_tilde) + h^2 grad P(x) is zero "
-              "within the tolerance: x is backward Euler's x'.",
+     .claim = "At the end of a step M (x − x̃) + h² ∇P(x) is zero "
+              "within the tolerance: x is backward Euler's x′.",
      .film = 20},
     {.name = "parts",
      .topic = "Inertia against elasticity",
-     .text = "E has two parts. Inertia wants x_tilde, elasticity wants the "
+     .text = "E has two parts. Inertia wants x̃, elasticity wants the "
              "springs at rest; the step ends where both agree.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page residual",
      .look = "Inertia alone is one round bowl; elasticity alone has two "
              "valleys and a ridge between them.",
-     .touch = "Switch the parts off and on. Drag x_tilde: the bowl moves, the "
+     .touch = "Switch the parts off and on. Drag x̃: the bowl moves, the "
               "valleys stay.",
      .file = LECTURE,
      .function = "ip_grad",
      .lit = "spring_grad",
-     .claim = "Inertia is lowest in x_tilde, elasticity where the springs "
+     .claim = "Inertia is lowest in x̃, elasticity where the springs "
               "have their rest length, and the minimiser of the sum lies "
               "higher than both on either."},
     {.name = "dial",
      .topic = "What the time step h does",
      .text = "h weighs elasticity against inertia. Turn it up, and the "
-             "minimiser walks from x_tilde to the rest shape.",
+             "minimiser walks from x̃ to the rest shape.",
      .line = "dial",
      .cards = "page numbers",
      .look = "The path of the minimiser: every point of it is the end of a "
              "step with another h.",
-     .touch = "Drag h, or x_tilde; Space turns the dial by itself.",
+     .touch = "Drag h, or x̃; Space turns the dial by itself.",
      .file = "src/scenes/dial_scene.c",
      .function = "dial_minimise",
      .lit = "const double p[2]",
-     .claim = "At h = 1 ms the minimiser is within 1 mm of x_tilde, at 10 s "
+     .claim = "At h = 1 ms the minimiser is within 1 mm of x̃, at 10 s "
               "within 1 mm of rest, and on the way elasticity falls and "
               "inertia rises from point to point.",
      .speed = 0.25,
      .film = 60},
     {.name = "inertia",
      .topic = "Inertia energy",
-     .text = "E_I(x) = sum m |x - x_tilde|^2 / 2: a bowl around x_tilde, with "
-             "gradient M (x - x_tilde) and Hessian M, which never changes.",
+     .text = "E_I(x) = Σ m |x − x̃|² / 2: a bowl around x̃, with "
+             "gradient M (x − x̃) and Hessian M, which never changes.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page numbers",
      .look = "Round contours: the Hessian is M, the same in every place, and "
              "positive definite.",
-     .touch = "Drag x_tilde, or switch elasticity on.",
+     .touch = "Drag x̃, or switch elasticity on.",
      .file = LECTURE,
      .function = "inertia_val",
      .lit = "dot",
-     .claim = "At (0.6, 0.9) E_I is 0.26 J s^2, as the formula says, and "
+     .claim = "At (0.6, 0.9) E_I is 0.26 J s², as the formula says, and "
               "Newton finds its minimum in a single update.",
      .flips = 2},
     /* ---- line search ---------------------------------------------------- */
     {.name = "alpha",
-     .topic = "Line search on E(alpha)",
-     .text = "Along p energy is a curve over alpha. It begins downhill, but "
-             "may have turned upwards again at alpha = 1: then halve it.",
+     .topic = "Line search on E(α)",
+     .text = "Along p energy is a curve over α. It begins downhill, but "
+             "may have turned upwards again at α = 1: then halve it.",
      .line = "square --stretch 0.2 --timestep 0.1",
      .cards = "page line residual",
      .look = "The curve of E, the parabola that Newton believes in, and the "
@@ -298,15 +299,15 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "line_search",
      .lit = "alpha /= 2",
-     .claim = "In the first step alpha = 1 would raise E, and one of its "
-              "updates is made with alpha = 1/8."},
+     .claim = "In the first step α = 1 would raise E, and one of its "
+              "updates is made with α = 1/8."},
     {.name = "algorithm2",
      .topic = "Algorithm 2: backtracking line search",
-     .text = "alpha = 1; while E is higher than before, halve it. With p "
+     .text = "α = 1; while E is higher than before, halve it. With p "
              "downhill this always ends.",
      .line = "overshoot --line-search backtrack",
      .cards = "page line residual",
-     .look = "From 2 the first step is taken with alpha = 1/4, the second "
+     .look = "From 2 the first step is taken with α = 1/4, the second "
              "with 1/2, then whole ones: the run converges.",
      .touch = "Drag the start anywhere: f falls in every update. Click where "
               "the next one leads.",
@@ -320,7 +321,7 @@ const LecturePage lecture_pages[] = {
     /* ---- projection ----------------------------------------------------- */
     {.name = "descent",
      .topic = "Descent directions and projection",
-     .text = "Where E bends downwards -H^-1 g may point uphill: no step "
+     .text = "Where E bends downwards −H⁻¹ g may point uphill: no step "
              "length helps then. With negative eigenvalues set to 0 it points "
              "downhill, everywhere.",
      .line = "landscape --filter none",
@@ -332,12 +333,12 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "spring_hess",
      .lit = "make_psd",
-     .claim = "At (0.1, -0.35) grad E . p is above 0.1 without and below -0.1 "
+     .claim = "At (0.1, −0.35) ∇E·p is above 0.1 without and below −0.1 "
               "with projection; from each of 289 starts the projected "
               "direction is downhill."},
     {.name = "psd",
      .topic = "make_PSD: eigenvalues set to 0",
-     .text = "Each spring's 4 x 4 block is made positive semi-definite by "
+     .text = "Each spring's 4 × 4 block is made positive semi-definite by "
              "itself: find its eigenvalues, replace the negative ones by 0.",
      .line = "spring --start 0.6,0.3",
      .cards = "page eigenvalues",
@@ -349,12 +350,12 @@ const LecturePage lecture_pages[] = {
      .function = "make_psd",
      .lit = "fmax",
      .claim = "The block has the eigenvalues 0, 0, and twice those along and "
-              "across; below |d| = l/sqrt(3) all that projection leaves is "
+              "across; below |d| = l/√3 all that projection leaves is "
               "0."},
     {.name = "energy",
      .topic = "Spring energy, with and without the square root",
-     .text = "P = l^2 k/2 (|d|^2/l^2 - 1)^2 needs no square root: a "
-             "polynomial, smooth even at length 0. 2k (|d| - l)^2 is as stiff "
+     .text = "P = l² k/2 (|d|²/l² − 1)² needs no square root: a "
+             "polynomial, smooth even at length 0. 2k (|d| − l)² is as stiff "
              "at rest, but has a kink there.",
      .line = "spring --start 1.3,0",
      .cards = "page numbers profile",
@@ -365,14 +366,14 @@ const LecturePage lecture_pages[] = {
      .function = "spring_val",
      .lit = "sum +=",
      .claim = "At rest both have the curvature 4k along the spring. At 1 mm "
-              "the curvature across is -2k for P and -3996 k with the square "
+              "the curvature across is −2k for P and −3996 k with the square "
               "root.",
      .flips = 1},
     {.name = "force",
      .topic = "Its gradient and its Hessian",
-     .text = "With s = |d|^2/l^2 - 1 the force is -2 k s d: along the spring, "
-             "and zero at rest. The Hessian is 2k/l^2 (2 d d^T + (|d|^2 - "
-             "l^2) I).",
+     .text = "With s = |d|²/l² − 1 the force is −2 k s d: along the spring, "
+             "and zero at rest. The Hessian is 2k/l² (2 d dᵀ + (|d|² − "
+             "l²) I).",
      .line = "spring --start 1.2,0.5",
      .cards = "page numbers eigenvalues profile",
      .look = "The arrow of the force turns round at the circle of the rest "
@@ -382,7 +383,7 @@ const LecturePage lecture_pages[] = {
      .function = "spring_grad",
      .lit = "g_diff",
      .claim = "At d = (1.2, 0.5) the energy is 23.805 J and the force "
-              "(-165.6, -69) N; both agree with differences of P.",
+              "(−165.6, −69) N; both agree with differences of P.",
      .film = 60},
     {.name = "potential",
      .topic = "The incremental potential and its Hessian",
@@ -398,7 +399,7 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "ip_hess",
      .lit = "cholmod_triplet_to_sparse",
-     .claim = "50 + 72 x 16 triplets fall on 676 of the 2500 places, and "
+     .claim = "50 + 72 × 16 triplets fall on 676 of the 2500 places, and "
               "the matrix times q is the slope of the gradient along q."},
     /* ---- the whole ------------------------------------------------------ */
     {.name = "algorithm3",
@@ -415,7 +416,7 @@ const LecturePage lecture_pages[] = {
      .function = "step_forward",
      .lit = "search_dir",
      .claim = "The first step projects 52 of 72 springs, takes 5 updates with "
-              "alpha = 1, and E falls in each.",
+              "α = 1, and E falls in each.",
      .film = 30},
     {.name = "step",
      .topic = "step_forward and its residuals",
