@@ -6,14 +6,14 @@
  *   MassSpringEnergy.py  spring_val, spring_grad, spring_hess
  *   time_integrator.py   ip_val, ip_grad, ip_hess, search_dir,
  *                        line_search: Algorithm 2, step_forward: Algorithm 3
+ *   explicit steps       forward_euler, symplectic_euler
  *   simulator.py         draw, main
  * Nothing is kept from one Newton iteration to the next; nothing is clever.
  *   cc -O2 lecture.c -o lecture $(sdl2-config --cflags --libs) \
  *      -I/usr/include/suitesparse -lcholmod -lm
- *   ./lecture                  a window; Esc closes it
- *   ./lecture k=1e6 n_seg=8    other parameters; their names stand in main
- *   ./lecture steps=50         no window; prints a line for each Newton update
- *   ./lecture states=FILE      also writes x and v of every step
+ *   ./lecture                         a window; Esc closes it
+ *   ./lecture k=1e6 n_seg=8           other parameters: see main
+ *   ./lecture steps=50 states=FILE    no window: Newton's updates, and x and v
  */
 #include <SDL.h>
 #include <cholmod.h>
@@ -25,7 +25,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* n of these lie in memory like one vector of 2n numbers, x and y in turns. */
+/* n of these lie in memory like one vector of 2n numbers: x, y, x, y, ... */
 /* clang-format off */
 typedef struct Vec2 { double x, y; } Vec2;
 static Vec2 add(Vec2 a, Vec2 b) { return (Vec2){a.x + b.x, a.y + b.y}; }
@@ -407,7 +407,7 @@ static void symplectic_euler(Solid *solid, double h)
 
 /* ==== Drawing (simulator.py) ============================================== */
 #define FOLDER "lecture_pictures"
-enum { PIXELS = 720, PICTURES = 100 };
+enum { PIXELS = 600, PICTURES = 100 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
@@ -475,8 +475,8 @@ static Screen open_screen(const Solid *solid)
     if (!window) {
         printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
         mkdir(FOLDER, 0777); /* if that fails, saving a picture will say so */
-        screen.picture = SDL_CreateRGBSurfaceWithFormat(
-            0, PIXELS / 2, PIXELS / 2, 24, SDL_PIXELFORMAT_RGB24);
+        screen.picture = SDL_CreateRGBSurfaceWithFormat(0, PIXELS, PIXELS, 24,
+                                                        SDL_PIXELFORMAT_RGB24);
         screen.renderer = SDL_CreateSoftwareRenderer(screen.picture);
     }
     if (!screen.renderer)
