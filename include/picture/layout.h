@@ -34,12 +34,15 @@ typedef struct LayoutWish {
     bool bare; /* the stage alone */
     int panes; /* 1 ... LAYOUT_PANES pictures side by side */
     int cards;
-    double weight[LAYOUT_CARDS]; /* share of the column's height, > 0 */
-    unsigned closed;             /* bit c: card c is closed */
-    unsigned hidden;             /* bit c: card c is not there */
-    int large;    /* this card has most of the column; -1: none */
-    bool page;    /* the column is one page instead of cards */
-    int settings; /* letters: room for name and longest value */
+    double least[LAYOUT_CARDS];  /* ems, the height a card needs */
+    double weight[LAYOUT_CARDS]; /* share of the height that is left, > 0 */
+    unsigned half;   /* bit c: card c shares a row with its neighbour, if both
+                        are open, both want it, and the column is wide */
+    unsigned closed; /* bit c: card c is closed */
+    unsigned hidden; /* bit c: card c is not there */
+    int large;       /* this card has most of the column; -1: none */
+    bool page;       /* the column is one page instead of cards */
+    int settings;    /* letters: room for name and longest value */
     int setting_letters[LAYOUT_SETTINGS];
     int chips;
     int chip_letters[LAYOUT_CHIPS];

@@ -29,8 +29,10 @@ typedef struct Card {
     const char *title; /* markup */
     const char *(*titled)(const Show *show); /* one that follows the state, or
                                                 NULL */
-    double weight;                           /* share of the column's height */
-    bool closed;                             /* at the start */
+    double least;                            /* ems, the height it needs */
+    double weight; /* share of the height that is left */
+    bool half;     /* half the width of a wide column is enough */
+    bool closed;   /* at the start */
     /* Draws what is inside, below the title. */
     void (*draw)(Paper *paper, Box inside, const Show *show);
 } Card;

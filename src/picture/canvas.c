@@ -8,10 +8,6 @@
 /* Numbers of 16 bits before and 16 bits after the binary point. */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
-/* Added before a cut to whole numbers, which is towards zero: then it is
- * towards minus infinity for all places where a clipped line can be. */
-enum { LINE_SHIFT = 1 << 15 };
-
 /* Allocates a white picture. */
 Status canvas_create(int width, int height, Canvas *canvas)
 {
@@ -132,11 +128,11 @@ void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
  * Pixel (i, j) in these axes is first[i * along + j * across]. */
 typedef struct LineFrame {
     uint32_t *first;
-    ptrdiff_t along, across; /* distances in pixels[] */
-    int begin, end;          /* clip along */
-    int low, high;           /* clip across, fixed point */
-    Colour colour;
-    uint32_t full; /* opacity, 0 ... 256 */
+    ptrdiff_t along, across;  /* distances in pixels[] */
+    int begin, end;           /* clip along */
+    int low, high;            /* clip across, fixed point */
+    uint32_t red_blue, green; /* of the colour */
+    uint32_t full;            /* opacity, 0 ... 256 */
 } LineFrame;
 
 /* One side of the Liang-Barsky clip: keeps the part of t in [t0, t1] where
@@ -154,7 +150,7 @@ static bool clip_side(double p, double q, double *t0, double *t1)
 }
 
 /* Shortens the line (x0, y0, x1, y1) to the clip and a margin around it. */
-static bool clip_line(const Box *clip, double margin, double line[4])
+static inline bool clip_line(const Box *clip, double margin, double line[4])
 {
     double left = clip->x - margin, right = clip->x + clip->width + margin;
     double top = clip->y - margin, bottom = clip->y + clip->height + margin;
@@ -177,51 +173,78 @@ static bool clip_line(const Box *clip, double margin, double line[4])
     return true;
 }
 
-/* Adds the pixels between low and high (fixed point) of one column. */
-static inline void line_column(const LineFrame *frame, int column, int low,
-                               int high, uint32_t amount)
+/* mix(), with the parts of the colour ready: below + (above - below) amount
+ * / 256, where borrowed bits fall out of the mask. */
+static inline void blend(uint32_t *pixel, const LineFrame *frame,
+                         uint32_t amount)
+{
+    uint32_t red_blue = *pixel & 0xff00ff, green = *pixel & 0x00ff00;
+    red_blue += (frame->red_blue - red_blue) * amount >> 8;
+    green += (frame->green - green) * amount >> 8;
+    *pixel = 0xff000000u | (red_blue & 0xff00ff) | (green & 0x00ff00);
+}
+
+/* Adds the pixels between low and high > low (fixed point) of one column. */
+static inline void line_column(const LineFrame *frame, uint32_t *column,
+                               int low, int high, uint32_t amount)
+{
+    int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
+    uint32_t *p = column + row * frame->across;
+    if (row == last) {
+        blend(p, frame, (uint32_t)(high - low) * amount >> FIXED_BITS);
+        return;
+    }
+    uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
+    blend(p, frame, part * amount >> FIXED_BITS);
+    for (p += frame->across; ++row < last; p += frame->across)
+        blend(p, frame, amount);
+    part = (uint32_t)(high - last * FIXED_ONE);
+    blend(p, frame, part * amount >> FIXED_BITS);
+}
+
+/* The same, as far as the clip goes. */
+static void line_column_clipped(const LineFrame *frame, uint32_t *column,
+                                int low, int high, uint32_t amount)
 {
     low = low < frame->low ? frame->low : low;
     high = high > frame->high ? frame->high : high;
-    if (low >= high)
-        return;
-    int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
-    uint32_t *p = frame->first + column * frame->along + row * frame->across;
-    if (row == last) {
-        *p = mix(*p, frame->colour,
-                 (uint32_t)(high - low) * amount >> FIXED_BITS);
-        return;
-    }
-    uint32_t part = (uint32_t)((row + 1) * FIXED_ONE - low);
-    *p = mix(*p, frame->colour, part * amount >> FIXED_BITS);
-    for (p += frame->across; ++row < last; p += frame->across)
-        *p = mix(*p, frame->colour, amount);
-    part = (uint32_t)(high - last * FIXED_ONE);
-    *p = mix(*p, frame->colour, part * amount >> FIXED_BITS);
+    if (low < high)
+        line_column(frame, column, low, high, amount);
 }
 
-/* Draws from a0 to a1 > a0, clipped, |slope| <= 1, b = b0 at a0. */
+/* Draws from a0 to a1 > a0, clipped, |slope| <= 1, b = b0 at a0.  In whole
+ * numbers from here on: most lines are a few pixels long. */
 static void line_columns(const LineFrame *frame, double a0, double a1,
                          double b0, double slope, double width)
 {
-    int begin = (int)(a0 + LINE_SHIFT) - LINE_SHIFT;
-    int end = LINE_SHIFT - (int)(LINE_SHIFT - a1);
+    int from = (int)(a0 * FIXED_ONE), to = (int)(a1 * FIXED_ONE);
+    int begin = from >> FIXED_BITS, end = (to + FIXED_ONE - 1) >> FIXED_BITS;
     begin = begin < frame->begin ? frame->begin : begin;
     end = end > frame->end ? frame->end : end;
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
     int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
-    for (int i = begin; i < end; i++, b += step) {
+    int b_end = b + (end - begin) * step;
+    uint32_t *column = frame->first + begin * frame->along;
+    bool inside = (b < b_end ? b : b_end) - reach - FIXED_ONE >= frame->low &&
+                  (b > b_end ? b : b_end) + reach + FIXED_ONE <= frame->high;
+    for (int i = begin; i < end; i++, b += step, column += frame->along) {
         uint32_t amount = frame->full;
-        if (i < a0 || i + 1 > a1) {
-            double from = i < a0 ? a0 : i, to = i + 1 > a1 ? a1 : i + 1;
-            amount = (uint32_t)((to - from) * amount + 0.5);
+        if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
+            int left = i * FIXED_ONE, right = left + FIXED_ONE;
+            left = left < from ? from : left;
+            right = right > to ? to : right;
+            amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
         }
-        line_column(frame, i, b - reach, b + reach, amount);
+        if (inside)
+            line_column(frame, column, b - reach, b + reach, amount);
+        else
+            line_column_clipped(frame, column, b - reach, b + reach, amount);
     }
 }
 
-/* Columns or rows, whichever the line crosses more of. */
+/* Columns or rows, whichever the line crosses more of; from left to right or
+ * downwards. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
@@ -230,26 +253,35 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     if (!(width > 0) || width > CANVAS_MAX_WIDTH ||
         !clip_line(clip, width + 1, line))
         return;
-    bool flat = fabs(line[2] - line[0]) >= fabs(line[3] - line[1]);
-    int along = flat ? 0 : 1, across = 1 - along;
-    int from = line[along] <= line[2 + along] ? 0 : 2, to = 2 - from;
-    double length = line[to + along] - line[from + along];
-    if (!(length > 0))
-        return;
-    double slope = (line[to + across] - line[from + across]) / length;
-    int first[2] = {clip->x, clip->y};
-    int beyond[2] = {clip->x + clip->width, clip->y + clip->height};
+    double dx = line[2] - line[0], dy = line[3] - line[1];
     LineFrame frame = {.first = canvas->pixels,
-                       .along = flat ? 1 : canvas->width,
-                       .across = flat ? canvas->width : 1,
-                       .begin = first[along],
-                       .end = beyond[along],
-                       .low = first[across] * FIXED_ONE,
-                       .high = beyond[across] * FIXED_ONE,
-                       .colour = colour,
+                       .red_blue = colour & 0xff00ff,
+                       .green = colour & 0x00ff00,
                        .full = opacity(colour)};
-    line_columns(&frame, line[from + along], line[to + along],
-                 line[from + across], slope, width);
+    int right = clip->x + clip->width, bottom = clip->y + clip->height;
+    if (fabs(dx) >= fabs(dy)) {
+        frame.along = 1;
+        frame.across = canvas->width;
+        frame.begin = clip->x;
+        frame.end = right;
+        frame.low = clip->y * FIXED_ONE;
+        frame.high = bottom * FIXED_ONE;
+        if (dx > 0)
+            line_columns(&frame, line[0], line[2], line[1], dy / dx, width);
+        else if (dx < 0)
+            line_columns(&frame, line[2], line[0], line[3], dy / dx, width);
+    } else {
+        frame.along = canvas->width;
+        frame.across = 1;
+        frame.begin = clip->y;
+        frame.end = bottom;
+        frame.low = clip->x * FIXED_ONE;
+        frame.high = right * FIXED_ONE;
+        if (dy > 0)
+            line_columns(&frame, line[1], line[3], line[0], dx / dy, width);
+        else
+            line_columns(&frame, line[3], line[1], line[2], dx / dy, width);
+    }
 }
 
 void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,

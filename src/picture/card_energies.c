@@ -79,17 +79,19 @@ static double value_at(const History *history, int series, double time)
     return value;
 }
 
-/* One word of the legend with its number; returns where the next goes. */
+/* One word of the legend with its number; returns where the next goes.
+ *   value  J; NaN: the name alone */
 static int draw_word(Paper *paper, Box *row, int x, Colour colour,
-                     const char *name, double value, const char *unit)
+                     const char *name, double value)
 {
     char number[48], words[128];
-    plot_number(number, sizeof number, value);
-    if (isfinite(value))
-        snprintf(words, sizeof words, "%s %s%s%s", name, number,
-                 unit[0] ? " " : "", unit);
-    else
+    EnergyUnit unit = energy_unit(fabs(value));
+    if (isfinite(value)) {
+        plot_number(number, sizeof number, value / unit.joule);
+        snprintf(words, sizeof words, "%s %s %s", name, number, unit.name);
+    } else {
         snprintf(words, sizeof words, "%s", name);
+    }
     int width = paper_width(paper, FACE_REGULAR, 0.85, words);
     if (x > row->x && x + width > row->x + row->width) {
         x = row->x;
@@ -97,28 +99,27 @@ static int draw_word(Paper *paper, Box *row, int x, Colour colour,
     }
     paper_write(paper, FACE_REGULAR, 0.85, colour, x, row->y, ALIGN_LEFT, "%s",
                 words);
-    return x + width + paper_pixels(paper, 1.1);
+    return x + width + paper_pixels(paper, 0.9);
 }
 
-/* Names and values in the colours of the curves. */
-static Box draw_legend(Paper *paper, Box inside, const Show *show,
-                       EnergyUnit unit, double time)
+/* Names in the colours of the curves; values, or in a narrow card that of the
+ * first one alone. */
+static Box draw_legend(Paper *paper, Box inside, const Show *show, double time)
 {
     Box row = inside;
-    row.x += paper_pixels(paper, 0.3);
-    row.width -= paper_pixels(paper, 0.6);
+    bool narrow = inside.width < 20 * paper->em;
     int x = row.x;
     for (int p = 0; compares(show) && p < show->panes; p++)
         if (show->pane[p].history)
             x = draw_word(paper, &row, x, colour_of_run(p),
                           show->pane[p].label ? show->pane[p].label : "",
-                          value_at(show->pane[p].history, 0, time) / unit.joule,
-                          unit.name);
+                          narrow ? NAN
+                                 : value_at(show->pane[p].history, 0, time));
     const History *history = show->pane[show->active].history;
     for (int s = 0; !compares(show) && s < history->series; s++)
         x = draw_word(paper, &row, x, colour_of_energy(s),
                       history->name[s] ? history->name[s] : "",
-                      value_at(history, s, time) / unit.joule, unit.name);
+                      narrow && s > 0 ? NAN : value_at(history, s, time));
     int used = row.y + paper_pixels(paper, 1.3) - inside.y;
     return (Box){inside.x, inside.y + used, inside.width, inside.height - used};
 }
@@ -133,9 +134,10 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
     find_range(show, &low, &high, &last);
     high = high > 0 ? fmin(high, 1e300) : 1;
     EnergyUnit unit = energy_unit(fmax(high, -low));
-    Box rest = draw_legend(paper, inside, show, unit, now);
+    Box rest = draw_legend(paper, inside, show, now);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
-    Axis energy = {0, plot_round_axis(high / unit.joule), false, false, NULL};
+    Axis energy = {0, plot_round_axis(high / unit.joule), false, false,
+                   unit.name};
     if (low < -0.01 * high)
         energy.low = -plot_round_axis(-low / unit.joule);
     Plot plot = plot_create(paper, rest, time, energy);
@@ -152,8 +154,14 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
                     colour_of_energy(s));
 }
 
-const Card card_energies = {"energies", "Energies over time", NULL, 1.05,
-                            false,      draw_energies};
+const Card card_energies = {
+    .name = "energies",
+    .title = "Energies over time",
+    .least = 8,
+    .weight = 1,
+    .half = true,
+    .draw = draw_energies,
+};
 
 /* One curve a run, on an axis that does not move. */
 static void draw_radius(Paper *paper, Box inside, const Show *show)
@@ -171,5 +179,10 @@ static void draw_radius(Paper *paper, Box inside, const Show *show)
         draw_series(paper, &plot, pane->history, s, 1.8, colour_of_run(s));
 }
 
-const Card card_radius = {"radius",   "Radius over time, m", NULL, 1.1, false,
-                          draw_radius};
+const Card card_radius = {
+    .name = "radius",
+    .title = "Radius over time, m",
+    .least = 10,
+    .weight = 1,
+    .draw = draw_radius,
+};

@@ -87,16 +87,22 @@ static void draw_trial(Paper *paper, const Plot *plot, double alpha,
                 words);
 }
 
+/* Where the curves are not: above 0 at the left; below it where they rise. */
 static void draw_words(Paper *paper, const Plot *plot, const Trace *trace)
 {
-    double x = plot->box.x + plot->box.width, y = plot->box.y;
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_X, x, y, ALIGN_RIGHT,
-                "exact");
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_P, x, y + 1.2 * paper->em,
-                ALIGN_RIGHT, "quadratic model");
-    if (trace->slope > 0)
-        paper_write(paper, FACE_BOLD, 0.85, COLOUR_WARNING, x,
-                    y + 2.4 * paper->em, ALIGN_RIGHT, "{p} points uphill");
+    double x = plot->box.x + 0.5 * paper->em, y = plot->box.y;
+    bool uphill = trace->slope > 0;
+    if (uphill)
+        y += plot->box.height - 1.3 * paper->em;
+    x += paper_write(paper, FACE_REGULAR, 0.85, COLOUR_X, x, y, ALIGN_LEFT,
+                     "exact") +
+         paper->em;
+    x += paper_write(paper, FACE_REGULAR, 0.85, COLOUR_P, x, y, ALIGN_LEFT,
+                     "quadratic model") +
+         paper->em;
+    if (uphill)
+        paper_write(paper, FACE_BOLD, 0.85, COLOUR_WARNING, x, y, ALIGN_LEFT,
+                    "{p} points uphill");
 }
 
 static void draw_curves(Paper *paper, Box inside, const Trace *trace)
@@ -146,4 +152,11 @@ static const char *line_title(const Show *show)
                   : "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2";
 }
 
-const Card card_line = {"line", "E along p", line_title, 1.1, false, draw_line};
+const Card card_line = {
+    .name = "line",
+    .title = "E along p",
+    .titled = line_title,
+    .least = 8,
+    .weight = 1.2,
+    .draw = draw_line,
+};

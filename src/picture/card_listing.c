@@ -198,17 +198,19 @@ static void draw_row(Paper *paper, Box box, const Simulation *simulation,
     if (reached || off)
         line_value(value, simulation, trace ? trace : &(Trace){0}, row->line);
     int text = paper_width(paper, FACE_REGULAR, size, row->markup);
-    int room = right - x - text - paper_pixels(paper, 0.8);
-    if (room < 0 && text > right - x)
-        size = fmax(0.75, (double)(right - x) / text);
-    text = paper_write(paper, FACE_REGULAR, size, colour, x, y, ALIGN_LEFT,
-                       "%s", row->markup);
+    int room = right - x - paper_pixels(paper, 0.8) -
+               paper_width(paper, FACE_REGULAR, 0.88, value);
+    if (text > room) /* smaller letters, if that is enough */
+        size = fmax(0.8, (double)room / text);
+    text = paper_write(paper, FACE_REGULAR, size, colour, x,
+                       y + 0.6 * (1 - size) * paper->em, ALIGN_LEFT, "%s",
+                       row->markup);
     if (off) {
         double middle = floor(y + 0.62 * line) + 0.5;
         canvas_line(&paper->canvas, x, middle, x + text, middle,
                     fmax(1, 1.3 * paper->unit), COLOUR_GREY);
     }
-    if (paper_width(paper, FACE_REGULAR, 0.88, value) <= room)
+    if (text <= room)
         paper_write(paper, FACE_REGULAR, 0.88, lit ? COLOUR_TEXT : COLOUR_FAINT,
                     right, y + 0.08 * paper->em, ALIGN_RIGHT, "%s", value);
 }
@@ -222,7 +224,7 @@ static void draw_listing(Paper *paper, Box inside, const Show *show)
     int rows = 0;
     while (listing->rows[rows].markup)
         rows++;
-    int pitch = paper_pixels(paper, 1.72);
+    int pitch = paper_pixels(paper, 1.75);
     if (pitch * rows > inside.height)
         pitch = inside.height / rows;
     for (int i = 0; i < rows; i++) {
@@ -236,5 +238,11 @@ static const char *listing_title(const Show *show)
     return find_listing(show->pane[show->active].simulation)->title;
 }
 
-const Card card_listing = {"listing", "Algorithm 3", listing_title,
-                           1.25,      false,         draw_listing};
+const Card card_listing = {
+    .name = "listing",
+    .title = "Algorithm 3",
+    .titled = listing_title,
+    .least = 14.6,
+    .weight = 0.3,
+    .draw = draw_listing,
+};

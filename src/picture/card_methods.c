@@ -55,5 +55,10 @@ static void draw_methods(Paper *paper, Box inside, const Show *show)
     }
 }
 
-const Card card_methods = {"methods", "The methods", NULL,
-                           1.5,       false,         draw_methods};
+const Card card_methods = {
+    .name = "methods",
+    .title = "The methods",
+    .least = 20,
+    .weight = 0.3,
+    .draw = draw_methods,
+};

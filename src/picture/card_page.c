@@ -45,5 +45,11 @@ static const char *page_title(const Show *show)
     return show->lecture ? show->lecture_title : "the lecture: Page Down";
 }
 
-const Card card_page = {"page", "the page", page_title,
-                        1.15,   false,      draw_lecture};
+const Card card_page = {
+    .name = "page",
+    .title = "the page",
+    .titled = page_title,
+    .least = 7,
+    .weight = 1.15,
+    .draw = draw_lecture,
+};

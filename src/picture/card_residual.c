@@ -98,10 +98,16 @@ static const char *residual_title(const Show *show)
 {
     bool scalar =
         show->pane[show->active].simulation->descent.scalar.f.value != NULL;
-    return scalar ? "|{p}| of each update"
-                  : "\u2016{p}\u2016_{\u221e} / h of each update, m/s";
+    return scalar ? "Residual |{p}|"
+                  : "Residual \u2016{p}\u2016_{\u221e}/h, m/s";
 }
 
-const Card card_residual = {"residual",     "residual of each update",
-                            residual_title, 0.9,
-                            false,          draw_residual};
+const Card card_residual = {
+    .name = "residual",
+    .title = "residual of each update",
+    .titled = residual_title,
+    .least = 8,
+    .weight = 1,
+    .half = true,
+    .draw = draw_residual,
+};

@@ -170,5 +170,11 @@ static void draw_spy(Paper *paper, Box inside, const Show *show)
                     "below the diagonal: the factor L with its fill");
 }
 
-const Card card_spy = {"spy",   "Hessian and its factor", NULL, 1.6, true,
-                       draw_spy};
+const Card card_spy = {
+    .name = "spy",
+    .title = "Hessian and its factor",
+    .least = 12,
+    .weight = 2,
+    .closed = true,
+    .draw = draw_spy,
+};

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "picture/cards.h"
 #include "picture/plot.h"
 #include "picture/show.h"
 #include "scenes/scene.h"
@@ -69,8 +70,10 @@ static void describe_line(Show *show, const Simulation *simulation,
             trace->slope > 0 ? "uphill" : "downhill");
         break;
     case LINE_SEARCH:
-        say(s, SHOW_TEXT, "line 5: {alpha} = 1/%g %s",
-            ldexp(1, trace->trials - 1),
+        alpha_text(number, sizeof number,
+                   ldexp(trace->first > 0 ? trace->first : 1,
+                         1 - (trace->trials > 1 ? trace->trials : 1)));
+        say(s, SHOW_TEXT, "line 5: {alpha} = %s %s", number,
             trace->accepted ? "is taken" : "is refused: E would rise");
         break;
     case LINE_UPDATE:

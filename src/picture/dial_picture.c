@@ -70,7 +70,12 @@ static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
 }
 
 static const Card card_dial_numbers = {
-    "numbers", "the minimiser in numbers", NULL, 1, false, dial_draw_numbers};
+    .name = "numbers",
+    .title = "the minimiser in numbers",
+    .least = 7,
+    .weight = 1,
+    .draw = dial_draw_numbers,
+};
 
 static const Card *const dial_cards[] = {&card_page, &card_dial_numbers, NULL};
 

@@ -181,10 +181,19 @@ static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
 }
 
 static const Card card_envelope_numbers = {
-    "numbers", "this cell", NULL, 0.8, false, envelope_draw_numbers};
-static const Card card_cell = {"cell", "its square after three steps",
-                               NULL,   1.2,
-                               false,  envelope_draw_cell};
+    .name = "numbers",
+    .title = "this cell",
+    .least = 7,
+    .weight = 0.8,
+    .draw = envelope_draw_numbers,
+};
+static const Card card_cell = {
+    .name = "cell",
+    .title = "its square after three steps",
+    .least = 7,
+    .weight = 1.2,
+    .draw = envelope_draw_cell,
+};
 
 static const Card *const envelope_cards[] = {&card_page, &card_envelope_numbers,
                                              &card_cell, NULL};

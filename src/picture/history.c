@@ -44,6 +44,8 @@ void history_add(History *history, double time, const double *value)
 {
     if (!history_accepts(history, time, value))
         return;
+    if (history->stride < 1)
+        history->stride = 1;
     if (history->count > 0 && (history->calls - 1) % history->stride != 0)
         history->count--;
     if (history->count == HISTORY_POINTS)

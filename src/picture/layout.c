@@ -3,14 +3,15 @@
 #include <math.h>
 
 /* Sizes in ems, the size of the texts. */
-static const double STRIP = 3.1, ROW = 2.6, TIME = 5.6, LAST = 3.0;
+static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
 static const double GAP = 0.9;          /* between the zones' contents */
 static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
 static const double LETTER = 0.56;      /* a letter is wide, on average */
-static const double SETTING_GAP = 1.9;  /* between settings */
+static const double SETTING_GAP = 0.9;  /* between settings */
 static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
-static const double BARS = 2.9;         /* the bars of the time line are high */
+static const double BARS = 2.4;         /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
+static const double PAIR_LEAST = 32; /* a column for two cards in a row */
 
 /* The column's part of the width. */
 static const double COLUMN_PART = 0.38;
@@ -73,7 +74,7 @@ static int place_settings(const LayoutWish *wish, Layout *layout, int most)
     int height = pixels(layout, ROW - 0.4);
     layout->settings = 0;
     for (int i = 0; i < wish->settings && i < LAYOUT_SETTINGS; i++) {
-        int width = pixels(layout, wish->setting_letters[i] * LETTER + 0.8);
+        int width = pixels(layout, wish->setting_letters[i] * 0.53 + 0.6);
         if (x + width > right && x > left) {
             line++;
             x = left;
@@ -138,35 +139,60 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
     return rest;
 }
 
-/* Open cards share the height by their weights; of closed ones, and of the
- * others beside a large one, the title is seen. */
+/* Whether only the title of a card is seen. */
+static bool card_is_bar(const LayoutWish *wish, int cards, int card)
+{
+    bool large = wish->large >= 0 && wish->large < cards;
+    return (wish->closed >> card & 1) || (large && card != wish->large);
+}
+
+/* Whether a card and the next one stand in one row. */
+static bool cards_pair(const LayoutWish *wish, const Layout *layout, int card)
+{
+    unsigned both = wish->half & ~wish->hidden;
+    return card + 1 < layout->cards && (both >> card & 1) &&
+           (both >> (card + 1) & 1) &&
+           !card_is_bar(wish, layout->cards, card) &&
+           !card_is_bar(wish, layout->cards, card + 1) &&
+           layout->column.width >= PAIR_LEAST * layout->em;
+}
+
+/* Rows of one or two cards: each has what it needs, and what is left is shared
+ * by weight; if there is not enough, what they need shrinks alike. */
 static void place_cards(const LayoutWish *wish, Layout *layout)
 {
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
     Box inner = box_inset(layout->column, pixels(layout, GAP));
-    int room = inner.height, y = inner.y;
-    double weights = 0;
-    int shown = 0;
-    bool bars[LAYOUT_CARDS];
+    double room = inner.height + gap, least = 0, weights = 0;
     layout->cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
     for (int i = 0; i < layout->cards; i++) {
-        bool large = wish->large >= 0 && wish->large < layout->cards;
         if (wish->hidden >> i & 1)
             continue;
-        shown++;
-        bars[i] = (wish->closed >> i & 1) || (large && i != wish->large);
-        room -= bars[i] ? bar : 0;
-        weights += bars[i] ? 0 : wish->weight[i];
+        room -= gap;
+        if (card_is_bar(wish, layout->cards, i)) {
+            room -= bar;
+            continue;
+        }
+        least += wish->least[i] * layout->em;
+        weights += wish->weight[i];
+        i += cards_pair(wish, layout, i);
     }
-    room -= (shown - 1) * gap;
-    for (int i = 0; i < layout->cards; i++) {
-        layout->card[i] = (Box){0, 0, 0, 0};
+    double shrink = least > room ? room / least : 1;
+    double more = least < room ? (room - least) / weights : 0;
+    for (int i = 0, y = inner.y; i < layout->cards; i++) {
         if (wish->hidden >> i & 1)
             continue;
-        int height = bars[i] ? bar : (int)(room * wish->weight[i] / weights);
-        height = height < bar ? bar : height;
-        layout->card[i] = (Box){inner.x, y, inner.width, height};
-        y += height + gap;
+        double height =
+            shrink * wish->least[i] * layout->em + more * wish->weight[i];
+        if (card_is_bar(wish, layout->cards, i) || height < bar)
+            height = bar;
+        Box row = {inner.x, y, inner.width, (int)height};
+        y += row.height + gap;
+        layout->card[i] = row;
+        if (cards_pair(wish, layout, i)) {
+            layout->card[i] = box_column(row, 0, 2, gap);
+            layout->card[++i] = box_column(row, 1, 2, gap);
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 #include "picture/colour_map.h"
 
 static const double HEAD = 0.62;        /* ems, length of an arrow's head */
-static const double ARROW_LEAST = 0.9;  /* ems, the longest arrow has */
+static const double ARROW_LEAST = 1.5;  /* ems, the longest arrow has */
 static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
 

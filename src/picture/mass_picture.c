@@ -245,9 +245,13 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
     lines_draw(paper, inside, &lines);
 }
 
-static const Card card_mass_numbers = {"numbers", "the step with its numbers",
-                                       NULL,      1.1,
-                                       false,     draw_mass_numbers};
+static const Card card_mass_numbers = {
+    .name = "numbers",
+    .title = "the step with its numbers",
+    .least = 7,
+    .weight = 1.1,
+    .draw = draw_mass_numbers,
+};
 
 static const Card *const mass_cards[] = {&card_page, &card_mass_numbers,
                                          &card_energies, NULL};

@@ -67,8 +67,7 @@ void plot_number(char *text, size_t size, double value)
 }
 
 /* A number of an axis; rounding must not show as 1e-17. */
-static void format_tick(char *text, size_t size, const Axis *axis,
-                        double value)
+static void format_tick(char *text, size_t size, const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool nothing = !axis->log && fabs(value) < 1e-9 * span;

@@ -120,7 +120,12 @@ static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
 }
 
 static const Card card_race_numbers = {
-    "numbers", "the quickest runs", NULL, 1.4, false, race_draw_numbers};
+    .name = "numbers",
+    .title = "the quickest runs",
+    .least = 7,
+    .weight = 1.4,
+    .draw = race_draw_numbers,
+};
 
 static const Card *const race_cards[] = {&card_page, &card_race_numbers, NULL};
 

@@ -42,8 +42,12 @@ Layout show_layout(const Show *show, int width, int height)
                        .page = show->page.kind != PAGE_NONE,
                        .settings = show->settings,
                        .chips = show->chips};
-    for (; picture->cards[wish.cards]; wish.cards++)
-        wish.weight[wish.cards] = picture->cards[wish.cards]->weight;
+    for (; picture->cards[wish.cards]; wish.cards++) {
+        const Card *card = picture->cards[wish.cards];
+        wish.least[wish.cards] = card->least;
+        wish.weight[wish.cards] = card->weight;
+        wish.half |= (unsigned)card->half << wish.cards;
+    }
     for (int i = 0; i < wish.settings; i++) {
         const Setting *setting = &show->setting[i];
         int value = count_letters(setting->value);

@@ -217,13 +217,26 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 }
 
 static const Card card_spring_numbers = {
-    "numbers", "the spring in numbers", NULL, 1.1, false, spring_draw_numbers};
+    .name = "numbers",
+    .title = "the spring in numbers",
+    .least = 7,
+    .weight = 1.1,
+    .draw = spring_draw_numbers,
+};
 static const Card card_eigenvalues = {
-    "eigenvalues", "eigenvalues of its 4 \u00d7 4 block",
-    NULL,          0.9,
-    false,         spring_draw_eigenvalues};
-static const Card card_profile = {"profile", "energy over its length", NULL, 1,
-                                  false,     spring_draw_profile};
+    .name = "eigenvalues",
+    .title = "eigenvalues of its 4 \u00d7 4 block",
+    .least = 7,
+    .weight = 0.9,
+    .draw = spring_draw_eigenvalues,
+};
+static const Card card_profile = {
+    .name = "profile",
+    .title = "energy over its length",
+    .least = 7,
+    .weight = 1,
+    .draw = spring_draw_profile,
+};
 
 static const Card *const spring_cards[] = {
     &card_page, &card_spring_numbers, &card_eigenvalues, &card_profile, NULL};

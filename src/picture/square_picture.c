@@ -23,8 +23,9 @@ typedef struct SpringPen {
     const Stage *stage;
     const Pane *pane;
     const double *x; /* [2n] m */
+    double *at;      /* [2n] pixels; NULL: not enough memory */
     double spacing;  /* pixels, of two nodes at rest */
-    double width;    /* units */
+    double width;    /* pixels */
     double range;    /* of the strains; 0: all blue */
     bool plastic;    /* the colour is the plastic strain */
     bool projected;  /* springs whose block was changed are lit */
@@ -84,6 +85,10 @@ static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show)
     pen.x = pane_x(pane);
     pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
     pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
+    pen.width = fmax(1, pen.width * paper->unit);
+    pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
+    for (int i = 0; pen.at && i < simulation->system.nodes; i++)
+        stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
     pen.plastic = show->strain && pane->plastic;
     pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
     if (show->strain)
@@ -119,7 +124,8 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
         colour = COLOUR_PROJECT;
         width *= 1.15;
     }
-    stage_line(pen->paper, pen->stage, a, b, width, colour);
+    const double *p = pen->at + 2 * (size_t)i, *q = pen->at + 2 * (size_t)j;
+    canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
 }
 
 static long draw_all_springs(const SpringPen *pen, const System *system)
@@ -175,11 +181,10 @@ static void draw_nodes(const SpringPen *pen, const System *system, bool bare)
 {
     double radius = node_radius(pen, bare);
     Colour colour = pen->range > 0 ? COLOUR_TEXT : COLOUR_X;
-    double hidden = 0.5 * fmax(1, pen->width * pen->paper->unit);
-    if (radius >= hidden)
+    if (radius >= 0.5 * pen->width)
         for (int i = 0; i < system->nodes; i++)
-            stage_disc(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius,
-                       colour);
+            canvas_disc(&pen->paper->canvas, pen->at[2 * (size_t)i],
+                        pen->at[2 * (size_t)i + 1], radius, colour);
     for (int i = 0; system->pinned && i < system->nodes; i++)
         if (system->pinned[i])
             stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
@@ -424,6 +429,8 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     const System *system = &simulation->system;
     SpringCount count = {0, 0};
     Legend legend = {0, 0};
+    if (!pen.at)
+        return count;
     int stride =
         (int)fmin(fmax(ceil(2 / pen.spacing), 1), simulation->mesh.segments);
     if (!show->bare)

@@ -265,8 +265,12 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
 }
 
 static const Card card_tangent_numbers = {
-    "numbers", "the update with its numbers", NULL, 0.9,
-    false,     tangent_draw_numbers};
+    .name = "numbers",
+    .title = "the update with its numbers",
+    .least = 7,
+    .weight = 0.9,
+    .draw = tangent_draw_numbers,
+};
 
 static const Card *const tangent_cards[] = {&card_page, &card_tangent_numbers,
                                             &card_residual, NULL};

@@ -14,8 +14,10 @@ enum { SIZES = sizeof sizes / sizeof *sizes };
 static LayoutWish full_wish(void)
 {
     LayoutWish wish = {.panes = 1, .cards = 4, .large = -1, .settings = 9};
-    for (int i = 0; i < wish.cards; i++)
+    for (int i = 0; i < wish.cards; i++) {
         wish.weight[i] = 1 + i;
+        wish.least[i] = 6;
+    }
     for (int i = 0; i < wish.settings; i++)
         wish.setting_letters[i] = 5 + 2 * i;
     wish.chips = 9;
@@ -140,6 +142,18 @@ static void cards_share_the_column(void **unused)
     Layout large = layout_create(1280, 800, &wish);
     for (int i = 1; i < 4; i++)
         CHECK(large.card[0].height > 5 * large.card[i].height);
+    wish.large = -1;
+    wish.half = 6;
+    Layout pair = layout_create(1280, 800, &wish);
+    CHECK(pair.card[1].y == pair.card[2].y);
+    CHECK(pair.card[1].width < 0.5 * pair.card[0].width);
+    CHECK(pair.card[0].height > even.card[0].height);
+    check_boxes(pair.card, pair.cards, pair.column);
+    wish.closed = 4;
+    Layout apart = layout_create(1280, 800, &wish);
+    CHECK(apart.card[1].y < apart.card[2].y);
+    CHECK(layout_create(900, 900, &wish).card[1].y <
+          layout_create(900, 900, &wish).card[2].y);
     wish.page = true;
     Layout page = layout_create(1280, 800, &wish);
     CHECK(page.cards == 0 && page.column.width == even.column.width);
