@@ -49,7 +49,7 @@ const Card card_page = {
     .name = "page",
     .title = "the page",
     .titled = page_title,
-    .least = 7,
+    .least = 12,
     .weight = 1.15,
     .draw = draw_lecture,
 };
