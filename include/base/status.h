@@ -18,6 +18,7 @@ typedef enum Status {
     STATUS_NOT_A_MINIMUM,         /* gradient 0, but the energy bends down */
     STATUS_NOT_POSITIVE_DEFINITE, /* Cholesky met a pivot that is not > 0 */
     STATUS_SINGULAR,              /* a system without usable solution */
+    STATUS_BLOCKED,               /* a wall or a pin could not be moved on */
     STATUS_DIVERGED,              /* iterates run off beyond all numbers */
     STATUS_NOT_FINITE,            /* NaN or infinity appeared */
     STATUS_INTERRUPTED,           /* the observer asked to stop */

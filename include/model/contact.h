@@ -19,13 +19,23 @@
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
+/* How an obstacle is moved: phase after phase, then it stands still. */
+enum { MOTION_MAX_PHASES = 4 };
+
+typedef struct Motion {
+    int phases;
+    double until[MOTION_MAX_PHASES]; /* s, end of the phase */
+    double v[MOTION_MAX_PHASES][2];  /* m/s in it */
+} Motion;
+
 typedef struct Obstacle {
     ObstacleKind kind;
-    double o[2];     /* m, a point of the wall's surface, or the ball's centre;
-                        not used where the ball is a node */
-    double n[2];     /* the wall's unit normal, out of it; balls: not used */
-    double radius;   /* m, R > 0; walls: not used */
-    double v[2];     /* m/s, how it is moved in this step; 0, 0: not at all */
+    double o[2];   /* m, a point of the wall's surface, or the ball's centre;
+                      not used where the ball is a node */
+    double n[2];   /* the wall's unit normal, out of it; balls: not used */
+    double radius; /* m, R > 0; walls: not used */
+    Motion motion;
+    double v[2];     /* m/s, its velocity in the present step */
     double friction; /* mu >= 0 */
     int node;        /* the ball's centre is this free node; -1: it is o */
 } Obstacle;
@@ -45,6 +55,9 @@ typedef struct Gap {
 
 /* Part of a gap that one step of the minimisation may use up. */
 #define CONTACT_LIMIT 0.9
+
+/* The velocity at time t, s; v [2] m/s, out. */
+void motion_velocity(const Motion *motion, double t, double v[2]);
 
 /* The point that the obstacle's gaps are measured from, in positions x [2n] m:
  * o, or the free node. */
@@ -114,6 +127,9 @@ Contact *contact_of(const System *system);
  * are held fast. */
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle);
+
+/* m, of a node: 0, a point, but for the centre of the free ball. */
+double contact_node_radius(const Contact *contact, int node);
 
 /* The gap of a pair in positions x [2n] m. */
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,

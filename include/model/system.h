@@ -23,6 +23,7 @@ struct System {
     double *k;             /* [springs] J/m^2, stiffness, > 0 */
     double gravity[2];     /* m/s^2, acceleration of every node */
     unsigned char *pinned; /* [n] 1: the node never moves; NULL: no pins */
+    double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
     bool breaks;           /* springs may be broken: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
     int terms;

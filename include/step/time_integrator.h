@@ -29,6 +29,10 @@ struct TimeIntegrator {
     long steps;       /* done so far; t_n = steps * h */
     long unconverged; /* steps that ended without convergence */
     Status status;    /* of the last step */
+    double clock;     /* s, sum of all steps */
+    bool moves;       /* whether anything is moved in the present step */
+    double moved;     /* part of its way that moved things went in it */
+    double work;      /* J, done so far by what moves walls and pins */
     double *x;        /* [2n] m */
     double *v;        /* [2n] m/s */
     double *new_x;    /* [2n] m, workspace of step functions */

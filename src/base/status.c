@@ -24,6 +24,7 @@ static const StatusRow status_rows[STATUS_COUNT] = {
     [STATUS_NOT_POSITIVE_DEFINITE] = {"not_positive_definite",
                                       "the Hessian is not positive definite"},
     [STATUS_SINGULAR] = {"singular", "the Hessian is singular"},
+    [STATUS_BLOCKED] = {"blocked", "what is moved found no room to go on"},
     [STATUS_DIVERGED] = {"diverged", "the iterates run off beyond all numbers"},
     [STATUS_NOT_FINITE] = {"not_finite", "a number became NaN or infinite"},
     [STATUS_INTERRUPTED] = {"interrupted", "interrupted"},
@@ -65,6 +66,7 @@ bool status_is_unconverged(Status status)
     case STATUS_NOT_A_MINIMUM:
     case STATUS_NOT_POSITIVE_DEFINITE:
     case STATUS_SINGULAR:
+    case STATUS_BLOCKED:
     case STATUS_DIVERGED:
         return true;
     default:

@@ -7,6 +7,16 @@
 #include "model/barrier.h"
 #include "model/mass_spring_energy.h"
 
+void motion_velocity(const Motion *motion, double t, double v[2])
+{
+    v[0] = v[1] = 0;
+    for (int i = motion->phases - 1; i >= 0; i--)
+        if (t < motion->until[i]) {
+            v[0] = motion->v[i][0];
+            v[1] = motion->v[i][1];
+        }
+}
+
 const double *obstacle_point(const Obstacle *obstacle, const double *x)
 {
     return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;
@@ -108,8 +118,7 @@ bool contact_has_pair(const Contact *contact, const System *system, int node,
            !(is_pinned(system, node) && (ball < 0 || is_pinned(system, ball)));
 }
 
-/* A node is a point, but for the centre of the free ball. */
-static double node_radius(const Contact *contact, int node)
+double contact_node_radius(const Contact *contact, int node)
 {
     if (contact->ball < 0)
         return 0;
@@ -122,7 +131,7 @@ Gap contact_pair_gap(const Contact *contact, const double *x, int node,
 {
     const Obstacle *other = &contact->obstacle[obstacle];
     return contact_gap(other, obstacle_point(other, x), x + 2 * node,
-                       node_radius(contact, node));
+                       contact_node_radius(contact, node));
 }
 
 /* The next pair after *pair, which starts at {-1, 0}: node by node. */

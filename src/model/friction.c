@@ -260,6 +260,20 @@ const TermKind friction_energy = {
     .end_of_step = true,
 };
 
+double friction_work_of_obstacles(const System *system, const double *u)
+{
+    const Term *term = system_find_term(system, &friction_energy);
+    const Friction *friction = term ? term->data : NULL;
+    const Contact *contact = contact_of(system);
+    double sum = 0;
+    for (int s = 0; friction && s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        double y = slid(contact, slide, u) - slide->carry;
+        sum -= slide->weight * friction_slope(y, friction->e) * slide->carry;
+    }
+    return sum;
+}
+
 Status friction_add(System *system, double slip_speed)
 {
     const Contact *contact = contact_of(system);

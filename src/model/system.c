@@ -48,6 +48,7 @@ void system_free(System *system)
     free(system->l2);
     free(system->k);
     free(system->pinned);
+    free(system->pin_v);
     free(system->order);
     for (int t = 0; t < system->terms; t++)
         free_data(&system->term[t]);

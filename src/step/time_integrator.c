@@ -8,6 +8,7 @@
 #include "step/backward_euler.h"
 #include "step/explicit_methods.h"
 #include "step/implicit_methods.h"
+#include "step/prescribed.h"
 
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
@@ -116,12 +117,17 @@ void time_integrator_free(TimeIntegrator *integrator)
 Status time_integrator_step(TimeIntegrator *integrator)
 {
     integrator->status = STATUS_OK;
+    integrator->moves = prescribed_begin(integrator);
     system_begin(integrator->system, integrator->x, integrator->v,
                  integrator->h);
     Status failure = integrator->method->step(integrator);
     if (failure)
         return integrator->status = failure;
     integrator->steps++;
+    integrator->clock += integrator->h;
+    if (integrator->moves)
+        integrator->work +=
+            prescribed_work(integrator, integrator->newton->at.E.weight);
     if (system_end(integrator->system, integrator->x, integrator->v,
                    integrator->h))
         time_integrator_forget(integrator, false);
@@ -144,7 +150,9 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
     if (system_has_gravity(integrator->system))
         add_gravity(integrator, weight);
     integrator->newton->step = integrator->steps + 1;
-    Status status = newton_minimise(integrator->newton, x_n, weight);
+    Status status = integrator->moves
+                        ? prescribed_minimise(integrator, x_n, weight)
+                        : newton_minimise(integrator->newton, x_n, weight);
     if (!status_is_unconverged(status))
         return status;
     integrator->status = status;

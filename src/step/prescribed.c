@@ -1,0 +1,180 @@
+#include "step/prescribed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/contact.h"
+#include "model/friction.h"
+#include "model/inertia_energy.h"
+
+/* Halvings of a part of the way, and parts of it; a wall at 50 m/s in steps of
+ * 0.01 s onto cells of 1/8 m needs 19 parts. */
+enum { MAX_HALVINGS = 40, MAX_ROUNDS = 100 };
+
+/* Nodes that a wall would touch are carried along and keep this much of the
+ * barrier's width. */
+#define CARRIED_GAP 0.3
+
+static bool moves(const Obstacle *obstacle)
+{
+    return obstacle->v[0] != 0 || obstacle->v[1] != 0;
+}
+
+bool prescribed_begin(TimeIntegrator *integrator)
+{
+    Contact *contact = contact_of(integrator->system);
+    bool any = integrator->system->pin_v != NULL;
+    integrator->moved = 0;
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        Obstacle *obstacle = &contact->obstacle[k];
+        motion_velocity(&obstacle->motion,
+                        integrator->clock + 0.5 * integrator->h, obstacle->v);
+        any = any || moves(obstacle);
+    }
+    return any;
+}
+
+/* o += way v of all obstacles. */
+static void move_obstacles(Contact *contact, double way)
+{
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int c = 0; c < 2; c++)
+            contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
+}
+
+/* u += what keeps a node in front of the obstacles that have come nearer.
+ *   before  [2n] m, where the nodes were while the obstacles were `way` back */
+static void carry(const System *system, const Contact *contact, double way,
+                  const double *x_n, const double *before, double *u)
+{
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        double back[2] = {obstacle->o[0] - way * obstacle->v[0],
+                          obstacle->o[1] - way * obstacle->v[1]};
+        if (!moves(obstacle))
+            continue;
+        for (int i = 0; i < system->nodes; i++) {
+            if (!contact_has_pair(contact, system, i, k))
+                continue;
+            double now[2] = {x_n[2 * i] + u[2 * i],
+                             x_n[2 * i + 1] + u[2 * i + 1]};
+            double radius = contact_node_radius(contact, i);
+            Gap after = contact_gap(obstacle, obstacle->o, now, radius);
+            double gap = contact_gap(obstacle, back, before + 2 * i, radius).d;
+            double keep = fmin(gap, CARRIED_GAP * contact->barrier.d_hat);
+            for (int c = 0; c < 2; c++)
+                u[2 * i + c] += fmax(0, keep - after.d) * after.n[c];
+        }
+    }
+}
+
+/* u = newton's displacement with a part of the way made; obstacles too.
+ * Returns whether all terms allow that; if not, obstacles are put back. */
+static bool make_part(TimeIntegrator *integrator, const double *x_n,
+                      double part, bool first, double *u, double *x)
+{
+    const System *system = integrator->system;
+    Contact *contact = contact_of(integrator->system);
+    double way = part * integrator->h;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        u[i] = first ? 0 : integrator->newton->at.u[i];
+        x[i] = x_n[i] + u[i];
+        if (system->pin_v && system->pinned && system->pinned[i / 2])
+            u[i] += way * system->pin_v[i];
+    }
+    move_obstacles(contact, way);
+    carry(system, contact, way, x_n, x, u);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        x[i] = x_n[i] + u[i];
+    IncrementalPotential E = {
+        .system = system, .weight = integrator->h * integrator->h, .x_n = x_n};
+    if (incremental_potential_allowed(&E, u, x))
+        return true;
+    move_obstacles(contact, -way);
+    return false;
+}
+
+Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
+                           double weight)
+{
+    Newton *newton = integrator->newton;
+    double tolerance = newton->settings.tolerance, left = 1;
+    double *u = integrator->new_x, *x = integrator->new_v;
+    Status status = STATUS_OK;
+    for (int round = 0; left > 0; round++) {
+        double part = left;
+        int halvings = 0;
+        while (halvings < MAX_HALVINGS && round < MAX_ROUNDS &&
+               !make_part(integrator, x_n, part, round == 0, u, x)) {
+            part /= 2;
+            halvings++;
+        }
+        bool blocked = halvings == MAX_HALVINGS || round == MAX_ROUNDS;
+        if (blocked) /* nothing moves any more in this step */
+            make_part(integrator, x_n, 0, round == 0, u, x);
+        else
+            integrator->moved += part;
+        left = blocked ? 0 : left - part;
+        if (left > 0)
+            newton->settings.tolerance = 10 * tolerance + 0.01;
+        status = newton_minimise_from(newton, x_n, u, weight);
+        newton->settings.tolerance = tolerance;
+        if (status && !status_is_unconverged(status))
+            return status;
+        if (blocked && !status)
+            status = STATUS_BLOCKED;
+    }
+    return status;
+}
+
+/* Of the pins: their reaction, which is what E's gradient has in their places,
+ * times their way. */
+static double pins_work(const TimeIntegrator *integrator, double weight,
+                        double *g)
+{
+    const System *system = integrator->system;
+    const Newton *newton = integrator->newton;
+    Place at = {system, newton->at.E.x_n, newton->at.u, newton->at.x};
+    double sum = 0;
+    if (!system->pin_v || !system->pinned)
+        return 0;
+    memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
+    inertia_energy_gradient(system->nodes, newton->at.u, newton->u_tilde,
+                            system->m, g);
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->value)
+            system->term[t].kind->gradient(&system->term[t], &at, weight, g);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        if (system->pinned[i / 2])
+            sum += g[i] * newton->at.u[i] / weight;
+    return sum;
+}
+
+/* Of the obstacles: the forces on the nodes, normal and of friction, times the
+ * obstacle's way. */
+static double obstacles_work(const TimeIntegrator *integrator)
+{
+    const System *system = integrator->system;
+    const Contact *contact = contact_of(system);
+    const double *x = integrator->newton->at.x;
+    double way = integrator->moved * integrator->h, sum = 0;
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        const double *v = contact->obstacle[k].v;
+        for (int i = 0; moves(&contact->obstacle[k]) && i < system->nodes;
+             i++) {
+            if (!contact_has_pair(contact, system, i, k))
+                continue;
+            Gap gap = contact_pair_gap(contact, x, i, k);
+            sum += contact_force(&contact->barrier, &gap) *
+                   (gap.n[0] * v[0] + gap.n[1] * v[1]);
+        }
+    }
+    return way * sum +
+           friction_work_of_obstacles(system, integrator->newton->at.u);
+}
+
+double prescribed_work(const TimeIntegrator *integrator, double weight)
+{
+    return pins_work(integrator, weight, integrator->new_x) +
+           obstacles_work(integrator);
+}

@@ -1,0 +1,27 @@
+/* prescribed.h - walls and pinned nodes that move as they are told.
+ *
+ * Within a step they are put where they belong before E is minimised, not drawn
+ * there by a stiff spring: their position is exact, and E has nothing stiff in
+ * it.  Where the way would leave no room (a gap or a cell would end), half of
+ * it is made first, then E is minimised, then the rest: each round begins at a
+ * place that all terms allow.
+ */
+#ifndef ELASTO_PRESCRIBED_H
+#define ELASTO_PRESCRIBED_H
+
+#include "step/time_integrator.h"
+
+/* Before a step: each obstacle's v is what its motion has for this step.
+ * Returns whether anything moves. */
+bool prescribed_begin(TimeIntegrator *integrator);
+
+/* Minimises E with u_tilde as target from where the motion has put things.
+ * Returns as newton_minimise; BLOCKED where they could not be put there. */
+Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
+                           double weight);
+
+/* After a step was minimised: J, what those who moved things have done in it.
+ */
+double prescribed_work(const TimeIntegrator *integrator, double weight);
+
+#endif
