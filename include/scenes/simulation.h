@@ -33,11 +33,13 @@ typedef struct Descent {
 
 typedef struct Simulation {
     const struct Scene *scene;
-    Options options; /* what it was set up with */
-    SquareMesh mesh; /* zeroed in scenes without a square */
-    System system;
+    Options options;                  /* what it was set up with */
+    SquareMesh mesh;                  /* zeroed in scenes without a square */
+    System system;                    /* of run 0, and of all others but */
+    System more[SIMULATION_MAX_RUNS]; /* where runs differ: run 1, 2 */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
+    double start[SIMULATION_MAX_RUNS]; /* J, total energy when it began */
     Descent descent;       /* zeroed in scenes that move through time */
     Exhibit exhibit;       /* zeroed in scenes without one */
     Prediction prediction; /* of where the next step leads */
@@ -54,12 +56,21 @@ typedef struct Simulation {
     Status status;             /* of the last step */
 } Simulation;
 
-/* J; total is the sum of the first four.  work is what the hand has put in by
- * moving, taking and letting go: where time is resolved exactly, total - work
- * never changes. */
+/* The ledger of a run, J.  What it holds now:
+ *   total = kinetic + elastic + gravity + contact + hand
+ * and where the rest has gone since it began:
+ *   total at the start + work
+ *     = total + plastic + fracture + friction + dissipated. */
 typedef struct Energies {
-    double kinetic, elastic, gravity, hand, total;
-    double work;
+    double kinetic;
+    double elastic; /* springs, with what hardening stores; central field */
+    double gravity;
+    double hand;    /* the spring between the mouse and a node */
+    double contact; /* barriers of obstacles and of cells */
+    double total;
+    double plastic, fracture, friction; /* lost for good */
+    double work;       /* done by what moves walls, pins and the hand */
+    double dissipated; /* by the integrator; < 0: it has made energy */
 } Energies;
 
 /* Sets up options->scene.  simulation out; free it in any case.

@@ -85,15 +85,30 @@ static void place_node(const Options *options, const double rest[2],
     x[1] = s * x0 + c * x1 + options->at[1];
 }
 
-void body_place(const Options *options, const SquareMesh *mesh,
-                const System *system, double *x, double *v)
+Status body_start(const Options *options, const SquareMesh *mesh,
+                  System *system, const NewtonSettings *settings,
+                  const double *more, TimeIntegrator *run)
 {
-    for (int i = 0; i < mesh->nodes; i++) {
+    size_t size = 2 * (size_t)system->nodes;
+    double *x = malloc(size * sizeof *x), *v = calloc(size, sizeof *v);
+    Status status = x && v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; !status && i < mesh->nodes; i++) {
         place_node(options, mesh->x + 2 * i, x + 2 * i);
         for (int axis = 0; axis < 2; axis++)
             if (!system->pinned || !system->pinned[i])
                 v[2 * i + axis] = options->velocity[axis];
     }
+    for (int i = mesh->nodes; !status && i < system->nodes; i++, more += 4) {
+        memcpy(x + 2 * i, more, 2 * sizeof *x);
+        memcpy(v + 2 * i, more + 2, 2 * sizeof *v);
+    }
+    if (!status)
+        status = time_integrator_create(
+            options->integrator ? options->integrator : &integrator_methods[0],
+            system, settings, x, v, run);
+    free(x);
+    free(v);
+    return status;
 }
 
 /* The obstacles of the options, normals made units; returns how many. */

@@ -22,17 +22,21 @@ int body_rows(const Options *options);
 Status body_create(const Options *options, int more, SquareMesh *mesh,
                    System *system);
 
-/* Where the nodes of the mesh begin: stretched, turned, moved.  x, v [2n]
- * out. */
-void body_place(const Options *options, const SquareMesh *mesh,
-                const System *system, double *x, double *v);
-
 /* Terms of contact, friction, plasticity, cells and fracture, as the options
  * have them.
  *   more, obstacle  obstacles that follow those of the options
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY, INVALID_INPUT. */
 Status body_add_terms(const Options *options, const SquareMesh *mesh, int more,
                       const Obstacle *obstacle, System *system);
+
+/* A run of the body from where the options put it.
+ *   more  [4 ...] m, m/s: position and velocity of each node that is not in the
+ *         mesh; NULL: there is none
+ *   run   out; free it in any case
+ * Returns as time_integrator_create. */
+Status body_start(const Options *options, const SquareMesh *mesh,
+                  System *system, const NewtonSettings *settings,
+                  const double *more, TimeIntegrator *run);
 
 /* What the options ask for that only a step whose result is the minimiser
  * knows, in words; NULL: nothing. */

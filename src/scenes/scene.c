@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scenes/circle_scene.h"
+#include "scenes/contact_scenes.h"
 #include "scenes/dial_scene.h"
 #include "scenes/envelope_scene.h"
 #include "scenes/landscape_scene.h"
@@ -70,6 +71,48 @@ const Scene scenes[] = {
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = hang_defaults,
      .create = create_square},
+    {.name = "drop",
+     .sentence = "a turned square falls, slides and tumbles between walls",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = drop_defaults,
+     .create = create_square},
+    {.name = "slope",
+     .sentence = "three blocks: one slides, one slides slowly, one holds",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = slope_defaults,
+     .create = create_slope},
+    {.name = "squeeze",
+     .sentence = "a ceiling presses the square flat and lets it go again",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = squeeze_defaults,
+     .create = create_squeeze},
+    {.name = "dent",
+     .sentence = "springs that flow: the ball leaves its mark",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = dent_defaults,
+     .create = create_square},
+    {.name = "tear",
+     .sentence = "a slit opens and runs: springs break where they must",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = tear_defaults,
+     .create = create_tear},
+    {.name = "bend",
+     .sentence = "a beam on two balls, a third falls on it: everything at once",
+     .picture = PICTURE_SQUARE,
+     .needs =
+         NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     .defaults = bend_defaults,
+     .create = create_bend},
     {.name = "arrows",
      .title = "One mass",
      .sentence = "one mass on a spring: the arrows of three Euler steps",

@@ -4,12 +4,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/fracture.h"
+#include "model/friction.h"
 #include "model/hand_energy.h"
+#include "model/plasticity.h"
 #include "scenes/scene.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
  * thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
+
+/* Dissipation is counted from the present state on. */
+static void begin_ledger(Simulation *simulation)
+{
+    for (int i = 0; i < simulation->runs; i++)
+        simulation->start[i] = 0;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].x)
+            simulation->start[i] =
+                -simulation_energies(simulation, i).dissipated;
+}
 
 Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation)
@@ -32,6 +48,8 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if (options->flips >> i & 1 && options->scene->flip)
             options->scene->flip(simulation, i);
+    if (!status)
+        begin_ledger(simulation);
     return status;
 }
 
@@ -42,6 +60,8 @@ void simulation_free(Simulation *simulation)
     for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
         time_integrator_free(&simulation->run[i]);
     system_free(&simulation->system);
+    for (int i = 0; i < SIMULATION_MAX_RUNS; i++)
+        system_free(&simulation->more[i]);
     square_mesh_free(&simulation->mesh);
     *simulation = (Simulation){0};
 }
@@ -313,19 +333,45 @@ Status simulation_change(Simulation *simulation, const Options *options)
     return status;
 }
 
+/* J, of one kind of term in positions x [2n] m; 0 where there is none. */
+static double energy_of(const System *system, const TermKind *kind,
+                        const double *x)
+{
+    const Term *term = system_find_term(system, kind);
+    Place at = {system, x, NULL, x};
+    return term ? kind->value(term, &at) : 0;
+}
+
+/* J, what one kind of term has taken out of the system. */
+static double lost_by(const System *system, const TermKind *kind)
+{
+    const Term *term = system_find_term(system, kind);
+    return term ? term->lost : 0;
+}
+
 Energies simulation_energies(const Simulation *simulation, int run)
 {
     const TimeIntegrator *integrator = &simulation->run[run];
-    Energies energies;
-    energies.kinetic = system_kinetic(&simulation->system, integrator->v);
-    energies.gravity =
-        system_gravity_potential(integrator->system, integrator->x);
-    energies.hand = hand_energy_value(integrator->system, integrator->x);
+    const System *system = integrator->system;
+    const double *x = integrator->x;
+    Energies energies = {
+        .kinetic = system_kinetic(system, integrator->v),
+        .gravity = system_gravity_potential(system, x),
+        .hand = hand_energy_value(system, x),
+        .contact = energy_of(system, &contact_energy, x) +
+                   energy_of(system, &cell_energy, x),
+        .plastic = lost_by(system, &plastic_energy),
+        .fracture = lost_by(system, &fracture),
+        .friction = lost_by(system, &friction_energy),
+        .work = simulation->work[run] + integrator->work,
+    };
     energies.elastic =
-        system_potential(integrator->system, integrator->x) - energies.hand;
-    energies.total =
-        energies.kinetic + energies.elastic + energies.gravity + energies.hand;
-    energies.work = simulation->work[run];
+        system_potential(system, x) - energies.contact - energies.hand;
+    energies.total = energies.kinetic + energies.elastic + energies.gravity +
+                     energies.contact + energies.hand;
+    energies.dissipated = simulation->start[run] + energies.work -
+                          energies.total - energies.plastic -
+                          energies.fracture - energies.friction;
     return energies;
 }
 

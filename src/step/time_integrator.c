@@ -85,7 +85,8 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     *integrator =
         (TimeIntegrator){.method = method, .system = system, .h = settings->h};
     if (system_check(system, x) || !start_is_valid(system, settings, v) ||
-        integrator_method_refuses(method, system))
+        integrator_method_refuses(method, system) ||
+        (system->pin_v && !method->at_end))
         return STATUS_INVALID_INPUT;
     size_t size = 2 * (size_t)system->nodes;
     integrator->x = copy_array(x, size);
