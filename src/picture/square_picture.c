@@ -147,13 +147,13 @@ static long draw_all_springs(const SpringPen *pen, const System *system)
 static long draw_coarse_springs(const SpringPen *pen, const SquareMesh *mesh,
                                 int stride)
 {
-    int n = mesh->segments, row = n + 1;
+    int n = mesh->segments, rows = mesh->rows, row = rows + 1;
     double l2 = mesh->side / n * (mesh->side / n);
     long drawn = 0;
     for (int i = 0; i <= n; i += stride)
-        for (int j = 0; j <= n; j += stride) {
+        for (int j = 0; j <= rows; j += stride) {
             int di = i + stride <= n ? stride : n - i;
-            int dj = j + stride <= n ? stride : n - j;
+            int dj = j + stride <= rows ? stride : rows - j;
             int node = i * row + j, right = node + di * row;
             double diagonal = l2 * (di * di + dj * dj);
             if (di > 0)
@@ -192,20 +192,18 @@ static void draw_nodes(const SpringPen *pen, const System *system, bool bare)
 
 /* ---- outlines, ghosts, cells -------------------------------------------- */
 
-/* Node k of the outline, anticlockwise from the lower left; 4 segments. */
+/* Node k of the outline, anticlockwise from the lower left. */
 static int outline_node(const SquareMesh *mesh, int k)
 {
-    int n = mesh->segments, row = n + 1, side = k / n % 4, at = k % n;
-    switch (side) {
-    case 0:
-        return at * row;
-    case 1:
-        return n * row + at;
-    case 2:
-        return (n - at) * row + n;
-    default:
-        return n - at;
-    }
+    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
+    k %= 2 * (columns + rows);
+    if (k < columns)
+        return k * row;
+    if (k < columns + rows)
+        return columns * row + (k - columns);
+    if (k < 2 * columns + rows)
+        return (2 * columns + rows - k) * row + rows;
+    return 2 * (columns + rows) - k;
 }
 
 /* The outline of the square at x. */
@@ -214,7 +212,7 @@ static void draw_outline(Paper *paper, const Stage *stage,
                          Colour colour)
 {
     double phase = 0, unit = paper->unit;
-    for (int k = 0; k < 4 * mesh->segments; k++) {
+    for (int k = 0; k < 2 * (mesh->segments + mesh->rows); k++) {
         const double *a = x + 2 * (size_t)outline_node(mesh, k);
         const double *b = x + 2 * (size_t)outline_node(mesh, k + 1);
         double p[2], q[2];
@@ -254,8 +252,8 @@ static double turn(const double *x, int a, int b, int c)
 
 bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
 {
-    int row = mesh->segments + 1;
-    int a = cell / mesh->segments * row + cell % mesh->segments;
+    int row = mesh->rows + 1;
+    int a = cell / mesh->rows * row + cell % mesh->rows;
     int b = a + row, c = b + 1, d = a + 1;
     return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
 }
@@ -264,9 +262,9 @@ bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
  * over in another colour. */
 static void draw_cells(const SpringPen *pen, const SquareMesh *mesh, bool all)
 {
-    int n = mesh->segments, row = n + 1;
-    for (int cell = 0; cell < n * n; cell++) {
-        int a = cell / n * row + cell % n;
+    int rows = mesh->rows, row = rows + 1;
+    for (int cell = 0; cell < mesh->segments * rows; cell++) {
+        int a = cell / rows * row + cell % rows;
         const int node[4] = {a, a + row, a + row + 1, a + 1};
         bool folded = square_picture_folded(mesh, pen->x, cell);
         double p[4][2];
@@ -472,7 +470,7 @@ static void pick_edge(const Show *show, const Simulation *simulation,
 {
     const SquareMesh *mesh = &simulation->mesh;
     const int *e = simulation->system.e + 2 * (size_t)pick->index;
-    int row = mesh->segments + 1, column = e[0] / row;
+    int row = mesh->rows + 1, column = e[0] / row;
     if (!show->paused || simulation->steps > 0 || e[1] / row != column ||
         (column != 0 && column != mesh->segments))
         return;

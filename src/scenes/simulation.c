@@ -9,6 +9,7 @@
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/hand_energy.h"
+#include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
 
@@ -243,7 +244,7 @@ bool simulation_is_pinned(const Simulation *simulation, int node)
  * what it can do: it bends the square, and does not tear nodes out of it. */
 static double hand_stiffness(const Simulation *simulation, int node)
 {
-    double k = 0.25 * system_stiffest(&simulation->system);
+    double k = 0.25 * mass_spring_stiffest(NULL, &simulation->system);
     return k > 0 ? k : 100 * simulation->system.m[node];
 }
 
@@ -252,7 +253,8 @@ static void book_hand(Simulation *simulation, double sign)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->work[r] +=
-            sign * hand_energy_value(&simulation->system, simulation->run[r].x);
+            sign *
+            hand_energy_value(simulation->run[r].system, simulation->run[r].x);
 }
 
 Status simulation_grab(Simulation *simulation, int node, double x, double y)
