@@ -124,7 +124,7 @@ int pane_folded(const Pane *pane)
     int folded = 0;
     if (!mesh->nodes || pane->simulation->runs < 1)
         return 0;
-    for (int cell = 0; cell < mesh->segments * mesh->segments; cell++)
+    for (int cell = 0; cell < mesh->segments * mesh->rows; cell++)
         folded += square_picture_folded(mesh, pane_x(pane), cell);
     return folded;
 }
