@@ -77,6 +77,10 @@ bool multigrid_fits(const MultigridStep *step, int nodes, int springs);
  * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
 Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
 
+/* After masses, pins, stiffnesses or lengths have changed: the next step reads
+ * them again.  Accepts NULL. */
+void multigrid_forget(Multigrid *multigrid);
+
 /* One iteration.  Returns RUNNING; OK (converged); or why it cannot go on:
  * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE.  u is then the last iterate,
  * where E is not higher than before. */

@@ -47,7 +47,8 @@ static Status create_grid_arrays(Grid *grid)
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
         grid->c[kind] = grid_planes(grid, 1);
         grid->l2[kind] = grid_planes(grid, 1);
-        if (!grid->c[kind] || !grid->l2[kind])
+        grid->along[kind] = grid_planes(grid, 1);
+        if (!grid->c[kind] || !grid->l2[kind] || !grid->along[kind])
             return STATUS_OUT_OF_MEMORY;
     }
     size_t runs = (size_t)grid->layout.nodes * (size_t)grid->layout.blocks;
@@ -81,6 +82,7 @@ void grid_free(Grid *grid)
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
         free(grid->c[kind]);
         free(grid->l2[kind]);
+        free(grid->along[kind]);
     }
     free(grid->m);
     free(grid->per_mass);
@@ -239,6 +241,12 @@ double grid_gradient(const Grid *grid, const GridRegion *region, double *g)
     run_kernel(grid->kernels->gradient, (GridJob){.out = {g}}, grid, region,
                GRID_HEAVY, 1, &sum);
     return sum;
+}
+
+void grid_stiffen(const Grid *grid)
+{
+    run_kernel(grid->kernels->stiffen, (GridJob){0}, grid, NULL, GRID_HEAVY, 0,
+               NULL);
 }
 
 double grid_product(const Grid *grid, bool clamped, const double *q, double *y)

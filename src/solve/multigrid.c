@@ -49,6 +49,7 @@ struct Multigrid {
     double last_bound;        /* m/s, an iteration before */
     double test_below;        /* m/s, bound at which the test is worth it */
     double residual;          /* m/s */
+    bool known;             /* the grid has the system's numbers */
     bool directed;            /* p is a direction at x */
     bool set_up;              /* the V-cycle has its tensors at x */
     bool windows;             /* are minimised in each iteration */
@@ -133,6 +134,7 @@ static void set_up_cycle(Multigrid *mg)
 {
     if (mg->set_up)
         return;
+    grid_stiffen(&mg->grid);
     v_cycle_set_up(mg->cycle);
     mg->counters.set_ups++;
     mg->set_up = true;
@@ -328,6 +330,7 @@ static Status multigrid_test(Multigrid *mg)
 Status multigrid_start(Multigrid *mg, const MultigridStep *step)
 {
     Grid *grid = &mg->grid;
+    mg->known = mg->known && step->weight == mg->step.weight;
     mg->step = *step;
     mg->record = (MultigridRecord){0};
     mg->last_bound = INFINITY;
@@ -335,9 +338,12 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     mg->iterations = mg->saddles = 0;
     mg->test_below = WORTH_A_TEST * step->tolerance;
     crew_begin(mg->crew);
-    grid_set_nodes(grid, step->m, step->pinned);
-    grid_set_springs(grid, step->k, step->l2, step->weight);
-    v_cycle_set_nodes(mg->cycle);
+    if (!mg->known) {
+        grid_set_nodes(grid, step->m, step->pinned);
+        grid_set_springs(grid, step->k, step->l2, step->weight);
+        v_cycle_set_nodes(mg->cycle);
+    }
+    mg->known = true;
     grid_pack(grid, step->x_n, grid->x_n);
     grid_pack(grid, step->u_tilde, grid->u_tilde);
     if (step->u)
@@ -348,6 +354,12 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     grid_move(grid, NULL, 0, mg->r, 0, NULL);
     evaluate(mg);
     return multigrid_test(mg);
+}
+
+void multigrid_forget(Multigrid *mg)
+{
+    if (mg)
+        mg->known = false;
 }
 
 /* The lowest point in the plane of p and the last update, or along p. */

@@ -292,6 +292,7 @@ static void check_gradient_and_product(Random *random, const Problem *problem,
     CHECK_NEAR(norm2, sum, 1e-13L * sum);
 
     double *on_grid = random_vector(random, problem, grid, p);
+    grid_stiffen(grid);
     for (int clamped = 0; clamped < 2; clamped++) {
         reference_product(problem, problem->u, clamped, p, y);
         double bend = grid_product(grid, clamped, on_grid, out);
