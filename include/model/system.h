@@ -26,6 +26,7 @@ struct System {
     double *pin_v;         /* [2n] m/s, how pins are moved; NULL: not at all */
     bool breaks;           /* springs may be broken: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
+    int segments; /* n, where nodes and springs are those of square_mesh.h */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
 };

@@ -40,6 +40,7 @@ typedef struct Options {
     double tolerance;  /* m/s */
     const IntegratorMethod *integrator; /* NULL: the scene's choice */
     Solver solver;
+    bool minimum;
     Filter filter;
     LineSearch line_search;
     double start[2]; /* m, where scenes with a start begin */

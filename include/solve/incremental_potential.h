@@ -103,9 +103,4 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
  *   sum  [n] out */
 bool incremental_potential_is_convex(const Iterate *at, double *sum);
 
-/* E(x + a p + b r) - E(x) as an exact polynomial in a and b, for the lagged
- * solver; only springs and a central field are known in it.  r [2n] m in. */
-PlaneQuartic incremental_potential_in_plane(const Iterate *at, const double *r);
-bool incremental_potential_has_plane(const System *system);
-
 #endif

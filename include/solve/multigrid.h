@@ -69,10 +69,6 @@ Status multigrid_create(int segments, int lanes, int threads,
                         Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
-/* Whether springs do not outweigh the masses beyond what single precision and
- * conjugate gradients can do with: 2 w k <= 1e10 m. */
-bool multigrid_fits(const MultigridStep *step, int nodes, int springs);
-
 /* Begins a step.  Its arrays are not needed afterwards.
  * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
 Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);

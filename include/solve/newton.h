@@ -8,15 +8,16 @@
 #ifndef ELASTO_NEWTON_H
 #define ELASTO_NEWTON_H
 
-#include "solve/gauss_seidel.h"
 #include "solve/line_search.h"
+#include "solve/multigrid.h"
 #include "solve/search_direction.h"
 
 /* How the minimiser is found. */
 typedef enum Solver {
-    SOLVER_NEWTON, /* Algorithm 3: a new factor for each direction */
-    SOLVER_LAGGED, /* the same minimum with old factors and a plane search */
-    SOLVER_COUNT
+    SOLVER_NEWTON,    /* Algorithm 3: a new factor for each direction */
+    SOLVER_MULTIGRID, /* its minimum without a factor, on square grids */
+    SOLVER_COUNT,
+    SOLVER_AUTO = SOLVER_COUNT /* multigrid on large grids, else newton */
 } Solver;
 
 /* What one Newton iteration did; or, with iteration -1, how a minimisation
@@ -28,7 +29,7 @@ typedef struct NewtonRecord {
     double alpha;    /* step length along p; 0: none was found */
     int trials;      /* energies the line search looked at */
     double slope;    /* grad E . p, J s^2: < 0 is downhill */
-    double change;   /* of E, J s^2: by alpha p; lagged: by all it did */
+    double change;   /* of E, J s^2: by alpha p; multigrid: by all it did */
     int projected;   /* blocks of the Hessian that were projected */
     bool factorised; /* false: an older factor served */
     double shift;    /* kg, what the diagonal needed to be factored */
@@ -48,6 +49,7 @@ typedef struct NewtonSettings {
     Solver solver;           /* how the minimiser is found */
     Filter filter;           /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
+    bool minimum;            /* a saddle is no end: it is left */
     bool averaged;           /* terms averaged over the step (avf) */
     int max_iterations;      /* then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
@@ -61,14 +63,17 @@ typedef struct NewtonCounters {
     long gradients;  /* evaluations of grad E */
     long factorisations;
     long solves;
-    long projected; /* blocks projected, summed over factorisations */
-    long trials;    /* energies looked at by the line search */
-    long shifted;   /* factorisations that needed a shift */
-    long skipped;   /* tests passed by the gradient's size alone */
-    long certified; /* tests passed with an old factor and an error bound */
-    long smoothings;
+    long projected;  /* blocks projected, summed over factorisations */
+    long trials;     /* energies looked at by the line search */
+    long shifted;    /* factorisations that needed a shift */
+    long skipped;    /* tests passed by the gradient's size alone */
+    long certified;  /* tests passed with an old factor and an error bound */
+    long cycles;     /* of multigrid */
+    long local;      /* its iterations in windows */
+    long saddles;    /* left along negative curvature */
+    long taken_back; /* minimisations that multigrid began, but did not end */
     double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
-    double seconds_smoothing;
+    double seconds_multigrid;
 } NewtonCounters;
 
 /* sum += counters */
@@ -95,10 +100,14 @@ typedef struct Newton {
     const System *system;
     Iterate at;      /* E, u, x, g, p */
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
-    double *r;       /* [2n] m, workspace; the lagged solver's last update */
+    double *r;       /* [2n] m, workspace */
     SearchDirection search; /* the Hessian and its factor */
     Rounding rounding;
-    GaussSeidel smoother; /* only the lagged solver's */
+    int left;             /* saddles, in this minimisation */
+    Multigrid *multigrid; /* NULL: was not needed yet */
+    Solver working;       /* NEWTON or MULTIGRID: who makes this step */
+    const char *refusal;  /* why multigrid does not, though wanted; or NULL */
+    double first_change;  /* J s^2, the largest of this step by multigrid */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.

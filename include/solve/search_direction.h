@@ -60,6 +60,15 @@ Status search_direction_factor(SearchDirection *search, int *tries);
  * Returns OK, NOT_FINITE, SINGULAR, OUT_OF_MEMORY. */
 Status search_direction_solve(SearchDirection *search, const Iterate *at);
 
+/* Looks for negative curvature: conjugate gradients on the Hessian at u, x as
+ * it is, from random numbers, preconditioned with the last factor.  Without
+ * any, they reduce those numbers and end.
+ *   d      [2n] out, d.H d < 0 and d.g <= 0, where some was found
+ *   found  out
+ * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
+Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
+                                   double *d, bool *found);
+
 /* Whether p, at most error away from what it should be, is good enough. */
 typedef bool (*GoodEnough)(const void *user, const double *p, double error);
 

@@ -17,7 +17,7 @@ enum {
 /* Runs longer than this are not repeated, s; and no limit. */
 static const double unrepeated_pair = 20, no_limit = 1e9;
 
-/* Lagged against newton: at least so many times as fast. */
+/* Multigrid against newton: at least so many times as fast. */
 typedef struct SpeedClaim {
     int segments;
     double ratio;
@@ -49,34 +49,34 @@ static Options round_options(const SpeedClaim *claim, int round)
 /* Ten steps with both, in turns; energies in % of that at the start. */
 static Status claim_speed(Bench *bench, const SpeedClaim *claim)
 {
-    double newton[CLAIM_ROUNDS], lagged[CLAIM_ROUNDS], outside[CLAIM_ROUNDS];
+    double newton[CLAIM_ROUNDS], multigrid[CLAIM_ROUNDS], outside[CLAIM_ROUNDS];
     double excess[CLAIM_ROUNDS], spent = 0;
     int rounds = 0;
     for (; rounds < CLAIM_ROUNDS && spent < unrepeated_pair; rounds++) {
         Options options = round_options(claim, rounds);
         Cost slow, fast;
         bench_progress(bench,
-                       "claims: %d segments, newton and lagged, %d of "
+                       "claims: %d segments, newton and multigrid, %d of "
                        "at most %d rounds",
                        claim->segments, rounds + 1, CLAIM_ROUNDS);
         Status status =
             cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS, no_limit, &slow);
         if (!status)
-            status = cost_measure(&options, SOLVER_LAGGED, CLAIM_STEPS,
+            status = cost_measure(&options, SOLVER_MULTIGRID, CLAIM_STEPS,
                                   no_limit, &fast);
         if (status)
             return status;
         newton[rounds] = slow.total;
-        lagged[rounds] = fast.total;
+        multigrid[rounds] = fast.total;
         outside[rounds] = 100 * cost_outside(&slow);
         excess[rounds] =
             100 * (fast.energy_end - slow.energy_end) / slow.energy_start;
         spent += slow.total + fast.total;
     }
-    report_claim(bench, "newton's time over lagged's", claim->segments,
-                 bench_median(newton, rounds) / bench_median(lagged, rounds),
+    report_claim(bench, "newton's time over multigrid's", claim->segments,
+                 bench_median(newton, rounds) / bench_median(multigrid, rounds),
                  false, claim->ratio);
-    report_claim(bench, "lagged's energy at the end above newton's in %",
+    report_claim(bench, "multigrid's energy at the end above newton's in %",
                  claim->segments, bench_median(excess, rounds), true, 1);
     if (claim->segments >= 32)
         report_claim(bench, "newton's time outside factor and solve in %",
@@ -138,7 +138,7 @@ static Status plain_steps(const Bench *bench, const Problem *problem,
     Ladder ladder;
     Status status =
         ladder_climb(bench, problem, integrator_method("backward-euler"),
-                     SOLVER_LAGGED, longest, claim_error, &ladder);
+                     SOLVER_MULTIGRID, longest, claim_error, &ladder);
     if (status)
         return status;
     const RunResult *last = &ladder.rung[ladder.rungs - 1];

@@ -28,12 +28,12 @@ static void cost_from_counters(const NewtonCounters *counters, Cost *cost)
     cost->factor = counters->seconds_factor;
     cost->solve = counters->seconds_solve;
     cost->search = counters->seconds_search;
-    cost->smoothing = counters->seconds_smoothing;
+    cost->multigrid = counters->seconds_multigrid;
     cost->iterations = counters->iterations;
     cost->factorisations = counters->factorisations;
     cost->solves = counters->solves;
     cost->rest = cost->total - cost->assembly - cost->factor - cost->solve -
-                 cost->search - cost->smoothing;
+                 cost->search - cost->multigrid;
 }
 
 /* The median of some calls alone, times the calls that were made. */

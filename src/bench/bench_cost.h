@@ -12,7 +12,7 @@ enum { COST_PLAIN = SOLVER_COUNT, COST_SOLVERS };
 typedef struct Cost {
     long steps;
     double total; /* of the steps alone, with the analysis of the pattern */
-    double assembly, analysis, factor, solve, search, smoothing, rest;
+    double assembly, analysis, factor, solve, search, multigrid, rest;
     long iterations, factorisations, solves, unconverged;
     double energy_start, energy_end; /* J */
     double bare;    /* as many calls of factor and solve alone, in a row */

@@ -26,7 +26,7 @@ array colour[9] = ["#999999", "#e69f00", "#d55e00", "#000000", "#56b4e9", \
     "#0072b2", "#009e73", "#cc79a7", "#7a3e9d"]
 array mark[9] = [7, 7, 7, 4, 4, 4, 4, 4, 4]
 method(i) = word(methods, i)
-solver(i) = i <= 3 ? "none" : "lagged"
+solver(i) = i <= 3 ? "none" : "multigrid"
 is_row(kind, size, name, by) = strcol(1) eq kind && $2 == size \
     && strcol(3) eq name && strcol(4) eq by
 
@@ -116,7 +116,7 @@ if (has("solver")) {
     set xlabel "segments per side"
     set ylabel "time of a step, ms"
     set key top left reverse Left
-    names = "plain newton lagged"
+    names = "plain newton multigrid"
     array shade[3] = ["#999999", "#0072b2", "#d55e00"]
     set xrange [3.5:300]
     of(i) = "< grep '^".word(names, i).",' '".steps."'"

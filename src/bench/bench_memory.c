@@ -43,7 +43,7 @@ static void report_memory(Bench *bench, const Simulation *simulation,
 Status bench_memory(Bench *bench)
 {
     Options options = slides_options(bench->quick ? 64 : 512);
-    options.solver = SOLVER_LAGGED;
+    options.solver = SOLVER_MULTIGRID;
     Simulation simulation = {0};
     Status status = bench_csv_open(
         bench, "memory",

@@ -5,7 +5,7 @@
 
 #include "bench/bench_report.h"
 
-/* One step at 512 segments with the lagged solver.  The peak of the process
+/* One step at 512 segments with the multigrid solver.  The peak of the process
  * tells something only if this is the first part that runs.  Writes
  * memory.csv. */
 Status bench_memory(Bench *bench);

@@ -39,8 +39,8 @@ static void remember_growth(int segments, double seconds,
 static void print_solver_head(void)
 {
     printf(
-        "  segments solver   ms/step assembly analysis   factor    solve"
-        "   search   smooth     rest     bare  it./step fact./step  growth\n");
+        "  segments solver      ms/step assembly analysis   factor    solve"
+        "   search multigr.    rest     bare  it./step fact./step  growth\n");
 }
 
 /* Milliseconds a step; growth is that from the square before. */
@@ -49,12 +49,12 @@ static void report_cost(Bench *bench, int segments, int solver,
 {
     double n = (double)cost->steps, ms = 1e3 / n;
     bench_progress(bench, NULL);
-    printf("  %8d %-6s %9.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f "
+    printf("  %8d %-9s %9.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f %8.3f "
            "%9.1f "
            "%10.1f",
            segments, cost_name(solver), ms * cost->total, ms * cost->assembly,
            ms * cost->analysis, ms * cost->factor, ms * cost->solve,
-           ms * cost->search, ms * cost->smoothing, ms * cost->rest,
+           ms * cost->search, ms * cost->multigrid, ms * cost->rest,
            ms * cost->bare, (double)cost->iterations / n,
            (double)cost->factorisations / n);
     if (last > 0)
@@ -66,7 +66,7 @@ static void report_cost(Bench *bench, int segments, int solver,
         "%ld,%ld,%.9g,%.9g",
         cost_name(solver), segments, cost->steps, ms * cost->total,
         ms * cost->assembly, ms * cost->analysis, ms * cost->factor,
-        ms * cost->solve, ms * cost->search, ms * cost->smoothing,
+        ms * cost->solve, ms * cost->search, ms * cost->multigrid,
         ms * cost->rest, ms * cost->bare, cost->iterations,
         cost->factorisations, cost->solves, cost->unconverged,
         cost->energy_start, cost->energy_end);
@@ -132,7 +132,7 @@ Status bench_solver(Bench *bench)
     Status status = bench_csv_open(
         bench, "solver",
         "solver,segments,steps,total_ms,assembly_ms,analysis_ms,factor_ms,"
-        "solve_ms,search_ms,smooth_ms,rest_ms,bare_ms,iterations,"
+        "solve_ms,search_ms,multigrid_ms,rest_ms,bare_ms,iterations,"
         "factorisations,solves,"
         "unconverged,energy_start_J,energy_end_J");
     if (status)

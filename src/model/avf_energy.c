@@ -125,39 +125,6 @@ void avf_energy_along(int springs, const double *x_n, const double *u,
     }
 }
 
-/* Phi = l2 k/2 [(C/2 + 2B/3)^2 + B^2/18 + s (2B + C)], where in the plane B is
- * linear and C quadratic in a and b. */
-void avf_energy_in_plane(int springs, const double *x_n, const double *u,
-                         const double *p, const double *r, const int *e,
-                         const double *l2, const double *k, double scale,
-                         PlaneQuartic *quartic)
-{
-    PlaneSums sums = {{{0}}};
-    for (int i = 0; i < springs; i++) {
-        AverageSpring a = average_spring(x_n, u, e + 2 * i, l2[i]);
-        AverageSpring dp = average_spring(x_n, p, e + 2 * i, l2[i]);
-        AverageSpring dr = average_spring(x_n, r, e + 2 * i, l2[i]);
-        const double *q = dp.delta, *t = dr.delta, *delta = a.delta;
-        double w = scale * l2[i] * 0.5 * k[i];
-        double cp = 2 * (delta[0] * q[0] + delta[1] * q[1]) / l2[i];
-        double cr = 2 * (delta[0] * t[0] + delta[1] * t[1]) / l2[i];
-        double cpr = 2 * (q[0] * t[0] + q[1] * t[1]) / l2[i];
-        PlaneQuadratics squares = {{
-            {a.C / 2 + 2 * a.B / 3, a.B},
-            {cp / 2 + 2 * dp.B / 3, dp.B},
-            {cr / 2 + 2 * dr.B / 3, dr.B},
-            {dp.C / 2, 0},
-            {cpr / 2, 0},
-            {dr.C / 2, 0},
-        }};
-        plane_add_squares(&squares, (Lanes){w, w / 18}, &sums);
-        quartic->c[2] += w * a.s * dp.C;
-        quartic->c[3] += w * a.s * cpr;
-        quartic->c[4] += w * a.s * dr.C;
-    }
-    plane_add(&sums, quartic);
-}
-
 /* The Hessian is the integral of t H(x_n + t u), so what a spring lacks in
  * length is at most half of what it lacks where it is shortest on its way. */
 static void concave(const Term *term, const Place *at, double w, double *sum)

@@ -5,6 +5,21 @@
 #include "base/one_line.h"
 #include "scenes/scene.h"
 
+/* Who made the first run's last step, and why it was not multigrid. */
+static void print_solver(FILE *file, const Simulation *simulation)
+{
+    const Newton *newton = simulation->run[0].newton;
+    if (!newton || !(simulation->scene->needs & NEEDS_SPRINGS))
+        return;
+    fprintf(file, "solver              %s", solver_name(newton->working));
+    if (newton->refusal)
+        fprintf(file, "; no multigrid: %s", newton->refusal);
+    if (newton->counters.taken_back > 0)
+        fprintf(file, "; newton ended %ld minimisations of multigrid",
+                newton->counters.taken_back);
+    fputc('\n', file);
+}
+
 /* What Newton did; all 0 with explicit methods, which have no matrix. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
@@ -12,12 +27,17 @@ static void print_newton(FILE *file, const Simulation *simulation)
     long iterations = sum.iterations;
     if (!(simulation->scene->needs & NEEDS_TIME))
         iterations = simulation->descent.count;
+    print_solver(file, simulation);
     fprintf(file, "Newton iterations   %ld\n", iterations);
     fprintf(file, "factorisations      %ld\n", sum.factorisations);
     fprintf(file, "solves              %ld\n", sum.solves);
     fprintf(file, "springs projected   %ld\n", sum.projected);
     fprintf(file, "matrix entries      %lld\n",
             simulation_matrix_entries(simulation));
+    if (sum.cycles > 0)
+        fprintf(file, "V-cycles            %ld\n", sum.cycles);
+    if (sum.saddles > 0)
+        fprintf(file, "saddles left        %ld\n", sum.saddles);
 }
 
 /* A number with its unit, where it is one. */

@@ -64,6 +64,8 @@ Status body_create(const Options *options, int more, SquareMesh *mesh,
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
     }
+    if (mesh->rows == mesh->segments && more == 0)
+        system->segments = mesh->segments;
     system->gravity[1] = -options->gravity;
     status = take_order(mesh, system);
     if (status || !options->pin)

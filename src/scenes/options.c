@@ -15,7 +15,8 @@
 
 static const OptionName solver_names[] = {
     {"newton", SOLVER_NEWTON, "projected-newton pn direct cholesky"},
-    {"lagged", SOLVER_LAGGED, "quasi-newton modified-newton"},
+    {"multigrid", SOLVER_MULTIGRID, "mg matrix-free newton-cg lagged"},
+    {"auto", SOLVER_AUTO, "default automatic"},
     {NULL, 0, NULL},
 };
 
@@ -300,6 +301,12 @@ const OptionRow option_rows[] = {
      .names = solver_names,
      .needs = NEEDS_SPRINGS,
      .compared = true},
+    {.name = "minimum",
+     .help = "a step does not end on a saddle",
+     .words = "saddle negative-curvature second-order minimiser",
+     .kind = KIND_SWITCH,
+     FIELD(minimum),
+     .needs = NEEDS_SPRINGS},
     {.name = "filter",
      .value = "F",
      .help = "the projection:",
@@ -441,6 +448,7 @@ Options option_defaults(void)
 {
     return (Options){
         .segments = 4,
+        .solver = SOLVER_AUTO,
         .side = 1,
         .density = 1000,
         .stiffness = 1e5,

@@ -39,6 +39,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         .h = options->timestep,
         .tolerance = options->tolerance,
         .solver = options->solver,
+        .minimum = options->minimum,
         .filter = options->filter,
         .search = options->line_search,
         .max_iterations = MAX_NEWTON_ITERATIONS,
@@ -163,13 +164,11 @@ double simulation_time(const Simulation *simulation)
                simulation->options.timestep;
 }
 
-/* Old factors and projection on demand; a new factor for each direction gives
- * the same iterates whatever was before. */
+/* Projection on demand; all else begins each step afresh. */
 bool simulation_remembers(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    return options->solver != SOLVER_NEWTON ||
-           options->filter == FILTER_ON_DEMAND;
+    return options->filter == FILTER_ON_DEMAND;
 }
 
 void simulation_set_timestep(Simulation *simulation, double h)

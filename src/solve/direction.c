@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "solve/lagged.h"
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
@@ -99,16 +98,13 @@ static bool expects_convergence(const Newton *newton)
     return newton->search.residual <= 10 * newton->settings.tolerance;
 }
 
-/* Whether the factor of an earlier iterate is worth a try: the lagged solver
- * takes its directions from it, and both may decide with it that the test is
- * passed. */
+/* Whether the factor of the iterate before is worth a try: it may decide that
+ * the test is passed. */
 static bool factor_may_serve(const Newton *newton)
 {
     if (newton->settings.filter == FILTER_NONE || newton->search.age < 0 ||
         newton->search.kind == CHOLESKY_INDEFINITE || newton->search.shift > 0)
         return false;
-    if (newton->settings.solver == SOLVER_LAGGED)
-        return lagged_keeps_factor(newton);
     return newton->search.age <= 1 && expects_convergence(newton);
 }
 
@@ -194,7 +190,7 @@ static Status direction_at(Newton *newton, bool *alone)
         Status status = direction_from_old_factor(newton, &decided);
         if (decided && !status)
             newton->counters.certified++;
-        if (decided && (!status || newton->settings.solver == SOLVER_LAGGED))
+        if (decided && !status)
             return status;
     }
     Status status = newton_factor(newton);
@@ -232,6 +228,41 @@ static Status check_minimum(Newton *newton)
     return status;
 }
 
+/* Saddles that one minimisation leaves, and how far: the first trial moves the
+ * node that moves most by this share of a spring. */
+enum { MAX_SADDLES = 30 };
+static const double FIRST_TRIAL = 0.1;
+
+/* The test of Algorithm 3 is passed on saddles, too.  Where it is asked for,
+ * negative curvature of the Hessian as it is is the next direction.
+ * Returns OK (there is none), RUNNING, or a failure. */
+static Status leave_saddle(Newton *newton)
+{
+    const System *system = newton->system;
+    double *p = newton->at.p, largest = 0, l2 = INFINITY;
+    bool found = false;
+    if (!newton->settings.minimum || newton->settings.filter == FILTER_NONE ||
+        newton->left == MAX_SADDLES ||
+        incremental_potential_is_convex(&newton->at, p))
+        return STATUS_OK;
+    Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
+    if (!status)
+        status = search_direction_bends_down(&newton->search, &newton->at, p,
+                                             &found);
+    if (status || !found)
+        return status;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        largest = fmax(largest, fabs(p[i]));
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        p[i] *= scale;
+    newton->left++;
+    newton->counters.saddles++;
+    return STATUS_RUNNING;
+}
+
 Status direction_first(Newton *newton)
 {
     SearchDirection *search = &newton->search;
@@ -239,7 +270,10 @@ Status direction_first(Newton *newton)
     search->resting = search->updates == 0;
     search->updates = 0;
     Status status = direction_at(newton, &alone);
-    return alone ? check_minimum(newton) : status;
+    newton->left = 0;
+    if (alone && !newton->settings.minimum)
+        return check_minimum(newton);
+    return status ? status : leave_saddle(newton);
 }
 
 Status direction_next(Newton *newton)
@@ -247,5 +281,6 @@ Status direction_next(Newton *newton)
     bool alone;
     newton->search.updates++;
     newton->search.residual = newton->residual;
-    return direction_at(newton, &alone);
+    Status status = direction_at(newton, &alone);
+    return status ? status : leave_saddle(newton);
 }

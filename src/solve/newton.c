@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "solve/direction.h"
-#include "solve/lagged.h"
+#include "solve/hand_over.h"
 #include "solve/newton_record.h"
 #include "solve/rounding.h"
 #include "solve/step_length.h"
@@ -40,28 +40,27 @@ Status newton_start_from(Newton *newton, const double *x_n, const double *u,
         newton->residual = 0;
         return newton->status;
     }
-    return newton->status = direction_first(newton);
+    return newton->status = hand_over_wanted(newton) ? hand_over_start(newton)
+                                                     : direction_first(newton);
 }
 
 /* u += alpha p, x = x_n + u.  Changes neither where the result would not be
  * finite, or E would rise for all the line search knows. */
 static Status newton_update(Newton *newton)
 {
-    bool plane = lagged_has_plane(newton);
     Iterate *at = &newton->at;
-    const double *way = plane ? newton->r : at->p;
-    double alpha = plane ? 1 : newton->record.alpha, sum = 0;
+    double alpha = newton->record.alpha, sum = 0;
     int size = 2 * newton->system->nodes;
     for (int i = 0; i < size; i++)
-        sum += 0 * (at->E.x_n[i] + (at->u[i] + alpha * way[i]));
+        sum += 0 * (at->E.x_n[i] + (at->u[i] + alpha * at->p[i]));
     if (!(sum == 0))
         return STATUS_NOT_FINITE;
-    if (!rounding_allows(newton, way, alpha, plane ? at->p : newton->r)) {
+    if (!rounding_allows(newton, at->p, alpha, newton->r)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
     for (int i = 0; i < size; i++) {
-        at->u[i] += alpha * way[i];
+        at->u[i] += alpha * at->p[i];
         at->x[i] = at->E.x_n[i] + at->u[i];
     }
     newton->counters.iterations++;
@@ -74,14 +73,14 @@ Status newton_iterate(Newton *newton)
 {
     if (newton->status != STATUS_RUNNING)
         return newton->status;
+    if (newton->working == SOLVER_MULTIGRID)
+        return hand_over_iterate(newton);
     double start = clock_now();
     newton->record.iteration++;
     newton->record.residual = newton->residual;
     Status status = step_length(newton);
     if (!status)
         status = newton_update(newton);
-    if (!status)
-        status = lagged_smooth(newton);
     NewtonRecord done = newton->record;
     if (!status)
         status = direction_next(newton);
@@ -188,7 +187,7 @@ void newton_free(Newton *newton)
     if (!newton)
         return;
     search_direction_free(&newton->search);
-    gauss_seidel_free(&newton->smoother);
+    multigrid_free(newton->multigrid);
     free(newton->at.u);
     free(newton->at.x);
     free(newton->u_tilde);
@@ -202,7 +201,7 @@ void newton_forget(Newton *newton)
 {
     rounding_bounds(newton->system, &newton->rounding);
     search_direction_forget(&newton->search);
-    gauss_seidel_free(&newton->smoother);
+    multigrid_forget(newton->multigrid);
 }
 
 void newton_rebuild(Newton *newton)

@@ -20,10 +20,13 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
     sum->shifted += counters->shifted;
     sum->skipped += counters->skipped;
     sum->certified += counters->certified;
-    sum->smoothings += counters->smoothings;
+    sum->cycles += counters->cycles;
+    sum->local += counters->local;
+    sum->saddles += counters->saddles;
+    sum->taken_back += counters->taken_back;
     sum->seconds_assembly += counters->seconds_assembly;
     sum->seconds_factor += counters->seconds_factor;
     sum->seconds_solve += counters->seconds_solve;
     sum->seconds_search += counters->seconds_search;
-    sum->seconds_smoothing += counters->seconds_smoothing;
+    sum->seconds_multigrid += counters->seconds_multigrid;
 }

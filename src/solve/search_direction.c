@@ -1,7 +1,13 @@
 #include "solve/search_direction.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+
+/* Iterations that look for negative curvature; without any, the remainder of
+ * random numbers falls to this share of its norm. */
+enum { CURVATURE_MAX_ITERATIONS = 30 };
+static const double NO_CURVATURE = 1e-3;
 
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
@@ -258,4 +264,54 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at)
     for (int i = 0; i < 2 * search->system->nodes; i++)
         at->p[i] = -at->p[i];
     return status;
+}
+
+/* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */
+static void random_numbers(const System *system, double *r)
+{
+    uint64_t state = 1;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        bool moves = !system->pinned || !system->pinned[i / 2];
+        r[i] = moves ? (double)(int64_t)state / 9223372036854775808.0 : 0;
+    }
+}
+
+Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
+                                   double *d, bool *found)
+{
+    int n = 2 * search->system->nodes;
+    double last = 0, first = 0;
+    *found = false;
+    Status status = create_workspaces(search);
+    if (status)
+        return status;
+    double *r = search->r, *z = search->z, *q = search->q;
+    random_numbers(search->system, r);
+    for (int k = 0; k < CURVATURE_MAX_ITERATIONS; k++) {
+        status = apply_factor(search, r, z);
+        if (status)
+            return status;
+        double rz = dot(n, r, z);
+        first = k == 0 ? rz : first;
+        if (!(rz > NO_CURVATURE * NO_CURVATURE * first))
+            return STATUS_OK;
+        for (int i = 0; i < n; i++)
+            d[i] = z[i] + (k == 0 ? 0 : rz / last * d[i]);
+        incremental_potential_product(at, FILTER_NONE, d, q);
+        double bend = dot(n, d, q);
+        if (bend < 0) {
+            *found = true;
+            double sign = dot(n, d, at->g) > 0 ? -1 : 1;
+            for (int i = 0; i < n; i++)
+                d[i] *= sign;
+            return STATUS_OK;
+        }
+        if (!(bend > 0))
+            return STATUS_OK;
+        for (int i = 0; i < n; i++)
+            r[i] -= rz / bend * q[i];
+        last = rz;
+    }
+    return STATUS_OK;
 }

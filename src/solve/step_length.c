@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "solve/lagged.h"
 #include "solve/rounding.h"
 
 /* Whether the terms allow u + alpha p; rounding may say no where the reach of
@@ -25,7 +24,7 @@ static bool is_allowed(Newton *newton, double alpha)
 
 /* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
  * p) > E(x) and while the terms do not allow the place. */
-Status step_length_in_line(Newton *newton)
+static Status search_line(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     record->alpha = incremental_potential_reach(&newton->at);
@@ -53,8 +52,7 @@ Status step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     double start = clock_now();
-    Status status = lagged_has_plane(newton) ? lagged_search(newton)
-                                             : step_length_in_line(newton);
+    Status status = search_line(newton);
     newton->counters.trials += record->trials;
     newton->counters.seconds_search += clock_now() - start;
     if (!status)

@@ -10,7 +10,4 @@
  * ROUNDING_LIMIT, NOT_FINITE; alpha and change are then 0. */
 Status step_length(Newton *newton);
 
-/* Along p alone: OK or LINE_SEARCH_LIMIT. */
-Status step_length_in_line(Newton *newton);
-
 #endif

@@ -64,7 +64,7 @@ work=case,segments,integrator,solver,order,steps,timestep_s,tolerance_m_s
 work=$work,run_time_s,error_m,energy_drift,iterations,factorisations
 check work_precision "$work,unconverged,failed"
 solver=solver,segments,steps,total_ms,assembly_ms,analysis_ms,factor_ms
-solver=$solver,solve_ms,search_ms,smooth_ms,rest_ms,bare_ms,iterations
+solver=$solver,solve_ms,search_ms,multigrid_ms,rest_ms,bare_ms,iterations
 solver=$solver,factorisations
 check solver "$solver,solves,unconverged,energy_start_J,energy_end_J"
 tolerance=segments,solver,tolerance_m_s,steps,step_ms,iterations

@@ -145,8 +145,8 @@ slow=1
 [ -z "${SANITIZE:-}" ] || slow=7
 faults_of memory_fails_once memory '' "$memory" "$slow" --frames frames
 faults_of memory_fails_for_good memory 1 "$memory" "$slow"
-faults_of lagged_memory_fails memory '' "$memory" $((5 * slow)) \
-    --segments 20 --solver lagged
+faults_of multigrid_memory_fails memory '' "$memory" $((5 * slow)) \
+    --segments 20 --solver multigrid
 faults_of files_do_not_open open '' '(s.csv|l.csv|frame_00000..png): Too many' \
     1 --frames frames
 faults_of writes_fail_once write '' "$space" 1 --frames frames
@@ -182,7 +182,7 @@ signals() {
     for round in $(seq "$1"); do
         for name in INT TERM; do
             rm -f s.csv l.csv
-            "$elasto" --headless --segments 128 --solver lagged --quiet \
+            "$elasto" --headless --segments 128 --solver multigrid --quiet \
                 --steps 100000 --log l.csv 2>error &
             child=$!
             random_pause 1500
@@ -353,7 +353,7 @@ for value in -1 1.5 x '' 1e-3 ' 1' '1 ' nan 99999999999999999999; do
         "--steps=$value"
 done
 for option in integrator solver filter line-search; do
-    for value in x '' NEWTON 'clamp ' 0 newton,lagged; do
+    for value in x '' NEWTON 'clamp ' 0 newton,multigrid; do
         bad_line "--$option" "'$value'" 'none of: ' -- "--$option=$value"
     done
 done
@@ -379,7 +379,7 @@ done
 bad_line "'circle'" 'one scene' -- square circle
 bad_line --segments "'circle'" 'no square' -- circle --segments 3
 bad_line --filter "'circle'" 'no springs' -- circle --filter none
-bad_line --solver "'overshoot'" 'no springs' -- overshoot --solver lagged
+bad_line --solver "'overshoot'" 'no springs' -- overshoot --solver multigrid
 bad_line --tolerance "'circle'" 'no minimum' -- circle --tolerance 1
 bad_line --line-search "'circle'" 'no minimum' -- circle --line-search none
 bad_line --timestep "'overshoot'" 'no time' -- overshoot --timestep 1

@@ -56,7 +56,7 @@ verdict every_end_is_told "$(
     ends 2 --steps 20 --integrator sdirk2
     ends 2 --steps 20 --integrator sdirk2 --tolerance 1e-30
     ends 1 --steps 60 --integrator bdf2 --tolerance 1e-13
-    ends 1 --steps 30 --solver lagged --tolerance 1e-30
+    ends 1 --steps 30 --solver multigrid --tolerance 1e-30
     ends 1 --steps 20 --integrator midpoint --tolerance 1e-12 --timestep 1
 )"
 verdict ends_that_did_not_converge_are_told "$(

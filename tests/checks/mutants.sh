@@ -17,7 +17,7 @@ perl tests/checks/mutate.pl check "$list" || exit 1
 # What runs for a fault in this file, until something fails: the suite of the
 # module's own name, then those that know most about its room.
 numeric='newton derivatives line_search solvers averaged integrators cholesky
-    supernodes gauss_seidel sparse explicit reference orders scenes stress'
+    supernodes sparse explicit reference orders scenes stress'
 killers_for() { # file
     module=$(basename "${1%.*}")
     own=

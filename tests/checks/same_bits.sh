@@ -17,7 +17,7 @@ skipped=0
 # states PROGRAM: what it writes of three runs.
 states() {
     "$1" --headless --quiet --segments 48 --steps 6 --states - &&
-        "$1" --headless --quiet --segments 48 --steps 6 --solver lagged \
+        "$1" --headless --quiet --segments 48 --steps 6 --solver multigrid \
             --stretch 0.7 --timestep 0.02 --states - &&
         "$1" --headless --quiet --segments 40 --steps 2 --integrator avf4 \
             --states -

@@ -162,12 +162,12 @@ static bool same_after_scaling(Case *a, Case *b, const double x_factor[2],
 static const char *const calm_and_wild[] = {
     "--stretch 1.4",
     "--stretch 0.5 --timestep 0.02",
-    "--stretch 0.05 --timestep 0.5 --solver lagged",
-    "--stretch 3 --solver lagged --segments 5",
+    "--stretch 0.05 --timestep 0.5 --solver multigrid",
+    "--stretch 3 --solver multigrid --segments 5",
     "--stretch 1.4 --tolerance 1e-30 --segments 2", /* to the last digit */
     "--stiffness 1e15 --timestep 1",                /* needs a shift */
     "--stretch 0.7 --integrator avf --timestep 0.02",
-    "--stretch 0.7 --integrator bdf2 --timestep 0.02 --solver lagged",
+    "--stretch 0.7 --integrator bdf2 --timestep 0.02 --solver multigrid",
     "--stretch 0.7 --integrator sdirk2 --timestep 0.05",
     "--stretch 1.2 --integrator verlet --timestep 1e-3",
     NULL,

@@ -173,7 +173,7 @@ static bool overflow(Tally *tally, char *reason)
 static bool run_changed(Tally *tally, char *reason, const char *line,
                         void (*change)(Case *), int steps)
 {
-    const char *solvers[] = {"newton", "lagged"};
+    const char *solvers[] = {"newton", "multigrid"};
     for (int i = 0; i < 2; i++) {
         char whole[256];
         Case c = {.tally = tally, .reason = reason};

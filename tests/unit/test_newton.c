@@ -471,21 +471,21 @@ static void lost_masses_are_found_again(void **unused)
  * rounding: steps may end unconverged, but E never rises. */
 static const char *const massless[] = {
     "--segments 5 --density 1e-6 --timestep 1e9 --stiffness 1e10 "
-    "--stretch 1.12 --solver lagged",
+    "--stretch 1.12 --solver multigrid",
     "--segments 6 --density 2.4e-5 --timestep 9.3e8 --stiffness 3.25e8 "
-    "--stretch 1.05 --solver lagged --filter abs",
+    "--stretch 1.05 --solver multigrid --filter abs",
     "--segments 5 --density 2.31e-5 --timestep 4.17e8 --stiffness 9.51e8 "
     "--stretch 1.12 --solver newton",
     "--segments 6 --density 3.78e-6 --timestep 3.07e8 --stiffness 1.51e8 "
     "--stretch 0.5 --solver newton --filter on-demand",
     "--segments 5 --timestep 1e12 --stiffness 1e10 --stretch 1.12 "
-    "--solver lagged --filter abs",
+    "--solver multigrid --filter abs",
     "--segments 1 --density 0.02078113651981987 --timestep "
     "3364147816908.643 --stiffness 5526952586.520507 --stretch 2 "
-    "--solver lagged --filter on-demand",
+    "--solver multigrid --filter on-demand",
     "--segments 4 --density 8.641832226359739 --timestep "
     "6315292785651.445 --stiffness 98681394.03566141 --stretch 0.3 "
-    "--solver lagged --filter abs",
+    "--solver multigrid --filter abs",
 };
 
 enum { MASSLESS = sizeof massless / sizeof *massless };

@@ -46,7 +46,7 @@ static void defaults_are_the_slides(void **unused)
     CHECK(options.stretch == 1.4 && options.timestep == 0.004);
     CHECK(options.tolerance == 1e-2 && options.steps == -1);
     CHECK(options.integrator == NULL); /* the scene's choice */
-    CHECK(options.solver == SOLVER_NEWTON);
+    CHECK(options.solver == SOLVER_AUTO);
     CHECK(options.filter == FILTER_CLAMP);
     CHECK(options.line_search == LINE_SEARCH_BACKTRACK);
     CHECK(!options.frames && !options.states && !options.log);

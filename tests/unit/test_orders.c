@@ -177,7 +177,7 @@ static void orders_are_what_they_should_be(void **unused)
         CHECK(row != NULL);
         check_order(row, methods[i].order, "newton", &end);
         if (row->implicit && row->order > 1)
-            check_order(row, methods[i].order, "lagged", &end);
+            check_order(row, methods[i].order, "multigrid", &end);
     }
     CHECK(integrator_methods[count].name == NULL);
 }
@@ -284,7 +284,7 @@ static void momentum_is_kept(void **unused)
             check_momentum(line, symplectic, 4e-13);
         }
     check_momentum("--integrator midpoint --tolerance 1e-12", true, 1e-11);
-    check_momentum("--integrator midpoint --tolerance 1e-12 --solver lagged",
+    check_momentum("--integrator midpoint --tolerance 1e-12 --solver multigrid",
                    true, 1e-11);
 }
 

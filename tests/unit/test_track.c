@@ -75,11 +75,11 @@ static void check_going_on(Track *track, int from, int steps,
 
 static const char *const lines[] = {
     "square --segments 3",
-    "square --segments 3 --solver lagged",
+    "square --segments 3 --solver multigrid",
     "square --segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
     "square --segments 3 --integrator bdf2",
     "square --segments 3 --integrator verlet --timestep 0.0005",
-    "square --segments 3 --integrator sdirk2 --solver lagged",
+    "square --segments 3 --integrator sdirk2 --solver multigrid",
     "square --segments 3 --integrator avf4",
     "circle",
     "unprojected --segments 2",
@@ -167,7 +167,7 @@ static void changes_are_repeated(void **unused)
     (void)unused;
     static const char *const changes[] = {
         "set timestep 0.01",   "set stiffness 2e4",     "pin 3",
-        "set filter none",     "set solver lagged",     "set timestep 0.002",
+        "set filter none",     "set solver multigrid",     "set timestep 0.002",
         "set integrator bdf2", "set filter on-demand",  "pin 12",
         "set tolerance 1e-6",  "set integrator verlet", "set timestep 0.0003",
         "set integrator avf",  "set line-search none",  "set timestep 0.005",

@@ -49,11 +49,4 @@ void avf_energy_along(int springs, const double *x_n, const double *u,
                       const double *p, const int *e, const double *l2,
                       const double *k, double scale, double q[3]);
 
-/* The same in the plane of p and r: terms of degree 2 and more of
- * Phi(u + a p + b r), times scale, added to the quartic. */
-void avf_energy_in_plane(int springs, const double *x_n, const double *u,
-                         const double *p, const double *r, const int *e,
-                         const double *l2, const double *k, double scale,
-                         PlaneQuartic *quartic);
-
 #endif

@@ -1,0 +1,177 @@
+#include "solve/hand_over.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "base/clock.h"
+#include "model/mass_spring_energy.h"
+#include "solve/direction.h"
+#include "solve/newton_record.h"
+#include "solve/rounding.h"
+
+/* Up to so many segments factors are as good, and their iterates are those of
+ * the slides. */
+enum { FACTORED_SEGMENTS = 32 };
+
+/* Iterations that multigrid gets; most steps need ten. */
+enum { HANDED_ITERATIONS = 200 };
+
+/* Beyond this ratio of stiffness and mass, conjugate gradients lose digits that
+ * the test needs. */
+static const double STIFFEST = 1e10;
+
+/* A change of E that is this small a part of the step's first one may be
+ * rounding: that is looked at. */
+static const double SMALL_CHANGE = 1e-9;
+
+/* Whether nodes and springs are those of square_mesh.h. */
+static bool is_grid(const System *system)
+{
+    int n = system->segments;
+    return n > 0 && system->nodes == (n + 1) * (n + 1) &&
+           system->springs == 2 * n * (n + 1) + 2 * n * n;
+}
+
+/* Why multigrid does not take it, or NULL. */
+static const char *refusal(const Newton *newton)
+{
+    const System *system = newton->system;
+    const NewtonSettings *settings = &newton->settings;
+    if (!is_grid(system))
+        return "there is no square grid";
+    if (settings->averaged)
+        return "the energy is averaged over the step";
+    if (system->terms != 1 || system->term[0].kind != &mass_spring_energy)
+        return "there are energies beside the springs'";
+    if (settings->filter != FILTER_CLAMP)
+        return "the projection is not clamp";
+    if (settings->search != LINE_SEARCH_BACKTRACK)
+        return "there is no line search";
+    if (!(newton->at.E.weight * newton->rounding.stiffest <=
+          STIFFEST * newton->rounding.lightest))
+        return "springs outweigh the masses too far";
+    return NULL;
+}
+
+bool hand_over_wanted(Newton *newton)
+{
+    Solver solver = newton->settings.solver;
+    newton->working = SOLVER_NEWTON;
+    newton->refusal = NULL;
+    if (solver == SOLVER_AUTO)
+        solver = newton->system->segments > FACTORED_SEGMENTS ? SOLVER_MULTIGRID
+                                                              : SOLVER_NEWTON;
+    if (solver == SOLVER_NEWTON)
+        return false;
+    newton->refusal = refusal(newton);
+    if (!newton->refusal)
+        newton->working = SOLVER_MULTIGRID;
+    return !newton->refusal;
+}
+
+/* What multigrid has done since the counters were these. */
+static void count(Newton *newton, const MultigridCounters *before)
+{
+    const MultigridCounters *now = multigrid_counters(newton->multigrid);
+    NewtonCounters *counters = &newton->counters;
+    counters->iterations += now->iterations - before->iterations;
+    counters->gradients += now->gradients - before->gradients;
+    counters->cycles += now->cycles - before->cycles;
+    counters->local += now->local - before->local;
+    counters->saddles += now->saddles - before->saddles;
+}
+
+/* u and x from multigrid; the residual as far as it is known. */
+static void fetch(Newton *newton)
+{
+    Iterate *at = &newton->at;
+    multigrid_displacement(newton->multigrid, at->u);
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        at->x[i] = at->E.x_n[i] + at->u[i];
+    newton->residual = multigrid_residual(newton->multigrid);
+}
+
+/* Newton goes on from the iterate that multigrid has reached. */
+static Status take_back(Newton *newton)
+{
+    newton->working = SOLVER_NEWTON;
+    newton->counters.taken_back++;
+    return direction_first(newton);
+}
+
+Status hand_over_start(Newton *newton)
+{
+    const System *system = newton->system;
+    const NewtonSettings *settings = &newton->settings;
+    Status status = STATUS_OK;
+    if (!newton->multigrid)
+        status = multigrid_create(system->segments, 0, 0, &newton->multigrid);
+    if (status)
+        return status;
+    double start = clock_now();
+    MultigridCounters before = *multigrid_counters(newton->multigrid);
+    const Iterate *at = &newton->at;
+    MultigridStep step = {.x_n = at->E.x_n,
+                          .u = at->u,
+                          .u_tilde = newton->u_tilde,
+                          .m = system->m,
+                          .pinned = system->pinned,
+                          .k = system->k,
+                          .l2 = system->l2,
+                          .weight = at->E.weight,
+                          .h = settings->h,
+                          .tolerance = settings->tolerance,
+                          .is_free = system_is_free(system),
+                          .minimum = settings->minimum};
+    status = multigrid_start(newton->multigrid, &step);
+    count(newton, &before);
+    fetch(newton);
+    newton->counters.seconds_multigrid += clock_now() - start;
+    newton->first_change = 0;
+    /* A gradient that vanishes may be that of a maximum: Newton looks. */
+    if (status == STATUS_OK && !settings->minimum &&
+        multigrid_counters(newton->multigrid)->certificates ==
+            before.certificates)
+        return direction_first(newton);
+    return status;
+}
+
+/* Whether multigrid has come to its end without the test being passed. */
+static bool is_stuck(Newton *newton, Status status)
+{
+    const NewtonRecord *record = &newton->record;
+    newton->first_change = fmin(newton->first_change, record->change);
+    if (status != STATUS_RUNNING)
+        return status != STATUS_OK;
+    return record->iteration >= HANDED_ITERATIONS ||
+           (fabs(record->change) <= SMALL_CHANGE * -newton->first_change &&
+            rounding_hides(newton, record->change));
+}
+
+Status hand_over_iterate(Newton *newton)
+{
+    double start = clock_now();
+    NewtonRecord *record = &newton->record;
+    MultigridCounters before = *multigrid_counters(newton->multigrid);
+    Status status = multigrid_iterate(newton->multigrid);
+    const MultigridRecord *did = multigrid_record(newton->multigrid);
+    record->iteration++;
+    record->residual = did->residual;
+    record->slope = did->slope;
+    record->alpha = did->alpha;
+    record->change = did->change;
+    record->trials = did->trials;
+    count(newton, &before);
+    newton->counters.trials += record->trials;
+    fetch(newton);
+    newton->counters.seconds_multigrid += clock_now() - start;
+    NewtonRecord done = *record;
+    if (is_stuck(newton, status))
+        status = take_back(newton);
+    if (status == STATUS_RUNNING &&
+        done.iteration + 1 >= newton->settings.max_iterations)
+        status = STATUS_ITERATION_LIMIT;
+    done.status = status;
+    done.seconds = clock_now() - start;
+    return newton->status = newton_tell(newton, &done);
+}
