@@ -102,10 +102,10 @@ Energies simulation_energies(const Simulation *simulation, int run);
 NewtonCounters simulation_counters(const Simulation *simulation);
 
 /* Memory that the scene will need, about, in bytes: measured on squares of 128
- * to 1024 segments, where it is right within a tenth; a Cholesky factor in
+ * to 1024 segments, where it is right within a tenth.  A Cholesky factor in
  * nested dissection order has of the order of n log n entries (George: Nested
- * Dissection of a Regular Finite Element Mesh, 1973).  0 in scenes without a
- * square. */
+ * Dissection of a Regular Finite Element Mesh, 1973); multigrid has some vectors.
+ * 0 in scenes without a square. */
 double simulation_bytes(const Options *options);
 
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */

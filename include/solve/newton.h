@@ -20,6 +20,10 @@ typedef enum Solver {
     SOLVER_AUTO = SOLVER_COUNT /* multigrid on large grids, else newton */
 } Solver;
 
+/* Up to so many segments AUTO takes newton: factors are as good there, and the
+ * iterates are those of the slides. */
+enum { AUTO_NEWTON_SEGMENTS = 32 };
+
 /* What one Newton iteration did; or, with iteration -1, how a minimisation
  * ended whose end no iteration tells: at its start, or as it was finished. */
 typedef struct NewtonRecord {

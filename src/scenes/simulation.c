@@ -385,6 +385,17 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
+/* Whether the command line lets multigrid work, as far as it tells. */
+static bool expects_multigrid(const Options *options)
+{
+    return (options->solver == SOLVER_MULTIGRID ||
+            (options->solver == SOLVER_AUTO &&
+             options->segments > AUTO_NEWTON_SEGMENTS)) &&
+           options->filter == FILTER_CLAMP &&
+           options->line_search == LINE_SEARCH_BACKTRACK &&
+           !(options->integrator && options->integrator->averaged);
+}
+
 double simulation_bytes(const Options *options)
 {
     if (!(options->scene->needs & NEEDS_MESH))
@@ -392,6 +403,8 @@ double simulation_bytes(const Options *options)
     double row = options->segments + 1.0, n = row * row;
     if (options->integrator && !options->integrator->implicit)
         return 250 * n;
+    if (expects_multigrid(options))
+        return 880 * n;
     return (130 * log2(n) + 750) * n;
 }
 

@@ -9,10 +9,6 @@
 #include "solve/newton_record.h"
 #include "solve/rounding.h"
 
-/* Up to so many segments factors are as good, and their iterates are those of
- * the slides. */
-enum { FACTORED_SEGMENTS = 32 };
-
 /* Iterations that multigrid gets; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
 
@@ -59,7 +55,7 @@ bool hand_over_wanted(Newton *newton)
     newton->working = SOLVER_NEWTON;
     newton->refusal = NULL;
     if (solver == SOLVER_AUTO)
-        solver = newton->system->segments > FACTORED_SEGMENTS ? SOLVER_MULTIGRID
+        solver = newton->system->segments > AUTO_NEWTON_SEGMENTS ? SOLVER_MULTIGRID
                                                               : SOLVER_NEWTON;
     if (solver == SOLVER_NEWTON)
         return false;

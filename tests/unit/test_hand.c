@@ -154,7 +154,7 @@ static void drags_are_repeated(void **unused)
         enum { STEPS = 50 };
         Track track;
         uint64_t hash[STEPS + 1];
-        begin("square --segments 3 --integrator bdf2 --solver lagged", &track);
+        begin("square --segments 3 --integrator bdf2 --solver multigrid", &track);
         if (thin)
             track.limit = 4 * state_size(&track.simulation);
         for (int i = 0; i <= STEPS; i++) {
@@ -213,7 +213,7 @@ static void random_drags_end(void **unused)
         Track track;
         snprintf(line, sizeof line,
                  "square --segments %d --integrator %s --solver %s", 2 + i % 3,
-                 methods[i], i % 2 ? "lagged" : "newton");
+                 methods[i], i % 2 ? "multigrid" : "newton");
         begin(line, &track);
         Simulation *simulation = &track.simulation;
         int steps = more && i < 3 ? atoi(more) : 150;
