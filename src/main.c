@@ -106,7 +106,7 @@ static int print_information(const Options *options)
 /* What a user can do about a failure. */
 static const char *advice(const Player *player, Status status)
 {
-    unsigned needs = player->given.scene->needs;
+    unsigned needs = player->given[0].scene->needs;
     switch (status) {
     case STATUS_OUT_OF_MEMORY:
     case STATUS_TOO_LARGE:
@@ -142,9 +142,9 @@ static void report_failure(const Player *player, Status status)
                 name);
     else if (recording->reason)
         fprintf(stderr, "elasto: %s: %s\n", name, strerror(recording->reason));
-    else if (player->track.simulation.status == status)
+    else if (player->lane[0].track.simulation.status == status)
         fprintf(stderr, "elasto: step %ld failed: %s%s\n",
-                player->track.simulation.steps + 1, status_text(status),
+                player->lane[0].track.simulation.steps + 1, status_text(status),
                 advice(player, status));
     else
         fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),
@@ -217,12 +217,12 @@ static bool fits_in_memory(const Options *options)
 /* Files, then the summary or the failure.  Returns the exit code. */
 static int finish(Player *player, Status status, bool begun)
 {
-    const Options *options = &player->given;
+    const Options *options = &player->given[0];
     bool standard = (options->states && output_is_standard(options->states)) ||
                     (options->log && output_is_standard(options->log));
     if (!begun)
         recording_discard(&player->recording);
-    player->recording.aside = status && player->track.simulation.steps == 0;
+    player->recording.aside = status && player->lane[0].track.simulation.steps == 0;
     Status closed = player_finish(player);
     if (!status)
         status = closed;
@@ -241,27 +241,31 @@ static int finish(Player *player, Status status, bool begun)
 int main(int argc, char **argv)
 {
     Player *player = &main_player;
-    Options options;
+    Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
     char message[512];
     hold_standard_streams();
     leave_blas_threads(argv);
-    if (options_parse(argc, argv, &options, message, sizeof message)) {
+    for (int i = 0; i < options[0].panes; i++)
+        if (options_parse_pane(argc, argv, i, &options[i], message,
+                               sizeof message)) {
+            fprintf(stderr, "elasto: %s\n", message);
+            return EXIT_MISUSED;
+        }
+    if (options->help || options->version || options->list)
+        return print_information(options);
+    if (recording_check(options, message, sizeof message)) {
         fprintf(stderr, "elasto: %s\n", message);
         return EXIT_MISUSED;
     }
-    if (options.help || options.version || options.list)
-        return print_information(&options);
-    if (recording_check(&options, message, sizeof message)) {
-        fprintf(stderr, "elasto: %s\n", message);
-        return EXIT_MISUSED;
+    for (int i = 0; i < options->panes; i++) {
+        if (!fits_in_memory(&options[i]))
+            return EXIT_MISUSED;
+        if (!can_be_mapped(&options[i]))
+            return EXIT_FAILED;
     }
-    if (!fits_in_memory(&options))
-        return EXIT_MISUSED;
-    if (!can_be_mapped(&options))
-        return EXIT_FAILED;
     handle_signals();
     atexit(save_files);
-    Status status = player_create(&options, &main_stop, player);
+    Status status = player_create(options, options->panes, &main_stop, player);
     bool begun = !status;
     if (begun)
         status = player_run(player);

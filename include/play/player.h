@@ -1,4 +1,4 @@
-/* player.h - a simulation that is played: stepped, drawn, recorded, gone back
+/* player.h - simulations that are played: stepped, drawn, recorded, gone back
  * in, and told what to do by keys, mouse and scripts.
  */
 #ifndef ELASTO_PLAYER_H
@@ -6,9 +6,9 @@
 
 #include <signal.h>
 
-#include "picture/hud.h"
+#include "play/lane.h"
+#include "play/numbers.h"
 #include "play/recording.h"
-#include "play/track.h"
 #include "play/view.h"
 
 enum {
@@ -16,38 +16,82 @@ enum {
     SPEED_MOST = 10   /* 1024 steps a frame */
 };
 
+/* What the left or the middle button drags. */
+typedef enum Drag {
+    DRAG_NONE,
+    DRAG_NODE,
+    DRAG_EDGE,   /* the stretch */
+    DRAG_START,  /* where the scene begins */
+    DRAG_HANDLE, /* index: a point of the scene */
+    DRAG_NUMBER, /* index: in the row */
+    DRAG_TIME,   /* the handle of the time line */
+    DRAG_PICTURE /* the picture moves */
+} Drag;
+
+typedef struct Mouse {
+    double x, y; /* pixels */
+    bool inside;
+    Drag drag;
+    int index;
+    double from[2], last[2]; /* pixels, where the drag began and has come */
+    bool moved;              /* it is more than a click */
+    double paces;            /* of a number, not yet given */
+    Options options;         /* at its beginning */
+} Mouse;
+
 typedef struct Player {
-    Options given; /* of the command line, for its own scene */
-    Track track;
+    Options given[OPTIONS_MAX_PANES]; /* of the command line */
+    int given_count;
+    Lane lane[OPTIONS_MAX_PANES]; /* [lanes] side by side */
+    int lanes, active;            /* the one whose numbers are shown */
+    long step, newest;            /* shown, and known */
     Recording recording;
-    Hud hud;
-    View *view;        /* NULL: nothing is drawn */
-    bool window;       /* the view is a window: it takes keys */
-    bool attended;     /* a window or a script: it may pause and go back */
-    Script script;     /* of the command line */
-    Script journal;    /* what was done so far, as a script */
-    bool quit;         /* somebody asked for the end */
-    bool changed;      /* the window must be drawn again */
-    bool warned;       /* paused once because a step did not converge */
-    bool holds;        /* the hand has not let go since it took a node */
-    bool blank;        /* the screen is black */
+    View *view;     /* NULL: nothing is drawn */
+    bool window;    /* the view is a window: it takes keys */
+    bool attended;  /* a window or a script: it may pause and go back */
+    Script script;  /* of the command line */
+    Script journal; /* what was done so far, as a script */
+    bool quit;      /* somebody asked for the end */
+    bool changed;   /* the window must be drawn again */
+    bool warned;    /* paused once because a step did not converge */
+    bool holds;     /* the hand has not let go since it took a node */
+    bool paused;
+    bool rests;        /* nothing moves any more */
+    int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
+    int place;         /* in the active lane's tape; -1: between two steps */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
     Status recorded;   /* how the last record of the log was written */
-    char message[256]; /* why the script cannot be obeyed, or "" */
+    char message[256]; /* why a command or the script cannot be obeyed, or "" */
+    char note[SHOW_TEXT];              /* what a command just did, or "" */
+    bool warning;                      /* and it is a bad thing */
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */
     double clock_mark, time_mark;      /* s, where the speed is measured from */
-    Energies start; /* of run 0, when a summary will want them */
+    double measured; /* simulated over real time; 0: unknown */
+    Energies start;  /* of lane 0, when a summary will want them */
+
+    /* What only the screen shows. */
+    Lens lens;
+    LectureColumn column;
+    bool strain, bare, help, blank;
+    unsigned closed; /* cards that are not as the picture has them */
+    int large, selected;
+    CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
+    const Number *number[NUMBERS_MOST]; /* what the row has */
+    int numbers;
+    Mouse mouse;
+    Show show; /* of the last frame */
 } Player;
 
 /* Sets everything up.  Says on standard error if there is no screen, and then
  * asks for frames in the folder "frames" and 100 steps.
- *   stop    in, must live as long; not 0 ends the run after the present step
- *   player  out; must stay where it is; close it in any case
+ *   options  [count] in, of the panes
+ *   stop     in, must live as long; not 0 ends the run after the present step
+ *   player   out; must stay where it is; close it in any case
  * Returns OK, or why it failed; INVALID_INPUT: player->message may say more. */
-Status player_create(const Options *options, const volatile sig_atomic_t *stop,
-                     Player *player);
+Status player_create(const Options *options, int count,
+                     const volatile sig_atomic_t *stop, Player *player);
 
 /* One step with its records.  OK also for a step that did not converge. */
 Status player_step(Player *player);
@@ -55,6 +99,10 @@ Status player_step(Player *player);
 /* Does what a command asks for.  Returns OK; INVALID_INPUT with the reason in
  * player->message where it makes no sense here; or a failure. */
 Status player_obey(Player *player, const Command *command);
+
+/* What happened at keyboard, mouse or window, as commands.  Returns as
+ * player_obey. */
+Status player_input(Player *player, const Input *input);
 
 /* Draws, shows and records the state if there is a view. */
 Status player_draw(Player *player);
@@ -68,11 +116,8 @@ bool player_ended(const Player *player);
 /* Whether any step, or the scene as a whole, did not converge. */
 bool player_unconverged(const Player *player);
 
-/* The hash of the present state; see state_hash. */
+/* The hash of the present state of all lanes; see state_hash. */
 uint64_t player_hash(const Player *player);
-
-/* Seconds since an arbitrary moment. */
-double player_clock(void);
 
 /* Finishes the files and frees all but the numbers that a summary needs.
  * Returns OK, OUT_OF_MEMORY or FILE_FAILED. */

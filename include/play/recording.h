@@ -58,8 +58,11 @@ Status recording_end_film(Recording *recording);
 /* Takes back the rows of later steps. */
 Status recording_cut(Recording *recording, long step);
 
-/* The state now, if states are asked for. */
-Status recording_states(Recording *recording, const Simulation *simulation);
+/* The states of `count` simulations now, if states are asked for; nodes of the
+ * second follow those of the first. */
+Status recording_states(Recording *recording,
+                        const Simulation *const *simulation, int count,
+                        long step);
 
 /* One row of the log, if there is one. */
 Status recording_update(Recording *recording, const NewtonRecord *record);

@@ -22,6 +22,7 @@ typedef struct StepRow {
     Status status;   /* how the step ended */
     double change;   /* of E, J s^2, summed over the updates */
     double residual; /* m/s, at the end */
+    double extent;   /* m, the largest coordinate of run 0 after it */
 } StepRow;
 
 /* What can be changed while a run goes on, as it is now. */
@@ -79,6 +80,14 @@ Status track_step(Track *track);
 /* Shows this step, 0 ... newest; other numbers are brought into that range.
  * Returns OK, or a failure, INTERRUPTED too: then another step is shown. */
 Status track_show(Track *track, long step);
+
+/* Makes the next known step again, from the state that is shown.  Returns as
+ * track_show; another step is shown then. */
+Status track_repeat(Track *track);
+
+/* Lets a new track make the same changes and steps as another one has made, up
+ * to the step which that shows.  Returns as track_show. */
+Status track_follow(const Track *from, Track *to);
 
 /* Changes something from here on; forgets what came after.
  *   change   COMMAND_SET with "NAME VALUE"; COMMAND_PIN with a node, x = 1 to

@@ -15,13 +15,13 @@ static Status lesson_open(Player *player, const LecturePage *page)
     if (status)
         return status;
     player_keep_files(player, &options);
-    status = player_restart(player, &options);
+    status = player_restart(player, &options, 1);
     player->speed = player_first_speed(&options);
     player_reset_speed(player);
-    player->hud.column = LECTURE_CARDS;
-    player->hud.keys = false;
-    if (!player->given.script)
-        player->hud.paused = !page->plays;
+    player->column = LECTURE_CARDS;
+    player->help = false;
+    if (!player->given[0].script)
+        player->paused = !page->plays;
     player_title(player, title, sizeof title);
     if (player->view)
         view_set_title(player->view, title);
@@ -37,7 +37,7 @@ static Status refuse_page(Player *player, const char *why)
 /* The first page and the last one have only one neighbour. */
 Status lesson_turn(Player *player, const Command *command)
 {
-    const LecturePage *page = player->track.settings.options.page;
+    const LecturePage *page = player->lane[0].track.settings.options.page;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         return page ? lesson_open(player, page)

@@ -1,13 +1,14 @@
 /* obey.c - what each command does. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/draw.h"
+#include "picture/picture.h"
 #include "play/playing.h"
 #include "play/png_file.h"
-#include "picture/show.h"
 #include "scenes/scene.h"
 
 /* Says why a command makes no sense here. */
@@ -17,56 +18,294 @@ static Status refuse_command(Player *player, const char *why)
     return STATUS_INVALID_INPUT;
 }
 
-/* The step on which commands act. */
-static long step_shown(const Player *player)
+/* The settings of the lane whose numbers are shown. */
+static const Settings *settings_now(const Player *player)
 {
-    return track_step_shown(&player->track);
+    return &player->lane[player->active].track.settings;
 }
 
 /* ---- running and going back --------------------------------------------- */
 
 static Status set_paused(Player *player, bool paused)
 {
-    player->hud.paused = paused;
+    player->paused = paused;
+    player->rests = player->rests && paused;
+    if (!paused)
+        player->place = -1;
     player_reset_speed(player);
     return STATUS_OK;
 }
 
-/* One step on: the next one that is known, or a new one. */
+/* The next step, known or new. */
+static Status next_step(Player *player, bool walked)
+{
+    player->paused = true;
+    if (player->step >= player->newest)
+        return player_step(player);
+    return walked ? player_retape(player, player->step + 1)
+                  : player_show(player, player->step + 1);
+}
+
+/* Whether the last step of the active lane can be walked through. */
+static bool can_walk(const Player *player)
+{
+    const Lane *lane = &player->lane[player->active];
+    return lane->taped && lane->tape.places > 2;
+}
+
+/* One on: a step, an update or a line. */
 static Status go_on(Player *player)
 {
-    player->hud.paused = true;
-    if (step_shown(player) < player->track.newest)
-        return player_show(player, step_shown(player) + 1);
-    return player_step(player);
+    const Tape *tape = &player->lane[player->active].tape;
+    player->paused = true;
+    if (player->fine == 0)
+        return next_step(player, false);
+    if (player->place >= 0 && player->place < tape->places - 1) {
+        player->place = tape_next(tape, player->fine, player->place);
+        if (player->place >= tape->places)
+            player->place = tape->places - 1;
+        return STATUS_OK;
+    }
+    Status status = next_step(player, true);
+    player->place = can_walk(player) ? 0 : -1;
+    return status;
+}
+
+/* One back, the same; from the first line of a step to the end of the one
+ * before. */
+static Status go_back(Player *player)
+{
+    const Tape *tape = &player->lane[player->active].tape;
+    player->paused = true;
+    if (player->fine == 0)
+        return player_show(player, player->step - 1);
+    if (player->place < 0 && player->step > 0) {
+        Status status = STATUS_OK;
+        if (!player->lane[player->active].taped)
+            status = player_retape(player, player->step);
+        if (status || !can_walk(player))
+            return status ? status : player_show(player, player->step - 1);
+        player->place = tape->places - 1;
+    }
+    if (player->place < 0)
+        return STATUS_OK;
+    player->place = tape_back(tape, player->fine, player->place);
+    if (player->place >= 0)
+        return STATUS_OK;
+    Status status = player_retape(player, player->step - 1);
+    if (!status && can_walk(player))
+        player->place = tape->places - 1;
+    return status;
+}
+
+/* Steps, updates, lines, and steps again. */
+static Status go_finer(Player *player)
+{
+    static const char *const text[] = {
+        "N and \u2190 go by whole steps",
+        "N and \u2190 go by updates of Newton's method",
+        "N and \u2190 go by lines of Algorithm 3",
+    };
+    player->fine = (player->fine + 1) % 3;
+    if (player->fine == 0)
+        player->place = -1;
+    player->paused = true;
+    player_note(player, "%s", text[player->fine]);
+    return STATUS_OK;
 }
 
 /* ---- changes ------------------------------------------------------------ */
 
-/* Whether the step after the one that is shown was tried and failed. */
-static bool has_failed(const Player *player)
+/* Which lanes a change of this option is for: the active one where they are
+ * compared by it, else all.  from, to out: lanes from ... to - 1. */
+static void find_lanes(const Player *player, const char *option, int *from,
+                       int *to)
 {
-    Status status = player->track.simulation.status;
-    return status && !status_is_unconverged(status);
+    bool one = option && player_compares(player, option);
+    *from = one ? player->active : 0;
+    *to = one ? player->active + 1 : player->lanes;
 }
 
-/* The change, and the present step once more with it. */
-static Status change_and_retake(Player *player, const Command *change)
+/* A change from here on, in these lanes; it makes no step again. */
+static Status change_lanes(Player *player, const Command *change, int from,
+                           int to)
 {
-    Track *track = &player->track;
-    long step = step_shown(player);
-    bool again = step > 0 || has_failed(player);
-    Status status = STATUS_OK;
-    if (again)
-        status = player_show(player, has_failed(player) ? step : step - 1);
-    if (!status)
-        status = track_change(track, change, player->message,
+    Status status = player_forget_later(player);
+    player->changed = true;
+    player->rests = false;
+    for (int i = from; i < to && !status; i++)
+        status = track_change(&player->lane[i].track, change, player->message,
                               sizeof player->message);
-    if (!status)
-        status = recording_cut(&player->recording, step_shown(player));
-    if (!status && again)
-        status = player_step(player);
+    return status;
+}
+
+static Status change_all(Player *player, const Command *change)
+{
     player->sampled = -1;
+    return change_lanes(player, change, 0, player->lanes);
+}
+
+/* The sum over its updates of what the step that was just taken did to E, and
+ * how many they were. */
+typedef struct Outcome {
+    double change;
+    int updates;
+    Status status;
+    double extent;
+} Outcome;
+
+static Outcome outcome_of(const Lane *lane)
+{
+    return (Outcome){lane->track.now.change, lane->track.now.updates,
+                     lane->outcome, lane_extent(lane)};
+}
+
+/* "E +206 in 12 updates" */
+static void tell_outcome(const Outcome *outcome, char *text, size_t size)
+{
+    snprintf(text, size, "E %+.3g in %d update%s%s%s", outcome->change,
+             outcome->updates, outcome->updates == 1 ? "" : "s",
+             outcome->status ? ", " : "",
+             outcome->status ? status_text(outcome->status) : "");
+}
+
+/* What a value of a method is called in a sentence. */
+static void method_words(const char *option, const char *value, char *text,
+                         size_t size)
+{
+    bool filter = strcmp(option, "filter") == 0;
+    if (strcmp(value, "none") == 0)
+        snprintf(text, size, filter ? "no projection" : "full step");
+    else
+        snprintf(text, size, "%s %s", filter ? "projection" : "line search",
+                 value);
+}
+
+/* The place in the tape that is the same line of the same round as before. */
+static void find_place(Player *player, int round, Line line)
+{
+    const Tape *tape = &player->lane[player->active].tape;
+    if (!can_walk(player))
+        return;
+    player->place = tape->places - 1;
+    for (int i = tape->places - 1; i >= 0; i--)
+        if (tape->place[i].round == round && tape->place[i].line <= line) {
+            player->place = i;
+            return;
+        }
+}
+
+/* The change, and the present step once more with it, from its own start; what
+ * was there before stays as a ghost, or beside it. */
+static Status retake(Player *player, const Command *change, const char *option,
+                     const char *value, const char *old, int from, int to)
+{
+    Lane *lane = &player->lane[player->active];
+    bool failed = lane->failed, paused = player->paused;
+    bool again = player->step > 0 || failed;
+    long first = player->step - (failed ? 0 : 1);
+    int round = -1;
+    Line line = LINE_NONE;
+    char was[64], is[64], had[160], has[160];
+    if (player->place >= 0) {
+        round = lane->tape.place[player->place].round;
+        line = lane->tape.place[player->place].line;
+    }
+    if (!again)
+        return change_lanes(player, change, from, to);
+    Outcome before = outcome_of(lane);
+    if (!failed && track_step_shown(&lane->track) > 0 &&
+        state_size(&lane->track.simulation) > 0) {
+        const StepRow *row =
+            track_row(&lane->track, track_step_shown(&lane->track));
+        before.change = row->change;
+        before.updates = row->updates;
+    }
+    method_words(option, old, was, sizeof was);
+    method_words(option, value, is, sizeof is);
+    double *ghost = NULL;
+    size_t bytes =
+        2 * (size_t)lane->track.simulation.system.nodes * sizeof *ghost;
+    if (!failed && state_size(&lane->track.simulation) > 0)
+        ghost = malloc(bytes);
+    if (ghost)
+        memcpy(ghost, lane->track.simulation.run[0].x, bytes);
+    Status status = player_show(player, first);
+    if (!status)
+        status = change_lanes(player, change, from, to);
+    if (!status)
+        status = player_step(player);
+    player->paused = paused;
+    player->sampled = -1;
+    Outcome after = outcome_of(lane);
+    if (ghost) {
+        lane_drop_ghost(lane);
+        lane->ghost = ghost;
+        snprintf(lane->ghost_label, sizeof lane->ghost_label, "%s", was);
+    }
+    if (round >= 0)
+        find_place(player, round, line);
+    tell_outcome(&before, had, sizeof had);
+    tell_outcome(&after, has, sizeof has);
+    player_note(player, "%s: %s; %s: %s", was, had, is, has);
+    return status;
+}
+
+/* Whether two outcomes fit into one picture. */
+static bool fits_one_picture(const Outcome *one, const Outcome *other)
+{
+    enum { TIMES = 5 };
+    return one->extent <= TIMES * other->extent &&
+           other->extent <= TIMES * one->extent;
+}
+
+/* Filter or line search, with the present step taken again.  Two outcomes that
+ * no one picture can show are put beside each other. */
+static Status set_method(Player *player, const Command *change,
+                         const char *option, const char *value, const char *old,
+                         int from, int to)
+{
+    enum { SOON = 64 }; /* steps that are made again without a wait */
+    Lane *lane = &player->lane[player->active], *beside = &player->lane[1];
+    Status status = STATUS_OK;
+    bool alone = player->lanes == 1 && player->attended && player->step > 0 &&
+                 player->step < SOON && !lane->failed &&
+                 (lane->track.options.scene->needs & NEEDS_MESH) &&
+                 state_size(&lane->track.simulation) > 0;
+    Outcome before = outcome_of(lane);
+    if (alone)
+        status = lane_clone(lane, 1, player_watch, beside);
+    if (!status)
+        status = retake(player, change, option, value, old, from, to);
+    Outcome after = outcome_of(lane);
+    if (!alone)
+        return status;
+    if (status || fits_one_picture(&before, &after)) {
+        lane_free(beside);
+        return status;
+    }
+    lane_drop_ghost(lane);
+    player->lanes = 2;
+    return STATUS_OK;
+}
+
+/* New runs with this option in these lanes. */
+static Status restart_with(Player *player, const char *option,
+                           const char *value, int from, int to)
+{
+    Options options[OPTIONS_MAX_PANES];
+    for (int i = 0; i < player->lanes; i++) {
+        options[i] = player->lane[i].track.settings.options;
+        if (i >= from && i < to &&
+            options_set(&options[i], option, value, player->message,
+                        sizeof player->message))
+            return STATUS_INVALID_INPUT;
+    }
+    int active = player->active;
+    bool paused = player->paused;
+    Status status = player_restart(player, options, player->lanes);
+    player->active = active;
+    player->paused = paused;
     return status;
 }
 
@@ -74,36 +313,88 @@ static Status change_and_retake(Player *player, const Command *change)
  * any more. */
 static Status set_option(Player *player, const char *text)
 {
-    Track *track = &player->track;
-    const Scene *scene = track->options.scene;
+    const Simulation *simulation = player_simulation(player);
+    const Scene *scene = simulation->scene;
     Command change = {.kind = COMMAND_SET};
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
-    bool paused = player->hud.paused;
+    char old[COMMAND_TEXT_SIZE] = "";
     size_t length = strcspn(text, " ");
+    int from, to;
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     snprintf(value, sizeof value, "%s", text[length] ? text + length + 1 : "");
     snprintf(change.text, sizeof change.text, "%s", text);
-    Options options = track->settings.options;
+    Options options = settings_now(player)->options;
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
+    find_lanes(player, name, &from, &to);
+    const Number *number = number_find(name);
+    if (number)
+        number_value(number, &settings_now(player)->options, old);
+    bool time = scene->needs & NEEDS_TIME;
     bool method =
         strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
-    bool live = track_can_change(name) && track->simulation.runs == 1 &&
-                (scene->needs & NEEDS_TIME || method);
-    if (strcmp(name, "timestep") == 0 && scene->needs & NEEDS_TIME)
-        live = true;
+    bool live = track_can_change(name) && (time || method) &&
+                (simulation->runs == 1 || strcmp(name, "timestep") == 0);
     Status status;
-    if (method && live)
-        status = change_and_retake(player, &change);
-    else if (live)
-        status = track_change(track, &change, player->message,
-                              sizeof player->message);
+    if (!live)
+        status = restart_with(player, name, value, from, to);
+    else if (method && strcmp(old, value) != 0)
+        status = set_method(player, &change, name, value, old, from, to);
     else
-        status = player_restart(player, &options);
-    player->hud.paused = paused;
+        status = change_lanes(player, &change, from, to);
     player_reset_speed(player);
     return status;
+}
+
+/* The selected number up or down. */
+static Status pace_number(Player *player, int paces)
+{
+    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE - 24];
+    const Number *number[NUMBERS_MOST];
+    const Options *options = &settings_now(player)->options;
+    int count = numbers_of(options, number);
+    if (count == 0)
+        return refuse_command(player, "there is no number to change here");
+    if (player->selected < 0 || player->selected >= count)
+        player->selected = 0;
+    number_paced(number[player->selected], options, paces, text);
+    snprintf(value, sizeof value, "%.39s", text);
+    snprintf(text, sizeof text, "%s %s", number[player->selected]->option,
+             value);
+    return set_option(player, text);
+}
+
+/* The value that the scene has by itself, or that of the command line. */
+static Status set_default(Player *player, const char *option)
+{
+    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE - 24];
+    const Number *number = number_find(option);
+    Options options = player->given[0];
+    if (!number)
+        return refuse_command(player, "there is no such number");
+    if (options.scene != player->lane[0].track.options.scene) {
+        char program[] = "elasto", scene[COMMAND_TEXT_SIZE];
+        char *arguments[] = {program, scene, NULL};
+        snprintf(scene, sizeof scene, "%s",
+                 player->lane[0].track.options.scene->name);
+        if (options_parse(2, arguments, &options, player->message,
+                          sizeof player->message))
+            return STATUS_INVALID_INPUT;
+    }
+    number_value(number, &options, text);
+    snprintf(value, sizeof value, "%.39s", text);
+    snprintf(text, sizeof text, "%.20s %s", option, value);
+    return set_option(player, text);
+}
+
+/* Tab: the next number, and after the last one none. */
+static Status select_number(Player *player)
+{
+    const Number *number[NUMBERS_MOST];
+    int count = numbers_of(&settings_now(player)->options, number);
+    player->selected = player->selected + 1 < count ? player->selected + 1 : -1;
+    return STATUS_OK;
 }
 
 /* Off, or on again as the command line has it, if there is anything to
@@ -111,50 +402,48 @@ static Status set_option(Player *player, const char *text)
 static Status switch_filter(Player *player)
 {
     char text[COMMAND_TEXT_SIZE];
-    Filter given = player->given.filter;
-    Filter filter = player->track.settings.options.filter;
-    if (!simulation_has_filter(&player->track.simulation))
+    Filter given = player->given[0].filter;
+    Filter filter = settings_now(player)->options.filter;
+    if (!simulation_has_filter(player_simulation(player)))
         return refuse_command(player, "nothing to project here");
     if (filter != FILTER_NONE)
         filter = FILTER_NONE;
     else
         filter = given != FILTER_NONE ? given : FILTER_CLAMP;
     snprintf(text, sizeof text, "filter %s", filter_name(filter));
-    Status status = set_option(player, text);
-    if (!status)
-        player_note(player, "projection: %s", filter_name(filter));
-    return status;
+    return set_option(player, text);
 }
 
 /* The same, if there is a line to search. */
 static Status switch_search(Player *player)
 {
     char text[COMMAND_TEXT_SIZE];
-    LineSearch given = player->given.line_search;
-    LineSearch search = player->track.settings.options.line_search;
-    if (!simulation_has_line_search(&player->track.simulation))
+    LineSearch given = player->given[0].line_search;
+    LineSearch search = settings_now(player)->options.line_search;
+    if (!simulation_has_line_search(player_simulation(player)))
         return refuse_command(player, "no line search here");
     if (search != LINE_SEARCH_NONE)
         search = LINE_SEARCH_NONE;
     else
         search = given != LINE_SEARCH_NONE ? given : LINE_SEARCH_BACKTRACK;
     snprintf(text, sizeof text, "line-search %s", line_search_name(search));
-    Status status = set_option(player, text);
-    if (!status)
-        player_note(player, "line search: %s", line_search_name(search));
-    return status;
+    return set_option(player, text);
 }
 
-/* The next row of the table of integrators. */
+/* The row of the table of integrators behind that of a simulation. */
+static const IntegratorMethod *next_method(const Simulation *simulation)
+{
+    const IntegratorMethod *next = simulation->run[0].method + 1;
+    return simulation->runs > 1 || !next->name ? &integrator_methods[0] : next;
+}
+
 static Status switch_integrator(Player *player)
 {
     char text[COMMAND_TEXT_SIZE];
-    const Simulation *simulation = &player->track.simulation;
+    const Simulation *simulation = player_simulation(player);
     if (!(simulation->scene->needs & NEEDS_TIME))
         return refuse_command(player, "no time passes here");
-    const IntegratorMethod *next = simulation->run[0].method + 1;
-    if (simulation->runs > 1 || !next->name)
-        next = &integrator_methods[0];
+    const IntegratorMethod *next = next_method(simulation);
     snprintf(text, sizeof text, "integrator %s", next->name);
     Status status = set_option(player, text);
     if (!status)
@@ -162,27 +451,57 @@ static Status switch_integrator(Player *player)
     return status;
 }
 
-/* A change from here on, that makes no step again. */
-static Status change_here(Player *player, const Command *change)
+/* The same run with the next method beside the last one. */
+static Status add_pane(Player *player)
 {
-    Status status = track_change(&player->track, change, player->message,
-                                 sizeof player->message);
-    player->changed = true;
-    player->sampled = -1;
-    return status ? status
-                  : recording_cut(&player->recording, step_shown(player));
+    const Lane *last = &player->lane[player->lanes - 1];
+    const Simulation *simulation = &last->track.simulation;
+    Command change = {.kind = COMMAND_SET};
+    if (player->lanes == OPTIONS_MAX_PANES)
+        return refuse_command(player, "six are side by side: no room for more");
+    if (!(simulation->scene->needs & NEEDS_TIME) || simulation->runs > 1 ||
+        !player->attended)
+        return refuse_command(player, "nothing to be put beside it here");
+    const IntegratorMethod *next = next_method(simulation);
+    snprintf(change.text, sizeof change.text, "integrator %s", next->name);
+    Status status = player_forget_later(player);
+    Lane *lane = &player->lane[player->lanes];
+    if (!status)
+        status = lane_clone(last, player->lanes, player_watch, lane);
+    if (status) {
+        lane_free(lane);
+        return status;
+    }
+    player->active = player->lanes++;
+    player_note(player, "beside it: %s", next->label);
+    return track_change(&lane->track, &change, player->message,
+                        sizeof player->message);
 }
+
+/* The last pane goes. */
+static Status end_pane(Player *player)
+{
+    if (player->lanes < 2)
+        return refuse_command(player, "there is only one");
+    lane_free(&player->lane[--player->lanes]);
+    if (player->active >= player->lanes)
+        player->active = player->lanes - 1;
+    player->place = -1;
+    return STATUS_OK;
+}
+
+/* ---- hands -------------------------------------------------------------- */
 
 /* Pins a node, or sets it free. */
 static Status switch_pin(Player *player, long node)
 {
-    const Simulation *simulation = &player->track.simulation;
+    const Simulation *simulation = player_simulation(player);
     if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
         return refuse_command(player, "only nodes of a square can be pinned");
     bool pinned = node < simulation->system.nodes &&
                   simulation_is_pinned(simulation, (int)node);
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = change_here(player, &change);
+    Status status = change_all(player, &change);
     if (!status)
         player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
@@ -191,7 +510,7 @@ static Status switch_pin(Player *player, long node)
 /* The hand takes a node where it is. */
 static Status grab(Player *player, long node)
 {
-    const Simulation *simulation = &player->track.simulation;
+    const Simulation *simulation = player_simulation(player);
     if (state_size(simulation) == 0)
         return refuse_command(player, "nothing to take hold of here");
     Command change = {.kind = COMMAND_GRAB, .number = node};
@@ -199,7 +518,7 @@ static Status grab(Player *player, long node)
         change.x = simulation->run[0].x[2 * node];
         change.y = simulation->run[0].x[2 * node + 1];
     }
-    Status status = change_here(player, &change);
+    Status status = change_all(player, &change);
     player->holds = player->holds || !status;
     return status;
 }
@@ -207,27 +526,30 @@ static Status grab(Player *player, long node)
 /* It pulls, or lets go. */
 static Status pull(Player *player, const Command *command)
 {
-    if (!player->track.settings.held)
+    if (!settings_now(player)->held)
         return refuse_command(player, "the hand holds nothing");
     player->holds = command->kind == COMMAND_DRAG;
-    return change_here(player, command);
+    return change_all(player, command);
 }
 
 /* ---- other scenes ------------------------------------------------------- */
 
 /* The options of a scene: those of the command line if it was called for
  * there, else its defaults; files and ends are those of the command line. */
-static Status find_options(Player *player, const char *name, Options *options)
+static Status find_options(Player *player, const char *name, Options *options,
+                           int *count)
 {
     char program[] = "elasto", word[COMMAND_TEXT_SIZE];
     char *arguments[] = {program, word, NULL};
-    const Options *given = &player->given;
+    const Options *given = &player->given[0];
     snprintf(word, sizeof word, "%s", name);
     if (options_parse(2, arguments, options, player->message,
                       sizeof player->message))
         return STATUS_INVALID_INPUT;
+    *count = 1;
     if (options->scene == given->scene) {
-        *options = *given;
+        *count = player->given_count;
+        memcpy(options, given, (size_t)*count * sizeof *given);
         return STATUS_OK;
     }
     player_keep_files(player, options);
@@ -240,15 +562,15 @@ static Status find_options(Player *player, const char *name, Options *options)
 static Status switch_scene(Player *player, const char *name)
 {
     char title[128];
-    Options options;
-    Status status = find_options(player, name, &options);
+    Options options[OPTIONS_MAX_PANES];
+    int count;
+    Status status = find_options(player, name, options, &count);
+    if (!status)
+        status = player_restart(player, options, count);
     if (status)
         return status;
-    status = player_restart(player, &options);
-    if (status)
-        return status;
-    if (options.scene->explains && !player->given.script)
-        player->hud.paused = true;
+    if (options->scene->explains && !player->given[0].script)
+        player->paused = true;
     player_title(player, title, sizeof title);
     if (player->view)
         view_set_title(player->view, title);
@@ -258,12 +580,25 @@ static Status switch_scene(Player *player, const char *name)
 /* Another start, where the scene has one. */
 static Status pick_start(Player *player, double x, double y)
 {
-    Options options = player->track.settings.options;
-    if (!(options.scene->needs & NEEDS_START))
+    Options options[OPTIONS_MAX_PANES];
+    const Scene *scene = player->lane[0].track.options.scene;
+    if (!(scene->needs & NEEDS_START))
         return refuse_command(player, "this scene has no start to choose");
-    options.start[0] = x;
-    options.start[1] = y;
-    return player_restart(player, &options);
+    for (int i = 0; i < player->lanes; i++) {
+        options[i] = player->lane[i].track.settings.options;
+        options[i].start[0] = x;
+        options[i].start[1] = y;
+    }
+    return player_restart(player, options, player->lanes);
+}
+
+/* From step 0 with the present numbers. */
+static Status begin_again(Player *player)
+{
+    Options options[OPTIONS_MAX_PANES];
+    for (int i = 0; i < player->lanes; i++)
+        options[i] = player->lane[i].track.settings.options;
+    return player_restart(player, options, player->lanes);
 }
 
 /* ---- pictures, films, hashes -------------------------------------------- */
@@ -272,28 +607,29 @@ static Status pick_start(Player *player, double x, double y)
 static void free_name(const Player *player, const char *end, char *name,
                       size_t size)
 {
-    const char *scene = player->track.options.scene->name;
-    long step = step_shown(player);
-    snprintf(name, size, "elasto_%s_%06ld%s", scene, step, end);
-    for (int i = 2; access(name, F_OK) == 0 && i < 10000; i++)
-        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, step, i, end);
+    const char *scene = player->lane[0].track.options.scene->name;
+    snprintf(name, size, "elasto_%s_%06ld%s", scene, player->step, end);
+    for (int i = 2; access(name, F_OK) == 0 && i < 100000; i++)
+        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, player->step, i,
+                 end);
 }
 
 /* The frame as it is, in the present folder. */
 static Status save_picture(Player *player)
 {
-    char name[HUD_NOTE_SIZE - 8];
+    enum { WIDTH = 1280, HEIGHT = 800 };
+    char name[80];
     Paper *paper = player->view ? view_paper(player->view) : NULL;
     Paper own = {0};
     Status status = STATUS_OK;
     if (!paper) {
-        status = paper_create(900, 900, &own);
+        status = paper_create(WIDTH, HEIGHT, &own);
         paper = &own;
     }
     free_name(player, ".png", name, sizeof name);
-    player->hud.note[0] = '\0';
+    player->note[0] = '\0';
     if (!status) {
-        draw_frame(paper, &player->track.simulation, &player->hud);
+        player_paint(player, paper);
         status = png_file_write(name, &paper->canvas);
     }
     paper_free(&own);
@@ -306,10 +642,10 @@ static Status save_picture(Player *player)
     return STATUS_OK;
 }
 
-/* Begins a film of all drawn steps, or ends it. */
+/* Begins a film of all that is drawn, or ends it. */
 static Status switch_film(Player *player)
 {
-    static char name[HUD_NOTE_SIZE]; /* for the message at its end */
+    static char name[80]; /* for the message at its end */
     Recording *recording = &player->recording;
     Status status;
     bool ends = film_runs(&recording->film);
@@ -327,19 +663,36 @@ static Status switch_film(Player *player)
     else
         player_note(player, ends ? "film ends: %s" : "filming %s", name);
     recording->reason = 0;
+    recording->message[0] = '\0';
     return STATUS_OK;
 }
 
-/* The hash of the state; a session that was changed by hand leaves a script
- * that leads there again. */
+/* The hash of the state; where commands have led here they are written down as
+ * a script, which leads here again. */
 static Status tell_hash(Player *player)
 {
-    player_note(player, "state %016llx at step %ld",
-                (unsigned long long)player_hash(player), step_shown(player));
+    char name[80];
+    unsigned long long hash = player_hash(player);
+    const char *scene = player->lane[0].track.options.scene->name;
+    if (player->journal.count == 0) {
+        player_note(player, "state %016llx: elasto %s --steps %ld", hash,
+                    player->given[0].scene->name, player->step);
+        return STATUS_OK;
+    }
+    free_name(player, ".script", name, sizeof name);
+    Status status = script_write(name, &player->journal);
+    if (status)
+        player_note(player, "state %016llx of %s, step %ld; no script: %s",
+                    hash, scene, player->step,
+                    status == STATUS_FILE_FAILED ? strerror(errno)
+                                                 : status_text(status));
+    else
+        player_note(player, "state %016llx at step %ld: elasto %s --script %s",
+                    hash, player->step, player->given[0].scene->name, name);
     return STATUS_OK;
 }
 
-/* ---- the table ---------------------------------------------------------- */
+/* ---- the screen --------------------------------------------------------- */
 
 /* Twice or half as fast. */
 static Status change_speed(Player *player, int change)
@@ -351,13 +704,13 @@ static Status change_speed(Player *player, int change)
     return STATUS_OK;
 }
 
-/* Help or full screen end first, then the program. */
+/* Help, a black screen or full screen end first, then the program. */
 static Status leave(Player *player)
 {
-    if (player->hud.keys)
-        player->hud.keys = false;
-    else if (player->hud.column)
-        player->hud.column = LECTURE_CARDS;
+    if (player->help)
+        player->help = false;
+    else if (player->column)
+        player->column = LECTURE_CARDS;
     else if (player->blank)
         player->blank = false;
     else if (player->view && view_is_full(player->view))
@@ -367,35 +720,72 @@ static Status leave(Player *player)
     return STATUS_OK;
 }
 
-/* What only the screen shows. */
-static Status obey_on_screen(Player *player, CommandKind kind)
+/* Zooms at a point in metres, or moves the picture by some of them. */
+static Status move_camera(Player *player, const Command *command)
 {
-    Hud *hud = &player->hud;
-    switch (kind) {
+    const Paper *paper = player->view ? view_paper(player->view) : NULL;
+    if (!paper)
+        return STATUS_OK;
+    player_fill(player);
+    Layout layout =
+        show_layout(&player->show, paper->canvas.width, paper->canvas.height);
+    Camera camera = show_camera(&player->show, &layout, player->active);
+    double at[2] = {command->x, command->y}, pixel[2];
+    camera_pixel(&camera, at, pixel);
+    if (command->kind == COMMAND_ZOOM)
+        show_zoom(&player->show, &layout, pixel[0], pixel[1],
+                  fmin(fmax((double)command->number, 1), 1e6) / 100);
+    else
+        show_move(&player->show, &layout, player->active,
+                  camera.scale[0] * command->x, -camera.scale[1] * command->y);
+    player->lens = player->show.lens;
+    return STATUS_OK;
+}
+
+/* A card is closed or opened; enlarged or as the others. */
+static Status switch_card(Player *player, const Command *command)
+{
+    int cards = picture_cards(picture_of(player->lane[0].track.options.scene));
+    int card = (int)fmin((double)command->number, 1e6);
+    if (card >= cards)
+        return refuse_command(player, "there is no such card");
+    if (command->kind == COMMAND_CARD)
+        player->closed ^= 1u << card;
+    else
+        player->large = player->large == card ? -1 : card;
+    return STATUS_OK;
+}
+
+/* The list of pages, or a page's code, or the cards again. */
+static Status switch_column(Player *player, CommandKind kind)
+{
+    LectureColumn column =
+        kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
+    player->help = false;
+    player->column = player->column == column ? LECTURE_CARDS : column;
+    return STATUS_OK;
+}
+
+/* What only the screen shows. */
+static Status obey_on_screen(Player *player, const Command *command)
+{
+    switch (command->kind) {
     case COMMAND_FASTER:
         return change_speed(player, 1);
     case COMMAND_SLOWER:
         return change_speed(player, -1);
     case COMMAND_COLOURS:
-        hud->strain = !hud->strain;
+        player->strain = !player->strain;
         break;
     case COMMAND_BARE:
-        hud->text = !hud->text;
-        hud_sample(hud, &player->track.simulation);
+        player->bare = !player->bare;
         break;
     case COMMAND_KEYS:
-        hud->keys = !hud->keys;
+        player->help = !player->help;
         break;
     case COMMAND_PAGES:
-        hud->keys = false;
-        hud->column =
-            hud->column == LECTURE_PAGES ? LECTURE_CARDS : LECTURE_PAGES;
-        break;
     case COMMAND_CODE:
-        hud->keys = false;
-        hud->column =
-            hud->column == LECTURE_CODE ? LECTURE_CARDS : LECTURE_CODE;
-        break;
+        return switch_column(player, command->kind);
     case COMMAND_BLANK:
         player->blank = !player->blank;
         break;
@@ -403,6 +793,17 @@ static Status obey_on_screen(Player *player, CommandKind kind)
         if (player->view)
             view_set_full(player->view, !view_is_full(player->view));
         break;
+    case COMMAND_FIT:
+        player->lens = LENS_FITS;
+        break;
+    case COMMAND_ZOOM:
+    case COMMAND_PAN:
+        return move_camera(player, command);
+    case COMMAND_CARD:
+    case COMMAND_ENLARGE:
+        return switch_card(player, command);
+    case COMMAND_SELECT:
+        return select_number(player);
     case COMMAND_ESCAPE:
         return leave(player);
     case COMMAND_SHOT:
@@ -417,7 +818,46 @@ static Status obey_on_screen(Player *player, CommandKind kind)
     return STATUS_OK;
 }
 
-/* What changes the run. */
+/* ---- the table ---------------------------------------------------------- */
+
+/* What changes the settings of the run. */
+static Status obey_change(Player *player, const Command *command)
+{
+    switch (command->kind) {
+    case COMMAND_FILTER:
+        return switch_filter(player);
+    case COMMAND_SEARCH:
+        return switch_search(player);
+    case COMMAND_METHOD:
+        return switch_integrator(player);
+    case COMMAND_ADD_PANE:
+        return add_pane(player);
+    case COMMAND_END_PANE:
+        return end_pane(player);
+    case COMMAND_SET:
+        return set_option(player, command->text);
+    case COMMAND_DEFAULT:
+        return set_default(player, command->text);
+    case COMMAND_RAISE:
+        return pace_number(player, 1);
+    case COMMAND_LOWER:
+        return pace_number(player, -1);
+    case COMMAND_PIN:
+        return switch_pin(player, command->number);
+    case COMMAND_GRAB:
+        return grab(player, command->number);
+    case COMMAND_DRAG:
+    case COMMAND_RELEASE:
+        return pull(player, command);
+    case COMMAND_HANDLE:
+    case COMMAND_FLIP:
+        return change_all(player, command);
+    default:
+        return obey_on_screen(player, command);
+    }
+}
+
+/* What goes through time. */
 static Status obey_in_time(Player *player, const Command *command)
 {
     switch (command->kind) {
@@ -431,18 +871,20 @@ static Status obey_in_time(Player *player, const Command *command)
     case COMMAND_NEXT:
         return go_on(player);
     case COMMAND_STEP:
-        player->hud.paused = true;
+        player->paused = true;
         return player_step(player);
     case COMMAND_BACK:
-        return player_show(player, step_shown(player) - 1);
+        return go_back(player);
+    case COMMAND_FINER:
+        return go_finer(player);
     case COMMAND_HOME:
         return player_show(player, 0);
     case COMMAND_END:
-        return player_show(player, player->track.newest);
+        return player_show(player, player->newest);
     case COMMAND_GOTO:
         return player_show(player, command->number);
     case COMMAND_RESTART:
-        return player_restart(player, &player->track.settings.options);
+        return begin_again(player);
     case COMMAND_SCENE:
         return switch_scene(player, command->text);
     case COMMAND_START:
@@ -451,26 +893,8 @@ static Status obey_in_time(Player *player, const Command *command)
     case COMMAND_PAGE_ON:
     case COMMAND_PAGE_BACK:
         return lesson_turn(player, command);
-    case COMMAND_FILTER:
-        return switch_filter(player);
-    case COMMAND_SEARCH:
-        return switch_search(player);
-    case COMMAND_METHOD:
-        return switch_integrator(player);
-    case COMMAND_SET:
-        return set_option(player, command->text);
-    case COMMAND_PIN:
-        return switch_pin(player, command->number);
-    case COMMAND_GRAB:
-        return grab(player, command->number);
-    case COMMAND_DRAG:
-    case COMMAND_RELEASE:
-        return pull(player, command);
-    case COMMAND_HANDLE:
-    case COMMAND_FLIP:
-        return change_here(player, command);
     default:
-        return obey_on_screen(player, command->kind);
+        return obey_change(player, command);
     }
 }
 
@@ -480,8 +904,15 @@ static Command resolve(const Player *player, const Command *command)
 {
     Command resolved = *command;
     if (command->kind == COMMAND_TOGGLE_PAUSE)
-        resolved.kind = player->hud.paused ? COMMAND_PLAY : COMMAND_PAUSE;
+        resolved.kind = player->paused ? COMMAND_PLAY : COMMAND_PAUSE;
     return resolved;
+}
+
+/* Whether the message of before may stay. */
+static bool keeps_note(CommandKind kind)
+{
+    return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
+           kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
 
 Status player_obey(Player *player, const Command *command)
@@ -489,15 +920,17 @@ Status player_obey(Player *player, const Command *command)
     Command resolved = resolve(player, command);
     player->changed = true;
     player->message[0] = '\0';
-    if (command->kind != COMMAND_REDRAW)
-        player->hud.note[0] = '\0';
+    if (!keeps_note(resolved.kind))
+        player->note[0] = '\0';
     if (command_row(resolved.kind)->kept &&
-        script_add(&player->journal, step_shown(player), &resolved))
+        script_add(&player->journal, player->step, &resolved))
         return STATUS_OUT_OF_MEMORY;
     Status status = obey_in_time(player, &resolved);
-    if (status && player->attended && player->given.steps < 0 &&
-        status == player->track.simulation.status) {
-        player->hud.paused = true; /* a step that failed is shown */
+    bool fatal = status == STATUS_OUT_OF_MEMORY ||
+                 status == STATUS_INVALID_INPUT ||
+                 status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
+    if (status && !fatal && player->attended && player->given[0].steps < 0) {
+        player->paused = true; /* a step that failed is shown */
         return STATUS_OK;
     }
     return status;

@@ -1,15 +1,25 @@
-/* playing.h - what player.c and obey.c share.
+/* playing.h - what the sources of this room share.
  */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
 
 #include "play/player.h"
 
-/* A new run with these options, from step 0; files begin anew. */
-Status player_restart(Player *player, const Options *options);
+/* ---- player.c ----------------------------------------------------------- */
+
+/* New runs with these options, from step 0; files begin anew. */
+Status player_restart(Player *player, const Options *options, int count);
+
+/* The observer of all lanes. */
+bool player_watch(void *lane, const NewtonRecord *record);
+
+/* The lane whose numbers are shown, and the simulation in it. */
+Lane *player_lane(Player *player);
+const Simulation *player_simulation(const Player *player);
 
 /* The speed in the texts; it is measured anew from here. */
 void player_reset_speed(Player *player);
+double player_rate(const Player *player); /* steps a second */
 
 /* A line below the picture. */
 void player_note(Player *player, const char *format, ...);
@@ -32,5 +42,22 @@ bool player_escape_ends(const Player *player);
 
 /* Shows another step. */
 Status player_show(Player *player, long step);
+
+/* The same, so that it can be walked through line by line. */
+Status player_retape(Player *player, long step);
+
+/* Going on from an old step: what came after it is forgotten. */
+Status player_forget_later(Player *player);
+
+/* ---- showing.c ---------------------------------------------------------- */
+
+/* Fills player->show. */
+void player_fill(Player *player);
+
+/* The whole picture. */
+void player_paint(Player *player, Paper *paper);
+
+/* Whether the lanes have different values of this option. */
+bool player_compares(const Player *player, const char *option);
 
 #endif

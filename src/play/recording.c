@@ -200,26 +200,32 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
 
 /* The rows of one run; its nodes are numbered from `first`. */
 static void write_run(FILE *file, const Simulation *simulation,
-                      const TimeIntegrator *run, int first)
+                      const TimeIntegrator *run, long step, int first)
 {
     double time = simulation_time(simulation);
     for (int i = 0; i < simulation->system.nodes && !ferror(file); i++) {
         const double *x = run->x + 2 * (size_t)i, *v = run->v + 2 * (size_t)i;
-        fprintf(file, "%ld,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n",
-                simulation->steps, time, first + i, x[0], x[1], v[0], v[1]);
+        fprintf(file, "%ld,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n", step, time,
+                first + i, x[0], x[1], v[0], v[1]);
     }
 }
 
 /* Run by run. */
-Status recording_states(Recording *recording, const Simulation *simulation)
+Status recording_states(Recording *recording,
+                        const Simulation *const *simulation, int count,
+                        long step)
 {
+    int first = 0;
     Output *states = &recording->states;
     if (!states->file)
         return STATUS_OK;
     errno = 0;
-    for (int r = 0; r < simulation->runs; r++)
-        write_run(states->file, simulation, &simulation->run[r],
-                  r * simulation->system.nodes);
+    for (int i = 0; i < count; i++)
+        for (int r = 0; r < simulation[i]->runs; r++) {
+            write_run(states->file, simulation[i], &simulation[i]->run[r], step,
+                      first);
+            first += simulation[i]->system.nodes;
+        }
     return recording_note(recording, output_check(states), states->name);
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/clock.h"
 #include "base/one_line.h"
 #include "scenes/scene.h"
 
@@ -52,7 +53,7 @@ static void print_energy(FILE *file, double energy)
 /* Of the first run; where there are several, with its name. */
 static void print_energies(FILE *file, const Player *player)
 {
-    const Simulation *simulation = &player->track.simulation;
+    const Simulation *simulation = &player->lane[0].track.simulation;
     const Energies end = simulation_energies(simulation, 0);
     const char *name = "", *of = "";
     if (simulation->runs > 1) {
@@ -69,13 +70,13 @@ static void print_energies(FILE *file, const Player *player)
 /* One quantity a line. */
 void summary_print(FILE *file, const Player *player)
 {
-    const Simulation *simulation = &player->track.simulation;
+    const Simulation *simulation = &player->lane[0].track.simulation;
     fprintf(file, "steps               %ld\n", simulation->steps);
     if (simulation->scene->needs & NEEDS_TIME)
         fprintf(file, "simulated time      %g s\n",
                 simulation_time(simulation));
     fprintf(file, "wall time           %.3f s\n",
-            player_clock() - player->started);
+            clock_now() - player->started);
     print_newton(file, simulation);
     if (simulation->scene->needs & NEEDS_TIME)
         print_energies(file, player);

@@ -1,6 +1,7 @@
 #include "play/track.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +37,7 @@ const StepRow *track_row(const Track *track, long step)
 static bool watch(void *user, const NewtonRecord *record)
 {
     Track *track = user;
-    track->now.updates++;
+    track->now.updates += record->iteration >= 0;
     track->now.change += record->change;
     track->now.residual = record->residual;
     if (!track->observer)
@@ -377,6 +378,42 @@ Status track_show(Track *track, long step)
     return status;
 }
 
+Status track_repeat(Track *track)
+{
+    const Script *changes = &track->changes;
+    size_t next = 0;
+    long step = track_step_shown(track);
+    if (step >= track->newest)
+        return STATUS_OK;
+    while (next < changes->count && changes->line[next].step <= step)
+        next++; /* those of this step were made when it was shown */
+    return repeat_steps(track, step + 1, next);
+}
+
+Status track_follow(const Track *from, Track *to)
+{
+    const Script *changes = &from->changes;
+    long end = track_step_shown(from);
+    char message[256];
+    size_t next = 0;
+    Status status = STATUS_OK;
+    to->limit = from->limit;
+    while (!status) {
+        long step = track_step_shown(to);
+        for (; next < changes->count && changes->line[next].step == step &&
+               !status;
+             next++)
+            status = track_change(to, &changes->line[next].command, message,
+                                  sizeof message);
+        if (status || step >= end)
+            break;
+        status = track_step(to);
+        if (track_step_shown(to) > step)
+            status = STATUS_OK;
+    }
+    return status;
+}
+
 void track_forget(Track *track)
 {
     long step = track_step_shown(track);
@@ -402,6 +439,10 @@ static Status add_row(Track *track, Status status)
         track->row = row;
         track->row_size = size;
     }
+    const Simulation *simulation = &track->simulation;
+    for (int i = 0; i < 2 * simulation->system.nodes; i++)
+        track->now.extent =
+            fmax(track->now.extent, fabs(simulation->run[0].x[i]));
     track->now.status = status;
     track->row[track->newest++] = track->now;
     return STATUS_OK;

@@ -1,0 +1,71 @@
+/* lane.h - one of up to six runs side by side: a track, and what is shown of
+ * it.
+ *
+ * All lanes have one time and one count of steps: a step of the player is one
+ * step of the lane with the longest timestep, and as many of the others as fit
+ * into it.
+ */
+#ifndef ELASTO_LANE_H
+#define ELASTO_LANE_H
+
+#include "play/tape.h"
+#include "play/track.h"
+
+struct Player;
+
+typedef struct Lane {
+    struct Player *player; /* whose it is */
+    int number;            /* 0 ... */
+    Track track;
+    Tape tape;       /* of the last step that was made */
+    bool taped;      /* it is that of the step shown */
+    History history; /* of energies or radii */
+    Trail trail;
+    long sampled;  /* player's step up to which these know of it */
+    double *ghost; /* [2n] m, the outcome with other settings, or NULL */
+    char ghost_label[64];
+    char label[64]; /* what is different here */
+    long *at;       /* [room] the track's step for each of the player's */
+    StepBar *bar;   /* [room] */
+    long room;
+    bool failed;    /* its last step could not be made */
+    Status outcome; /* of the last step, or of the one shown */
+} Lane;
+
+/* Sets up a run.  lane out: stays where it is.
+ *   keeps  states are kept, and steps taped
+ * Returns as simulation_create. */
+Status lane_create(struct Player *player, int number, const Options *options,
+                   bool keeps, NewtonObserver observer, Lane *lane);
+void lane_free(Lane *lane);
+
+/* The same run with the same past in another lane, up to the step that is
+ * shown.  Returns as simulation_create. */
+Status lane_clone(const Lane *lane, int number, NewtonObserver observer,
+                  Lane *clone);
+
+/* s, and s of one step; 0 and 1 in scenes without time. */
+double lane_time(const Lane *lane);
+double lane_pace(const Lane *lane);
+
+/* Steps until the time is `target`; step is the player's number of it.  Returns
+ * as simulation_step, the worst of them. */
+Status lane_advance(Lane *lane, double target, long step);
+
+/* Shows the player's step.  Returns as track_show. */
+Status lane_show(Lane *lane, long step);
+
+/* The same, by making the step again, so that the tape knows it. */
+Status lane_retape(Lane *lane, long step);
+
+/* Forgets what came after the player's step that is shown. */
+void lane_forget(Lane *lane, long step);
+
+/* Keeps positions as a ghost.  Returns OK, OUT_OF_MEMORY. */
+Status lane_keep_ghost(Lane *lane, const char *label);
+void lane_drop_ghost(Lane *lane);
+
+/* The largest coordinate of run 0, m. */
+double lane_extent(const Lane *lane);
+
+#endif

@@ -1,0 +1,347 @@
+/* hands.c - from keyboard and mouse to commands.
+ *
+ * What is under the mouse is a question to the layout and to the pictures; what
+ * is done about it is a command, as a script could say it.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/picture.h"
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+enum {
+    CLICK_ROOM = 4,   /* pixels that a click may move */
+    PACE_PIXELS = 24, /* of a drag that changes a number by one pace */
+    NAME_PIXELS = 60  /* the same for a name */
+};
+
+static const double WHEEL_ZOOM = 1.15; /* of one notch */
+
+/* Where everything was in the last frame. */
+static Layout last_layout(Player *player)
+{
+    const Paper *paper = view_paper(player->view);
+    return show_layout(&player->show, paper ? paper->canvas.width : 1,
+                       paper ? paper->canvas.height : 1);
+}
+
+/* A command without arguments. */
+static Status ask(Player *player, CommandKind kind)
+{
+    Command command = {.kind = kind};
+    return player_obey(player, &command);
+}
+
+static Status ask_number(Player *player, CommandKind kind, long number,
+                         double x, double y)
+{
+    Command command = {.kind = kind, .number = number, .x = x, .y = y};
+    return player_obey(player, &command);
+}
+
+static Status ask_set(Player *player, const char *option, const char *value)
+{
+    Command command = {.kind = COMMAND_SET};
+    snprintf(command.text, sizeof command.text, "%s %s", option, value);
+    return player_obey(player, &command);
+}
+
+/* ---- the row of numbers ------------------------------------------------- */
+
+/* One pace of a number, by wheel or key. */
+static Status pace(Player *player, int index, int paces)
+{
+    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
+    if (index < 0 || index >= player->numbers)
+        return STATUS_OK;
+    const Number *number = player->number[index];
+    number_paced(number, &player_lane(player)->track.settings.options, paces,
+                 text);
+    snprintf(value, sizeof value, "%.31s", text);
+    return ask_set(player, number->option, value);
+}
+
+/* A number follows the mouse: from its value where the drag began. */
+static Status drag_number(Player *player)
+{
+    Mouse *mouse = &player->mouse;
+    if (mouse->index >= player->numbers)
+        return STATUS_OK;
+    const Number *number = player->number[mouse->index];
+    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
+    char now[COMMAND_TEXT_SIZE];
+    double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
+    if (number->kind == NUMBER_NAME) {
+        double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
+        if (fabs(names) < 1)
+            return STATUS_OK;
+        mouse->last[0] = mouse->x;
+        return pace(player, mouse->index, names > 0 ? 1 : -1);
+    }
+    if (number->kind == NUMBER_STEP)
+        paces = rint(paces);
+    if (paces == rint(paces) && number->kind == NUMBER_FACTOR)
+        paces += 1e-9; /* a value between the round ones */
+    number_paced(number, &mouse->options, paces, text);
+    snprintf(value, sizeof value, "%.31s", text);
+    number_value(number, &player_lane(player)->track.settings.options, now);
+    return strcmp(now, value) == 0 ? STATUS_OK
+                                   : ask_set(player, number->option, value);
+}
+
+/* ---- the stage ---------------------------------------------------------- */
+
+/* The stretch that puts the edge under the mouse. */
+static Status drag_edge(Player *player, const Pick *pick)
+{
+    const Options *options = &player_lane(player)->track.settings.options;
+    char value[32], now[32];
+    double stretch = 2 * fabs(pick->point[0]) / options->side;
+    snprintf(value, sizeof value, "%.2f", fmax(stretch, 0.02));
+    snprintf(now, sizeof now, "%.2f", options->stretch);
+    return strcmp(value, now) == 0 ? STATUS_OK
+                                   : ask_set(player, "stretch", value);
+}
+
+/* Takes what is under the mouse. */
+static Status take(Player *player, const Pick *pick)
+{
+    Mouse *mouse = &player->mouse;
+    mouse->index = pick->index;
+    switch (pick->kind) {
+    case PICK_NODE:
+        mouse->drag = DRAG_NODE;
+        return ask_number(player, COMMAND_GRAB, pick->index, 0, 0);
+    case PICK_EDGE:
+        mouse->drag = player->paused ? DRAG_EDGE : DRAG_PICTURE;
+        return STATUS_OK;
+    case PICK_HANDLE:
+        mouse->drag = DRAG_HANDLE;
+        return STATUS_OK;
+    case PICK_SWITCH:
+        return ask_number(player, COMMAND_FLIP, pick->index, 0, 0);
+    case PICK_START:
+    case PICK_PLACE:
+        mouse->drag = DRAG_START;
+        player->paused = true;
+        return ask_number(player, COMMAND_START, 0, pick->point[0],
+                          pick->point[1]);
+    default:
+        mouse->drag = DRAG_PICTURE;
+        return STATUS_OK;
+    }
+}
+
+/* The world under the mouse, in the pane where it is. */
+static Pick world_at(Player *player, const Layout *layout)
+{
+    const Mouse *mouse = &player->mouse;
+    Pick pick = {.pane = player->active};
+    Hit hit = layout_hit(layout, mouse->x, mouse->y);
+    if (hit.zone == ZONE_STAGE && hit.index < player->lanes)
+        pick.pane = hit.index;
+    Camera camera = show_camera(&player->show, layout, pick.pane);
+    camera_world(&camera, mouse->x, mouse->y, pick.point);
+    return pick;
+}
+
+/* What is held follows the mouse. */
+static Status follow(Player *player, const Layout *layout)
+{
+    Mouse *mouse = &player->mouse;
+    Pick pick = world_at(player, layout);
+    double dx = mouse->x - mouse->last[0], dy = mouse->y - mouse->last[1];
+    if (hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
+        CLICK_ROOM)
+        mouse->moved = true;
+    switch (mouse->moved ? mouse->drag : DRAG_NONE) {
+    case DRAG_NODE:
+        return ask_number(player, COMMAND_DRAG, 0, pick.point[0],
+                          pick.point[1]);
+    case DRAG_EDGE:
+        return drag_edge(player, &pick);
+    case DRAG_START:
+        return ask_number(player, COMMAND_START, 0, pick.point[0],
+                          pick.point[1]);
+    case DRAG_HANDLE:
+        return ask_number(player, COMMAND_HANDLE, mouse->index, pick.point[0],
+                          pick.point[1]);
+    case DRAG_NUMBER:
+        return drag_number(player);
+    case DRAG_TIME:
+        return ask_number(player, COMMAND_GOTO,
+                          show_step_at(&player->show, layout, mouse->x), 0, 0);
+    case DRAG_PICTURE:
+        show_move(&player->show, layout, pick.pane, dx, dy);
+        player->lens = player->show.lens;
+        player->changed = true;
+        mouse->last[0] = mouse->x;
+        mouse->last[1] = mouse->y;
+        return STATUS_OK;
+    default:
+        return STATUS_OK;
+    }
+}
+
+/* ---- events ------------------------------------------------------------- */
+
+/* What is under the mouse, for the picture. */
+static void hover(Player *player, const Layout *layout)
+{
+    const Mouse *mouse = &player->mouse;
+    Hit over = layout_hit(layout, mouse->x, mouse->y);
+    Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
+    Show *show = &player->show;
+    bool same =
+        over.zone == show->over.zone && over.index == show->over.index &&
+        pick.kind == show->hover.kind && pick.index == show->hover.index &&
+        pick.pane == show->hover.pane;
+    bool idle = pick.kind == PICK_NONE && over.zone != ZONE_TIME;
+    show->over = over;
+    show->hover = pick;
+    if (!same || !idle)
+        player->changed = true;
+}
+
+static Status left_pressed(Player *player, const Layout *layout, int clicks)
+{
+    Mouse *mouse = &player->mouse;
+    Hit hit = layout_hit(layout, mouse->x, mouse->y);
+    switch (hit.zone) {
+    case ZONE_CHIP:
+        return ask(player, player->chip[hit.index]);
+    case ZONE_CARD_CLOSE:
+        return ask_number(player, COMMAND_CARD, hit.index, 0, 0);
+    case ZONE_CARD:
+        return ask_number(player, COMMAND_ENLARGE, hit.index, 0, 0);
+    case ZONE_TIME:
+        mouse->drag = DRAG_TIME;
+        return ask_number(player, COMMAND_GOTO,
+                          show_step_at(&player->show, layout, mouse->x), 0, 0);
+    case ZONE_SETTING:
+        if (hit.index >= player->numbers)
+            return STATUS_OK;
+        player->selected = hit.index;
+        player->changed = true;
+        if (clicks == 2) {
+            Command command = {.kind = COMMAND_DEFAULT};
+            snprintf(command.text, sizeof command.text, "%s",
+                     player->number[hit.index]->option);
+            return player_obey(player, &command);
+        }
+        mouse->drag = DRAG_NUMBER;
+        mouse->index = hit.index;
+        mouse->options = player_lane(player)->track.settings.options;
+        return STATUS_OK;
+    case ZONE_STAGE:
+        break;
+    default:
+        return STATUS_OK;
+    }
+    if (hit.index < player->lanes && hit.index != player->active) {
+        player->active = hit.index;
+        player->place = -1;
+        player->changed = true;
+    }
+    Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
+    if (clicks == 2 && (pick.kind == PICK_NONE || pick.kind == PICK_SPRING))
+        return ask(player, COMMAND_FIT);
+    return take(player, &pick);
+}
+
+static Status pressed(Player *player, const Input *input, const Layout *layout)
+{
+    Mouse *mouse = &player->mouse;
+    mouse->from[0] = mouse->last[0] = mouse->x;
+    mouse->from[1] = mouse->last[1] = mouse->y;
+    mouse->moved = false;
+    if (input->button == BUTTON_LEFT)
+        return left_pressed(player, layout, input->clicks);
+    Hit hit = layout_hit(layout, mouse->x, mouse->y);
+    if (hit.zone != ZONE_STAGE)
+        return STATUS_OK;
+    if (input->button == BUTTON_MIDDLE) {
+        mouse->drag = DRAG_PICTURE;
+        mouse->moved = true;
+        return STATUS_OK;
+    }
+    Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
+    return pick.kind == PICK_NODE
+               ? ask_number(player, COMMAND_PIN, pick.index, 0, 0)
+               : STATUS_OK;
+}
+
+/* A click on a name takes the next one. */
+static Status released(Player *player)
+{
+    Mouse *mouse = &player->mouse;
+    Drag drag = mouse->drag;
+    mouse->drag = DRAG_NONE;
+    if (drag == DRAG_NODE && player_lane(player)->track.settings.held)
+        return ask(player, COMMAND_RELEASE);
+    if (drag == DRAG_NUMBER && !mouse->moved &&
+        mouse->index < player->numbers &&
+        player->number[mouse->index]->kind == NUMBER_NAME)
+        return pace(player, mouse->index, 1);
+    return STATUS_OK;
+}
+
+static Status wheeled(Player *player, double amount, const Layout *layout)
+{
+    const Mouse *mouse = &player->mouse;
+    Hit hit = layout_hit(layout, mouse->x, mouse->y);
+    int notches = amount > 0 ? 1 : -1;
+    if (hit.zone == ZONE_SETTING)
+        return pace(player, hit.index, notches);
+    if (hit.zone == ZONE_TIME)
+        return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT);
+    if (hit.zone != ZONE_STAGE)
+        return STATUS_OK;
+    show_zoom(&player->show, layout, mouse->x, mouse->y,
+              pow(WHEEL_ZOOM, amount));
+    player->lens = player->show.lens;
+    player->changed = true;
+    return STATUS_OK;
+}
+
+Status player_input(Player *player, const Input *input)
+{
+    Command command = {.kind = COMMAND_NONE};
+    Mouse *mouse = &player->mouse;
+    switch (input->kind) {
+    case INPUT_KEY:
+        command_from_key(input->key, input->repeats, &command);
+        return command.kind == COMMAND_NONE ? STATUS_OK
+                                            : player_obey(player, &command);
+    case INPUT_CLOSE:
+        return ask(player, COMMAND_QUIT);
+    case INPUT_REDRAW:
+        return ask(player, COMMAND_REDRAW);
+    case INPUT_LEAVE:
+        mouse->inside = false;
+        player->show.hover = (Pick){.kind = PICK_NONE};
+        player->show.over = (Hit){ZONE_NONE, 0};
+        player->changed = true;
+        return STATUS_OK;
+    case INPUT_NONE:
+        return STATUS_OK;
+    default:
+        break;
+    }
+    mouse->x = input->x;
+    mouse->y = input->y;
+    mouse->inside = true;
+    Layout layout = last_layout(player);
+    if (input->kind == INPUT_PRESS)
+        return pressed(player, input, &layout);
+    if (input->kind == INPUT_RELEASE)
+        return released(player);
+    if (input->kind == INPUT_WHEEL)
+        return wheeled(player, input->amount, &layout);
+    if (mouse->drag != DRAG_NONE)
+        return follow(player, &layout);
+    hover(player, &layout);
+    return STATUS_OK;
+}

@@ -1,0 +1,206 @@
+#include "play/lane.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/scene.h"
+
+/* Room for this step of the player. */
+static Status make_room(Lane *lane, long step)
+{
+    if (!lane->track.keeps || step < lane->room)
+        return STATUS_OK;
+    long room = lane->room ? 2 * lane->room : 256;
+    long *at = realloc(lane->at, (size_t)room * sizeof *at);
+    if (at)
+        lane->at = at;
+    StepBar *bar = realloc(lane->bar, (size_t)room * sizeof *bar);
+    if (bar)
+        lane->bar = bar;
+    if (!at || !bar)
+        return STATUS_OUT_OF_MEMORY;
+    lane->room = room;
+    return STATUS_OK;
+}
+
+Status lane_create(struct Player *player, int number, const Options *options,
+                   bool keeps, NewtonObserver observer, Lane *lane)
+{
+    *lane = (Lane){.player = player, .number = number, .sampled = -1};
+    Status status = track_create(options, keeps, observer, lane, &lane->track);
+    if (!status)
+        status = make_room(lane, 0);
+    if (!status && keeps)
+        lane->at[0] = 0;
+    lane->outcome = lane->track.simulation.status;
+    history_clear(&lane->history);
+    trail_clear(&lane->trail);
+    return status;
+}
+
+void lane_free(Lane *lane)
+{
+    track_free(&lane->track);
+    tape_free(&lane->tape);
+    free(lane->ghost);
+    free(lane->at);
+    free(lane->bar);
+    *lane = (Lane){0};
+}
+
+double lane_time(const Lane *lane)
+{
+    return simulation_time(&lane->track.simulation);
+}
+
+double lane_pace(const Lane *lane)
+{
+    const Simulation *simulation = &lane->track.simulation;
+    return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
+                                                 : 1;
+}
+
+/* One step of the track, taped. */
+static Status make_step(Lane *lane, StepBar *bar)
+{
+    Track *track = &lane->track;
+    long before = track_step_shown(track);
+    Status status = STATUS_OK;
+    if (track->keeps)
+        status = tape_begin(&lane->tape, &track->simulation);
+    if (status)
+        return status;
+    lane->taped = track->keeps;
+    status = track_step(track);
+    if (track->keeps && tape_end(&lane->tape, &track->simulation.options))
+        return STATUS_OUT_OF_MEMORY;
+    bool moved = track_step_shown(track) > before;
+    bar->updates += track->now.updates;
+    bar->unconverged = bar->unconverged || status_is_unconverged(status);
+    lane->failed = status && !moved && status != STATUS_INTERRUPTED;
+    lane->outcome = status;
+    return status;
+}
+
+Status lane_advance(Lane *lane, double target, long step)
+{
+    Track *track = &lane->track;
+    bool time = track->simulation.scene->needs & NEEDS_TIME;
+    StepBar bar = {0};
+    Status worst = make_room(lane, step);
+    if (worst)
+        return worst;
+    lane->outcome = STATUS_OK;
+    bool again = true;
+    while (again) {
+        long before = track_step_shown(track);
+        Status status = make_step(lane, &bar);
+        worst = status ? status : worst;
+        again = time && track_step_shown(track) > before &&
+                lane_time(lane) + 0.5 * lane_pace(lane) < target;
+    }
+    lane->outcome = worst;
+    if (track->keeps) {
+        lane->at[step] = track_step_shown(track);
+        lane->bar[step - 1] = bar;
+    }
+    return worst;
+}
+
+Status lane_show(Lane *lane, long step)
+{
+    lane->failed = lane->taped = false;
+    Status status = track_show(&lane->track, lane->at[step]);
+    if (lane->track.keeps && step > 0 && lane->at[step] > 0 && !status)
+        lane->outcome = track_row(&lane->track, lane->at[step])->status;
+    else
+        lane->outcome = lane->track.simulation.status;
+    return status;
+}
+
+Status lane_retape(Lane *lane, long step)
+{
+    Track *track = &lane->track;
+    long last = lane->at[step];
+    if (last == 0 || last == lane->at[step - 1])
+        return lane_show(lane, step);
+    Status status = track_show(track, last - 1);
+    if (!status)
+        status = tape_begin(&lane->tape, &track->simulation);
+    if (status)
+        return status;
+    track->repeating = true;
+    status = track_repeat(track);
+    track->repeating = false;
+    if (status)
+        return status;
+    lane->taped = true;
+    lane->failed = false;
+    lane->outcome = track_row(track, last)->status;
+    return tape_end(&lane->tape, &track->simulation.options);
+}
+
+void lane_forget(Lane *lane, long step)
+{
+    track_forget(&lane->track);
+    if (lane->sampled > step) {
+        history_cut(&lane->history, lane_time(lane));
+        trail_cut(&lane->trail,
+                  (int)fmin((double)(lane->sampled - step), TRAIL_POINTS));
+        lane->sampled = step;
+    }
+}
+
+Status lane_clone(const Lane *lane, int number, NewtonObserver observer,
+                  Lane *clone)
+{
+    const Track *from = &lane->track;
+    Status status = lane_create(lane->player, number, &from->options,
+                                from->keeps, observer, clone);
+    Track *to = &clone->track;
+    to->repeating = true;
+    if (!status)
+        status = track_follow(from, to);
+    to->repeating = false;
+    if (!status)
+        status = make_room(clone, lane->room - 1);
+    if (status)
+        return status;
+    memcpy(clone->at, lane->at, (size_t)lane->room * sizeof *clone->at);
+    memcpy(clone->bar, lane->bar, (size_t)lane->room * sizeof *clone->bar);
+    clone->history = lane->history;
+    clone->trail = lane->trail;
+    clone->sampled = lane->sampled;
+    clone->outcome = lane->outcome;
+    return STATUS_OK;
+}
+
+Status lane_keep_ghost(Lane *lane, const char *label)
+{
+    const Simulation *simulation = &lane->track.simulation;
+    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
+    double *ghost = realloc(lane->ghost, bytes);
+    if (!ghost)
+        return STATUS_OUT_OF_MEMORY;
+    lane->ghost = ghost;
+    memcpy(ghost, simulation->run[0].x, bytes);
+    snprintf(lane->ghost_label, sizeof lane->ghost_label, "%s", label);
+    return STATUS_OK;
+}
+
+void lane_drop_ghost(Lane *lane)
+{
+    free(lane->ghost);
+    lane->ghost = NULL;
+}
+
+double lane_extent(const Lane *lane)
+{
+    const Simulation *simulation = &lane->track.simulation;
+    double extent = 0;
+    for (int i = 0; i < 2 * simulation->system.nodes; i++)
+        extent = fmax(extent, fabs(simulation->run[0].x[i]));
+    return extent;
+}

@@ -1,0 +1,301 @@
+/* showing.c - what the player knows, as the Show that the pictures read. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/picture.h"
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+/* The list of keys, filled from the table of commands. */
+static HelpRow help_rows[COMMAND_KINDS + 8];
+static char help_keys[COMMAND_KINDS][32];
+
+/* "N|Right" as people read it: "N, →". */
+static void pretty_keys(const char *keys, char *text, size_t size)
+{
+    static const char *const names[][2] = {
+        {"Right", "\u2192"},         {"Left", "\u2190"}, {"Up", "\u2191"},
+        {"Down", "\u2193"},          {"Escape", "Esc"},  {"-", "\u2212"},
+        {"Backspace", "Back\u232b"},
+    };
+    size_t used = 0;
+    text[0] = '\0';
+    while (*keys) {
+        size_t length = strcspn(keys, "|");
+        char key[32];
+        snprintf(key, sizeof key, "%.*s", (int)length, keys);
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            if (strcmp(key, names[i][0]) == 0)
+                snprintf(key, sizeof key, "%s", names[i][1]);
+        int more =
+            snprintf(text + used, size - used, "%s%s", used ? ", " : "", key);
+        used += more > 0 ? (size_t)more : 0;
+        if (used >= size)
+            return;
+        keys += length + (keys[length] == '|');
+    }
+}
+
+/* The page of help. */
+static void fill_help(Show *show)
+{
+    static const HelpRow mouse[] = {
+        {"drag", "pulls a node; an edge of the paused square: the stretch"},
+        {"right click", "pins a node, or sets it free"},
+        {"wheel", "zooms; over a number: changes it"},
+        {"middle drag", "moves the picture; double click fits it"},
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++)
+        help_rows[count++] = mouse[i];
+    for (int kind = 0; kind < COMMAND_KINDS; kind++) {
+        const CommandRow *row = command_row((CommandKind)kind);
+        if (!row->label)
+            continue;
+        pretty_keys(row->keys ? row->keys : "1 \u2026 9", help_keys[kind],
+                    sizeof help_keys[kind]);
+        help_rows[count++] = (HelpRow){help_keys[kind], row->label};
+    }
+    show->page.kind = PAGE_HELP;
+    show->help = help_rows;
+    show->help_rows = count;
+}
+
+bool player_compares(const Player *player, const char *option)
+{
+    const Number *number = number_find(option);
+    char first[COMMAND_TEXT_SIZE], other[COMMAND_TEXT_SIZE];
+    if (!number)
+        return false;
+    number_value(number, &player->lane[0].track.settings.options, first);
+    for (int i = 1; i < player->lanes; i++) {
+        number_value(number, &player->lane[i].track.settings.options, other);
+        if (strcmp(first, other) != 0)
+            return true;
+    }
+    return false;
+}
+
+/* A value as it is shown. */
+static void value_text(const Number *number, const Options *options,
+                       const Simulation *simulation, char *text, size_t size)
+{
+    char value[COMMAND_TEXT_SIZE];
+    number_value(number, options, value);
+    if (strcmp(number->option, "integrator") == 0)
+        snprintf(text, size, "%s",
+                 simulation->runs > 1  ? "three Eulers"
+                 : options->integrator ? options->integrator->label
+                                       : integrator_methods[0].label);
+    else
+        snprintf(text, size, "%.20s%s%s", value, number->unit ? " " : "",
+                 number->unit ? number->unit : "");
+}
+
+/* The row of numbers. */
+static void fill_settings(Player *player)
+{
+    Show *show = &player->show;
+    const Lane *lane = &player->lane[player->active];
+    const Options *options = &lane->track.settings.options;
+    player->numbers = numbers_of(options, player->number);
+    for (int i = 0; i < player->numbers; i++) {
+        const Number *number = player->number[i];
+        Setting *setting = &show->setting[show->settings++];
+        char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
+        setting->name = number->name;
+        setting->letters = number->letters;
+        value_text(number, options, &lane->track.simulation, setting->value,
+                   SHOW_VALUE);
+        number_value(number, options, now);
+        number_value(number, &lane->track.options, start);
+        setting->changed = strcmp(now, start) != 0;
+        setting->off = strcmp(now, "none") == 0;
+    }
+    show->selected = player->selected;
+}
+
+static void add_chip(Player *player, CommandKind kind, const char *key,
+                     const char *label, bool lit)
+{
+    Show *show = &player->show;
+    if (show->chips >= LAYOUT_CHIPS)
+        return;
+    player->chip[show->chips] = kind;
+    show->chip[show->chips++] = (Chip){key, label, lit};
+}
+
+/* The keys that matter now. */
+static void fill_chips(Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    const Options *options =
+        &player->lane[player->active].track.settings.options;
+    static const char *const next[] = {"next step", "next update", "next line"};
+    bool time = simulation->scene->needs & NEEDS_TIME;
+    bool newton = simulation->run[0].newton && time;
+    bool ended = simulation->done || player->rests;
+    add_chip(player, COMMAND_TOGGLE_PAUSE, "Space",
+             player->paused ? "play" : "pause", player->paused && !ended);
+    add_chip(player, COMMAND_NEXT, "N",
+             newton ? next[player->fine]
+             : time ? "next step"
+                    : "next iteration",
+             false);
+    add_chip(player, COMMAND_BACK, "\u2190", "back", false);
+    add_chip(player, COMMAND_RESTART, "R", "restart", ended);
+    if (newton)
+        add_chip(player, COMMAND_FINER, "I", "finer", false);
+    if (simulation_has_filter(simulation))
+        add_chip(player, COMMAND_FILTER, "P",
+                 options->filter == FILTER_NONE ? "projection on"
+                                                : "projection off",
+                 false);
+    if (simulation_has_line_search(simulation))
+        add_chip(player, COMMAND_SEARCH, "L",
+                 options->line_search == LINE_SEARCH_NONE ? "line search on"
+                                                          : "line search off",
+                 false);
+    if (time && simulation->runs == 1)
+        add_chip(player, COMMAND_METHOD, "M", "method", false);
+    add_chip(player, COMMAND_KEYS, "?", "all keys", player->help);
+}
+
+/* One picture on the stage. */
+static void fill_pane(Player *player, int i, Trace *trace)
+{
+    Lane *lane = &player->lane[i];
+    Pane *pane = &player->show.pane[i];
+    const Simulation *simulation = &lane->track.simulation;
+    Status outcome = lane->outcome;
+    *pane = (Pane){.simulation = simulation,
+                   .history = &lane->history,
+                   .trail = &lane->trail,
+                   .ghost = lane->ghost,
+                   .ghost_label = lane->ghost_label};
+    if (outcome && outcome != STATUS_INTERRUPTED)
+        pane->trouble = outcome;
+    if (player->lanes > 1)
+        pane->label = lane->label;
+    bool newton =
+        simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
+    if (lane->taped && newton) {
+        int place = player->place < lane->tape.places ? player->place : -1;
+        pane->x = tape_trace(&lane->tape, place, trace);
+        pane->trace = trace;
+    }
+}
+
+/* The hand, where it pulls. */
+static void fill_hand(Player *player)
+{
+    const Settings *settings = &player->lane[player->active].track.settings;
+    Hand *hand = &player->show.hand;
+    if (!settings->held || player->place >= 0)
+        return;
+    *hand = (Hand){.on = true,
+                   .pane = player->active,
+                   .node = settings->node,
+                   .target = {settings->at[0], settings->at[1]}};
+}
+
+/* What is different in each lane. */
+static void fill_labels(Player *player)
+{
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        const Options *options = &lane->track.settings.options;
+        const Number *number[NUMBERS_MOST];
+        int count = numbers_of(options, number);
+        size_t used = 0;
+        lane->label[0] = '\0';
+        for (int k = 0; k < count; k++) {
+            char value[SHOW_VALUE];
+            if (!player_compares(player, number[k]->option) ||
+                used >= sizeof lane->label)
+                continue;
+            value_text(number[k], options, &lane->track.simulation, value,
+                       sizeof value);
+            bool alone = strcmp(number[k]->option, "integrator") == 0;
+            used += (size_t)snprintf(
+                lane->label + used, sizeof lane->label - used, "%s%s%s%s",
+                used ? ", " : "", alone ? "" : number[k]->name,
+                alone ? "" : " ", value);
+        }
+    }
+}
+
+/* "step 12 of 40   t = 0.24 s   real time x 0.5" */
+static void fill_time(Player *player)
+{
+    Show *show = &player->show;
+    const Lane *lane = &player->lane[player->active];
+    bool time = lane->track.simulation.scene->needs & NEEDS_TIME;
+    double wanted = player_rate(player) * lane_pace(lane);
+    size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
+                                   time ? "step" : "iteration", player->step);
+    if (player->newest > player->step)
+        used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
+                                 " of %ld", player->newest);
+    if (!time)
+        return;
+    used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
+                             "   t = %.4g s", lane_time(lane));
+    if (player->paused)
+        return;
+    double speed = player->measured > 0 && player->measured < 0.85 * wanted
+                       ? player->measured
+                       : wanted;
+    snprintf(show->time_text + used, SHOW_TEXT - used,
+             "   real time \u00d7 %.2g", speed);
+}
+
+void player_fill(Player *player)
+{
+    static Trace traces[OPTIONS_MAX_PANES];
+    Show *show = &player->show;
+    const Lane *lane = &player->lane[player->active];
+    Pick hover = show->hover;
+    Hit over = show->over;
+    show_create(player_simulation(player), show);
+    show->panes = player->lanes;
+    show->active = player->active;
+    fill_labels(player);
+    for (int i = 0; i < player->lanes; i++)
+        fill_pane(player, i, &traces[i]);
+    show->hover = hover;
+    show->over = over;
+    show->paused = player->paused;
+    if (player->rests)
+        snprintf(show->state, SHOW_VALUE, "at rest");
+    fill_settings(player);
+    fill_chips(player);
+    fill_hand(player);
+    fill_time(player);
+    if (lane->bar) {
+        show->bars = player->newest;
+        show->bar = lane->bar;
+    }
+    show->step = player->step;
+    snprintf(show->message, SHOW_TEXT, "%s", player->note);
+    show->warning = player->warning;
+    show->closed ^= player->closed;
+    show->large = player->large;
+    show->lens = player->lens;
+    show->strain = player->strain;
+    show->bare = player->bare;
+    if (player->help)
+        fill_help(show);
+    show_lecture(player->column, show);
+    show_describe(show);
+}
+
+void player_paint(Player *player, Paper *paper)
+{
+    player_fill(player);
+    if (player->blank)
+        canvas_clear(&paper->canvas, 0xff000000u);
+    else
+        show_draw(paper, &player->show);
+}

@@ -1,0 +1,328 @@
+#include "play/tape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Trials of a line search that are walked through one by one. */
+enum { TRIALS_WALKED = 12 };
+
+static size_t array_bytes(const Tape *tape)
+{
+    return (size_t)tape->size * sizeof(double);
+}
+
+static void free_round(TapeRound *round)
+{
+    free(round->x);
+    free(round->p);
+    *round = (TapeRound){0};
+}
+
+void tape_clear(Tape *tape)
+{
+    for (int i = 0; i < tape->room; i++)
+        free_round(&tape->round[i]);
+    tape->count = tape->before = tape->places = 0;
+    tape->bytes = 0;
+    tape->ended = tape->tilde = false;
+}
+
+void tape_free(Tape *tape)
+{
+    tape_clear(tape);
+    free(tape->round);
+    free(tape->record);
+    free(tape->record_before);
+    free(tape->x_tilde);
+    free(tape->scratch);
+    free(tape->place);
+    *tape = (Tape){0};
+}
+
+/* The records of the last step become those before this one. */
+static void turn_over(Tape *tape)
+{
+    NewtonRecord *record = tape->record_before;
+    int room = tape->before_room, count = tape->count;
+    if (!tape->record)
+        return;
+    tape->record_before = tape->record;
+    tape->before_room = tape->room;
+    tape->record = record;
+    if (room < tape->room) {
+        NewtonRecord *larger =
+            realloc(record, (size_t)tape->room * sizeof *larger);
+        if (!larger) { /* the old ones serve; nothing is drawn in grey */
+            tape->record = tape->record_before;
+            tape->record_before = record;
+            tape->before_room = room;
+            count = 0;
+        } else {
+            tape->record = larger;
+        }
+    }
+    tape_clear(tape);
+    tape->before = count;
+}
+
+Status tape_begin(Tape *tape, const Simulation *simulation)
+{
+    int size = 2 * simulation->system.nodes;
+    turn_over(tape);
+    if (tape->size == size && tape->scratch)
+        return STATUS_OK;
+    free(tape->x_tilde);
+    free(tape->scratch);
+    tape->size = size;
+    tape->x_tilde = calloc((size_t)size, sizeof(double));
+    tape->scratch = calloc(2 * (size_t)size, sizeof(double));
+    if (tape->x_tilde && tape->scratch)
+        return STATUS_OK;
+    tape->size = 0;
+    return STATUS_OUT_OF_MEMORY;
+}
+
+/* Room for a round more and for the last one. */
+static bool make_room(Tape *tape)
+{
+    if (tape->count + 2 <= tape->room)
+        return true;
+    int room = tape->room ? 2 * tape->room : 16;
+    TapeRound *round = realloc(tape->round, (size_t)room * sizeof *round);
+    if (!round)
+        return false;
+    memset(round + tape->room, 0, (size_t)(room - tape->room) * sizeof *round);
+    tape->round = round;
+    NewtonRecord *record = realloc(tape->record, (size_t)room * sizeof *record);
+    if (!record) {
+        tape->room = tape->room ? tape->room : 0;
+        return false;
+    }
+    tape->record = record;
+    tape->room = room;
+    return true;
+}
+
+/* Copies x and p, if there is memory for them. */
+static void keep_arrays(Tape *tape, TapeRound *round, const double *x,
+                        const double *p)
+{
+    size_t bytes = array_bytes(tape);
+    if (tape->bytes + 2 * bytes > TAPE_BYTES)
+        return;
+    round->x = malloc(bytes);
+    round->p = malloc(bytes);
+    if (!round->x || !round->p) {
+        free_round(round);
+        return;
+    }
+    tape->bytes += 2 * bytes;
+    memcpy(round->x, x, bytes);
+    memcpy(round->p, p, bytes);
+}
+
+/* Whether one line along p is what the solver searched. */
+static bool goes_along_p(const Newton *newton)
+{
+    return newton->settings.solver == SOLVER_NEWTON ||
+           newton->settings.search == LINE_SEARCH_NONE;
+}
+
+/* x and p of the first round: x is x_n, and p what led from there to the next
+ * iterate.  x_tilde too. */
+static void begin_rounds(Tape *tape, const Newton *newton,
+                         const NewtonRecord *record)
+{
+    const IncrementalPotential *E = &newton->at.E;
+    TapeRound *round = &tape->round[tape->count];
+    double *u = tape->scratch, *p = tape->scratch + tape->size;
+    double alpha = goes_along_p(newton) ? record->alpha : 1;
+    for (int i = 0; i < tape->size; i++) {
+        u[i] = 0;
+        p[i] = record->alpha == 0 ? newton->at.p[i] : newton->at.u[i] / alpha;
+        if (!tape->tilde)
+            tape->x_tilde[i] = E->x_n[i] + newton->u_tilde[i];
+    }
+    tape->tilde = true;
+    free_round(round);
+    keep_arrays(tape, round, E->x_n, p);
+    if (!round->x)
+        return;
+    double *g = calloc((size_t)tape->size, sizeof *g);
+    if (!g)
+        return;
+    Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
+    incremental_potential_gradient(E, u, round->x, g);
+    Along along = incremental_potential_along(&at, 1);
+    round->along = along.smooth;
+    round->exact = along.rough == 0;
+    free(g);
+}
+
+/* The round that comes next: where the solver is now. */
+static void keep_next(Tape *tape, const Newton *newton)
+{
+    TapeRound *round = &tape->round[tape->count];
+    free_round(round);
+    keep_arrays(tape, round, newton->at.x, newton->at.p);
+    Along along = incremental_potential_along(&newton->at, 1);
+    round->along = along.smooth;
+    round->exact = along.rough == 0;
+    round->residual = newton->residual;
+    round->slope = along.smooth.q[0];
+    round->projected = newton->record.projected;
+}
+
+void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *record)
+{
+    if (record->iteration < 0 || tape->size == 0 || !make_room(tape))
+        return;
+    if (record->iteration == 0)
+        begin_rounds(tape, newton, record);
+    TapeRound *round = &tape->round[tape->count];
+    round->residual = record->residual;
+    round->slope = record->slope;
+    round->projected = record->projected;
+    tape->record[tape->count++] = *record;
+    tape->ended = record->alpha != 0 && (record->status == STATUS_RUNNING ||
+                                         record->status == STATUS_OK);
+    if (tape->ended)
+        keep_next(tape, newton);
+    else
+        free_round(&tape->round[tape->count]);
+}
+
+/* One more place. */
+static void add_place(Tape *tape, int round, Line line, int trials)
+{
+    tape->place[tape->places++] = (TapePlace){round, line, trials};
+}
+
+/* The lines of a round that made an update. */
+static void add_round(Tape *tape, const Options *options, int i)
+{
+    const NewtonRecord *record = &tape->record[i];
+    bool searches = options->line_search != LINE_SEARCH_NONE;
+    int trials = searches && options->solver == SOLVER_NEWTON &&
+                         record->trials < TRIALS_WALKED
+                     ? record->trials
+                     : 1;
+    add_place(tape, i, LINE_DO, 0);
+    if (options->filter != FILTER_NONE)
+        add_place(tape, i, LINE_PROJECT, 0);
+    add_place(tape, i, LINE_SOLVE, 0);
+    for (int t = 1; t < trials; t++)
+        add_place(tape, i, LINE_SEARCH, t);
+    if (searches || record->alpha == 0)
+        add_place(tape, i, LINE_SEARCH, record->trials);
+    if (record->alpha == 0)
+        return;
+    add_place(tape, i, LINE_UPDATE, record->trials);
+    add_place(tape, i, LINE_TEST, record->trials);
+}
+
+Status tape_end(Tape *tape, const Options *options)
+{
+    int rounds = tape->count + 1;
+    TapePlace *place = realloc(
+        tape->place, (size_t)rounds * (TRIALS_WALKED + 8) * sizeof *place);
+    tape->places = 0;
+    if (!place)
+        return STATUS_OUT_OF_MEMORY;
+    tape->place = place;
+    add_place(tape, 0, LINE_START, 0);
+    for (int i = 0; i < tape->count; i++)
+        add_round(tape, options, i);
+    if (tape->ended && tape->count > 0) {
+        add_place(tape, tape->count, LINE_DO, 0);
+        if (options->filter != FILTER_NONE)
+            add_place(tape, tape->count, LINE_PROJECT, 0);
+        add_place(tape, tape->count, LINE_SOLVE, 0);
+        add_place(tape, tape->count, LINE_TEST, 0);
+    }
+    add_place(tape, tape->count, LINE_END, 0);
+    return STATUS_OK;
+}
+
+/* Whether an update ends here. */
+static bool is_milestone(const Tape *tape, int place)
+{
+    Line line = tape->place[place].line;
+    return line == LINE_START || line == LINE_TEST || line == LINE_END;
+}
+
+int tape_next(const Tape *tape, int fine, int place)
+{
+    place++;
+    while (fine < 2 && place < tape->places && !is_milestone(tape, place))
+        place++;
+    return place;
+}
+
+int tape_back(const Tape *tape, int fine, int place)
+{
+    place--;
+    while (fine < 2 && place >= 0 && !is_milestone(tape, place))
+        place--;
+    return place;
+}
+
+const double *tape_trace(const Tape *tape, int place, Trace *trace)
+{
+    *trace = (Trace){.updates = tape->count,
+                     .record = tape->record,
+                     .updates_before = tape->before,
+                     .record_before = tape->record_before,
+                     .projected = -1,
+                     .x_tilde = tape->tilde ? tape->x_tilde : NULL};
+    if (place < 0 || place >= tape->places) { /* the last update as a whole */
+        trace->iteration = tape->count - 1;
+        if (tape->count == 0)
+            return NULL;
+        const TapeRound *round = &tape->round[tape->count - 1];
+        const NewtonRecord *record = &tape->record[tape->count - 1];
+        trace->x = round->x;
+        trace->p = round->p;
+        trace->residual = round->residual;
+        trace->slope = round->slope;
+        trace->projected = round->projected;
+        trace->trials = record->trials;
+        trace->accepted = record->alpha > 0;
+        if (round->exact && round->x) {
+            trace->difference = quartic_difference;
+            trace->function = &round->along;
+        }
+        return NULL;
+    }
+    const TapePlace *at = &tape->place[place];
+    const TapeRound *round = &tape->round[at->round];
+    trace->line = at->line;
+    trace->iteration = at->round;
+    trace->updates = at->round;
+    if (at->line == LINE_END)
+        return NULL;
+    if (tape->room == 0)
+        return NULL;
+    if (at->line == LINE_START)
+        return round->x;
+    bool made = at->round < tape->count;
+    const NewtonRecord *record = made ? &tape->record[at->round] : NULL;
+    bool solved = at->line >= LINE_SOLVE;
+    trace->x = round->x;
+    trace->projected = at->line >= LINE_PROJECT ? round->projected : -1;
+    trace->p = solved ? round->p : NULL;
+    trace->residual = solved ? round->residual : 0;
+    trace->slope = solved ? round->slope : 0;
+    trace->updates = at->round + (made && solved);
+    if (solved && round->exact && round->x) {
+        trace->difference = quartic_difference;
+        trace->function = &round->along;
+    }
+    trace->trials = at->trials;
+    trace->accepted = made && at->trials == record->trials && record->alpha > 0;
+    bool moved = made && (at->line == LINE_UPDATE || at->line == LINE_TEST);
+    if (moved && (at->round + 1 < tape->count || tape->ended))
+        return tape->round[at->round + 1].x;
+    return moved ? NULL : round->x;
+}
