@@ -10,7 +10,6 @@ typedef struct StateHead {
     long steps_before; /* of which the timestep was another */
     double time_before;
     double work[SIMULATION_MAX_RUNS];
-    int reasons[STATUS_COUNT];
     Status first, status;
     bool done;
     int reasons[STATUS_COUNT];
@@ -69,7 +68,6 @@ void state_save(const Simulation *simulation, void *bytes)
     head.steps_before = simulation->steps_before;
     head.time_before = simulation->time_before;
     memcpy(head.work, simulation->work, sizeof head.work);
-    memcpy(head.reasons, simulation->reasons, sizeof head.reasons);
     head.first = simulation->first;
     memcpy(head.reasons, simulation->reasons, sizeof head.reasons);
     head.status = simulation->status;
@@ -102,7 +100,6 @@ void state_restore(const void *bytes, Simulation *simulation)
     simulation->steps_before = head.steps_before;
     simulation->time_before = head.time_before;
     memcpy(simulation->work, head.work, sizeof head.work);
-    memcpy(simulation->reasons, head.reasons, sizeof head.reasons);
     simulation->first = head.first;
     memcpy(simulation->reasons, head.reasons, sizeof head.reasons);
     simulation->status = head.status;
