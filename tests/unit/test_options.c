@@ -386,6 +386,80 @@ static void long_values_are_cut(void **unused)
     CHECK(strlen(message) == 19 && message[20] == 'y');
 }
 
+/* A piece of a random line. */
+static const char *random_word(unsigned *seed, char *word, size_t size)
+{
+    static const char *const pieces[] = {
+        "segments", "side",     "st",       "timestep", "integrator",
+        "filter",   "start",    "steps",    "lo",       "headless",
+        "h",        "dt",       "circle",   "3",        "-1",
+        "1e3",      "1e-300",   "inf",      "0x1",      "1,2",
+        "",         "=",        "--",       "-",        ",",
+        "none",     "clamp",    "be",       "-h",       "--help",
+        "\n",       "\303\274", "\302\233", "%s%n",     "verlet,avf",
+        "top-left",
+    };
+    static const char *const good[] = {
+        "--segments=8",   "--side=2",      "--integrator=fe", "--steps=1e3",
+        "--timestep=0.1", "--quiet",       "--filter=none",   "--stif=1e3",
+        "--log=x",        "--stretch=-.5", "--headless",      "-h",
+    };
+    word[0] = '\0';
+    if (*seed >> 30) { /* three of four */
+        snprintf(word, size, "%s",
+                 good[(*seed >> 12) % (sizeof good / sizeof *good)]);
+        return word;
+    }
+    if (*seed >> 9 & 3)
+        snprintf(word, size, "--");
+    for (int i = 0; i < 1 + (int)(*seed >> 8) % 3; i++) {
+        *seed = *seed * 1664525u + 1013904223u;
+        size_t used = strlen(word);
+        snprintf(word + used, size - used, "%s%s", i > 1 ? "=" : "",
+                 pieces[(*seed >> 10) % (sizeof pieces / sizeof *pieces)]);
+    }
+    return word;
+}
+
+/* Whatever is typed is either understood, or answered by one short line. */
+static void random_lines_end_well(void **unused)
+{
+    (void)unused;
+    unsigned seed = 1;
+    int understood = 0, refused = 0;
+    for (int line = 0; line < 50000; line++) {
+        char words[6][80], *argv[8] = {"elasto"}, message[512];
+        seed = seed * 1664525u + 1013904223u;
+        int argc = 1 + (int)(seed >> 20) % 6;
+        Options options;
+        for (int i = 1; i < argc; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            random_word(&seed, words[i - 1], sizeof words[0]);
+            argv[i] = words[i - 1];
+        }
+        argv[argc] = NULL;
+        message[0] = '\0';
+        Status status =
+            line % 2
+                ? options_parse(argc, argv, &options, message, sizeof message)
+                : options_parse_pane(argc, argv, line % 5, &options, message,
+                                     sizeof message);
+        if (status == STATUS_OK) {
+            understood++;
+            CHECK(options.scene && options.panes >= 1);
+            CHECK(options.timestep >= 1e-30 && options.timestep <= 1e30);
+            CHECK(options.segments >= 1 && options.segments <= 4096);
+            continue;
+        }
+        refused++;
+        CHECK_STATUS(status, STATUS_INVALID_INPUT);
+        CHECK(message[0] && strlen(message) < 500);
+        CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
+    }
+    print_message("%d understood, %d refused\n", understood, refused);
+    CHECK(understood > 1000 && refused > 1000);
+}
+
 /* What a message may show of a text. */
 static void texts_become_one_line(void **unused)
 {
@@ -480,6 +554,7 @@ int main(void)
         cmocka_unit_test(hopeful_lines_are_answered),
         cmocka_unit_test(other_words_are_understood),
         cmocka_unit_test(long_values_are_cut),
+        cmocka_unit_test(random_lines_end_well),
         cmocka_unit_test(texts_become_one_line),
         cmocka_unit_test(lists_are_side_by_side),
         cmocka_unit_test(help_fits_a_terminal),
