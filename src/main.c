@@ -222,7 +222,8 @@ static int finish(Player *player, Status status, bool begun)
                     (options->log && output_is_standard(options->log));
     if (!begun)
         recording_discard(&player->recording);
-    player->recording.aside = status && player->lane[0].track.simulation.steps == 0;
+    long steps = player->lane[0].track.simulation.steps;
+    player->recording.aside = status && steps == 0;
     Status closed = player_finish(player);
     if (!status)
         status = closed;

@@ -328,19 +328,19 @@ bad_line() { # words: each must be in the one line; then -- arguments...
     done
 }
 
-for value in 0 -1 4097 1e4 1.5 x '' ' 3' '3 ' 0x10 nan inf 3a 3,0 + - \
+for value in 0 -1 4097 1e4 1.5 x '' ' 3' '3 ' 0x10 nan inf 3a + - \
     99999999999999999999; do
     bad_line --segments "'$value'" 'from 1 to 4096' -- --segments "$value"
 done
 for option in side density stiffness timestep; do
     for value in 0 -1 -0 nan -nan inf -inf x '' ' 1' '1 ' 1e999 -1e999 1e-999 \
-        1,5 1..5 1e 1e5x 1m -- 0x 0x1p3 1_000 NaN INFINITY 1e-31 1e31 1e-320 \
+        1..5 1e 1e5x 1m -- 0x 0x1p3 1_000 NaN INFINITY 1e-31 1e31 1e-320 \
         1e308; do
         bad_line "--$option" "'$value'" 'a number from 1e-30 to 1e30' -- \
             "--$option=$value"
     done
 done
-for value in nan inf -inf x '' ' 1' '1 ' 1e999 1,5 1e '1.4 m' 1e201; do
+for value in nan inf -inf x '' ' 1' '1 ' 1e999 1e '1.4 m' 1e201; do
     bad_line --stretch "'$value'" 'a number from -1e200 to 1e200' -- \
         "--stretch=$value"
 done
