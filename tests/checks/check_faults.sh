@@ -353,7 +353,7 @@ for value in -1 1.5 x '' 1e-3 ' 1' '1 ' nan 99999999999999999999; do
         "--steps=$value"
 done
 for option in integrator solver filter line-search; do
-    for value in x '' NEWTON 'clamp ' 0 newton,multigrid; do
+    for value in x '' NEWTON 'clamp ' 0; do
         bad_line "--$option" "'$value'" 'none of: ' -- "--$option=$value"
     done
 done
