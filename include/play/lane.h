@@ -19,6 +19,7 @@ typedef struct Lane {
     Track track;
     Tape tape;       /* of the last step that was made */
     bool taped;      /* it is that of the step shown */
+    int place;       /* shown of the tape; -1: the state after the step */
     History history; /* of energies or radii */
     Trail trail;
     long sampled;  /* player's step up to which these know of it */
@@ -65,7 +66,16 @@ void lane_forget(Lane *lane, long step);
 Status lane_keep_ghost(Lane *lane, const char *label);
 void lane_drop_ghost(Lane *lane);
 
-/* The largest coordinate of run 0, m. */
+/* Whether there is more to walk through than the start and the end. */
+bool lane_walks(const Lane *lane);
+
+/* The place in the tape where E was highest, if the step has raised it by far
+ * more than it has changed it in the end: an explosion that is over.  rise out:
+ * J s^2.  Returns -1 where there was none. */
+int lane_peak(const Lane *lane, double *rise);
+
+/* The largest coordinate of run 0, m, in the whole step as far as the tape
+ * knows it. */
 double lane_extent(const Lane *lane);
 
 #endif

@@ -58,7 +58,6 @@ typedef struct Player {
     bool paused;
     bool rests;        /* nothing moves any more */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
-    int place;         /* in the active lane's tape; -1: between two steps */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
     Status recorded;   /* how the last record of the log was written */

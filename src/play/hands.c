@@ -242,7 +242,6 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
     }
     if (hit.index < player->lanes && hit.index != player->active) {
         player->active = hit.index;
-        player->place = -1;
         player->changed = true;
     }
     Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);

@@ -28,7 +28,8 @@ static Status make_room(Lane *lane, long step)
 Status lane_create(struct Player *player, int number, const Options *options,
                    bool keeps, NewtonObserver observer, Lane *lane)
 {
-    *lane = (Lane){.player = player, .number = number, .sampled = -1};
+    *lane =
+        (Lane){.player = player, .number = number, .sampled = -1, .place = -1};
     Status status = track_create(options, keeps, observer, lane, &lane->track);
     if (!status)
         status = make_room(lane, 0);
@@ -93,6 +94,7 @@ Status lane_advance(Lane *lane, double target, long step)
     if (worst)
         return worst;
     lane->outcome = STATUS_OK;
+    lane->place = -1;
     bool again = true;
     while (again) {
         long before = track_step_shown(track);
@@ -112,6 +114,7 @@ Status lane_advance(Lane *lane, double target, long step)
 Status lane_show(Lane *lane, long step)
 {
     lane->failed = lane->taped = false;
+    lane->place = -1;
     Status status = track_show(&lane->track, lane->at[step]);
     if (lane->track.keeps && step > 0 && lane->at[step] > 0 && !status)
         lane->outcome = track_row(&lane->track, lane->at[step])->status;
@@ -137,6 +140,7 @@ Status lane_retape(Lane *lane, long step)
     if (status)
         return status;
     lane->taped = true;
+    lane->place = -1;
     lane->failed = false;
     lane->outcome = track_row(track, last)->status;
     return tape_end(&lane->tape, &track->simulation.options);
@@ -196,11 +200,48 @@ void lane_drop_ghost(Lane *lane)
     lane->ghost = NULL;
 }
 
+bool lane_walks(const Lane *lane)
+{
+    return lane->taped && lane->tape.places > 2;
+}
+
+int lane_peak(const Lane *lane, double *rise)
+{
+    enum { FAR = 10 };
+    const Tape *tape = &lane->tape;
+    double sum = 0;
+    int round = -1;
+    *rise = 0;
+    for (int i = 0; lane_walks(lane) && i < tape->count; i++) {
+        sum += tape->record[i].change;
+        if (sum > *rise) {
+            *rise = sum;
+            round = i;
+        }
+    }
+    if (round < 0 || !(*rise > FAR * fabs(sum)))
+        return -1;
+    for (int i = 0; i < tape->places; i++)
+        if (tape->place[i].round == round && tape->place[i].line == LINE_UPDATE)
+            return i;
+    return -1;
+}
+
+/* The largest size of a number in an array. */
+static double largest(const double *x, int size)
+{
+    double extent = 0;
+    for (int i = 0; x && i < size; i++)
+        extent = fmax(extent, fabs(x[i]));
+    return extent;
+}
+
 double lane_extent(const Lane *lane)
 {
     const Simulation *simulation = &lane->track.simulation;
-    double extent = 0;
-    for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        extent = fmax(extent, fabs(simulation->run[0].x[i]));
+    const Tape *tape = &lane->tape;
+    double extent = largest(simulation->run[0].x, 2 * simulation->system.nodes);
+    for (int i = 0; lane->taped && i <= tape->count && i < tape->room; i++)
+        extent = fmax(extent, largest(tape->round[i].x, tape->size));
     return extent;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "model/hand_energy.h"
 #include "picture/picture.h"
 #include "play/playing.h"
 #include "play/png_file.h"
@@ -30,8 +31,8 @@ static Status set_paused(Player *player, bool paused)
 {
     player->paused = paused;
     player->rests = player->rests && paused;
-    if (!paused)
-        player->place = -1;
+    for (int i = 0; !paused && i < player->lanes; i++)
+        player->lane[i].place = -1;
     player_reset_speed(player);
     return STATUS_OK;
 }
@@ -46,28 +47,85 @@ static Status next_step(Player *player, bool walked)
                   : player_show(player, player->step + 1);
 }
 
-/* Whether the last step of the active lane can be walked through. */
-static bool can_walk(const Player *player)
+/* All lanes that can be walked through, at their first or at their last
+ * place. */
+static void enter_tapes(Player *player, bool at_end)
 {
-    const Lane *lane = &player->lane[player->active];
-    return lane->taped && lane->tape.places > 2;
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        if (lane_walks(lane))
+            lane->place = at_end ? lane->tape.places - 1 : 0;
+    }
+}
+
+/* A pace on in all lanes; false: each was at its end. */
+static bool walk_on(Player *player)
+{
+    bool moved = false;
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        int last = lane->tape.places - 1;
+        if (lane->place < 0 || lane->place >= last)
+            continue;
+        int next = tape_next(&lane->tape, player->fine, lane->place);
+        lane->place = next < last ? next : last;
+        moved = true;
+    }
+    return moved;
+}
+
+/* The same back; false: each was at its start. */
+static bool walk_back(Player *player)
+{
+    bool moved = false;
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        if (lane->place <= 0)
+            continue;
+        int next = tape_back(&lane->tape, player->fine, lane->place);
+        lane->place = next > 0 ? next : 0;
+        moved = true;
+    }
+    return moved;
+}
+
+/* Where E has risen beyond all proportion within a step that was taken by
+ * itself, that is what is shown. */
+static void show_peaks(Player *player)
+{
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        double rise;
+        int peak = lane_peak(lane, &rise);
+        if (peak < 0)
+            continue;
+        lane->place = peak;
+        player_note(player,
+                    "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
+                    "are %.3g m away; N goes on",
+                    lane->tape.place[peak].round + 1, lane->tape.count, rise,
+                    lane_extent(lane));
+        player->warning = true;
+    }
 }
 
 /* One on: a step, an update or a line. */
 static Status go_on(Player *player)
 {
-    const Tape *tape = &player->lane[player->active].tape;
+    bool peaked = player->fine == 0 && player_lane(player)->place >= 0;
     player->paused = true;
-    if (player->fine == 0)
-        return next_step(player, false);
-    if (player->place >= 0 && player->place < tape->places - 1) {
-        player->place = tape_next(tape, player->fine, player->place);
-        if (player->place >= tape->places)
-            player->place = tape->places - 1;
+    if (player->fine > 0 && walk_on(player))
+        return STATUS_OK;
+    if (peaked) { /* from the height of an explosion to its end */
+        for (int i = 0; i < player->lanes; i++)
+            player->lane[i].place = -1;
         return STATUS_OK;
     }
-    Status status = next_step(player, true);
-    player->place = can_walk(player) ? 0 : -1;
+    Status status = next_step(player, player->fine > 0);
+    if (!status && player->fine > 0)
+        enter_tapes(player, false);
+    else if (!status)
+        show_peaks(player);
     return status;
 }
 
@@ -75,26 +133,22 @@ static Status go_on(Player *player)
  * before. */
 static Status go_back(Player *player)
 {
-    const Tape *tape = &player->lane[player->active].tape;
+    Lane *lane = player_lane(player);
     player->paused = true;
     if (player->fine == 0)
         return player_show(player, player->step - 1);
-    if (player->place < 0 && player->step > 0) {
-        Status status = STATUS_OK;
-        if (!player->lane[player->active].taped)
-            status = player_retape(player, player->step);
-        if (status || !can_walk(player))
+    if (lane->place < 0 && player->step > 0) {
+        Status status =
+            lane->taped ? STATUS_OK : player_retape(player, player->step);
+        if (status || !lane_walks(lane))
             return status ? status : player_show(player, player->step - 1);
-        player->place = tape->places - 1;
+        enter_tapes(player, true);
     }
-    if (player->place < 0)
-        return STATUS_OK;
-    player->place = tape_back(tape, player->fine, player->place);
-    if (player->place >= 0)
+    if (lane->place < 0 || walk_back(player))
         return STATUS_OK;
     Status status = player_retape(player, player->step - 1);
-    if (!status && can_walk(player))
-        player->place = tape->places - 1;
+    if (!status)
+        enter_tapes(player, true);
     return status;
 }
 
@@ -107,8 +161,8 @@ static Status go_finer(Player *player)
         "N and \u2190 go by lines of Algorithm 3",
     };
     player->fine = (player->fine + 1) % 3;
-    if (player->fine == 0)
-        player->place = -1;
+    for (int i = 0; player->fine == 0 && i < player->lanes; i++)
+        player->lane[i].place = -1;
     player->paused = true;
     player_note(player, "%s", text[player->fine]);
     return STATUS_OK;
@@ -182,15 +236,15 @@ static void method_words(const char *option, const char *value, char *text,
 }
 
 /* The place in the tape that is the same line of the same round as before. */
-static void find_place(Player *player, int round, Line line)
+static void find_place(Lane *lane, int round, Line line)
 {
-    const Tape *tape = &player->lane[player->active].tape;
-    if (!can_walk(player))
+    const Tape *tape = &lane->tape;
+    if (!lane_walks(lane))
         return;
-    player->place = tape->places - 1;
+    lane->place = tape->places - 1;
     for (int i = tape->places - 1; i >= 0; i--)
         if (tape->place[i].round == round && tape->place[i].line <= line) {
-            player->place = i;
+            lane->place = i;
             return;
         }
 }
@@ -207,9 +261,9 @@ static Status retake(Player *player, const Command *change, const char *option,
     int round = -1;
     Line line = LINE_NONE;
     char was[64], is[64], had[160], has[160];
-    if (player->place >= 0) {
-        round = lane->tape.place[player->place].round;
-        line = lane->tape.place[player->place].line;
+    if (lane->place >= 0 && player->fine > 0) {
+        round = lane->tape.place[lane->place].round;
+        line = lane->tape.place[lane->place].line;
     }
     if (!again)
         return change_lanes(player, change, from, to);
@@ -244,7 +298,7 @@ static Status retake(Player *player, const Command *change, const char *option,
         snprintf(lane->ghost_label, sizeof lane->ghost_label, "%s", was);
     }
     if (round >= 0)
-        find_place(player, round, line);
+        find_place(lane, round, line);
     tell_outcome(&before, had, sizeof had);
     tell_outcome(&after, has, sizeof has);
     player_note(player, "%s: %s; %s: %s", was, had, is, has);
@@ -275,6 +329,8 @@ static Status set_method(Player *player, const Command *change,
     Outcome before = outcome_of(lane);
     if (alone)
         status = lane_clone(lane, 1, player_watch, beside);
+    if (alone && !status)
+        status = lane_retape(beside, player->step);
     if (!status)
         status = retake(player, change, option, value, old, from, to);
     Outcome after = outcome_of(lane);
@@ -286,6 +342,10 @@ static Status set_method(Player *player, const Command *change,
     }
     lane_drop_ghost(lane);
     player->lanes = 2;
+    char note[sizeof player->note];
+    memcpy(note, player->note, sizeof note);
+    show_peaks(player);
+    memcpy(player->note, note, sizeof note);
     return STATUS_OK;
 }
 
@@ -307,6 +367,16 @@ static Status restart_with(Player *player, const char *option,
     player->active = active;
     player->paused = paused;
     return status;
+}
+
+/* Whether terms remember what has happened: plastic or broken springs, moved
+ * obstacles. */
+static bool has_memory(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    int own = system->springs > 0;
+    return system->terms > own + (hand_energy_of(system) != NULL) &&
+           system->springs > 0;
 }
 
 /* An option while the run goes on, or from the start where it cannot change
@@ -334,8 +404,11 @@ static Status set_option(Player *player, const char *text)
     bool time = scene->needs & NEEDS_TIME;
     bool method =
         strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
+    bool rebuilds =
+        strcmp(name, "stiffness") == 0 || strcmp(name, "integrator") == 0;
     bool live = track_can_change(name) && (time || method) &&
-                (simulation->runs == 1 || strcmp(name, "timestep") == 0);
+                (simulation->runs == 1 || strcmp(name, "timestep") == 0) &&
+                !(rebuilds && has_memory(simulation));
     Status status;
     if (!live)
         status = restart_with(player, name, value, from, to);
@@ -486,7 +559,6 @@ static Status end_pane(Player *player)
     lane_free(&player->lane[--player->lanes]);
     if (player->active >= player->lanes)
         player->active = player->lanes - 1;
-    player->place = -1;
     return STATUS_OK;
 }
 
@@ -759,8 +831,7 @@ static Status switch_card(Player *player, const Command *command)
 /* The list of pages, or a page's code, or the cards again. */
 static Status switch_column(Player *player, CommandKind kind)
 {
-    LectureColumn column =
-        kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
+    LectureColumn column = kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
     player->help = false;
     player->column = player->column == column ? LECTURE_CARDS : column;
     return STATUS_OK;

@@ -130,7 +130,6 @@ static Status begin_run(Player *player, const Options *options, int count)
     player->changed = true;
     player->recorded = STATUS_OK;
     player->step = player->newest = 0;
-    player->place = -1;
     player->active = 0;
     player->lanes = 0;
     for (int i = 0; i < count; i++) {
@@ -170,9 +169,10 @@ static void leave_step(Player *player)
 {
     player->changed = true;
     player->rests = false;
-    player->place = -1;
-    for (int i = 0; i < player->lanes; i++)
+    for (int i = 0; i < player->lanes; i++) {
+        player->lane[i].place = -1;
         lane_drop_ghost(&player->lane[i]);
+    }
 }
 
 static long clamp_step(const Player *player, long step)
@@ -657,7 +657,7 @@ Status player_create(const Options *options, int count,
     player->started = clock_now();
     player->speed = player_first_speed(options);
     player->lens = LENS_FITS;
-    player->large = player->selected = player->place = -1;
+    player->large = player->selected = -1;
     if (count > 1 && options->log) {
         snprintf(player->message, sizeof player->message,
                  "--log: it is that of one run; %d side by side have no log",

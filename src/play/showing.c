@@ -181,8 +181,7 @@ static void fill_pane(Player *player, int i, Trace *trace)
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (lane->taped && newton) {
-        int place = player->place < lane->tape.places ? player->place : -1;
-        pane->x = tape_trace(&lane->tape, place, trace);
+        pane->x = tape_trace(&lane->tape, lane->place, trace);
         pane->trace = trace;
     }
 }
@@ -192,7 +191,7 @@ static void fill_hand(Player *player)
 {
     const Settings *settings = &player->lane[player->active].track.settings;
     Hand *hand = &player->show.hand;
-    if (!settings->held || player->place >= 0)
+    if (!settings->held || player_lane(player)->place >= 0)
         return;
     *hand = (Hand){.on = true,
                    .pane = player->active,

@@ -32,3 +32,12 @@ void unprojected_defaults(Options *options)
     options->stretch = 0.5;
     options->filter = FILTER_NONE;
 }
+
+void explosion_defaults(Options *options)
+{
+    options->segments = 3;
+    options->timestep = 0.02;
+    options->stretch = 0.485;
+    options->filter = FILTER_NONE;
+    options->line_search = LINE_SEARCH_NONE;
+}

@@ -2,6 +2,10 @@
 
 #include <string.h>
 
+#include "model/contact.h"
+#include "model/fracture.h"
+#include "model/hand_energy.h"
+#include "model/plasticity.h"
 #include "scenes/scene.h"
 
 /* What a state holds beside arrays. */
@@ -18,6 +22,7 @@ typedef struct StateHead {
 /* The same for one run. */
 typedef struct RunHead {
     long steps, unconverged;
+    double clock, moved, work;
     Status status;
     bool remembers;
 } RunHead;
@@ -28,39 +33,60 @@ static size_t array_size(const Simulation *simulation)
     return 2 * (size_t)simulation->system.nodes;
 }
 
-size_t state_size(const Simulation *simulation)
-{
-    const Scene *scene = simulation->scene;
-    if (!(scene->needs & NEEDS_TIME) || scene->step || scene->handles)
-        return 0;
-    size_t bytes = sizeof(StateHead), arrays = 0;
-    for (int r = 0; r < simulation->runs; r++) {
-        bytes += sizeof(RunHead);
-        arrays += 2 + (size_t)simulation->run[r].method->memory;
-    }
-    return bytes + arrays * array_size(simulation) * sizeof(double);
-}
-
-/* Where bytes are read or written next. */
+/* What is done with each piece of a state: counted, saved or restored. */
 typedef struct Cursor {
-    unsigned char *at;
+    enum { COUNT, SAVE, RESTORE } way;
+    unsigned char *at; /* NULL while counting */
+    size_t bytes;
 } Cursor;
 
-static void put(Cursor *cursor, const void *from, size_t size)
+static void pass(Cursor *cursor, void *piece, size_t size)
 {
-    memcpy(cursor->at, from, size);
-    cursor->at += size;
+    if (cursor->way == SAVE)
+        memcpy(cursor->at, piece, size);
+    if (cursor->way == RESTORE)
+        memcpy(piece, cursor->at, size);
+    if (cursor->at)
+        cursor->at += size;
+    cursor->bytes += size;
 }
 
-static void get(Cursor *cursor, void *to, size_t size)
+/* What steps change in a system: stiffnesses of springs that break, plastic
+ * strains, obstacles that move, and what each term has lost. */
+static void pass_system(Cursor *cursor, System *system)
 {
-    memcpy(to, cursor->at, size);
-    cursor->at += size;
+    size_t springs = (size_t)system->springs * sizeof(double);
+    Plasticity *plasticity = plasticity_of(system);
+    Fracture *breaks = fracture_of(system);
+    Contact *contact = contact_of(system);
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind != &hand_energy)
+            pass(cursor, &system->term[t].lost, sizeof system->term[t].lost);
+    if (plasticity) {
+        pass(cursor, plasticity->ep, springs);
+        pass(cursor, plasticity->kappa, springs);
+    }
+    if (breaks) {
+        pass(cursor, system->k, springs);
+        pass(cursor, &breaks->broken, sizeof breaks->broken);
+    }
+    if (contact)
+        pass(cursor, contact->obstacle,
+             (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-void state_save(const Simulation *simulation, void *bytes)
+/* Whether an earlier run has the same system. */
+static bool is_known(const Simulation *simulation, int run)
 {
-    Cursor cursor = {bytes};
+    for (int r = 0; r < run; r++)
+        if (simulation->run[r].system == simulation->run[run].system)
+            return true;
+    return false;
+}
+
+/* Counters of the simulation. */
+static void pass_head(Cursor *cursor, Simulation *simulation)
+{
     StateHead head;
     memset(&head, 0, sizeof head); /* padding too: equal states, equal bytes */
     head.steps = simulation->steps;
@@ -72,29 +98,9 @@ void state_save(const Simulation *simulation, void *bytes)
     memcpy(head.reasons, simulation->reasons, sizeof head.reasons);
     head.status = simulation->status;
     head.done = simulation->done;
-    put(&cursor, &head, sizeof head);
-    size_t array = array_size(simulation) * sizeof(double);
-    for (int r = 0; r < simulation->runs; r++) {
-        const TimeIntegrator *run = &simulation->run[r];
-        RunHead own;
-        memset(&own, 0, sizeof own);
-        own.steps = run->steps;
-        own.unconverged = run->unconverged;
-        own.status = run->status;
-        own.remembers = run->remembers;
-        put(&cursor, &own, sizeof own);
-        put(&cursor, run->x, array);
-        put(&cursor, run->v, array);
-        if (run->method->memory > 0)
-            put(&cursor, run->memory, (size_t)run->method->memory * array);
-    }
-}
-
-void state_restore(const void *bytes, Simulation *simulation)
-{
-    Cursor cursor = {(unsigned char *)bytes};
-    StateHead head;
-    get(&cursor, &head, sizeof head);
+    pass(cursor, &head, sizeof head);
+    if (cursor->way != RESTORE)
+        return;
     simulation->steps = head.steps;
     simulation->unconverged = head.unconverged;
     simulation->steps_before = head.steps_before;
@@ -104,22 +110,69 @@ void state_restore(const void *bytes, Simulation *simulation)
     memcpy(simulation->reasons, head.reasons, sizeof head.reasons);
     simulation->status = head.status;
     simulation->done = head.done;
+}
+
+/* Of one run: counters, positions, velocities, memory, system. */
+static void pass_run(Cursor *cursor, Simulation *simulation, int r)
+{
+    TimeIntegrator *run = &simulation->run[r];
     size_t array = array_size(simulation) * sizeof(double);
-    for (int r = 0; r < simulation->runs; r++) {
-        TimeIntegrator *run = &simulation->run[r];
-        RunHead own;
-        get(&cursor, &own, sizeof own);
-        run->steps = own.steps;
-        run->unconverged = own.unconverged;
-        run->status = own.status;
-        run->remembers = own.remembers;
-        get(&cursor, run->x, array);
-        get(&cursor, run->v, array);
-        if (run->method->memory > 0)
-            get(&cursor, run->memory, (size_t)run->method->memory * array);
-        if (run->newton)
-            newton_forget(run->newton);
-    }
+    RunHead head;
+    memset(&head, 0, sizeof head);
+    head.steps = run->steps;
+    head.unconverged = run->unconverged;
+    head.clock = run->clock;
+    head.moved = run->moved;
+    head.work = run->work;
+    head.status = run->status;
+    head.remembers = run->remembers;
+    pass(cursor, &head, sizeof head);
+    pass(cursor, run->x, array);
+    pass(cursor, run->v, array);
+    if (run->method->memory > 0)
+        pass(cursor, run->memory, (size_t)run->method->memory * array);
+    if (!is_known(simulation, r))
+        pass_system(cursor, run->system);
+    if (cursor->way != RESTORE)
+        return;
+    run->steps = head.steps;
+    run->unconverged = head.unconverged;
+    run->clock = head.clock;
+    run->moved = head.moved;
+    run->work = head.work;
+    run->status = head.status;
+    run->remembers = head.remembers;
+    if (run->newton)
+        newton_forget(run->newton);
+}
+
+static void pass_all(Cursor *cursor, Simulation *simulation)
+{
+    pass_head(cursor, simulation);
+    for (int r = 0; r < simulation->runs; r++)
+        pass_run(cursor, simulation, r);
+}
+
+size_t state_size(const Simulation *simulation)
+{
+    const Scene *scene = simulation->scene;
+    Cursor cursor = {COUNT, NULL, 0};
+    if (!(scene->needs & NEEDS_TIME) || scene->step || scene->handles)
+        return 0;
+    pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
+    return cursor.bytes;
+}
+
+void state_save(const Simulation *simulation, void *bytes)
+{
+    Cursor cursor = {SAVE, bytes, 0};
+    pass_all(&cursor, (Simulation *)simulation);
+}
+
+void state_restore(const void *bytes, Simulation *simulation)
+{
+    Cursor cursor = {RESTORE, (unsigned char *)bytes, 0};
+    pass_all(&cursor, simulation);
 }
 
 /* FNV-1a over these bytes. */

@@ -154,7 +154,8 @@ static void drags_are_repeated(void **unused)
         enum { STEPS = 50 };
         Track track;
         uint64_t hash[STEPS + 1];
-        begin("square --segments 3 --integrator bdf2 --solver multigrid", &track);
+        begin("square --segments 3 --integrator bdf2 --solver multigrid",
+              &track);
         if (thin)
             track.limit = 4 * state_size(&track.simulation);
         for (int i = 0; i <= STEPS; i++) {

@@ -83,6 +83,13 @@ static const char *const lines[] = {
     "square --segments 3 --integrator avf4",
     "circle",
     "unprojected --segments 2",
+    "square --segments 9 --solver multigrid",
+    "hang --segments 3",
+    "drop --segments 3",
+    "slope",
+    "dent --segments 4",
+    "tear --segments 4",
+    "bend",
 };
 
 static void states_come_back(void **unused)
@@ -167,7 +174,7 @@ static void changes_are_repeated(void **unused)
     (void)unused;
     static const char *const changes[] = {
         "set timestep 0.01",   "set stiffness 2e4",     "pin 3",
-        "set filter none",     "set solver multigrid",     "set timestep 0.002",
+        "set filter none",     "set solver multigrid",  "set timestep 0.002",
         "set integrator bdf2", "set filter on-demand",  "pin 12",
         "set tolerance 1e-6",  "set integrator verlet", "set timestep 0.0003",
         "set integrator avf",  "set line-search none",  "set timestep 0.005",
