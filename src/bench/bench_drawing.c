@@ -3,57 +3,69 @@
 #include <stdio.h>
 
 #include "bench/bench_problem.h"
-#include "picture/draw.h"
+#include "picture/picture.h"
 #include "play/view.h"
 
 enum { DRAWING_PIXELS = 900, DRAWING_FRAMES = 31 };
 
-/* Time of each frame, from an empty paper until it is shown. */
-static Status time_frames(View *view, const Simulation *simulation,
-                          const Hud *hud, int frames, double *seconds,
-                          SpringCount *springs)
+static const int drawing_full[2] = {1280, 800};
+
+/* Median time of a frame of this size, from an empty paper until it is shown,
+ * in ms. */
+static Status time_frames(const Show *show, int width, int height, int frames,
+                          double *ms, SpringCount *springs)
 {
-    Status status = STATUS_OK;
+    double seconds[DRAWING_FRAMES];
+    View *view = NULL;
+    Status status = view_create_surface(width, height, &view);
     for (int i = 0; i < frames && !status; i++) {
         double start = bench_clock();
         Paper *paper = view_paper(view);
-        if (!paper)
-            return STATUS_OUT_OF_MEMORY;
-        *springs = draw_frame(paper, simulation, hud);
+        if (!paper) {
+            status = STATUS_OUT_OF_MEMORY;
+            break;
+        }
+        *springs = show_draw(paper, show);
         status = view_show(view);
         seconds[i] = bench_clock() - start;
     }
+    if (!status)
+        *ms = 1e3 * bench_median(seconds, frames);
+    view_free(view);
     return status;
 }
 
 static Status draw_size(Bench *bench, int segments, int frames)
 {
-    static Hud hud;
-    double seconds[DRAWING_FRAMES];
+    static Show show;
+    static History history;
     Simulation simulation;
     SpringCount springs = {0};
-    View *view = NULL;
+    double bare = 0, full = 0;
     Options options = slides_options(segments);
     bench_progress(bench, "drawing: %d segments", segments);
     options.integrator = integrator_method("verlet");
     Status status = simulation_create(&options, NULL, NULL, &simulation);
+    if (!status) {
+        history_clear(&history);
+        show_sample(&simulation, &history, NULL);
+        show_create(&simulation, &show);
+        show.pane[0].history = &history;
+        show_describe(&show);
+        status = time_frames(&show, drawing_full[0], drawing_full[1], frames,
+                             &full, &springs);
+        show.bare = true;
+    }
     if (!status)
-        status = view_create_surface(DRAWING_PIXELS, DRAWING_PIXELS, &view);
+        status = time_frames(&show, DRAWING_PIXELS, DRAWING_PIXELS, frames,
+                             &bare, &springs);
     if (!status) {
-        hud_create(&hud);
-        hud_sample(&hud, &simulation);
-        status =
-            time_frames(view, &simulation, &hud, frames, seconds, &springs);
-    }
-    if (!status) {
-        double ms = 1e3 * bench_median(seconds, frames);
         bench_progress(bench, NULL);
-        printf("  %8d %9ld %9ld %9.2f\n", segments, springs.drawn,
-               springs.skipped, ms);
-        bench_csv_row(bench, "%d,%ld,%ld,%d,%.6g", segments, springs.drawn,
-                      springs.skipped, frames, ms);
+        printf("  %8d %9ld %9ld %9.2f %9.2f\n", segments, springs.drawn,
+               springs.skipped, bare, full);
+        bench_csv_row(bench, "%d,%ld,%ld,%d,%.6g,%.6g", segments,
+                      springs.drawn, springs.skipped, frames, bare, full);
     }
-    view_free(view);
     simulation_free(&simulation);
     return status;
 }
@@ -63,12 +75,13 @@ Status bench_drawing(Bench *bench)
     int largest = bench->quick ? 32 : 256;
     Status status = bench_csv_open(bench, "drawing",
                                    "segments,springs_drawn,springs_left_out,"
-                                   "frames,frame_ms");
+                                   "frames,bare_ms,full_ms");
     if (status)
         return status;
-    printf("  %d x %d pixels, springs below 2 pixels are not all drawn\n"
-           "  segments     drawn  left out  ms/frame\n",
-           DRAWING_PIXELS, DRAWING_PIXELS);
+    printf("  the bare picture of %d x %d pixels, all of the window at "
+           "%d x %d\n"
+           "  segments     drawn  left out   bare ms   full ms\n",
+           DRAWING_PIXELS, DRAWING_PIXELS, drawing_full[0], drawing_full[1]);
     for (int segments = 4; segments <= largest && !status; segments *= 2)
         status = draw_size(bench, segments, bench->quick ? 5 : DRAWING_FRAMES);
     return bench_csv_close(bench, status);

@@ -43,6 +43,15 @@ static void draw_series(Paper *paper, const Plot *plot, const History *history,
                history->value[series], width, colour);
 }
 
+/* Whether a quantity was ever anything but 0; the first three always count. */
+static bool series_counts(const History *history, int series)
+{
+    for (int i = 0; i < history->count; i++)
+        if (history->value[series][i] != 0)
+            return true;
+    return series < 3;
+}
+
 /* Range of all that is drawn. */
 static void find_range(const Show *show, double *low, double *high,
                        double *last)
@@ -117,7 +126,8 @@ static Box draw_legend(Paper *paper, Box inside, const Show *show, double time)
                                  : value_at(show->pane[p].history, 0, time));
     const History *history = show->pane[show->active].history;
     for (int s = 0; !compares(show) && s < history->series; s++)
-        x = draw_word(paper, &row, x, colour_of_energy(s),
+        if (series_counts(history, s))
+            x = draw_word(paper, &row, x, colour_of_energy(s),
                       history->name[s] ? history->name[s] : "",
                       narrow && s > 0 ? NAN : value_at(history, s, time));
     int used = row.y + paper_pixels(paper, 1.3) - inside.y;
@@ -150,7 +160,8 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
                         colour_of_run(p));
     const History *history = show->pane[show->active].history;
     for (int s = history->series - 1; !compares(show) && s >= 0; s--)
-        draw_series(paper, &plot, history, s, s == 0 ? 1.8 : 1.4,
+        if (series_counts(history, s))
+            draw_series(paper, &plot, history, s, s == 0 ? 1.8 : 1.4,
                     colour_of_energy(s));
 }
 

@@ -53,12 +53,11 @@ static void fill_curves(const Trace *trace, Curves *curves)
 
 /* A trial above the axis is a small arrow at its upper edge. */
 static void draw_trial(Paper *paper, const Plot *plot, double alpha,
-                       double value, bool accepted, bool last)
+                       double value, bool accepted)
 {
     const double point[2] = {alpha, value};
     Colour colour = accepted ? COLOUR_ALPHA : COLOUR_WARNING;
     double at[2], unit = paper->unit;
-    char number[48];
     bool inside = value <= plot->y.high && value >= plot->y.low;
     plot_place(plot, alpha, inside ? value : plot->y.high, at);
     if (inside && accepted)
@@ -68,23 +67,24 @@ static void draw_trial(Paper *paper, const Plot *plot, double alpha,
     else
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);
-    if (!last)
-        return;
-    char words[128], length[32];
+}
+
+/* The last trial in words, at a place that does not move: where a curve that
+ * falls at first is not. */
+static void draw_verdict(Paper *paper, const Plot *plot, const Trace *trace,
+                         double alpha, double value)
+{
+    char number[48], length[32];
+    double y = plot->box.y + plot->box.height - 1.25 * paper->em;
+    if (trace->slope > 0) /* other words stand there */
+        y -= 1.2 * paper->em;
     plot_number(number, sizeof number, value);
     alpha_text(length, sizeof length, alpha);
-    snprintf(words, sizeof words, "{alpha} = %s %s: %s%s", length,
-             accepted ? "taken" : "refused", value > 0 ? "+" : "", number);
-    int width = paper_width(paper, FACE_REGULAR, 0.88, words);
-    double x = at[0] + 9 * unit;
-    if (x + width > plot->box.x + plot->box.width)
-        x = at[0] - 9 * unit - width;
-    double y = fmin(fmax(at[1] - 1.5 * paper->em, plot->box.y),
-                    plot->box.y + plot->box.height - 1.4 * paper->em);
-    canvas_rectangle(&paper->canvas, (int)x - 2, (int)y, width + 4,
-                     paper_pixels(paper, 1.15), COLOUR_PANEL);
-    paper_write(paper, FACE_REGULAR, 0.88, colour, x, y, ALIGN_LEFT, "%s",
-                words);
+    paper_write(
+        paper, FACE_BOLD, 0.9, trace->accepted ? COLOUR_ALPHA : COLOUR_WARNING,
+        plot->box.x + 0.5 * paper->em, y, ALIGN_LEFT, "{alpha} = %s %s: %s%s",
+        length, trace->accepted ? "taken" : "refused", value > 0 ? "+" : "",
+        number);
 }
 
 /* Where the curves are not: above 0 at the left; below it where they rise. */
@@ -122,10 +122,11 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     plot_disc(paper, &plot, origin, 3.5, COLOUR_TEXT);
     draw_words(paper, &plot, trace);
     for (int t = 0; t < trace->trials; t++) {
-        double at = ldexp(first, -t);
+        double at = ldexp(first, -t), value = exact_value(trace, at);
         bool last = t == trace->trials - 1;
-        draw_trial(paper, &plot, at, exact_value(trace, at),
-                   last && trace->accepted, last);
+        draw_trial(paper, &plot, at, value, last && trace->accepted);
+        if (last)
+            draw_verdict(paper, &plot, trace, at, value);
     }
 }
 

@@ -221,8 +221,10 @@ static void draw_listing(Paper *paper, Box inside, const Show *show)
     const Simulation *simulation = show->pane[show->active].simulation;
     const Listing *listing = find_listing(simulation);
     const Trace *trace = cards_trace(show, &space);
+    bool time = simulation->scene->needs & NEEDS_TIME;
     int rows = 0;
-    while (listing->rows[rows].markup)
+    while (listing->rows[rows].markup &&
+           (time || listing->rows[rows].line != LINE_END))
         rows++;
     int pitch = paper_pixels(paper, 1.75);
     if (pitch * rows > inside.height)

@@ -130,6 +130,31 @@ static void light_spring(Paper *paper, const Show *show, Box square)
     }
 }
 
+/* What the colours mean, beside the square or below it. */
+static void draw_words(Paper *paper, Box inside, int side)
+{
+    int line = paper_pixels(paper, 1.3);
+    Box words = inside;
+    if (inside.width - side > inside.height - side) {
+        words.x += side + line / 2;
+        words.width -= side + line / 2;
+    } else {
+        words.y += side + line / 2;
+        words.height -= side + line / 2;
+    }
+    int room = words.height / line / 2;
+    if (words.width < 6 * line || room < 1)
+        return;
+    room = room < 4 ? room : 4;
+    int lines =
+        paper_paragraph(paper, FACE_REGULAR, 0.85, COLOUR_X, words, room,
+                        "blue: a 2 \u00d7 2 block of \u2207\u00b2E, "
+                        "in the order of elimination");
+    words.y += lines * paper_pixels(paper, 1.12) + line / 2;
+    paper_paragraph(paper, FACE_REGULAR, 0.85, 0xffb87a30u, words, room,
+                    "below the diagonal: the factor L with its fill");
+}
+
 /* Made once for a mesh, then copied. */
 static void draw_spy(Paper *paper, Box inside, const Show *show)
 {
@@ -158,16 +183,7 @@ static void draw_spy(Paper *paper, Box inside, const Show *show)
     free(pattern.factor);
     canvas_copy(&paper->canvas, kept, square.x, square.y);
     light_spring(paper, show, square);
-    Box words = {square.x + side + line / 2, square.y,
-                 inside.width - side - line / 2, inside.height};
-    if (words.width < 6 * line)
-        return;
-    int lines = paper_paragraph(paper, FACE_REGULAR, 0.85, COLOUR_X, words, 4,
-                                "blue: a 2 \u00d7 2 block of \u2207\u00b2E, "
-                                "in the order of elimination");
-    words.y += (lines + 1) * paper_pixels(paper, 1.12);
-    paper_paragraph(paper, FACE_REGULAR, 0.85, 0xffb87a30u, words, 4,
-                    "below the diagonal: the factor L with its fill");
+    draw_words(paper, inside, side);
 }
 
 const Card card_spy = {

@@ -65,16 +65,12 @@ static void draw_function(Paper *paper, const Plot *plot,
                           const ScalarFunction *f, const ModelUpdate *model,
                           double width, Colour colour)
 {
-    double from[2] = {0, 0}, low = plot->x.low;
+    double x[CURVE_POINTS + 1], y[CURVE_POINTS + 1], low = plot->x.low;
     for (int i = 0; i <= CURVE_POINTS; i++) {
-        double x = low + (plot->x.high - low) * i / CURVE_POINTS;
-        const double to[2] = {x, model ? model_value(model, x)
-                                       : scalar_value(f, x)};
-        if (i > 0)
-            plot_line(paper, plot, from, to, width, colour);
-        from[0] = to[0];
-        from[1] = to[1];
+        x[i] = low + (plot->x.high - low) * i / CURVE_POINTS;
+        y[i] = model ? model_value(model, x[i]) : scalar_value(f, x[i]);
     }
+    plot_curve(paper, plot, CURVE_POINTS + 1, x, y, width, colour);
 }
 
 /* From the minimum of the model up to f there, where the full step leads. */

@@ -115,7 +115,8 @@ static void describe_time(Show *show, const Simulation *simulation)
         return;
     }
     plot_number(number, sizeof number, simulation_time(simulation));
-    if (show->bars > 0 && show->step >= 1 && show->step <= show->bars)
+    if (simulation->run[0].newton && show->bars > 0 && show->step >= 1 &&
+        show->step <= show->bars)
         say(show->time_text, SHOW_TEXT, "step %ld   t = %s s   %d update%s",
             show->step, number, show->bar[show->step - 1].updates,
             show->bar[show->step - 1].updates == 1 ? "" : "s");

@@ -60,7 +60,7 @@ static void draw_strip(Paper *paper, Box strip, const Show *show)
     room.width = (int)right - room.x;
     if (room.width > 6 * em && show->sentence[0]) {
         int full = paper_width(paper, FACE_REGULAR, SENTENCE, show->sentence);
-        bool two = full > room.width;
+        bool two = full > room.width && strip.height > 2.6 * em;
         room.y -= two ? (int)(0.62 * em) : 0;
         paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : SENTENCE, COLOUR_TEXT,
                         room, two ? 2 : 1, show->sentence);

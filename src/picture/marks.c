@@ -75,11 +75,10 @@ void stage_pin(Paper *paper, const Stage *stage, const double *a, double radius)
                      COLOUR_WHITE);
 }
 
-/* The longest of every stride-th pair, those that are not finite left out. */
-static double longest(int nodes, int stride, const double *d)
+double longest_arrow(int nodes, const double *d)
 {
     double most = 0;
-    for (int i = 0; i < nodes; i += stride) {
+    for (int i = 0; i < nodes; i++) {
         double length = hypot(d[2 * i], d[2 * i + 1]);
         if (isfinite(length) && length > most)
             most = length;
@@ -88,21 +87,21 @@ static double longest(int nodes, int stride, const double *d)
 }
 
 double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
-                    const double *x, const double *d, double width,
+                    const double *x, const double *d, double most,
                     Colour colour)
 {
-    double most = longest(nodes, stride, d) * stage->camera.scale[0];
-    double room = 0.5 * fmin(stage->box.width, stage->box.height), factor = 1;
-    if (!(most > 0) || !isfinite(most))
+    double scale = stage->camera.scale[0], factor = 1;
+    double length = longest_arrow(nodes, d) * scale;
+    double least = fmin(ARROW_LEAST * paper->em, 0.1 * most);
+    if (!(length > 0) || !isfinite(length))
         return 0;
-    if (most < ARROW_LEAST * paper->em)
-        factor = pow(10, ceil(log10(ARROW_LEAST * paper->em / most)));
-    if (most > room)
-        factor = pow(10, -ceil(log10(most / room)));
+    if (length < least)
+        factor = pow(10, ceil(log10(least / length)));
+    if (length > most)
+        factor = pow(10, -ceil(log10(length / most)));
     for (int i = 0; i < nodes; i += stride)
-        if (hypot(d[2 * i], d[2 * i + 1]) * factor * stage->camera.scale[0] >
-            1.5)
-            stage_arrow(paper, stage, x + 2 * i, d + 2 * i, factor, width,
+        if (hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
+            stage_arrow(paper, stage, x + 2 * i, d + 2 * i, factor, 1.6,
                         colour);
     return factor;
 }

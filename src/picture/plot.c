@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "picture/colour_map.h"
@@ -46,24 +47,33 @@ void plot_place(const Plot *plot, double x, double y, double place[2])
     place[1] = plot->box.y + (1 - b) * plot->box.height;
 }
 
+/* Three digits; a power of ten where there would be many zeros. */
 void plot_number(char *text, size_t size, double value)
 {
     char plain[32];
-    snprintf(plain, sizeof plain, "%.3g", value);
+    double most = fabs(value);
+    const char *sign = value < 0 ? "\u2212" : "";
+    snprintf(plain, sizeof plain, "%.2e", most);
     char *power = strchr(plain, 'e');
-    if (!power) {
-        snprintf(text, size, "%s%s", value < 0 ? "\u2212" : "",
-                 plain + (value < 0));
+    if (!power || (most >= 1e-3 && most < 1e5) || most == 0) {
+        double digit = most >= 1000 ? pow(10, floor(log10(most)) - 2) : 1;
+        if (most >= 1000)
+            snprintf(plain, sizeof plain, "%.0f",
+                     floor(most / digit + 0.5) * digit);
+        else
+            snprintf(plain, sizeof plain, "%.3g", most);
+        snprintf(text, size, "%s%s", sign, plain);
         return;
     }
-    *power = '\0';
-    int exponent = 0;
-    sscanf(power + 1, "%d", &exponent);
-    const char *part = plain + (value < 0);
-    bool one = strcmp(part, "1") == 0;
-    snprintf(text, size, "%s%s%s10^{%s%d}", value < 0 ? "\u2212" : "",
-             one ? "" : part, one ? "" : "\u00b7", exponent < 0 ? "\u2212" : "",
-             exponent < 0 ? -exponent : exponent);
+    int exponent = (int)strtol(power + 1, NULL, 10);
+    snprintf(plain, sizeof plain, "%.3g", most / pow(10, exponent));
+    if (strcmp(plain, "10") == 0) {
+        strcpy(plain, "1");
+        exponent++;
+    }
+    bool one = strcmp(plain, "1") == 0;
+    snprintf(text, size, "%s%s%s10^{%s%d}", sign, one ? "" : plain,
+             one ? "" : "\u00b7", exponent < 0 ? "\u2212" : "", abs(exponent));
 }
 
 /* A number of an axis; rounding must not show as 1e-17. */
@@ -148,8 +158,9 @@ static void draw_y_axis(Paper *paper, const Plot *plot)
                     number);
     }
     if (plot->y.label)
-        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT, box->x,
-                    box->y - 0.2 * paper->em, ALIGN_LEFT, "%s", plot->y.label);
+        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
+                    box->x + box->width, box->y + 0.1 * paper->em, ALIGN_RIGHT,
+                    "%s", plot->y.label);
 }
 
 void plot_axes(Paper *paper, const Plot *plot)
@@ -219,11 +230,38 @@ bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
     return true;
 }
 
+/* Moves the end of a line from p to q to the middle between two pixels of the
+ * direction in which it is longer, so that the next line begins where no pixel
+ * is covered by parts of both: their joint would be paler. */
+static void end_between_pixels(const double p[2], double q[2])
+{
+    double dx = q[0] - p[0], dy = q[1] - p[1];
+    int k = fabs(dx) >= fabs(dy) ? 0 : 1;
+    double along = k == 0 ? dx : dy, across = k == 0 ? dy : dx;
+    double end = floor(q[k] + 0.5);
+    q[1 - k] += (end - q[k]) * across / along;
+    q[k] = end;
+}
+
 void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
                 const double *y, double width, Colour colour)
 {
-    for (int i = 1; i < count; i++) {
-        const double from[2] = {x[i - 1], y[i - 1]}, to[2] = {x[i], y[i]};
-        plot_line(paper, plot, from, to, width, colour);
+    const Box *box = &plot->box;
+    double p[2] = {NAN, NAN};
+    for (int i = 0; i < count; i++) {
+        double q[2], a[2], b[2];
+        plot_place(plot, x[i], y[i], q);
+        bool joined = isfinite(p[0] + p[1]) && isfinite(q[0] + q[1]);
+        if (joined) {
+            if (fabs(q[0] - p[0]) < 1 && fabs(q[1] - p[1]) < 1 && i + 1 < count)
+                continue; /* less than a pixel: wait for the next point */
+            end_between_pixels(p, q);
+            memcpy(a, p, sizeof a);
+            memcpy(b, q, sizeof b);
+            if (cut_line(a, b, 0, box->x, box->x + box->width) &&
+                cut_line(a, b, 1, box->y, box->y + box->height))
+                paper_line(paper, a, b, width, colour);
+        }
+        memcpy(p, q, sizeof p);
     }
 }

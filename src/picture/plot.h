@@ -9,7 +9,8 @@ typedef struct Axis {
     double low, high;  /* high > low; > 0 where it is logarithmic */
     bool log;          /* numbers at powers of ten */
     bool whole;        /* numbers are whole ones */
-    const char *label; /* at the end of the axis, markup; or NULL */
+    const char *label; /* markup, or NULL: below the right end of the axis;
+                          that of y in the upper right corner */
 } Axis;
 
 typedef struct Plot {

@@ -89,7 +89,8 @@ static SpringCount spring_draw(Paper *paper, const Stage *stage,
     spring_circle(paper, stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(paper, stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     stage_pin(paper, stage, origin, 6 * paper->unit);
-    stage_arrows(paper, stage, 1, 1, x, facts.force, 3.2, COLOUR_FORCE);
+    stage_arrows(paper, stage, 1, 1, x, facts.force, 8 * paper->em,
+                 COLOUR_FORCE);
     stage_disc(paper, stage, x, 9 * paper->unit, COLOUR_X);
     if (show->bare || !stage->text)
         return (SpringCount){1, 0};

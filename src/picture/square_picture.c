@@ -15,6 +15,7 @@ enum {
 
 static const double ROOM = 1.14;      /* of the stage around the square */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
+static const double FORCE_ROOM = 7;   /* ems, the longest contact force */
 static const double NODE = 0.1;       /* of the distance of two nodes */
 
 /* What does not change from spring to spring. */
@@ -289,22 +290,39 @@ static int arrow_stride(const SpringPen *pen)
     return stride < 1 ? 1 : stride;
 }
 
-/* p or forces as arrows, and what their colour means. */
-static void draw_arrows(const SpringPen *pen, const double *d, Colour colour,
-                        const char *what, const char *unit, Legend *legend)
+/* p as arrows that end where a full step leads, if that can be seen. */
+static void draw_direction(const SpringPen *pen, const double *p,
+                           Legend *legend)
 {
-    const Simulation *simulation = pen->pane->simulation;
-    int stride = arrow_stride(pen);
+    const Box *box = &pen->stage->box;
     double factor =
-        stage_arrows(pen->paper, pen->stage, simulation->system.nodes, stride,
-                     pen->x, d, 1.6, colour);
+        stage_arrows(pen->paper, pen->stage,
+                     pen->pane->simulation->system.nodes, arrow_stride(pen),
+                     pen->x, p, 0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0 || !pen->stage->text)
         return;
-    if (factor == 1 || unit[0])
-        stage_legend(pen->paper, pen->stage, legend, colour, "%s", what);
+    if (factor == 1)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
+                     "search direction p");
     else
-        stage_legend(pen->paper, pen->stage, legend, colour, "%s \u00d7 %g",
-                     what, factor);
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
+                     "search direction p \u00d7 %g", factor);
+}
+
+/* Forces as arrows of no more than some ems, and how large the largest is. */
+static void draw_forces(const SpringPen *pen, const double *force,
+                        Legend *legend)
+{
+    char number[48];
+    int nodes = pen->pane->simulation->system.nodes;
+    double most = longest_arrow(nodes, force);
+    if (stage_arrows(pen->paper, pen->stage, nodes, 1, pen->x, force,
+                     FORCE_ROOM * pen->paper->em, COLOUR_FORCE) == 0 ||
+        !pen->stage->text)
+        return;
+    plot_number(number, sizeof number, most);
+    stage_legend(pen->paper, pen->stage, legend, COLOUR_FORCE,
+                 "contact forces, at most %s N", number);
 }
 
 /* The start of the hand's spring, the spring, and its force. */
@@ -359,7 +377,7 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     if (!pane->frame) {
         draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
                      COLOUR_RULE);
-        if (stage->text)
+        if (stage->text && stage->pane == 0)
             stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
     }
     draw_cells(pen, &simulation->mesh, pane->cells);
@@ -387,10 +405,9 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
                      "projected spring");
     if (trace && trace->p && trace->line >= LINE_SOLVE &&
         trace->line <= LINE_SEARCH)
-        draw_arrows(pen, trace->p, COLOUR_P, "search direction p", "", legend);
+        draw_direction(pen, trace->p, legend);
     if (pane->force)
-        draw_arrows(pen, pane->force, COLOUR_FORCE, "contact force", "N",
-                    legend);
+        draw_forces(pen, pane->force, legend);
     draw_hover(pen, show);
     draw_hand(pen, show);
     int folded = pane_folded(pane);
@@ -519,16 +536,21 @@ static Pick square_pick(const Show *show, const Stage *stage, double x,
     return pick;
 }
 
-/* Total, kinetic, elastic energy of the first run, J. */
+/* All energies of the first run, J; cards leave out those that are 0. */
 static void square_sample(const Simulation *simulation, History *history,
                           Trail *trail)
 {
-    static const char *const names[] = {"total", "kinetic", "elastic"};
-    Energies energies = simulation_energies(simulation, 0);
-    const double value[] = {energies.total, energies.kinetic, energies.elastic};
+    static const char *const names[] = {
+        "total", "kinetic", "elastic",  "gravity", "contact",
+        "hand",  "plastic", "fracture", "friction"};
+    enum { NAMES = sizeof names / sizeof *names };
+    Energies e = simulation_energies(simulation, 0);
+    const double value[NAMES] = {e.total,    e.kinetic,  e.elastic,
+                                 e.gravity,  e.contact,  e.hand,
+                                 e.plastic,  e.fracture, e.friction};
     (void)trail;
-    history->series = 3;
-    for (int s = 0; s < 3; s++)
+    history->series = NAMES;
+    for (int s = 0; s < NAMES; s++)
         history->name[s] = names[s];
     history_add(history, simulation_time(simulation), value);
 }

@@ -72,7 +72,7 @@ tolerance=$tolerance,factorisations,median_distance_m,worst_distance_m
 check tolerance "$tolerance,elsewhere,unconverged"
 filters=filter,timestep_s,stretch,steps,iterations,factorisations
 check filters "$filters,projected,unconverged,failed,ms"
-check drawing segments,springs_drawn,springs_left_out,frames,frame_ms
+check drawing segments,springs_drawn,springs_left_out,frames,bare_ms,full_ms
 memory=segments,unknowns,setup_s,step_s,iterations,factorisations
 memory=$memory,unconverged,factor_entries,cholmod_peak_bytes
 check memory "$memory,process_peak_bytes"
