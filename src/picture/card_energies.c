@@ -128,8 +128,8 @@ static Box draw_legend(Paper *paper, Box inside, const Show *show, double time)
     for (int s = 0; !compares(show) && s < history->series; s++)
         if (series_counts(history, s))
             x = draw_word(paper, &row, x, colour_of_energy(s),
-                      history->name[s] ? history->name[s] : "",
-                      narrow && s > 0 ? NAN : value_at(history, s, time));
+                          history->name[s] ? history->name[s] : "",
+                          narrow && s > 0 ? NAN : value_at(history, s, time));
     int used = row.y + paper_pixels(paper, 1.3) - inside.y;
     return (Box){inside.x, inside.y + used, inside.width, inside.height - used};
 }
@@ -162,7 +162,7 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
     for (int s = history->series - 1; !compares(show) && s >= 0; s--)
         if (series_counts(history, s))
             draw_series(paper, &plot, history, s, s == 0 ? 1.8 : 1.4,
-                    colour_of_energy(s));
+                        colour_of_energy(s));
 }
 
 const Card card_energies = {

@@ -35,7 +35,6 @@ Colour colour_of_energy(int energy)
 {
     static const Colour colours[] = {0xff1c1c1cu, 0xff3d9bd6u, 0xffb8860bu,
                                      0xff6b8e23u, 0xffa0522du, 0xff8a8a8au,
-                                     0xff7b68a8u, 0xffc2738bu,
-                                     0xff2f6f6fu};
+                                     0xff7b68a8u, 0xffc2738bu, 0xff2f6f6fu};
     return colours[energy < 0 ? 0 : energy % 9];
 }

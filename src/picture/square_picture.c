@@ -540,14 +540,14 @@ static Pick square_pick(const Show *show, const Stage *stage, double x,
 static void square_sample(const Simulation *simulation, History *history,
                           Trail *trail)
 {
-    static const char *const names[] = {
-        "total", "kinetic", "elastic",  "gravity", "contact",
-        "hand",  "plastic", "fracture", "friction"};
+    static const char *const names[] = {"total",   "kinetic",  "elastic",
+                                        "gravity", "contact",  "hand",
+                                        "plastic", "fracture", "friction"};
     enum { NAMES = sizeof names / sizeof *names };
     Energies e = simulation_energies(simulation, 0);
-    const double value[NAMES] = {e.total,    e.kinetic,  e.elastic,
-                                 e.gravity,  e.contact,  e.hand,
-                                 e.plastic,  e.fracture, e.friction};
+    const double value[NAMES] = {e.total,   e.kinetic,  e.elastic,
+                                 e.gravity, e.contact,  e.hand,
+                                 e.plastic, e.fracture, e.friction};
     (void)trail;
     history->series = NAMES;
     for (int s = 0; s < NAMES; s++)
