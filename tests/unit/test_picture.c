@@ -11,8 +11,9 @@
 #include "testing.h"
 
 #include "picture/colour_map.h"
-#include "picture/draw.h"
+#include "picture/picture.h"
 #include "picture/plot.h"
+#include "play/player.h"
 #include "play/png_file.h"
 #include "play/recording.h"
 #include "scenes/scene.h"
@@ -107,38 +108,6 @@ static Options parsed(int count, char **arguments)
     if (options_parse(count, arguments, &options, message, sizeof message))
         fail_msg("%s", message);
     return options;
-}
-
-static bool observe(void *user, const NewtonRecord *record)
-{
-    hud_add_update(user, record);
-    return true;
-}
-
-/* A scene after some steps, as the program shows it. */
-static void simulate_line(const char *line, int steps, Simulation *simulation,
-                          Hud *hud)
-{
-    hud_create(hud);
-    simulation_from_line(line, observe, hud, simulation);
-    hud->speed = 60 * simulation->options.timestep;
-    hud_sample(hud, simulation);
-    for (int i = 0; i < steps; i++) {
-        hud_begin_step(hud);
-        Status status = simulation_step(simulation);
-        assert_true(!status || status_is_unconverged(status));
-        hud_end_step(hud, simulation);
-        hud_sample(hud, simulation);
-    }
-}
-
-/* The default scene with this many segments after some steps. */
-static void simulate(const char *segments, int steps, Simulation *simulation,
-                     Hud *hud)
-{
-    char line[64];
-    snprintf(line, sizeof line, "square --segments %s", segments);
-    simulate_line(line, steps, simulation, hud);
 }
 
 /* ---- canvas ------------------------------------------------------------- */
@@ -322,37 +291,62 @@ static void mask_words(const Canvas *words, const Canvas *plain,
         }
 }
 
+/* The frame of a step as the program makes it, words left out or not. */
+static Canvas program_frame(const char *line, int step, bool words)
+{
+    static Player player;
+    static volatile sig_atomic_t stop;
+    char copy[256], steps[16], name[NAME_SIZE + 64], frames[NAME_SIZE + 16];
+    char *arguments[32] = {"elasto", "--headless", "--quiet", "--frames",
+                           frames,   "--steps",    steps};
+    snprintf(frames, sizeof frames, "%s", in_folder("frames"));
+    const char *was = getenv("ELASTO_FONT");
+    char *kept = was ? strdup(was) : NULL;
+    int count = 7;
+    snprintf(steps, sizeof steps, "%d", step);
+    snprintf(copy, sizeof copy, "%s", line);
+    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
+        arguments[count++] = word;
+    Options options = parsed(count, arguments);
+    if (!words)
+        setenv("ELASTO_FONT", "", 1);
+    assert_int_equal(player_create(&options, 1, &stop, &player), 0);
+    assert_int_equal(player_run(&player), 0);
+    assert_int_equal(player_finish(&player), 0);
+    player_free(&player);
+    if (kept)
+        setenv("ELASTO_FONT", kept, 1);
+    else
+        unsetenv("ELASTO_FONT");
+    free(kept);
+    snprintf(name, sizeof name, "%s/frame_%06d.png", options.frames, step);
+    return read_png(name);
+}
+
 /* Pixels of tests/data/NAME.png, away from words, that are off by more than 4
  * of 255. */
-static int count_far_pixels(const char *name, Paper *paper,
-                            const Simulation *simulation, const Hud *hud)
+static int count_far_pixels(const char *name, const char *line, int step)
 {
     static unsigned char mask[FRAME * FRAME];
     char file[64];
     struct stat info;
     int far = 0, compared = 0;
-    Paper plain = *paper;
     snprintf(file, sizeof file, "tests/data/%s.png", name);
     Canvas reference = read_png(file);
+    Canvas plain = program_frame(line, step, false);
+    Canvas now = program_frame(line, step, true);
     assert_int_equal(reference.width, FRAME);
     assert_int_equal(reference.height, FRAME);
-    assert_int_equal(canvas_create(FRAME, FRAME, &plain.canvas), 0);
-    memset(plain.kept, 0, sizeof plain.kept);
-    memset(plain.key, 0, sizeof plain.key);
-    plain.text = NULL;
-    draw_frame(&plain, simulation, hud);
-    mask_words(&reference, &plain.canvas, mask);
+    mask_words(&reference, &plain, mask);
     for (int i = 0; i < FRAME * FRAME; i++)
         if (!mask[i]) {
-            far += pixel_distance(paper->canvas.pixels[i],
-                                  reference.pixels[i]) > 4;
+            far += pixel_distance(now.pixels[i], reference.pixels[i]) > 4;
             compared++;
         }
     CHECK(compared > FRAME * FRAME / 2);
     canvas_free(&reference);
-    canvas_free(&plain.canvas);
-    for (int k = 0; k < KEEP_COUNT; k++)
-        canvas_free(&plain.kept[k]);
+    canvas_free(&plain);
+    canvas_free(&now);
     assert_int_equal(stat(file, &info), 0);
     CHECK(info.st_size < 140000);
     return far;
@@ -362,23 +356,15 @@ static int count_far_pixels(const char *name, Paper *paper,
 static void readme_shows_what_is_drawn(void **unused)
 {
     (void)unused;
-    static Simulation simulation;
-    static Hud hud;
     char name[32], line[128];
-    int steps, count = 0;
+    int step, count = 0;
     FILE *list = fopen("tests/data/pictures.txt", "r");
     assert_non_null(list);
-    while (fscanf(list, "%31s %d %127[^\n]", name, &steps, line) == 3) {
-        Paper paper;
-        simulate_line(line, steps, &simulation, &hud);
-        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-        draw_frame(&paper, &simulation, &hud);
-        int far = count_far_pixels(name, &paper, &simulation, &hud);
+    while (fscanf(list, "%31s %d %127[^\n]", name, &step, line) == 3) {
+        int far = count_far_pixels(name, line, step);
         if (far)
             print_error("tests/data/%s.png differs\n", name);
         CHECK_AT_MOST(far, 0);
-        paper_free(&paper);
-        simulation_free(&simulation);
         count++;
     }
     fclose(list);
@@ -390,13 +376,14 @@ static void surface_shows_the_paper(void **unused)
 {
     (void)unused;
     static Simulation simulation;
-    static Hud hud;
+    static Show show;
     View *view = NULL;
-    simulate("4", 1, &simulation, &hud);
+    simulation_from_line("square", NULL, NULL, &simulation);
+    show_create(&simulation, &show);
     CHECK_STATUS(view_create_surface(300, 200, &view), STATUS_OK);
     Paper *paper = view_paper(view);
     assert_non_null(paper);
-    draw_frame(paper, &simulation, &hud);
+    show_draw(paper, &show);
     CHECK_STATUS(view_show(view), STATUS_OK);
     for (int j = 0; j < 200; j++)
         for (int i = 0; i < 300; i++)
