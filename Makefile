@@ -273,7 +273,7 @@ STRESS_PARTS = stress_exact stress_watch stress_random stress_cases \
                stress_answers stress_envelope
 STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/stress/%.o)
 
-$(B)/tests/unit/test_stress: $(STRESS_OBJECTS)
+$(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS_OBJECTS)
 
 $(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) $(B)/tests/unit/testing.o \
              $(OBJECTS)

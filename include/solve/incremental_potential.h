@@ -98,9 +98,11 @@ bool incremental_potential_is_limited(const IncrementalPotential *E);
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
-/* Whether the masses outweigh all that bends down in the terms, so that the
- * Hessian as it is is positive definite without any factorisation.
+/* Whether `times` the masses outweigh all that bends down in the terms: then
+ * the Hessian as it is, plus (times - 1) M, is positive definite without any
+ * factorisation.
  *   sum  [n] out */
-bool incremental_potential_is_convex(const Iterate *at, double *sum);
+bool incremental_potential_is_convex(const Iterate *at, double times,
+                                     double *sum);
 
 #endif

@@ -85,9 +85,10 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 
 /* What guards the digits of a minimisation (rounding.c). */
 typedef struct Rounding {
-    double lightest;      /* kg, the smallest mass */
-    double stiffest;      /* J/m^2, the largest curvature of a term */
-    bool held;            /* to what E really is */
+    double lightest; /* kg, the smallest mass */
+    double stiffest; /* J/m^2, the largest curvature of a term */
+    bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
+    bool held;       /* to what E really is */
     double start, energy; /* J s^2, E at the start and at the iterate */
     double margin;        /* J s^2, E may seem to rise by; these if held */
     double best;          /* m/s, smallest residual of this minimisation */

@@ -26,6 +26,7 @@ typedef struct SearchDirection {
     int age;         /* updates since the factor was made; < 0: none to use */
     int clamps;      /* iterations that on-demand projection still clamps */
     int updates;     /* of this minimisation; < 0: there was none yet */
+    bool bends_down; /* the test is passed, but at no minimum */
     bool resting;    /* the last minimisation needed no update */
     double residual; /* m/s, of the direction before the present one */
 } SearchDirection;
@@ -49,6 +50,9 @@ void search_direction_rebuild(SearchDirection *search);
 Status search_direction_assemble(SearchDirection *search, const Iterate *at,
                                  Filter filter, bool definite, int *projected);
 
+/* A += times M, and what rounding may have taken from semi-definite A. */
+void search_direction_add_masses(SearchDirection *search, double times);
+
 /* Factors A, with a shift if it must: only a filtered A is known to be
  * semi-definite but for rounding, so only that is shifted.  tries out,
  * factorisations made. Returns OK, NOT_POSITIVE_DEFINITE, NOT_FINITE,
@@ -68,6 +72,18 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at);
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
                                    double *d, bool *found);
+
+/* How well at->p solves H p = -g for the Hessian of the last assembly, applied
+ * term by term; search->r becomes -g - H p.
+ *   error  out, |r|_(M^-1), kg^(1/2) m: a bound of |p - exact|_M where H - M is
+ *          positive semi-definite
+ * Returns OK, OUT_OF_MEMORY. */
+Status search_direction_judge(SearchDirection *search, const Iterate *at,
+                              double *error);
+
+/* search->z = H^-1 search->r with the last factor: what p lacks, as far as that
+ * can tell.  Returns as search_direction_solve. */
+Status search_direction_correct(SearchDirection *search);
 
 /* Whether p, at most error away from what it should be, is good enough. */
 typedef bool (*GoodEnough)(const void *user, const double *p, double error);

@@ -103,7 +103,8 @@ static bool expects_convergence(const Newton *newton)
 static bool factor_may_serve(const Newton *newton)
 {
     if (newton->settings.filter == FILTER_NONE || newton->search.age < 0 ||
-        newton->search.kind == CHOLESKY_INDEFINITE || newton->search.shift > 0)
+        newton->search.kind == CHOLESKY_INDEFINITE ||
+        newton->search.shift > 0 || newton->rounding.blurred)
         return false;
     return newton->search.age <= 1 && expects_convergence(newton);
 }
@@ -113,6 +114,29 @@ static Status newton_test(const Newton *newton)
 {
     return newton->residual <= newton->settings.tolerance ? STATUS_OK
                                                           : STATUS_RUNNING;
+}
+
+/* Where springs outweigh the masses so much that a factor is not exact, the
+ * test is passed only by a direction that is known well enough: its residual
+ * and the bound of what H p = -g lacks, together.  (What rounding has done to g
+ * itself is not in this: no direction knows it.) */
+static Status newton_certify(Newton *newton)
+{
+    double error;
+    if (!newton->rounding.blurred && newton->search.shift == 0)
+        return STATUS_OK;
+    Status status =
+        search_direction_judge(&newton->search, &newton->at, &error);
+    if (!status && newton->search.filter == FILTER_NONE) {
+        /* H - M may be indefinite: the factor tells what is lacking */
+        status = search_direction_correct(&newton->search);
+        error = 2 * newton_residual(newton, newton->search.z) /
+                residual_per_norm(newton);
+    }
+    if (status)
+        return status;
+    double residual = newton->residual + residual_per_norm(newton) * error;
+    return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
@@ -125,7 +149,8 @@ static Status newton_solve_and_test(Newton *newton)
     newton->residual = newton_residual(newton, newton->at.p);
     if (!isfinite(newton->residual))
         return STATUS_NOT_FINITE;
-    return newton_test(newton);
+    status = newton_test(newton);
+    return status ? status : newton_certify(newton);
 }
 
 /* Whether a direction with at most this error passes the test or does not,
@@ -214,7 +239,7 @@ static bool gradient_vanishes(const Newton *newton)
 static Status check_minimum(Newton *newton)
 {
     if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
-        incremental_potential_is_convex(&newton->at, newton->at.p))
+        incremental_potential_is_convex(&newton->at, 1, newton->at.p))
         return STATUS_OK;
     int projected;
     Status status = search_direction_assemble(&newton->search, &newton->at,
@@ -243,7 +268,7 @@ static Status leave_saddle(Newton *newton)
     bool found = false;
     if (!newton->settings.minimum || newton->settings.filter == FILTER_NONE ||
         newton->left == MAX_SADDLES ||
-        incremental_potential_is_convex(&newton->at, p))
+        incremental_potential_is_convex(&newton->at, 1, p))
         return STATUS_OK;
     Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
     if (!status)
@@ -261,6 +286,34 @@ static Status leave_saddle(Newton *newton)
     newton->left++;
     newton->counters.saddles++;
     return STATUS_RUNNING;
+}
+
+/* The test of the slides projects, and so it also passes where E bends down.
+ * By a few masses that is an instability that grows as fast as the step can
+ * follow; by more than this many times M the place is far from any minimum of
+ * E, and it is not called one. */
+static const double MASSES_DOWN = 10;
+
+/* After the test was passed: a Cholesky factor of the Hessian as it is plus
+ * MASSES_DOWN M tells, where no cheaper bound does. */
+static Status check_end(Newton *newton)
+{
+    SearchDirection *search = &newton->search;
+    int projected;
+    if (newton->settings.filter == FILTER_NONE ||
+        incremental_potential_is_convex(&newton->at, 1 + MASSES_DOWN,
+                                        newton->r))
+        return STATUS_OK;
+    Status status = search_direction_assemble(search, &newton->at, FILTER_NONE,
+                                              true, &projected);
+    if (status)
+        return status;
+    search_direction_add_masses(search, MASSES_DOWN);
+    search->age = -1;
+    newton->counters.factorisations++;
+    status = cholesky_factor(search->cholesky);
+    return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
+                                                  : status;
 }
 
 Status direction_first(Newton *newton)
@@ -282,5 +335,18 @@ Status direction_next(Newton *newton)
     newton->search.updates++;
     newton->search.residual = newton->residual;
     Status status = direction_at(newton, &alone);
-    return status ? status : leave_saddle(newton);
+    newton->search.bends_down = false;
+    if (status == STATUS_OK)
+        status = leave_saddle(newton);
+    if (status == STATUS_OK)
+        status = check_end(newton);
+    if (status != STATUS_NOT_A_MINIMUM)
+        return status;
+    newton->search.bends_down = true; /* p leads on from here */
+    if (!alone)
+        return STATUS_RUNNING;
+    status = newton_factor(newton);
+    if (!status)
+        status = newton_solve(newton);
+    return status ? status : STATUS_RUNNING;
 }

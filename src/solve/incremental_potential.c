@@ -226,7 +226,8 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
     return true;
 }
 
-bool incremental_potential_is_convex(const Iterate *at, double *sum)
+bool incremental_potential_is_convex(const Iterate *at, double times,
+                                     double *sum)
 {
     const System *system = at->E.system;
     Place place = place_of(&at->E, at->u, at->x);
@@ -241,7 +242,7 @@ bool incremental_potential_is_convex(const Iterate *at, double *sum)
         kind->concave(&system->term[t], &place, at->E.weight, sum);
     }
     for (int i = 0; i < system->nodes; i++)
-        if (!(sum[i] < system->m[i]))
+        if (!(sum[i] < times * system->m[i]))
             return false;
     return true;
 }

@@ -68,6 +68,26 @@ static Status newton_update(Newton *newton)
     return STATUS_OK;
 }
 
+/* What ends the loop besides the test: rounding, patience; and where nothing
+ * keeps E from rising, an end above the start is no success. */
+static Status newton_limits(Newton *newton, Status status)
+{
+    if (status == STATUS_RUNNING)
+        status = rounding_stagnation(newton);
+    if (status == STATUS_RUNNING &&
+        newton->record.iteration + 1 >= newton->settings.max_iterations)
+        status = STATUS_ITERATION_LIMIT;
+    if (newton->search.bends_down &&
+        (status == STATUS_ROUNDING_LIMIT || status == STATUS_LINE_SEARCH_LIMIT))
+        status = STATUS_NOT_A_MINIMUM;
+    bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
+                 status_is_unconverged(status);
+    if (ended && newton->settings.search == LINE_SEARCH_NONE &&
+        rounding_sees_rise(newton))
+        status = STATUS_DIVERGED;
+    return status;
+}
+
 /* Step length, update, next direction and its test; the record tells how. */
 Status newton_iterate(Newton *newton)
 {
@@ -84,11 +104,7 @@ Status newton_iterate(Newton *newton)
     NewtonRecord done = newton->record;
     if (!status)
         status = direction_next(newton);
-    if (status == STATUS_RUNNING)
-        status = rounding_stagnation(newton);
-    if (status == STATUS_RUNNING &&
-        done.iteration + 1 >= newton->settings.max_iterations)
-        status = STATUS_ITERATION_LIMIT;
+    status = newton_limits(newton, status);
     done.status = status;
     done.seconds = clock_now() - start;
     return newton->status = newton_tell(newton, &done);
@@ -117,20 +133,16 @@ static void move_centre(Newton *newton)
  * lowers E, and linear momentum is conserved to rounding; moved twice, because
  * where springs have hidden the masses the first way is long, and so are its
  * rounding errors.  Where these have cost the square its shape, it keeps the
- * one that it had.  Without a line search E may have risen for other reasons:
- * that is said, and the iterate stays. */
+ * one that it had. */
 void newton_finish(Newton *newton)
 {
     Status before = newton->status;
     if (before && !status_is_unconverged(before))
         return;
-    bool searched = newton->settings.search != LINE_SEARCH_NONE;
-    if (!searched && rounding_sees_rise(newton)) {
-        newton->status = STATUS_DIVERGED;
-    } else if (system_is_free(newton->system)) {
+    if (system_is_free(newton->system)) {
         move_centre(newton);
         move_centre(newton);
-        if (rounding_sees_rise(newton)) {
+        if (before != STATUS_DIVERGED && rounding_sees_rise(newton)) {
             for (int i = 0; i < 2 * newton->system->nodes; i++)
                 newton->at.u[i] = 0;
             move_centre(newton);

@@ -7,8 +7,9 @@
  * that is left. */
 enum { STAGNANT_ITERATIONS = 20 };
 
-/* Beyond this ratio springs hide the masses. */
-static const double HIDDEN_MASSES = 1e16;
+/* Beyond this ratio of w k to m a direction from a factor may be off by more
+ * than 1e-5 of itself, and beyond the second springs hide the masses. */
+static const double BLURRED_MASSES = 1e10, HIDDEN_MASSES = 1e16;
 
 /* E may seem to rise by this part of its size. */
 static const double MARGIN = 1e-12;
@@ -27,9 +28,10 @@ void rounding_start(Newton *newton)
     Rounding *rounding = &newton->rounding;
     rounding->best = INFINITY;
     rounding->stagnant = 0;
-    rounding->held =
-        newton->settings.search == LINE_SEARCH_NONE ||
-        at->E.weight * rounding->stiffest > HIDDEN_MASSES * rounding->lightest;
+    double stiffness = at->E.weight * rounding->stiffest;
+    rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
+    rounding->held = newton->settings.search == LINE_SEARCH_NONE ||
+                     stiffness > HIDDEN_MASSES * rounding->lightest;
     if (!rounding->held)
         return;
     rounding->start = incremental_potential_value(&at->E, at->u, at->x);

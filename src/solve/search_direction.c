@@ -104,6 +104,14 @@ static double largest_diagonal(const SearchDirection *search)
     return largest;
 }
 
+void search_direction_add_masses(SearchDirection *search, double times)
+{
+    double rounding = 1e-13 * largest_diagonal(search);
+    for (int t = 0; t < 2 * search->system->nodes; t++)
+        search->A.value[search->slot[t]] +=
+            times * search->system->m[t / 2] + rounding;
+}
+
 Status search_direction_factor(SearchDirection *search, int *tries)
 {
     search->shift = 0;
@@ -204,9 +212,9 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last) * d[i];
     incremental_potential_product(state->at, state->filter, d, q);
-    double alpha = state->rz / dot(n, d, q);
-    if (!(alpha > 0))
-        return false;
+    double curvature = dot(n, d, q), alpha = state->rz / curvature;
+    if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
+        return false; /* rounding has eaten it */
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
         r[i] -= alpha * q[i];
@@ -227,6 +235,24 @@ static Status solve_shifted(SearchDirection *search, const Iterate *at)
             break;
     }
     return STATUS_OK;
+}
+
+Status search_direction_judge(SearchDirection *search, const Iterate *at,
+                              double *error)
+{
+    Status status = create_workspaces(search);
+    if (status)
+        return status;
+    incremental_potential_product(at, search->filter, at->p, search->q);
+    for (int i = 0; i < 2 * search->system->nodes; i++)
+        search->r[i] = -at->g[i] - search->q[i];
+    *error = system_inverse_mass_norm(search->system, search->r);
+    return STATUS_OK;
+}
+
+Status search_direction_correct(SearchDirection *search)
+{
+    return apply_factor(search, search->r, search->z);
 }
 
 Status search_direction_refine(SearchDirection *search, const Iterate *at,

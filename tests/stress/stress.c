@@ -2,6 +2,7 @@
  * minutes; ends with a table and the number of promises broken.
  *
  *   --random N   random scenes (100000)       --seed S  (1)
+ *   --squares N  random squares of the command line (10000)
  *   --case N     only that one; shrunk and printed if it fails
  *   --quick      no slow case and no envelope
  *   --envelope CSV PNG   only the envelope, into these files
@@ -78,10 +79,11 @@ static void run_cases(bool quick, Tally *sum)
     }
 }
 
-static void run_random(uint64_t seed, long count, Tally *sum)
+static void run_random(const char *name, uint64_t seed, long first, long count,
+                       Tally *sum)
 {
     Tally tally = {0};
-    for (long i = 0; i < count; i++) {
+    for (long i = first; i < first + count; i++) {
         Wild wild;
         char reason[512] = "", line[80];
         snprintf(line, sizeof line, "build/stress --seed %llu --case %ld",
@@ -91,9 +93,9 @@ static void run_random(uint64_t seed, long count, Tally *sum)
         if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
             printf("%s: %s\n", line, reason);
         if (i % 1000 == 0)
-            progress("random scenes", i, count);
+            progress(name, i - first, count);
     }
-    print_row("random scenes", &tally);
+    print_row(name, &tally);
     add_tally(&tally, sum);
 }
 
@@ -171,7 +173,7 @@ static void print_sum(const Tally *sum)
 int main(int argc, char **argv)
 {
     uint64_t seed = 1;
-    long random = 100000, number = -1;
+    long random = 100000, squares = 10000, number = -1;
     bool quick = false;
     const char *csv = NULL, *png = NULL;
     for (int i = 1; i < argc; i++) {
@@ -183,6 +185,8 @@ int main(int argc, char **argv)
             number = strtol(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--random") == 0 && i + 1 < argc)
             random = strtol(argv[++i], NULL, 10);
+        else if (strcmp(argv[i], "--squares") == 0 && i + 1 < argc)
+            squares = strtol(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--envelope") == 0 && i + 2 < argc)
             csv = argv[i + 1], png = argv[i + 2], i += 2;
         else
@@ -196,7 +200,8 @@ int main(int argc, char **argv)
            "reported", "wrong", "resolved", "blurred");
     if (!csv) {
         run_cases(quick, &sum);
-        run_random(seed, random, &sum);
+        run_random("random scenes", seed, 0, random, &sum);
+        run_random("random squares", seed, WILD_SQUARES, squares, &sum);
     }
     if (!quick)
         run_envelope(csv, png, &sum);

@@ -101,7 +101,10 @@ typedef struct Wild {
     Filter filter;
 } Wild;
 
-/* The random scene with this number. */
+/* The random scene with this number.  From WILD_SQUARES on they are squares as
+ * the command line makes them, over all it allows that matters: h to 1e6 s, k
+ * to 1e15 J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34. */
+enum { WILD_SQUARES = 1000000000 };
 void wild_create(uint64_t seed, long number, Wild *wild);
 
 /* Its steps, judged; reason [512] out where one was WRONG; tally in/out. */

@@ -149,11 +149,49 @@ static void wild_motion(Random *random, Wild *wild, double size)
     }
 }
 
+/* As square_scenes.c sets one up. */
+static void wild_command_line(Random *random, Wild *wild)
+{
+    int segments = 1 + random_below(random, 3);
+    double side =
+        random_below(random, 2) ? 1 : random_logarithmic(random, 1e-3, 1e3);
+    double density = random_logarithmic(random, 1e-9, 1e6);
+    double k = random_logarithmic(random, 1e-3, 1e15);
+    double stretch = random_below(random, 8)
+                         ? random_logarithmic(random, 0.01, 30)
+                         : random_below(random, 3) - 1;
+    wild_square(wild, segments);
+    for (int s = 0; s < wild->springs; s++) {
+        const double *xi = wild->x + 2 * wild->e[2 * s];
+        const double *xj = wild->x + 2 * wild->e[2 * s + 1];
+        double dx = side * (xi[0] - xj[0]), dy = side * (xi[1] - xj[1]);
+        wild->l2[s] = dx * dx + dy * dy;
+        wild->k[s] = k;
+    }
+    for (int i = 0; i < wild->nodes; i++) {
+        wild->m[i] = density * side * side / wild->nodes;
+        wild->x[2 * i] *= side * stretch;
+        wild->x[2 * i + 1] *= side;
+    }
+    wild->h = random_logarithmic(random, 1e-6, 1e6);
+    wild->tolerance =
+        random_below(random, 2) ? 1e-2 : random_logarithmic(random, 1e-9, 1e3);
+}
+
 void wild_create(uint64_t seed, long number, Wild *wild)
 {
     Random random = {seed * 0x9e3779b97f4a7c15u + (uint64_t)number};
     random_uniform(&random, 0, 1);
     *wild = (Wild){.max_iterations = 10000};
+    if (number >= WILD_SQUARES) {
+        wild_command_line(&random, wild);
+        wild->steps = 1 + random_below(&random, 4);
+        wild->method = random_row(&random);
+        wild->solver = (Solver)random_below(&random, SOLVER_COUNT);
+        if (random_below(&random, 2))
+            wild->filter = (Filter)random_below(&random, FILTER_COUNT);
+        return;
+    }
     double size = random_logarithmic(&random, 1e-3, 1e3);
     wild_graph(&random, wild);
     wild_positions(&random, wild, size);

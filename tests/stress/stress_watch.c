@@ -55,21 +55,18 @@ static double residual_of_direction(const Watch *watch, const Wide *p)
     return (double)(largest / watch->run->newton->settings.h);
 }
 
-/* What rounding of the gradient and of the factor can make of the residual:
- * |H^-1| (noise + eps |H| |p|), over h.  watch->H holds the factor, behind it
- * the Hessian. */
-static double residual_noise(const Watch *watch, const Wide *p)
+/* What rounding of the gradient can make of the residual: |H^-1| noise, over h.
+ * watch->H holds the factor.  Rounding of the solver's own factor is not
+ * forgiven: where it matters the solver has to know it. */
+static double residual_noise(const Watch *watch)
 {
     int n = watch_size(watch);
-    const Wide *H = watch->H + n * n;
     long double sum[LARGEST_JUDGED] = {0}, largest = 0;
     Wide column[LARGEST_JUDGED];
     for (int j = 0; j < n; j++) {
         long double noise = watch->noise[j];
-        for (int i = 0; i < n; i++) {
-            noise += DBL_EPSILON * fabsl((long double)(H[n * j + i] * p[i]));
+        for (int i = 0; i < n; i++)
             column[i] = i == j;
-        }
         wide_solve(n, watch->H, column);
         for (int i = 0; i < n; i++)
             sum[i] += ROUNDINGS * noise * fabsl((long double)column[i]);
@@ -90,8 +87,6 @@ static double judged_residual(Watch *watch, const double *u, Filter filter,
     wide_derivatives(&E, u, filter, watch->g, watch->H);
     for (int i = 0; i < n; i++)
         largest = fmaxl(largest, fabsl((long double)watch->g[i]));
-    memcpy(watch->H + n * n, watch->H,
-           (size_t)n * (size_t)n * sizeof *watch->H);
     *noise = INFINITY;
     if (!wide_factor(n, watch->H, &negative))
         return INFINITY;
@@ -104,7 +99,7 @@ static double judged_residual(Watch *watch, const double *u, Filter filter,
     if (watch->run->newton->settings.filter == FILTER_NONE)
         for (int i = 0; i < n; i++) /* as cholesky.h says of INDEFINITE */
             watch->noise[i] += 1e-8L * largest / ROUNDINGS;
-    *noise = residual_noise(watch, watch->g);
+    *noise = residual_noise(watch);
     return residual;
 }
 
