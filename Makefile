@@ -268,6 +268,13 @@ pictures: build/elasto
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
 
+# ---- the lecture for a course's page ----------------------------------------
+handout: build/elasto
+	./build/elasto --handout build/handout.html
+	@echo build/handout.html
+
+.PHONY: handout
+
 # ---- hard to break ---------------------------------------------------------
 STRESS_PARTS = stress_exact stress_watch stress_random stress_cases \
                stress_answers stress_envelope
@@ -336,6 +343,7 @@ help:
 	@echo 'make            build build/elasto'
 	@echo 'make test       build and run all tests (SANITIZE=address,undefined)'
 	@echo 'make pictures   draw the pictures of the README again'
+	@echo 'make handout    write the lecture as build/handout.html'
 	@echo 'make bench      measure run time against error, for minutes'
 	@echo '                (ARGS="--quick" or "--only PART"; --help)'
 	@echo 'make figures    draw what it measured (needs gnuplot)'

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "base/one_line.h"
+#include "play/handout.h"
 #include "play/player.h"
+#include "scenes/pages.h"
 #include "scenes/scene.h"
 #include "play/summary.h"
 
@@ -97,6 +99,10 @@ static int print_information(const Options *options)
         fputs(options_help(), stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
+    else if (options->page)
+        for (int i = 0; lecture_pages[i].name; i++)
+            printf("%2d %-12s %s\n", i + 1, lecture_pages[i].name,
+                   lecture_pages[i].topic);
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
@@ -239,6 +245,21 @@ static int finish(Player *player, Status status, bool begun)
     return code;
 }
 
+/* --handout.  Returns the exit code. */
+static int make_handout(const Options *options, Player *player)
+{
+    char message[512];
+    Status status =
+        handout_write(options, &main_stop, player, message, sizeof message);
+    if (!status)
+        return EXIT_FINE;
+    fprintf(stderr, "elasto: %s: %s\n", options->handout,
+            status == STATUS_FILE_FAILED ? strerror(errno)
+            : message[0]                 ? message
+                                         : status_text(status));
+    return EXIT_FAILED;
+}
+
 int main(int argc, char **argv)
 {
     Player *player = &main_player;
@@ -266,6 +287,8 @@ int main(int argc, char **argv)
     }
     handle_signals();
     atexit(save_files);
+    if (options->handout)
+        return make_handout(options, player);
     Status status = player_create(options, options->panes, &main_stop, player);
     bool begun = !status;
     if (begun)

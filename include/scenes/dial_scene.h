@@ -15,7 +15,7 @@ void dial_defaults(Options *options);
 
 Status create_dial(Simulation *simulation, const NewtonSettings *settings);
 
-/* Turns the dial: h times 10^(1/20), up to 10 s; node 0 is the minimiser. */
+/* Turns the dial: h times 10^(1/10), up to 10 s; node 0 is the minimiser. */
 Status step_dial(Simulation *simulation);
 
 /* The minimiser for this h, m, to which the one before leads: projected Newton

@@ -36,7 +36,7 @@ typedef struct LineEnergy {
 } LineEnergy;
 
 /* The minimiser of E for one time step after the other (dial_scene.h). */
-enum { WALK_POINTS = 81 };
+enum { WALK_POINTS = 41 };
 
 typedef struct Walk {
     double h[WALK_POINTS];        /* s, ascending */

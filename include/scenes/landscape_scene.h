@@ -39,7 +39,8 @@ int landscape_switches(const Simulation *simulation,
                        Switch out[SCENE_MAX_SWITCHES]);
 void landscape_flip(Simulation *simulation, int number);
 
-/* Whether the Hessian of the parts of E on the map, not projected, is positive definite there: then
+/* Whether the Hessian of the parts of E on the map, not projected, is positive
+ * definite there: then
  * Newton's direction is downhill with and without projection. */
 bool landscape_is_convex(const Simulation *simulation, double x, double y);
 

@@ -13,7 +13,7 @@ static void dial_path(Paper *paper, const Plot *plot, const Walk *walk,
 {
     for (int i = 1; i < WALK_POINTS; i++)
         plot_line(paper, plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
-    for (int i = 20; i < WALK_POINTS; i += 20) {
+    for (int i = 10; i < WALK_POINTS; i += 10) {
         double at[2];
         plot_disc(paper, plot, walk->point[i], 4.5, COLOUR_X);
         plot_place(plot, walk->point[i][0], walk->point[i][1], at);

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* h from 1e-3 to 10 s, twenty to a power of ten. */
-static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 20;
+/* h from 1e-3 to 10 s, ten to a power of ten. */
+static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
 /* m: a shorter p changes E by less than E's rounding, and is taken whole. */
 static const double DIAL_NEAR = 1e-6;

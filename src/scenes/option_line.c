@@ -398,6 +398,19 @@ static Status check_body(const Line *line, Options *options,
     return body_check(options, complaint->text, complaint->size);
 }
 
+/* An option beside which no other has a meaning. */
+static Status check_alone(const Line *line, const char *name,
+                          const Complaint *complaint)
+{
+    for (int i = 0; option_rows[i].name; i++)
+        if (line->given[i] && strcmp(option_rows[i].name, name) != 0)
+            return complain(complaint,
+                            "--%s: the program writes the file and ends, --%s "
+                            "says nothing there",
+                            name, option_rows[i].name);
+    return STATUS_OK;
+}
+
 /* Options of one pane; lists are read as such or refused. */
 static Status parse_line(int argc, char **argv, int pane, bool compare,
                          Options *options, const Complaint *complaint)
@@ -414,6 +427,10 @@ static Status parse_line(int argc, char **argv, int pane, bool compare,
         status = take_page(&line, options, complaint);
     else if (options->scene->defaults)
         options->scene->defaults(options);
+    if (status)
+        return status;
+    if (!status && is_given(&line, "handout"))
+        status = check_alone(&line, "handout", complaint);
     if (status)
         return status;
     status = apply_line(argc, argv, &line, chosen, options, complaint);

@@ -58,7 +58,7 @@ const LecturePage lecture_pages[] = {
      .claim = "Each of the 25 masses is 40 kg, the forces of all springs add "
               "up to zero, and after 50 steps the middle of the square has "
               "not moved.",
-     .film = 50},
+     .film = 30},
     /* ---- stepping through time ------------------------------------------ */
     {.name = "forward",
      .topic = "Forward Euler",
@@ -97,7 +97,8 @@ const LecturePage lecture_pages[] = {
     {.name = "backward",
      .topic = "Backward Euler",
      .text = "The force is asked where the step ends: v′ = v + h a(x′), "
-             "x′ = x + h v′. The unknown x′ stands on both sides: an equation "
+             "x′ = x + h v′. The unknown x′ stands on both sides: an "
+             "equation "
              "has to be solved.",
      .line = "arrows --integrator backward-euler",
      .cards = "page numbers energies",
@@ -128,13 +129,13 @@ const LecturePage lecture_pages[] = {
      .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
               "1.00786 a step, that of backward Euler shrinks by it, and the "
               "symplectic one stays within 4 percent.",
-     .film = 100,
+     .film = 50,
      .plays = true},
     {.name = "explicit",
      .topic = "Why not explicit steps",
      .text = "Springs are stiff: an explicit step must be shorter than the "
              "fastest of them swings. A little longer, and it explodes.",
-     .line = "square --integrator symplectic-euler --timestep 0.006",
+     .line = "square --integrator symplectic-euler --timestep 0.008",
      .cards = "page energies",
      .look = "The square tears itself apart within a few steps.",
      .touch = "Drag h down to 0.003 s: it holds. Choose backward Euler: "
@@ -142,10 +143,10 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "v[i] = sub",
-     .claim = "With h = 0.006 s symplectic Euler leaves all numbers behind "
-              "within 60 steps, with 0.003 s it swings on for 1000; backward "
-              "Euler ends every step with 0.006 s and with 1 s.",
-     .film = 20},
+     .claim = "With h = 0.008 s symplectic Euler leaves all numbers behind "
+              "within 20 steps, with 0.003 s it swings on for 1000; backward "
+              "Euler ends every step with 0.008 s and with 1 s.",
+     .film = 11},
     /* ---- Newton's method ------------------------------------------------ */
     {.name = "tangent",
      .topic = "Newton's method in one dimension",
@@ -162,7 +163,8 @@ const LecturePage lecture_pages[] = {
      .function = "scalar_newton_start",
      .lit = "newton->p =",
      .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
-              "error is g″/(2 g′) = 0.95 times the square of the one before.",
+              "error is g″/(2 g′) = 0.95 times the square of the one "
+              "before.",
      .film = 6,
      .predict = true},
     {.name = "newton",
@@ -224,7 +226,8 @@ const LecturePage lecture_pages[] = {
      .topic = "A time step is a minimisation",
      .text =
          "Backward Euler's equation says that a slope is zero: that of "
-         "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its solution is "
+         "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its "
+         "solution is "
          "found by walking downhill, and there always is one.",
      .line = "square",
      .cards = CARDS_NEWTON,
@@ -236,7 +239,7 @@ const LecturePage lecture_pages[] = {
      .lit = "return",
      .claim = "At the end of a step M (x − x̃) + h² ∇P(x) is zero "
               "within the tolerance: x is backward Euler's x′.",
-     .film = 20},
+     .film = 10},
     {.name = "parts",
      .topic = "Inertia against elasticity",
      .text = "E has two parts. Inertia wants x̃, elasticity wants the "
@@ -269,7 +272,7 @@ const LecturePage lecture_pages[] = {
               "within 1 mm of rest, and on the way elasticity falls and "
               "inertia rises from point to point.",
      .speed = 0.25,
-     .film = 60},
+     .film = 20},
     {.name = "inertia",
      .topic = "Inertia energy",
      .text = "E_I(x) = Σ m |x − x̃|² / 2: a bowl around x̃, with "
@@ -355,7 +358,8 @@ const LecturePage lecture_pages[] = {
     {.name = "energy",
      .topic = "Spring energy, with and without the square root",
      .text = "P = l² k/2 (|d|²/l² − 1)² needs no square root: a "
-             "polynomial, smooth even at length 0. 2k (|d| − l)² is as stiff "
+             "polynomial, smooth even at length 0. 2k (|d| − l)² is as "
+             "stiff "
              "at rest, but has a kink there.",
      .line = "spring --start 1.3,0",
      .cards = "page numbers profile",
@@ -366,12 +370,14 @@ const LecturePage lecture_pages[] = {
      .function = "spring_val",
      .lit = "sum +=",
      .claim = "At rest both have the curvature 4k along the spring. At 1 mm "
-              "the curvature across is −2k for P and −3996 k with the square "
+              "the curvature across is −2k for P and −3996 k with the "
+              "square "
               "root.",
      .flips = 1},
     {.name = "force",
      .topic = "Its gradient and its Hessian",
-     .text = "With s = |d|²/l² − 1 the force is −2 k s d: along the spring, "
+     .text = "With s = |d|²/l² − 1 the force is −2 k s d: along the "
+             "spring, "
              "and zero at rest. The Hessian is 2k/l² (2 d dᵀ + (|d|² − "
              "l²) I).",
      .line = "spring --start 1.2,0.5",
@@ -384,7 +390,7 @@ const LecturePage lecture_pages[] = {
      .lit = "g_diff",
      .claim = "At d = (1.2, 0.5) the energy is 23.805 J and the force "
               "(−165.6, −69) N; both agree with differences of P.",
-     .film = 60},
+     .film = 30},
     {.name = "potential",
      .topic = "The incremental potential and its Hessian",
      .text = "Energies add up, and so do gradients and Hessians. Each block "
@@ -433,7 +439,7 @@ const LecturePage lecture_pages[] = {
      .lit = "fmax",
      .claim = "In the first step a tolerance of 1e-6 m/s costs 2 updates "
               "more than 1e-2 m/s, and E falls in all of them.",
-     .film = 30},
+     .film = 10},
     {.name = "simulator",
      .topic = "The simulator",
      .text = "Build the square, stretch it, and take a step for each frame: "
@@ -448,7 +454,7 @@ const LecturePage lecture_pages[] = {
      .lit = "step_forward",
      .claim = "In 50 steps every one converges, and the total energy never "
               "rises.",
-     .film = 100,
+     .film = 30,
      .plays = true},
     /* ---- beyond --------------------------------------------------------- */
     {.name = "race",

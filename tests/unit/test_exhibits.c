@@ -228,7 +228,7 @@ static void dial_turns_from_target_to_rest(void **unused)
     simulation_from_line("dial", NULL, NULL, &simulation);
     double h = simulation.options.timestep;
     CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-    CHECK_NEAR(simulation.options.timestep, h * pow(10, 0.05), 1e-15);
+    CHECK_NEAR(simulation.options.timestep, h * pow(10, 0.1), 1e-15);
     while (!simulation.done)
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
     CHECK_NEAR(simulation.options.timestep, 10, 0);

@@ -214,7 +214,7 @@ static void claim_explicit(void)
         int steps;
         Status end;
     } runs[] = {
-        {"", 60, STATUS_NOT_FINITE},
+        {"", 20, STATUS_NOT_FINITE},
         {"--timestep 0.003", 1000, STATUS_OK},
         {"--integrator backward-euler", 100, STATUS_OK},
         {"--integrator backward-euler --timestep 1", 100, STATUS_OK},
@@ -829,7 +829,7 @@ static void pages_are_found(void **unused)
     snprintf(last, sizeof last, "%d", lecture_count());
     CHECK(lecture_find("1") == &lecture_pages[0]);
     CHECK(lecture_find(last) == &lecture_pages[lecture_count() - 1]);
-    CHECK(lecture_find("dial") && lecture_find("dial")->film == 60);
+    CHECK(lecture_find("dial") && lecture_find("dial")->film == 20);
     CHECK(!lecture_find("0") && !lecture_find("-1") && !lecture_find("1000"));
     CHECK(!lecture_find("") && !lecture_find("no-such-page"));
     CHECK(!lecture_find("2x"));

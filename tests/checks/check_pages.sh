@@ -1,0 +1,126 @@
+#!/bin/sh
+# The lecture without a screen: its list, its pages one by one, and the handout.
+set -u
+failed=0
+
+. "$(dirname "$0")/verdict.sh"
+
+elasto=$(realpath "${ELASTO:-build/elasto}")
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+unset DISPLAY WAYLAND_DISPLAY
+
+"$elasto" --lecture --list >list
+pages=$(awk 'END { print NR }' list)
+
+verdict pages_are_listed "$(
+    [ "$pages" -ge 26 ] || echo "$pages pages"
+    awk '$1 != NR || NF < 3 { print "line " NR ": " $0 }' list
+)"
+
+# The last page first: a page needs none of those before it.
+verdict every_page_opens_by_number_and_by_name "$(
+    awk '{ print $2 }' list >names
+    while read -r name; do
+        timeout 60 "$elasto" --lecture "$name" --headless --quiet --steps 1 \
+            --frames "frames_$name" 2>error
+        code=$?
+        [ $code = 0 ] || [ $code = 3 ] || echo "$name: exit $code: $(cat error)"
+        [ -s "frames_$name/frame_000000.png" ] || echo "$name: no picture"
+    done <names
+    timeout 60 "$elasto" --lecture "$pages" --headless --quiet --steps 0 \
+        --frames last
+    last=$(tail -n 1 names)
+    cmp last/frame_000000.png "frames_$last/frame_000000.png" 2>&1
+)"
+
+refused() { # WORD ARGUMENTS...: exit 2 and one line that has the word
+    word=$1
+    shift
+    "$elasto" "$@" >output 2>error
+    code=$?
+    [ $code = 2 ] || echo "$*: exit $code"
+    [ "$(awk 'END { print NR }' error)" = 1 ] || echo "$*: not one line"
+    grep -q -- "$word" error || echo "$*: $(cat error)"
+}
+verdict pages_that_are_none_are_refused "$(
+    refused "from 1 to $pages" --lecture 0
+    refused "from 1 to $pages" --lecture $((pages + 1))
+    refused 'did you mean dial' --lecture dail
+    refused '--segments' --lecture 3 --segments 5
+    refused "'circle'" circle --lecture
+    refused '--steps' --handout x.html --steps 3
+)"
+
+# ---- the handout ---------------------------------------------------------
+
+timeout 300 "$elasto" --handout handout.html >output 2>error
+code=$?
+verdict the_handout_is_written "$(
+    [ $code = 0 ] || echo "exit $code: $(cat error)"
+    [ -s handout.html ] || echo 'no file'
+    for rest in handout.html.*; do
+        [ ! -e "$rest" ] || echo "$rest is left"
+    done
+    size=$(wc -c <handout.html)
+    [ "$size" -lt 20000000 ] || echo "$size bytes"
+    tail -n 1 handout.html | grep -q '</html>' || echo 'it is not whole'
+)"
+
+verdict it_asks_nobody_and_runs_nothing "$(
+    grep -n -i -e '<script' -e 'http:' -e 'https:' -e '<link' -e '@import' \
+        -e 'url(' handout.html | head -n 3
+)"
+
+# Every picture on its own: a line with data in base 64 up to the quote.
+verdict every_picture_is_whole "$(
+    awk '/src="data:image\/png;base64,/ { n++; open = 1; next }
+        open && /^">/ { open = 0; close("picture_" n); next }
+        open { print >("picture_" n) }
+        END { print n >"count" }' handout.html
+    [ "$(cat count)" = "$pages" ] || echo "$(cat count) pictures"
+    i=1
+    while read -r name; do
+        base64 -d "picture_$i" >picture.png 2>/dev/null || echo "$name: base 64"
+        head -c 8 picture.png | od -An -tx1 | tr -d ' \n' |
+            grep -q 89504e470d0a1a0a || echo "$name: no PNG"
+        tail -c 8 picture.png | head -c 4 | grep -q IEND || echo "$name: cut off"
+        grep -q "id=\"$name\"" handout.html || echo "$name is not there"
+        i=$((i + 1))
+    done <names
+)"
+
+verdict films_move "$(
+    for i in $(seq "$pages"); do
+        base64 -d "picture_$i" | grep -a -c fcTL
+    done | awk '$1 > 1 { films++ } END { if (films < 15) print films " films" }'
+)"
+
+verdict a_folder_that_is_missing_is_named "$(
+    "$elasto" --handout missing/handout.html 2>error
+    code=$?
+    [ $code = 1 ] || echo "exit $code"
+    grep -q missing/handout.html error || cat error
+)"
+
+# Ends while it writes: what stood there before still does.
+verdict an_interrupted_handout_leaves_nothing "$(
+    echo before >other.html
+    "$elasto" --handout other.html 2>error &
+    pid=$!
+    for i in $(seq 200); do
+        [ -e other.html.part ] && break
+        sleep 0.02
+    done
+    kill -TERM $pid
+    wait $pid
+    code=$?
+    [ $code = 1 ] || echo "exit $code"
+    [ "$(cat other.html)" = before ] || echo 'it was overwritten'
+    for rest in other.html.*; do
+        [ ! -e "$rest" ] || echo "$rest is left"
+    done
+)"
+
+exit $failed
