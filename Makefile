@@ -176,7 +176,8 @@ $(B)/%.o: src/%.c $(B)/flags
 # The text of these sources is compiled into the program as a table of lines.
 LISTED = src/lecture.c src/solve/scalar_newton.c src/scenes/circle_scene.c \
          src/scenes/dial_scene.c src/scenes/race_scene.c \
-         src/scenes/envelope_scene.c src/solve/newton.c
+         src/scenes/envelope_scene.c src/model/contact.c \
+         src/model/friction.c src/model/plasticity.c src/model/fracture.c
 
 define LISTING_AWK
 FNR == 1 { print (NR > 1 ? "};\n" : "") "static const char *const text_" ++files "[] = {"

@@ -244,6 +244,9 @@ void show_zoom(Show *show, const Layout *layout, double x, double y,
 void show_move(Show *show, const Layout *layout, int pane, double dx,
                double dy);
 
+/* The row of help or of the list of pages at this height; -1: none. */
+int show_help_row(const Show *show, const Layout *layout, double y);
+
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);
 

@@ -56,6 +56,8 @@ typedef enum CommandKind {
     COMMAND_KEYS,      /* the list of keys */
     COMMAND_CARD,      /* number: the card that is closed or opened */
     COMMAND_ENLARGE,   /* number: the card that takes the column */
+    COMMAND_PREDICT,   /* x, y: where the next step will lead, m */
+    COMMAND_CELL,      /* number: the cell of the envelope that is shown */
     COMMAND_PAGE,      /* text: a page of the lecture, number or name */
     COMMAND_PAGE_ON,   /* the next one; outside of the lecture the first */
     COMMAND_PAGE_BACK, /* the one before */

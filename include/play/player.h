@@ -73,6 +73,7 @@ typedef struct Player {
     /* What only the screen shows. */
     Lens lens;
     LectureColumn column;
+    const LecturePage *left; /* the page that was last open, or NULL */
     bool strain, bare, help, blank;
     unsigned closed; /* cards that are not as the picture has them */
     int large, selected;

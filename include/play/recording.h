@@ -23,6 +23,7 @@ typedef struct Recording {
     long frames;        /* written */
     long last_frame;    /* its step; -1: none */
     Film film;          /* of the frames */
+    long film_every;    /* it has those of every so manyth step; 0: all */
     bool points;        /* the log tells of points */
     Output states, log; /* not open: not written */
     bool aside; /* set: closing replaces no table that was there before */

@@ -22,11 +22,11 @@ typedef struct LecturePage {
     const char *lit;      /* its lines with this text are those at work */
     const char *claim;    /* what a test holds */
     unsigned flips;       /* bit s: switch s of the scene is turned over */
-    int steps;            /* made before it is shown */
-    int film;     /* steps that the handout's film shows; 0: a picture */
-    bool plays;   /* runs at once instead of waiting */
-    double speed; /* steps a frame; 0: the scene's */
-    bool predict; /* a click says where the next step leads */
+    int film;             /* steps of the handout's film; 0: a picture */
+    int every;            /* of which it shows every so manyth; 0: each */
+    bool plays;           /* runs at once instead of waiting */
+    double speed;         /* steps a frame; 0: the scene's */
+    bool predict;         /* a click says where the next step leads */
 } LecturePage;
 
 /* The table; it ends with a NULL name. */

@@ -102,12 +102,38 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
     return inside;
 }
 
+/* Ems, height of a row of help. */
+static double help_line(const Show *show, Box inside, double em)
+{
+    double line = 1.5;
+    if (show->help_rows * line * em > inside.height)
+        line = fmax(inside.height / (show->help_rows * em), 0.6);
+    return line;
+}
+
+/* What is inside the frame of a page. */
+static Box page_inside(Box column, double em)
+{
+    Box box = box_inset(column, (int)lround(0.9 * em));
+    int margin = (int)lround(0.9 * em), bar = (int)lround(2.4 * em);
+    return (Box){box.x + margin, box.y + bar, box.width - 2 * margin,
+                 box.height - bar - margin / 2};
+}
+
+int show_help_row(const Show *show, const Layout *layout, double y)
+{
+    Box inside = page_inside(layout->column, layout->em);
+    double line = help_line(show, inside, layout->em) * layout->em;
+    double row = floor((y - inside.y) / line);
+    bool there = show->page.kind == PAGE_HELP && row >= 0 &&
+                 row < show->help_rows && y < inside.y + inside.height;
+    return there ? (int)row : -1;
+}
+
 /* Key and meaning, row by row; a row without a meaning is a heading. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
-    double line = 1.5;
-    if (show->help_rows * line * paper->em > inside.height)
-        line = fmax(inside.height / (show->help_rows * paper->em), 0.6);
+    double line = help_line(show, inside, paper->em);
     double size = fmin(0.95, line / 1.3);
     bool pages = show->help == show->page_row;
     double key = (pages ? 2.6 : 9.5) * size * paper->em;
@@ -168,14 +194,12 @@ static void draw_page(Paper *paper, Box column, const Show *show)
 {
     const Page *page = &show->page;
     Box box = box_inset(column, paper_pixels(paper, 0.9));
-    int margin = paper_pixels(paper, 0.9), bar = paper_pixels(paper, 2.4);
+    Box inside = page_inside(column, paper->em);
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
-    paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x + margin,
+    paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,
                 box.y + 0.55 * paper->em, ALIGN_LEFT, "%s",
                 page->title ? page->title : "Keys and mouse");
-    Box inside = {box.x + margin, box.y + bar, box.width - 2 * margin,
-                  box.height - bar - margin / 2};
     Box before = canvas_clip(&paper->canvas, inside);
     if (page->kind == PAGE_CODE)
         draw_code(paper, inside, page);

@@ -103,8 +103,8 @@ static Status encode_area(const uint8_t *rgb, int width, Area area,
     png_set_IHDR(png, info, (png_uint_32)area.width, (png_uint_32)area.height,
                  8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_filter(png, 0, PNG_FILTER_SUB);
-    png_set_compression_level(png, 4);
+    png_set_filter(png, 0, PNG_FILTER_NONE); /* for flat colours the best */
+    png_set_compression_level(png, 6);
     png_write_info(png, info);
     for (int y = 0; y < area.height; y++)
         png_write_row(png, rgb + 3 * ((size_t)(area.y + y) * (size_t)width +

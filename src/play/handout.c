@@ -144,11 +144,12 @@ static Status play_page(const LecturePage *page,
     options.film = name;
     options.size[0] = HANDOUT_WIDTH;
     options.size[1] = HANDOUT_HEIGHT;
-    options.steps = page->film > 0 ? page->film : page->steps;
-    status = player_create(&options, stop, player);
+    options.steps = page->film;
+    status = player_create(&options, 1, stop, player);
+    player->recording.film_every = page->every;
     if (!status)
         status = player_run(player);
-    if (status && status == player->track.simulation.status)
+    if (status && status == player->lane[0].track.simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
     Status finished = player_finish(player);
     if (!status && *stop)

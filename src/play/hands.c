@@ -122,8 +122,15 @@ static Status take(Player *player, const Pick *pick)
         return STATUS_OK;
     case PICK_SWITCH:
         return ask_number(player, COMMAND_FLIP, pick->index, 0, 0);
+    case PICK_CELL:
+        return lesson_load(player, pick->index);
     case PICK_START:
     case PICK_PLACE:
+        if (lesson_asks(player)) {
+            mouse->drag = DRAG_NONE;
+            return ask_number(player, COMMAND_PREDICT, 0, pick->point[0],
+                              pick->point[1]);
+        }
         mouse->drag = DRAG_START;
         player->paused = true;
         return ask_number(player, COMMAND_START, 0, pick->point[0],
@@ -187,8 +194,8 @@ static Status follow(Player *player, const Layout *layout)
 
 /* ---- events ------------------------------------------------------------- */
 
-/* What is under the mouse, for the picture. */
-static void hover(Player *player, const Layout *layout)
+/* What is under the mouse, for the picture; a cell of the envelope is run. */
+static Status hover(Player *player, const Layout *layout)
 {
     const Mouse *mouse = &player->mouse;
     Hit over = layout_hit(layout, mouse->x, mouse->y);
@@ -203,6 +210,20 @@ static void hover(Player *player, const Layout *layout)
     show->hover = pick;
     if (!same || !idle)
         player->changed = true;
+    return pick.kind == PICK_CELL && !same
+               ? ask_number(player, COMMAND_CELL, pick.index, 0, 0)
+               : STATUS_OK;
+}
+
+/* The row of the list of pages that was hit. */
+static Status page_clicked(Player *player, const Layout *layout)
+{
+    Command command = {.kind = COMMAND_PAGE};
+    int row = show_help_row(&player->show, layout, player->mouse.y);
+    if (player->column != LECTURE_PAGES || row < 0)
+        return STATUS_OK;
+    snprintf(command.text, sizeof command.text, "%d", row + 1);
+    return player_obey(player, &command);
 }
 
 static Status left_pressed(Player *player, const Layout *layout, int clicks)
@@ -235,6 +256,8 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
         mouse->index = hit.index;
         mouse->options = player_lane(player)->track.settings.options;
         return STATUS_OK;
+    case ZONE_PAGE:
+        return page_clicked(player, layout);
     case ZONE_STAGE:
         break;
     default:
@@ -341,6 +364,5 @@ Status player_input(Player *player, const Input *input)
         return wheeled(player, input->amount, &layout);
     if (mouse->drag != DRAG_NONE)
         return follow(player, &layout);
-    hover(player, &layout);
-    return STATUS_OK;
+    return hover(player, &layout);
 }

@@ -3,6 +3,7 @@
 
 #include "picture/show.h"
 #include "play/playing.h"
+#include "scenes/envelope_scene.h"
 #include "scenes/pages.h"
 
 /* The page's scene from its start, with its settings. */
@@ -18,6 +19,7 @@ static Status lesson_open(Player *player, const LecturePage *page)
     status = player_restart(player, &options, 1);
     player->speed = player_first_speed(&options);
     player_reset_speed(player);
+    player->left = page;
     player->column = LECTURE_CARDS;
     player->help = false;
     if (!player->given[0].script)
@@ -38,6 +40,7 @@ static Status refuse_page(Player *player, const char *why)
 Status lesson_turn(Player *player, const Command *command)
 {
     const LecturePage *page = player->lane[0].track.settings.options.page;
+    page = page ? page : player->left; /* another scene was looked at */
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         return page ? lesson_open(player, page)
@@ -51,4 +54,74 @@ Status lesson_turn(Player *player, const Command *command)
         return refuse_page(player, "this is the first page");
     return lesson_open(player,
                        command->kind == COMMAND_PAGE_ON ? page + 1 : page - 1);
+}
+
+/* ---- what the mouse does on a page -------------------------------------- */
+
+bool lesson_asks(const Player *player)
+{
+    const LecturePage *page = player->lane[0].track.settings.options.page;
+    const Simulation *simulation = player_simulation(player);
+    return page && page->predict && !simulation->done;
+}
+
+Status lesson_predict(Player *player, double x, double y)
+{
+    double at[2];
+    Simulation *simulation = &player_lane(player)->track.simulation;
+    if (simulation->done || simulation_point(simulation, at) == 0)
+        return refuse_page(player, "nothing to predict here");
+    player->paused = true;
+    player->changed = true;
+    simulation_predict(simulation, x, y);
+    return STATUS_OK;
+}
+
+/* Whether the scene is the envelope and has this cell. */
+static bool has_cell(const Player *player, long cell)
+{
+    return player_simulation(player)->scene->picture == PICTURE_ENVELOPE &&
+           cell < (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS;
+}
+
+Status lesson_visit(Player *player, long cell)
+{
+    Simulation *simulation = &player_lane(player)->track.simulation;
+    const EnvelopeMap *map = &simulation->exhibit.map;
+    int column = (int)(cell % ENVELOPE_COLUMNS);
+    int row = (int)(cell / ENVELOPE_COLUMNS);
+    if (!has_cell(player, cell))
+        return refuse_page(player, "there is no such cell");
+    if (map->column == column && map->row == row)
+        return STATUS_OK;
+    player->changed = true;
+    return envelope_visit(simulation, column, row);
+}
+
+/* The square with the cell's numbers, from its start. */
+Status lesson_load(Player *player, long cell)
+{
+    Simulation *simulation = &player_lane(player)->track.simulation;
+    const Options *map = &simulation->options;
+    Options options;
+    char title[128], word[] = "square", program[] = "elasto";
+    char *argv[] = {program, word, NULL};
+    if (!has_cell(player, cell))
+        return refuse_page(player, "there is no such cell");
+    Status status = options_parse(2, argv, &options, player->message,
+                                  sizeof player->message);
+    if (status)
+        return status;
+    options.segments = map->segments;
+    options.stretch = map->stretch;
+    options.timestep = envelope_timestep((int)(cell % ENVELOPE_COLUMNS));
+    options.stiffness = envelope_stiffness((int)(cell / ENVELOPE_COLUMNS));
+    player_keep_files(player, &options);
+    status = player_restart(player, &options, 1);
+    player->paused = true;
+    player_title(player, title, sizeof title);
+    if (player->view)
+        view_set_title(player->view, title);
+    player_note(player, "this cell as a scene; Page Down goes on");
+    return status;
 }

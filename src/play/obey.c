@@ -960,6 +960,10 @@ static Status obey_in_time(Player *player, const Command *command)
         return switch_scene(player, command->text);
     case COMMAND_START:
         return pick_start(player, command->x, command->y);
+    case COMMAND_PREDICT:
+        return lesson_predict(player, command->x, command->y);
+    case COMMAND_CELL:
+        return lesson_visit(player, command->number);
     case COMMAND_PAGE:
     case COMMAND_PAGE_ON:
     case COMMAND_PAGE_BACK:

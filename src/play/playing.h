@@ -37,6 +37,16 @@ int player_first_speed(const Options *options);
 /* A page of the lecture: by name or number, the next or the one before. */
 Status lesson_turn(Player *player, const Command *command);
 
+/* A guess of where the next step leads, m. */
+Status lesson_predict(Player *player, double x, double y);
+
+/* Shows a cell of the envelope; loads it as a square of its own. */
+Status lesson_visit(Player *player, long cell);
+Status lesson_load(Player *player, long cell);
+
+/* Whether a click on a place of this scene is a guess. */
+bool lesson_asks(const Player *player);
+
 /* Whether Escape ends the program: nothing else is open. */
 bool player_escape_ends(const Player *player);
 

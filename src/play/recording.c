@@ -190,9 +190,11 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
 {
     Film *film = &recording->film;
     Status status = STATUS_OK;
-    if (film_runs(film))
-        status = recording_note(recording, film_add(film, canvas, shown),
-                                film->output.name);
+    int every = recording->film_every > 1 ? (int)recording->film_every : 1;
+    if (film_runs(film) && step % every == 0)
+        status =
+            recording_note(recording, film_add(film, canvas, shown * every),
+                           film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;

@@ -58,7 +58,7 @@ const LecturePage lecture_pages[] = {
      .claim = "Each of the 25 masses is 40 kg, the forces of all springs add "
               "up to zero, and after 50 steps the middle of the square has "
               "not moved.",
-     .film = 30},
+     .film = 24},
     /* ---- stepping through time ------------------------------------------ */
     {.name = "forward",
      .topic = "Forward Euler",
@@ -129,7 +129,7 @@ const LecturePage lecture_pages[] = {
      .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
               "1.00786 a step, that of backward Euler shrinks by it, and the "
               "symplectic one stays within 4 percent.",
-     .film = 50,
+     .film = 40,
      .plays = true},
     {.name = "explicit",
      .topic = "Why not explicit steps",
@@ -224,11 +224,10 @@ const LecturePage lecture_pages[] = {
     /* ---- a step as a minimisation --------------------------------------- */
     {.name = "minimise",
      .topic = "A time step is a minimisation",
-     .text =
-         "Backward Euler's equation says that a slope is zero: that of "
-         "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its "
-         "solution is "
-         "found by walking downhill, and there always is one.",
+     .text = "Backward Euler's equation says that a slope is zero: that of "
+             "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its "
+             "solution is "
+             "found by walking downhill, and there always is one.",
      .line = "square",
      .cards = CARDS_NEWTON,
      .look = "x̃, the dashed ghost, is where the masses would fly by "
@@ -297,8 +296,9 @@ const LecturePage lecture_pages[] = {
      .cards = "page line residual",
      .look = "The curve of E, the parabola that Newton believes in, and the "
              "points that were tried.",
-     .touch = "Click on the curve where the search will end, then go on line "
-              "by line with I. L turns it off.",
+     .touch =
+         "Go through the step line by line: I three times, then N. L turns "
+         "the search off.",
      .file = LECTURE,
      .function = "line_search",
      .lit = "alpha /= 2",
@@ -390,7 +390,7 @@ const LecturePage lecture_pages[] = {
      .lit = "g_diff",
      .claim = "At d = (1.2, 0.5) the energy is 23.805 J and the force "
               "(−165.6, −69) N; both agree with differences of P.",
-     .film = 30},
+     .film = 24},
     {.name = "potential",
      .topic = "The incremental potential and its Hessian",
      .text = "Energies add up, and so do gradients and Hessians. Each block "
@@ -454,9 +454,80 @@ const LecturePage lecture_pages[] = {
      .lit = "step_forward",
      .claim = "In 50 steps every one converges, and the total energy never "
               "rises.",
-     .film = 30,
+     .film = 24,
      .plays = true},
     /* ---- beyond --------------------------------------------------------- */
+    {.name = "contact",
+     .topic = "Contact: a barrier in E",
+     .text = "Near a wall E grows without bound: one more term, smooth, zero "
+             "farther away. A step is still a minimisation, and no update may "
+             "pass through.",
+     .line = "drop",
+     .cards = "page energies residual",
+     .look = "The square tumbles between floor and walls and never touches "
+             "them: a gap always stays.",
+     .touch = "Drag h or k; pull at a node. The gap shrinks and stays.",
+     .file = "src/model/contact.c",
+     .function = "contact_value",
+     .lit = "barrier_value",
+     .claim = "In 300 steps every one converges, and no node comes nearer to "
+              "floor or walls than 1 mm.",
+     .film = 240,
+     .every = 12,
+     .plays = true},
+    {.name = "friction",
+     .topic = "Friction",
+     .text = "Friction resists sliding in proportion to the force of the "
+             "contact. Its energy is smooth too: below a slip speed the force "
+             "fades to zero.",
+     .line = "slope",
+     .cards = "page energies",
+     .look = "Three blocks on one slope: one slides off, one slowly, one "
+             "holds. Only the friction differs: half, 0.9 and 1.1 of what "
+             "holds.",
+     .touch = "Drag h: who slides and who holds stays the same.",
+     .file = "src/model/friction.c",
+     .function = "friction_value",
+     .lit = "return",
+     .claim = "In 3 s the first block slides more than 7 m along, the last "
+              "one less than 2 cm.",
+     .film = 300,
+     .every = 15,
+     .plays = true},
+    {.name = "inelastic",
+     .topic = "Inelasticity",
+     .text = "Beyond its yield strain a spring flows: its rest length changes "
+             "for good. The flow is found by the same minimisation.",
+     .line = "dent",
+     .cards = "page energies residual",
+     .look = "The square falls on a ball and keeps the dent; what the flow "
+             "took from the energy stands in the ledger.",
+     .touch = "Drag k, or pull at a node until it stays bent.",
+     .file = "src/model/plasticity.c",
+     .function = "spring_law_value",
+     .lit = "return",
+     .claim = "After 300 steps a spring has a plastic strain above 0.05, "
+              "the ledger balances, and the ball was not entered.",
+     .film = 200,
+     .every = 12,
+     .plays = true},
+    {.name = "fracture",
+     .topic = "Fracture",
+     .text = "A spring that is stretched too far breaks at the end of a step, "
+             "the most stretched first: a crack opens and runs.",
+     .line = "tear",
+     .cards = "page energies",
+     .look = "The slit in the middle opens, and at once a crack runs through "
+             "the square.",
+     .touch = "Drag k or the number of segments.",
+     .file = "src/model/fracture.c",
+     .function = "find_candidates",
+     .lit = "load",
+     .claim = "In the first 20 steps no spring breaks, after 100 steps more "
+              "than 100 have, and the energy that went with them is booked.",
+     .film = 98,
+     .every = 7,
+     .plays = true},
     {.name = "race",
      .topic = "Run time against error",
      .text = "Many methods, many time steps, one question: how much time for "

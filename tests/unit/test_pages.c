@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/fracture.h"
+#include "model/plasticity.h"
 #include "scenes/dial_scene.h"
 #include "scenes/envelope_scene.h"
 #include "scenes/listing.h"
@@ -623,6 +625,101 @@ static void claim_simulator(void)
     simulation_free(&simulation);
 }
 
+/* Steps that all have to converge. */
+static void check_steps(Simulation *simulation, int steps)
+{
+    for (int i = 0; i < steps; i++)
+        CHECK_STATUS(simulation_step(simulation), STATUS_OK);
+}
+
+/* total at the start + work = what there is + what was lost, within a
+ * millionth of the largest number in it */
+static void check_ledger(const Simulation *simulation, double start)
+{
+    Energies e = simulation_energies(simulation, 0);
+    double sum = e.total + e.plastic + e.fracture + e.friction + e.dissipated;
+    CHECK_NEAR(sum, start + e.work, 1e-6 * (fabs(start) + fabs(e.total)));
+}
+
+static void claim_contact(void)
+{
+    Simulation simulation;
+    double nearest = 1;
+    open_page("contact", "", NULL, NULL, &simulation);
+    for (int step = 0; step < 300; step++) {
+        check_steps(&simulation, 1);
+        const double *x = simulation.run[0].x;
+        for (int i = 0; i < 2 * simulation.system.nodes; i += 2)
+            nearest = fmin(nearest, fmin(x[i + 1] + 0.5, 1.1 - fabs(x[i])));
+    }
+    CHECK(nearest > 1e-3 && nearest < 0.05); /* it does come near */
+    simulation_free(&simulation);
+}
+
+static void claim_friction(void)
+{
+    Simulation simulation;
+    double before[3][2] = {{0}}, way[3];
+    open_page("friction", "", NULL, NULL, &simulation);
+    CHECK(simulation.runs == 3);
+    int nodes = simulation.system.nodes;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int run = 0; run < 3; run++) {
+            double middle[2] = {0, 0};
+            for (int i = 0; i < 2 * nodes; i++)
+                middle[i % 2] += simulation.run[run].x[i] / nodes;
+            if (pass == 0)
+                memcpy(before[run], middle, sizeof middle);
+            way[run] =
+                hypot(middle[0] - before[run][0], middle[1] - before[run][1]);
+        }
+        if (pass == 0)
+            check_steps(&simulation, 300);
+    }
+    CHECK_NEAR(simulation_time(&simulation), 3, 1e-12);
+    CHECK(way[0] > 7 && way[0] > way[1] && way[1] > 1 && way[2] < 0.02);
+    simulation_free(&simulation);
+}
+
+static void claim_inelastic(void)
+{
+    Simulation simulation;
+    double nearest = 1, most = 0;
+    open_page("inelastic", "", NULL, NULL, &simulation);
+    double start = simulation_energies(&simulation, 0).total;
+    for (int step = 0; step < 300; step++) {
+        check_steps(&simulation, 1);
+        const double *x = simulation.run[0].x;
+        for (int i = 0; i < 2 * simulation.system.nodes; i += 2)
+            nearest = fmin(nearest, hypot(x[i], x[i + 1] + 0.75) - 0.35);
+    }
+    const Plasticity *plasticity = plasticity_of(&simulation.system);
+    assert_non_null(plasticity);
+    for (int s = 0; s < simulation.system.springs; s++)
+        most = fmax(most, fabs(plasticity->ep[s]));
+    CHECK(most > 0.05);
+    CHECK(nearest > 0);
+    CHECK(simulation_energies(&simulation, 0).plastic > 0);
+    check_ledger(&simulation, start);
+    simulation_free(&simulation);
+}
+
+static void claim_fracture(void)
+{
+    Simulation simulation;
+    open_page("fracture", "", NULL, NULL, &simulation);
+    double start = simulation_energies(&simulation, 0).total;
+    const Fracture *broken = fracture_of(&simulation.system);
+    assert_non_null(broken);
+    check_steps(&simulation, 20);
+    CHECK(broken->broken == 0);
+    check_steps(&simulation, 80);
+    CHECK(broken->broken > 100);
+    CHECK(simulation_energies(&simulation, 0).fracture > 0);
+    check_ledger(&simulation, start);
+    simulation_free(&simulation);
+}
+
 static void claim_race(void)
 {
     static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 16};
@@ -693,6 +790,10 @@ static const struct {
     {"algorithm3", claim_algorithm3},
     {"step", claim_step},
     {"simulator", claim_simulator},
+    {"contact", claim_contact},
+    {"friction", claim_friction},
+    {"inelastic", claim_inelastic},
+    {"fracture", claim_fracture},
     {"race", claim_race},
     {"trust", claim_trust},
 };
@@ -815,7 +916,7 @@ static void pages_are_complete(void **unused)
         CHECK(strlen(page->touch) > 20 && strlen(page->touch) <= 160);
         CHECK(strlen(page->claim) > 20 && strlen(page->claim) <= 240);
         CHECK(page->cards && strncmp(page->cards, "page", 4) == 0);
-        CHECK(page->steps >= 0 && page->film >= 0);
+        CHECK(page->film >= 0 && page->every >= 0);
         for (const LecturePage *other = lecture_pages; other < page; other++)
             CHECK(strcmp(other->name, page->name) != 0);
     }
