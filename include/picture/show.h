@@ -164,7 +164,7 @@ typedef struct Page {
     int lines;         /* of text, at most SHOW_CODE_LINES are drawn */
     const char *const *line;
     unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is lit */
-    int top;      /* first line shown */
+    int top;                            /* first line shown */
 } Page;
 
 /* Help is a table: a key and what it does; a key without text is a heading. */
@@ -221,7 +221,7 @@ typedef struct Show {
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
     int lecture_number, lecture_count;
-    char lecture_title[48]; /* of the card with its words */
+    char lecture_title[48];       /* of the card with its words */
     HelpRow page_row[SHOW_PAGES]; /* the list of pages */
     char page_key[SHOW_PAGES][4];
 } Show;

@@ -5,7 +5,8 @@
  * over the middle of the letter before them.  In markup
  *     ^{...} and _{...}     are superscripts and subscripts,
  *     {x} {xt} {p} {alpha}  the slides' letters in their colours (xt: x with a
- *                           tilde); any other brace is itself.
+ *                           tilde), unless the text is in COLOUR_GREY;
+ *     any other brace       is itself.
  */
 #ifndef ELASTO_TEXT_H
 #define ELASTO_TEXT_H

@@ -81,11 +81,11 @@ static void draw_now(Paper *paper, const Plot *plot, double time)
 /* The value at this time, or the last one before it. */
 static double value_at(const History *history, int series, double time)
 {
-    double value = NAN;
+    double value = NAN, nothing = 1e-15 * (history->high - history->low);
     for (int i = 0;
          i < history->count && history->time[i] <= time * (1 + 1e-12); i++)
         value = history->value[series][i];
-    return value;
+    return fabs(value) < nothing ? 0 : value; /* rounding is not an energy */
 }
 
 /* One word of the legend with its number; returns where the next goes.

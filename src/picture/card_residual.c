@@ -65,8 +65,10 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                     ALIGN_CENTRE, "a point for each Newton update");
         return;
     }
+    int last = trace->updates - 1; /* it may be the present one already */
+    bool counted = last >= 0 && trace->record[last].residual == trace->residual;
     bool pending = trace->residual > 0 && isfinite(trace->residual) &&
-                   trace->line >= LINE_SOLVE;
+                   trace->line >= LINE_SOLVE && !counted;
     NewtonRecord now = {.residual = trace->residual};
     extend_range(trace->record, trace->updates, &low, &high);
     extend_range(trace->record_before, trace->updates_before, &low, &high);
@@ -83,6 +85,8 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                  2.5, COLOUR_BORDER);
     draw_tolerance(paper, &plot, tolerance);
     draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
+    if (counted && trace->line)
+        draw_updates(paper, &plot, &now, 1, trace->updates, 5.5, COLOUR_P);
     if (!pending)
         return;
     if (trace->updates > 0) {

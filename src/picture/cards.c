@@ -130,21 +130,32 @@ int show_help_row(const Show *show, const Layout *layout, double y)
     return there ? (int)row : -1;
 }
 
+/* One line in letters as small as it takes. */
+static void write_fitting(Paper *paper, double size, double x, double y,
+                          double room, const char *text)
+{
+    int width = paper_width(paper, FACE_REGULAR, size, text);
+    double smaller = width > room ? fmax(0.6, room / width) : 1;
+    paper_write(paper, FACE_REGULAR, size * smaller, COLOUR_TEXT, x,
+                y + 0.6 * (1 - smaller) * size * paper->em, ALIGN_LEFT, "%s",
+                text);
+}
+
 /* Key and meaning, row by row; a row without a meaning is a heading. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
     double line = help_line(show, inside, paper->em);
     double size = fmin(0.95, line / 1.3);
     bool pages = show->help == show->page_row;
-    double key = (pages ? 2.6 : 9.5) * size * paper->em;
+    double key = (pages ? 2.6 : 8) * size * paper->em;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
         double y = inside.y + i * line * paper->em;
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, inside.x, y,
                     ALIGN_LEFT, "%s", row->key);
         if (row->text)
-            paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, inside.x + key,
-                        y, ALIGN_LEFT, "%s", row->text);
+            write_fitting(paper, size, inside.x + key, y, inside.width - key,
+                          row->text);
     }
 }
 

@@ -12,7 +12,7 @@ enum { HOVER_LINES = 8, HOVER_TEXT = 128 };
 static const double LINE = 1.35; /* ems, of a line */
 static const double SMALL = 0.9; /* ems, size of the letters */
 static const double WIDTH = 17;  /* ems */
-static const double CELL = 4.2;  /* ems, a number of the block */
+static const double CELL = 4.7;  /* ems, a number of the block */
 static const double BARS = 3.6;  /* ems, the bars of the eigenvalues */
 
 /* Lines of text that the card has. */

@@ -346,7 +346,8 @@ static size_t pen_coloured(Pen *pen, const char *string)
         if (strncmp(string, coloured[i].name, length) != 0)
             continue;
         Colour before = pen->style.colour;
-        pen->style.colour = coloured[i].colour;
+        if (before != COLOUR_GREY)
+            pen->style.colour = coloured[i].colour;
         pen_string(pen, coloured[i].shown,
                    coloured[i].shown + strlen(coloured[i].shown));
         pen->style.colour = before;
