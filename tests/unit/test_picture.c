@@ -271,6 +271,35 @@ static void axes_end_at_round_numbers(void **unused)
     CHECK_NEAR(plot_round_axis(40), 40, 1e-9);
 }
 
+/* Three digits, and a power of ten only where zeros would be many. */
+static void numbers_are_read(void **unused)
+{
+    (void)unused;
+    const struct {
+        double value;
+        const char *text;
+    } rows[] = {{0, "0"},
+                {-5, "\u22125"},
+                {0.1 + 0.2, "0.3"},
+                {0.00123, "0.00123"},
+                {0.00012, "1.2\u00b710^{\u22124}"},
+                {1000, "1000"},
+                {12345, "12300"},
+                {-77342, "\u221277300"},
+                {1e5, "10^{5}"},
+                {999999, "10^{6}"},
+                {2.5e16, "2.5\u00b710^{16}"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[48];
+        plot_number(text, sizeof text, rows[i].value);
+        assert_string_equal(text, rows[i].text);
+    }
+    char text[8];
+    plot_number(text, sizeof text, INFINITY); /* cut, but ended */
+    plot_number(text, sizeof text, 1.2345e-300);
+    CHECK(strlen(text) < sizeof text);
+}
+
 /* ---- frames ------------------------------------------------------------- */
 
 /* Marks the pixels around those that differ: where words are, whatever the
@@ -644,6 +673,7 @@ int main(void)
         cmocka_unit_test(strain_has_its_colours),
         cmocka_unit_test(history_spans_the_run),
         cmocka_unit_test(axes_end_at_round_numbers),
+        cmocka_unit_test(numbers_are_read),
         cmocka_unit_test(readme_shows_what_is_drawn),
         cmocka_unit_test(surface_shows_the_paper),
         cmocka_unit_test(png_files_are_whole),

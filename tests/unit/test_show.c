@@ -369,6 +369,56 @@ static void a_trace_is_seen(void **unused)
     take_down(&stand);
 }
 
+/* A node or a spring under the mouse is marked, and told of beside it. */
+static void hovers_are_seen(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 1, 1280, 800, &stand);
+    text_free(stand.paper.text);
+    stand.paper.text = NULL;
+    show_draw(&stand.paper, &stand.show);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    int dark = count_colour(&stand, layout.stage, COLOUR_TEXT);
+    int blue = count_colour(&stand, layout.stage, COLOUR_X);
+    for (PickKind kind = PICK_NODE; kind <= PICK_SPRING; kind++) {
+        stand.show.hover = (Pick){kind, 0, 12, {0, 0}};
+        show_draw(&stand.paper, &stand.show);
+        CHECK(count_colour(&stand, layout.stage, COLOUR_TEXT) > dark + 40);
+        CHECK(count_colour(&stand, layout.stage, COLOUR_X) < blue);
+    }
+    stand.show.hand.on = true; /* what is held is not told of */
+    stand.show.hover.kind = PICK_NONE;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_HAND) > 20);
+    take_down(&stand);
+}
+
+/* Code stands in the place of the cards, its lines at work lit. */
+static void pages_light_their_lines(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    const char *const lines[] = {"int a;", "int b;", "int c;", "int d;"};
+    stand_up("square", 0, 1280, 800, &stand);
+    stand.show.page = (Page){.kind = PAGE_CODE,
+                             .title = "file.c: function",
+                             .lines = 4,
+                             .line = lines,
+                             .lit = {0, 1, 1, 0}};
+    show_draw(&stand.paper, &stand.show);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    int two = count_colour(&stand, layout.column, COLOUR_LIT);
+    stand.show.page.lit[2] = 0;
+    show_draw(&stand.paper, &stand.show);
+    int one = count_colour(&stand, layout.column, COLOUR_LIT);
+    CHECK(one > 2000 && two > 1.5 * one && two < 2.5 * one);
+    stand.show.page.kind = PAGE_NONE;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.column, COLOUR_LIT) == 0);
+    take_down(&stand);
+}
+
 /* Walls, balls, forces and broken springs. */
 static void contact_is_seen(void **unused)
 {
@@ -434,6 +484,8 @@ int main(void)
         cmocka_unit_test(panes_are_drawn_apart),
         cmocka_unit_test(bars_are_steps),
         cmocka_unit_test(a_trace_is_seen),
+        cmocka_unit_test(hovers_are_seen),
+        cmocka_unit_test(pages_light_their_lines),
         cmocka_unit_test(contact_is_seen),
         cmocka_unit_test(cards_have_names),
     };
