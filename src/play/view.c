@@ -23,6 +23,7 @@ struct View {
     Paper paper;
     Uint64 shown;     /* ms, when present() was called last */
     bool initialised; /* SDL's video is ours to end */
+    bool fontless;    /* that there is no font was said */
     bool tab;         /* Tab is down and has asked for nothing yet */
 };
 
@@ -213,6 +214,18 @@ static void output_size(View *view, int *width, int *height)
     *height = limit_size(*height, most_high);
 }
 
+/* Once: pictures without words are pictures, too. */
+static void tell_of_font(View *view)
+{
+    const char *given = getenv("ELASTO_FONT");
+    bool wanted = !given || given[0] != '\0'; /* empty: no words, please */
+    if (view->paper.text || !wanted || view->fontless)
+        return;
+    view->fontless = true;
+    fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have no "
+                    "words (ELASTO_FONT=FILE.ttf names another font)\n");
+}
+
 Paper *view_paper(View *view)
 {
     int width, height;
@@ -228,6 +241,7 @@ Paper *view_paper(View *view)
         paper_free(&view->paper);
         return NULL;
     }
+    tell_of_font(view);
     return &view->paper;
 }
 
