@@ -289,10 +289,10 @@ static Status leave_saddle(Newton *newton)
 }
 
 /* The test of the slides projects, and so it also passes where E bends down.
- * By a few masses that is an instability that grows as fast as the step can
+ * By some masses that is an instability that grows as fast as the step can
  * follow; by more than this many times M the place is far from any minimum of
  * E, and it is not called one. */
-static const double MASSES_DOWN = 10;
+static const double MASSES_DOWN = 100;
 
 /* After the test was passed: a Cholesky factor of the Hessian as it is plus
  * MASSES_DOWN M tells, where no cheaper bound does. */
