@@ -221,7 +221,8 @@ typedef struct Show {
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
     int lecture_number, lecture_count;
-    char lecture_title[48];       /* of the card with its words */
+    char lecture_title[48]; /* of the card with its words */
+    bool numbers;           /* of the nodes are shown, where they are few */
     HelpRow page_row[SHOW_PAGES]; /* the list of pages */
     char page_key[SHOW_PAGES][4];
 } Show;

@@ -26,6 +26,9 @@ typedef struct LecturePage {
     int every;            /* of which it shows every so manyth; 0: each */
     bool plays;           /* runs at once instead of waiting */
     double speed;         /* steps a frame; 0: the scene's */
+    bool numbers;         /* the nodes' are shown */
+    const char *open;     /* commands when it opens, ';' between; or NULL */
+    int lines;            /* of Algorithm 3 that the film goes on; 0: none */
     bool predict;         /* a click says where the next step leads */
 } LecturePage;
 

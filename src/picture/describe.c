@@ -136,7 +136,8 @@ void show_describe(Show *show)
         say(show->sentence, SHOW_TEXT, "%s", trouble_words(pane->trouble));
     else if (pane->trace && pane->trace->line)
         describe_line(show, simulation, pane->trace);
-    say(show->sentence, SHOW_TEXT, "%s", simulation->scene->sentence);
+    if (!show->lecture) /* its pages have words of their own */
+        say(show->sentence, SHOW_TEXT, "%s", simulation->scene->sentence);
     describe_method(show, simulation);
     describe_time(show, simulation);
     say(show->state, sizeof show->state, "%s",

@@ -90,6 +90,7 @@ void show_lecture(LectureColumn column, Show *show)
     show->lecture_number = (int)(page - lecture_pages) + 1;
     show->lecture_count = lecture_count();
     show->topic = page->topic;
+    show->numbers = page->numbers;
     snprintf(show->lecture_title, sizeof show->lecture_title, "page %d of %d",
              show->lecture_number, show->lecture_count);
     show->hidden = 0;

@@ -9,7 +9,8 @@
 
 enum { SPRING_CORNERS = 120, SPRING_COILS = 12, PROFILE_POINTS = 200 };
 
-static const double SPRING_REACH = 1.7; /* m, seen at least */
+static const double SPRING_REACH = 1.7;   /* m, seen at least */
+static const double SPRING_ARROW = 0.005; /* m/N, of the force */
 static const double SPRING_TURN = 6.283185307179586;
 
 static void spring_bounds(const Show *show, int pane, double bounds[4])
@@ -89,8 +90,7 @@ static SpringCount spring_draw(Paper *paper, const Stage *stage,
     spring_circle(paper, stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(paper, stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     stage_pin(paper, stage, origin, 6 * paper->unit);
-    stage_arrows(paper, stage, 1, 1, x, facts.force, 8 * paper->em,
-                 COLOUR_FORCE);
+    stage_arrow(paper, stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
     stage_disc(paper, stage, x, 9 * paper->unit, COLOUR_X);
     if (show->bare || !stage->text)
         return (SpringCount){1, 0};

@@ -13,6 +13,8 @@ enum {
     ARROW_SPACING = 16   /* pixels between nodes that have arrows, at least */
 };
 
+enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
+
 static const double ROOM = 1.14;      /* of the stage around the square */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
 static const double FORCE_ROOM = 7;   /* ems, the longest contact force */
@@ -436,6 +438,18 @@ static void draw_strain_bar(Paper *paper, const Stage *stage, double range,
 }
 
 /* From the ground up. */
+/* The number of each node beside it. */
+static void draw_numbers(const SpringPen *pen, const System *system)
+{
+    for (int i = 0; i < system->nodes; i++) {
+        double at[2];
+        stage_pixel(pen->stage, pane_x(pen->pane) + 2 * i, at);
+        paper_write(pen->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
+                    at[0] + 0.7 * pen->paper->em, at[1] + 0.4 * pen->paper->em,
+                    ALIGN_LEFT, "%d", i);
+    }
+}
+
 static SpringCount square_draw(Paper *paper, const Stage *stage,
                                const Show *show)
 {
@@ -459,6 +473,8 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     if (show->bare)
         return count;
     draw_signs(&pen, show, &legend);
+    if (stage->text && show->numbers && system->nodes <= NUMBERED)
+        draw_numbers(&pen, system);
     if (stage->text) {
         stage_scale(paper, stage);
         if (pen.range > 0)

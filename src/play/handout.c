@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "play/playing.h"
 #include "scenes/listing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
@@ -130,6 +131,23 @@ static Status write_base64(FILE *file, const char *name)
     return status;
 }
 
+/* The lines that the page opens with, and those after them, a frame each. */
+static Status play_lines(Player *player, const LecturePage *page)
+{
+    const Command next = {.kind = COMMAND_NEXT};
+    Status status = lesson_prepare(player);
+    for (int i = 0; i <= page->lines && !status; i++) {
+        Paper *paper = view_paper(player->view);
+        if (!paper)
+            return STATUS_OUT_OF_MEMORY;
+        player_paint(player, paper);
+        status = film_add(&player->recording.film, &paper->canvas, 60);
+        if (!status && i < page->lines)
+            status = player_obey(player, &next);
+    }
+    return status;
+}
+
 /* Plays the page without a screen into a film, of one picture if it has no
  * more.  name in, where the film shall stand */
 static Status play_page(const LecturePage *page,
@@ -147,7 +165,9 @@ static Status play_page(const LecturePage *page,
     options.steps = page->film;
     status = player_create(&options, 1, stop, player);
     player->recording.film_every = page->every;
-    if (!status)
+    if (!status && (page->open || page->lines))
+        status = play_lines(player, page);
+    else if (!status)
         status = player_run(player);
     if (status && status == player->lane[0].track.simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */

@@ -1,10 +1,30 @@
 /* lesson.c - the lecture in the window: one page after the other. */
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/show.h"
 #include "play/playing.h"
 #include "scenes/envelope_scene.h"
 #include "scenes/pages.h"
+
+Status lesson_prepare(Player *player)
+{
+    const LecturePage *page = player->lane[0].track.settings.options.page;
+    const char *rest = page && page->open ? page->open : "";
+    Status status = STATUS_OK;
+    while (*rest && !status) {
+        char word[COMMAND_TEXT_SIZE];
+        Command command;
+        size_t length = strcspn(rest, ";");
+        snprintf(word, sizeof word, "%.*s", (int)length, rest);
+        rest += length + (rest[length] == ';');
+        status = command_parse(word, &command, player->message,
+                               sizeof player->message);
+        if (!status)
+            status = player_obey(player, &command);
+    }
+    return status;
+}
 
 /* The page's scene from its start, with its settings. */
 static Status lesson_open(Player *player, const LecturePage *page)
@@ -27,7 +47,8 @@ static Status lesson_open(Player *player, const LecturePage *page)
     player_title(player, title, sizeof title);
     if (player->view)
         view_set_title(player->view, title);
-    return status;
+    player->fine = 0;
+    return status || player->given[0].script ? status : lesson_prepare(player);
 }
 
 static Status refuse_page(Player *player, const char *why)

@@ -669,12 +669,17 @@ Status player_create(const Options *options, int count,
         status = open_view(player);
     if (status)
         return status;
-    player->attended = player->window || options->script;
+    player->attended = player->window || options->script || options->page;
     player->paused =
         options->paused || (player->window && !options->script &&
                             options->steps < 0 && explains(options));
     status = recording_open(&player->given[0], &player->recording);
-    return status ? status : begin_run(player, player->given, count);
+    if (!status)
+        status = begin_run(player, player->given, count);
+    player->left = options->page;
+    if (!status && options->page && player->window && !options->script)
+        status = lesson_prepare(player);
+    return status;
 }
 
 Status player_finish(Player *player)

@@ -37,6 +37,9 @@ int player_first_speed(const Options *options);
 /* A page of the lecture: by name or number, the next or the one before. */
 Status lesson_turn(Player *player, const Command *command);
 
+/* What the page does when it opens: its own commands. */
+Status lesson_prepare(Player *player);
+
 /* A guess of where the next step leads, m. */
 Status lesson_predict(Player *player, double x, double y);
 

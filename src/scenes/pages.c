@@ -16,6 +16,7 @@ const LecturePage lecture_pages[] = {
      .text = "A solid is cut into cells. Its mass sits in the corners, and "
              "springs along the edges and diagonals hold it together.",
      .line = "square --stretch 1 --segments 4",
+     .numbers = true,
      .cards = "page",
      .look = "25 masses and 72 springs: rows, columns, and two diagonals in "
              "each of the 16 cells.",
@@ -31,6 +32,7 @@ const LecturePage lecture_pages[] = {
      .text = "Node i (n + 1) + j stands in column i and row j, counted from "
              "the lower left. A spring is a pair of such numbers.",
      .line = "square --stretch 1 --segments 2",
+     .numbers = true,
      .cards = "page spy",
      .look = "9 nodes, numbered upwards column by column: 0 lower left, 8 "
              "upper right. Springs: 6 along, 6 up, 8 diagonal.",
@@ -58,7 +60,7 @@ const LecturePage lecture_pages[] = {
      .claim = "Each of the 25 masses is 40 kg, the forces of all springs add "
               "up to zero, and after 50 steps the middle of the square has "
               "not moved.",
-     .film = 24},
+     .film = 20},
     /* ---- stepping through time ------------------------------------------ */
     {.name = "forward",
      .topic = "Forward Euler",
@@ -129,7 +131,7 @@ const LecturePage lecture_pages[] = {
      .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
               "1.00786 a step, that of backward Euler shrinks by it, and the "
               "symplectic one stays within 4 percent.",
-     .film = 40,
+     .film = 32,
      .plays = true},
     {.name = "explicit",
      .topic = "Why not explicit steps",
@@ -209,6 +211,8 @@ const LecturePage lecture_pages[] = {
              "projection nor line search watches over the step.",
      .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
              "none --line-search none",
+     .open = "finer; finer; next; next; next",
+     .lines = 12,
      .cards = CARDS_NEWTON,
      .look = "Go through it line by line: E rises to 2e16 and nodes fly "
              "more than a kilometre, within a single step.",
@@ -229,6 +233,8 @@ const LecturePage lecture_pages[] = {
              "solution is "
              "found by walking downhill, and there always is one.",
      .line = "square",
+     .open = "finer; finer; next; next; next; next",
+     .lines = 4,
      .cards = CARDS_NEWTON,
      .look = "x̃, the dashed ghost, is where the masses would fly by "
              "themselves; the springs pull them off it.",
@@ -274,7 +280,7 @@ const LecturePage lecture_pages[] = {
      .film = 20},
     {.name = "inertia",
      .topic = "Inertia energy",
-     .text = "E_I(x) = Σ m |x − x̃|² / 2: a bowl around x̃, with "
+     .text = "Σ m |x − x̃|² / 2 is a bowl around x̃, with "
              "gradient M (x − x̃) and Hessian M, which never changes.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page numbers",
@@ -284,7 +290,7 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "inertia_val",
      .lit = "dot",
-     .claim = "At (0.6, 0.9) E_I is 0.26 J s², as the formula says, and "
+     .claim = "At (0.6, 0.9) it is 0.26 J s², as the formula says, and "
               "Newton finds its minimum in a single update.",
      .flips = 2},
     /* ---- line search ---------------------------------------------------- */
@@ -293,6 +299,8 @@ const LecturePage lecture_pages[] = {
      .text = "Along p energy is a curve over α. It begins downhill, but "
              "may have turned upwards again at α = 1: then halve it.",
      .line = "square --stretch 0.2 --timestep 0.1",
+     .open = "finer; finer; next; next; next; next; next",
+     .lines = 8,
      .cards = "page line residual",
      .look = "The curve of E, the parabola that Newton believes in, and the "
              "points that were tried.",
@@ -397,6 +405,7 @@ const LecturePage lecture_pages[] = {
              "is written as triplets (row, column, value); equal places are "
              "summed.",
      .line = "square --segments 4",
+     .open = "next",
      .cards = "page spy",
      .look = "A dot for every entry. Nodes that share no spring have none: "
              "the matrix is mostly empty.",
@@ -413,6 +422,8 @@ const LecturePage lecture_pages[] = {
      .text = "Project, solve, search, update, test. Every line of it is one "
              "press of a key.",
      .line = "square --timestep 0.02 --stretch 0.5",
+     .open = "finer; finer; next; next; next",
+     .lines = 12,
      .cards = CARDS_NEWTON,
      .look = "The lit line, and on the square what it does: red springs were "
              "projected, arrows are p.",
@@ -429,6 +440,7 @@ const LecturePage lecture_pages[] = {
      .text = "The loop ends when no node would move faster than the "
              "tolerance: the longest |p| of a node, divided by h, a velocity.",
      .line = "square",
+     .open = "next",
      .cards = "page residual energies",
      .look = "The residual of each update on a logarithmic axis: it falls "
              "by a factor of 30, then of 300.",
@@ -454,7 +466,7 @@ const LecturePage lecture_pages[] = {
      .lit = "step_forward",
      .claim = "In 50 steps every one converges, and the total energy never "
               "rises.",
-     .film = 24,
+     .film = 20,
      .plays = true},
     /* ---- beyond --------------------------------------------------------- */
     {.name = "contact",
@@ -473,7 +485,7 @@ const LecturePage lecture_pages[] = {
      .claim = "In 300 steps every one converges, and no node comes nearer to "
               "floor or walls than 1 mm.",
      .film = 240,
-     .every = 12,
+     .every = 16,
      .plays = true},
     {.name = "friction",
      .topic = "Friction",
@@ -508,8 +520,8 @@ const LecturePage lecture_pages[] = {
      .lit = "return",
      .claim = "After 300 steps a spring has a plastic strain above 0.05, "
               "the ledger balances, and the ball was not entered.",
-     .film = 200,
-     .every = 12,
+     .film = 192,
+     .every = 16,
      .plays = true},
     {.name = "fracture",
      .topic = "Fracture",

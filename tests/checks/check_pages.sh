@@ -85,7 +85,8 @@ verdict every_picture_is_whole "$(
         base64 -d "picture_$i" >picture.png 2>/dev/null || echo "$name: base 64"
         head -c 8 picture.png | od -An -tx1 | tr -d ' \n' |
             grep -q 89504e470d0a1a0a || echo "$name: no PNG"
-        tail -c 8 picture.png | head -c 4 | grep -q IEND || echo "$name: cut off"
+        tail -c 8 picture.png | head -c 4 | grep -q IEND ||
+            echo "$name: cut off"
         grep -q "id=\"$name\"" handout.html || echo "$name is not there"
         i=$((i + 1))
     done <names

@@ -916,7 +916,8 @@ static void pages_are_complete(void **unused)
         CHECK(strlen(page->touch) > 20 && strlen(page->touch) <= 160);
         CHECK(strlen(page->claim) > 20 && strlen(page->claim) <= 240);
         CHECK(page->cards && strncmp(page->cards, "page", 4) == 0);
-        CHECK(page->film >= 0 && page->every >= 0);
+        CHECK(page->film >= 0 && page->every >= 0 && page->lines >= 0);
+        CHECK(!page->lines || page->open);
         for (const LecturePage *other = lecture_pages; other < page; other++)
             CHECK(strcmp(other->name, page->name) != 0);
     }
