@@ -260,11 +260,38 @@ static int make_handout(const Options *options, Player *player)
     return EXIT_FAILED;
 }
 
+/* The words of the command line that decide what is simulated, for messages. */
+static void join_line(int argc, char **argv, char *line, size_t size)
+{
+    static const char *const left_out[] = {
+        "--script", "--film",  "--frames", "--states", "--log",
+        "--size",   "--speed", "--steps",  NULL,
+    };
+    size_t used = (size_t)snprintf(line, size, "elasto");
+    for (int i = 1; i < argc && used < size; i++) {
+        const char *word = argv[i];
+        bool skips = strcmp(word, "--paused") == 0 ||
+                     strcmp(word, "--fullscreen") == 0 ||
+                     strcmp(word, "--quiet") == 0;
+        for (int k = 0; left_out[k] && !skips; k++) {
+            size_t length = strlen(left_out[k]);
+            if (strncmp(word, left_out[k], length) != 0)
+                continue;
+            skips = word[length] == '\0' || word[length] == '=';
+            i += word[length] == '\0';
+        }
+        char shown[256];
+        one_line(word, shown, sizeof shown);
+        if (!skips)
+            used += (size_t)snprintf(line + used, size - used, " %s", shown);
+    }
+}
+
 int main(int argc, char **argv)
 {
     Player *player = &main_player;
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[512];
+    char message[512], line[1024];
     hold_standard_streams();
     leave_blas_threads(argv);
     for (int i = 0; i < options[0].panes; i++)
@@ -285,11 +312,13 @@ int main(int argc, char **argv)
         if (!can_be_mapped(&options[i]))
             return EXIT_FAILED;
     }
+    join_line(argc, argv, line, sizeof line);
     handle_signals();
     atexit(save_files);
     if (options->handout)
         return make_handout(options, player);
-    Status status = player_create(options, options->panes, &main_stop, player);
+    Status status =
+        player_create(options, options->panes, line, &main_stop, player);
     bool begun = !status;
     if (begun)
         status = player_run(player);

@@ -35,6 +35,7 @@ typedef enum CommandKind {
     COMMAND_METHOD,    /* the next integrator */
     COMMAND_ADD_PANE,  /* the next integrator, beside this one */
     COMMAND_END_PANE,  /* the last pane goes */
+    COMMAND_PANE,      /* number: the pane whose numbers are shown */
     COMMAND_SET,       /* text: an option and its value, "timestep 0.01" */
     COMMAND_DEFAULT,   /* text: an option, back to its default */
     COMMAND_SELECT,    /* the next number of the row */

@@ -46,15 +46,16 @@ typedef struct Player {
     int lanes, active;            /* the one whose numbers are shown */
     long step, newest;            /* shown, and known */
     Recording recording;
-    View *view;     /* NULL: nothing is drawn */
-    bool window;    /* the view is a window: it takes keys */
-    bool attended;  /* a window or a script: it may pause and go back */
-    Script script;  /* of the command line */
-    Script journal; /* what was done so far, as a script */
-    bool quit;      /* somebody asked for the end */
-    bool changed;   /* the window must be drawn again */
-    bool warned;    /* paused once because a step did not converge */
-    bool holds;     /* the hand has not let go since it took a node */
+    View *view;       /* NULL: nothing is drawn */
+    bool window;      /* the view is a window: it takes keys */
+    bool attended;    /* a window or a script: it may pause and go back */
+    Script script;    /* of the command line */
+    const char *line; /* the command line, without files and scripts */
+    Script journal;   /* what was done so far, as a script */
+    bool quit;        /* somebody asked for the end */
+    bool changed;     /* the window must be drawn again */
+    bool warned;      /* paused once because a step did not converge */
+    bool holds;       /* the hand has not let go since it took a node */
     bool paused;
     bool rests;        /* nothing moves any more */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
@@ -87,10 +88,11 @@ typedef struct Player {
 /* Sets everything up.  Says on standard error if there is no screen, and then
  * asks for frames in the folder "frames" and 100 steps.
  *   options  [count] in, of the panes
+ *   line     in, how the program was called, for messages; must live as long
  *   stop     in, must live as long; not 0 ends the run after the present step
  *   player   out; must stay where it is; close it in any case
  * Returns OK, or why it failed; INVALID_INPUT: player->message may say more. */
-Status player_create(const Options *options, int count,
+Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player);
 
 /* One step with its records.  OK also for a step that did not converge. */

@@ -132,7 +132,6 @@ static Status take(Player *player, const Pick *pick)
                               pick->point[1]);
         }
         mouse->drag = DRAG_START;
-        player->paused = true;
         return ask_number(player, COMMAND_START, 0, pick->point[0],
                           pick->point[1]);
     default:
@@ -264,8 +263,9 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
         return STATUS_OK;
     }
     if (hit.index < player->lanes && hit.index != player->active) {
-        player->active = hit.index;
-        player->changed = true;
+        Status status = ask_number(player, COMMAND_PANE, hit.index, 0, 0);
+        if (status)
+            return status;
     }
     Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
     if (clicks == 2 && (pick.kind == PICK_NONE || pick.kind == PICK_SPRING))

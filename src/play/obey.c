@@ -349,6 +349,19 @@ static Status set_method(Player *player, const Command *change,
     return STATUS_OK;
 }
 
+/* Whether new runs with these options can begin; the message says why not. */
+static Status try_options(Player *player, const Options *options, int count)
+{
+    Simulation *trial = calloc(1, sizeof *trial);
+    Status status = trial ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; i < count && !status; i++) {
+        status = simulation_create(&options[i], NULL, NULL, trial);
+        simulation_free(trial);
+    }
+    free(trial);
+    return status ? refuse_command(player, status_text(status)) : STATUS_OK;
+}
+
 /* New runs with this option in these lanes. */
 static Status restart_with(Player *player, const char *option,
                            const char *value, int from, int to)
@@ -363,7 +376,10 @@ static Status restart_with(Player *player, const char *option,
     }
     int active = player->active;
     bool paused = player->paused;
-    Status status = player_restart(player, options, player->lanes);
+    Status status = try_options(player, options, player->lanes);
+    if (status)
+        return status;
+    status = player_restart(player, options, player->lanes);
     player->active = active;
     player->paused = paused;
     return status;
@@ -397,6 +413,9 @@ static Status set_option(Player *player, const char *text)
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
+    if (strcmp(name, "integrator") == 0 &&
+        integrator_method_refuses(options.integrator, &simulation->system))
+        return refuse_command(player, "a term of this scene refuses it");
     find_lanes(player, name, &from, &to);
     const Number *number = number_find(name);
     if (number)
@@ -420,10 +439,18 @@ static Status set_option(Player *player, const char *text)
     return status;
 }
 
+/* What the journal keeps of it: the number and its new value. */
+static Status obey_set(Player *player, const char *option, const char *value)
+{
+    Command command = {.kind = COMMAND_SET};
+    snprintf(command.text, sizeof command.text, "%.20s %.40s", option, value);
+    return player_obey(player, &command);
+}
+
 /* The selected number up or down. */
 static Status pace_number(Player *player, int paces)
 {
-    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE - 24];
+    char value[COMMAND_TEXT_SIZE];
     const Number *number[NUMBERS_MOST];
     const Options *options = &settings_now(player)->options;
     int count = numbers_of(options, number);
@@ -431,17 +458,14 @@ static Status pace_number(Player *player, int paces)
         return refuse_command(player, "there is no number to change here");
     if (player->selected < 0 || player->selected >= count)
         player->selected = 0;
-    number_paced(number[player->selected], options, paces, text);
-    snprintf(value, sizeof value, "%.39s", text);
-    snprintf(text, sizeof text, "%s %s", number[player->selected]->option,
-             value);
-    return set_option(player, text);
+    number_paced(number[player->selected], options, paces, value);
+    return obey_set(player, number[player->selected]->option, value);
 }
 
 /* The value that the scene has by itself, or that of the command line. */
 static Status set_default(Player *player, const char *option)
 {
-    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE - 24];
+    char value[COMMAND_TEXT_SIZE];
     const Number *number = number_find(option);
     Options options = player->given[0];
     if (!number)
@@ -455,10 +479,17 @@ static Status set_default(Player *player, const char *option)
                           sizeof player->message))
             return STATUS_INVALID_INPUT;
     }
-    number_value(number, &options, text);
-    snprintf(value, sizeof value, "%.39s", text);
-    snprintf(text, sizeof text, "%.20s %s", option, value);
-    return set_option(player, text);
+    number_value(number, &options, value);
+    return obey_set(player, option, value);
+}
+
+/* The pane whose numbers are shown. */
+static Status choose_pane(Player *player, long number)
+{
+    if (number >= player->lanes)
+        return refuse_command(player, "there is no such pane");
+    player->active = (int)number;
+    return STATUS_OK;
 }
 
 /* Tab: the next number, and after the last one none. */
@@ -503,11 +534,17 @@ static Status switch_search(Player *player)
     return set_option(player, text);
 }
 
-/* The row of the table of integrators behind that of a simulation. */
+/* The next row of the table of integrators that all terms allow. */
 static const IntegratorMethod *next_method(const Simulation *simulation)
 {
-    const IntegratorMethod *next = simulation->run[0].method + 1;
-    return simulation->runs > 1 || !next->name ? &integrator_methods[0] : next;
+    const IntegratorMethod *next = simulation->run[0].method;
+    if (simulation->runs > 1)
+        return &integrator_methods[0];
+    do {
+        next = next[1].name ? next + 1 : &integrator_methods[0];
+    } while (next != simulation->run[0].method &&
+             integrator_method_refuses(next, &simulation->system));
+    return next;
 }
 
 static Status switch_integrator(Player *player)
@@ -533,7 +570,7 @@ static Status add_pane(Player *player)
     if (player->lanes == OPTIONS_MAX_PANES)
         return refuse_command(player, "six are side by side: no room for more");
     if (!(simulation->scene->needs & NEEDS_TIME) || simulation->runs > 1 ||
-        !player->attended)
+        !player->attended || has_memory(simulation))
         return refuse_command(player, "nothing to be put beside it here");
     const IntegratorMethod *next = next_method(simulation);
     snprintf(change.text, sizeof change.text, "integrator %s", next->name);
@@ -661,7 +698,9 @@ static Status pick_start(Player *player, double x, double y)
         options[i].start[0] = x;
         options[i].start[1] = y;
     }
-    return player_restart(player, options, player->lanes);
+    player->paused = true;
+    Status status = try_options(player, options, player->lanes);
+    return status ? status : player_restart(player, options, player->lanes);
 }
 
 /* From step 0 with the present numbers. */
@@ -747,8 +786,8 @@ static Status tell_hash(Player *player)
     unsigned long long hash = player_hash(player);
     const char *scene = player->lane[0].track.options.scene->name;
     if (player->journal.count == 0) {
-        player_note(player, "state %016llx: elasto %s --steps %ld", hash,
-                    player->given[0].scene->name, player->step);
+        player_note(player, "state %016llx: %.80s --steps %ld", hash,
+                    player->line, player->step);
         return STATUS_OK;
     }
     free_name(player, ".script", name, sizeof name);
@@ -759,8 +798,8 @@ static Status tell_hash(Player *player)
                     status == STATUS_FILE_FAILED ? strerror(errno)
                                                  : status_text(status));
     else
-        player_note(player, "state %016llx at step %ld: elasto %s --script %s",
-                    hash, player->step, player->given[0].scene->name, name);
+        player_note(player, "state %016llx at step %ld: %.60s --script %s",
+                    hash, player->step, player->line, name);
     return STATUS_OK;
 }
 
@@ -905,6 +944,8 @@ static Status obey_change(Player *player, const Command *command)
         return add_pane(player);
     case COMMAND_END_PANE:
         return end_pane(player);
+    case COMMAND_PANE:
+        return choose_pane(player, command->number);
     case COMMAND_SET:
         return set_option(player, command->text);
     case COMMAND_DEFAULT:

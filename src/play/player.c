@@ -649,10 +649,10 @@ static bool explains(const Options *options)
     return options->page ? !options->page->plays : options->scene->explains;
 }
 
-Status player_create(const Options *options, int count,
+Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player)
 {
-    *player = (Player){.given_count = count, .stop = stop};
+    *player = (Player){.given_count = count, .line = line, .stop = stop};
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     player->speed = player_first_speed(options);
@@ -673,6 +673,9 @@ Status player_create(const Options *options, int count,
     player->paused =
         options->paused || (player->window && !options->script &&
                             options->steps < 0 && explains(options));
+    Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
+    if (player->paused && script_add(&player->journal, 0, &pause))
+        return STATUS_OUT_OF_MEMORY;
     status = recording_open(&player->given[0], &player->recording);
     if (!status)
         status = begin_run(player, player->given, count);

@@ -1,0 +1,184 @@
+#!/bin/sh
+# Scripts: one that gives every command, on every scene, ends with the same
+# state twice, and with a window too.
+set -u
+failed=0
+
+. "$(dirname "$0")/verdict.sh"
+
+elasto=$(realpath "${ELASTO:-build/elasto}")
+table=$(realpath "$(dirname "$0")/../../src/play/commands.c")
+folder=$(mktemp -d) || exit 1
+screen=
+finish() {
+    [ -z "$screen" ] || kill "$screen" 2>/dev/null
+    wait 2>/dev/null
+    rm -rf "$folder"
+}
+trap finish EXIT
+trap 'exit 1' INT TERM HUP
+cd "$folder" || exit 1
+# Drivers and libraries below SDL leak; the suites look for leaks of ours.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+
+# Each command of the table, on the way through a scene and back.
+cat >commands <<'END'
+0 page-on
+0 page-back
+0 page solid
+0 pages
+0 code
+0 escape
+0 scene SCENE
+0 colours
+0 keys
+0 keys
+0 bare
+0 bare
+0 faster
+0 slower
+0 card 0
+0 enlarge 1
+0 fit
+0 zoom 150 0.1 0.2
+0 pan 0.1 -0.1
+0 blank
+0 blank
+0 full-screen
+0 full-screen
+0 select
+0 raise
+0 lower
+0 default stretch
+0 start 0.3 0.2
+0 set timestep 0.005
+0 handle 0 0.2 0.1
+0 flip 0
+0 grab 2
+0 play
+2 drag 0.6 -0.5
+3 drag 0.7 -0.2
+4 release
+4 pin 1
+5 projection
+5 play
+6 projection
+6 play
+7 line-search
+7 play
+8 line-search
+8 pause
+8 back
+7 back
+6 next
+7 finer
+7 next
+7 finer
+7 next
+7 next
+7 back
+7 finer
+7 home
+0 end
+9 goto 3
+3 shot
+3 film
+3 step
+4 film
+4 hash
+4 add-pane
+4 step
+5 pane 1
+5 set tolerance 0.001
+5 method
+5 step
+6 end-pane
+6 step
+7 restart
+0 step
+1 step
+2 quit
+END
+
+missing_words() {
+    sed -n 's/.*{COMMAND_[A-Z_]*, *"\([a-z-]*\)".*/\1/p' "$table" |
+        while read -r word; do
+            grep -q "^[0-9]* $word\( \|$\)" commands || echo "no $word"
+        done
+    [ "$(sed -n 's/.*{COMMAND_[A-Z_]*, *"\([a-z-]*\)".*/\1/p' "$table" |
+        wc -l)" -gt 40 ] || echo 'the table of commands was not read'
+}
+verdict the_script_has_every_command "$(missing_words)"
+
+# run NAME FLAGS SCENE: prints the hash of the end.
+run() {
+    sed "s/SCENE/$3/" commands >"$1.script"
+    # shellcheck disable=SC2086
+    timeout 200 "$elasto" $2 --script "$1.script" >"$1.out" 2>"$1.error"
+    code=$?
+    case $code in
+    0 | 3) sed -n 's/^state hash *//p' "$1.out" ;;
+    *) echo "ends with $code: $(tail -n 1 "$1.error")" ;;
+    esac
+    rm -f elasto_*
+}
+
+if command -v Xvfb >/dev/null 2>&1; then
+    Xvfb -displayfd 3 -screen 0 1300x900x24 -nolisten tcp -noreset \
+        3>display >screen.log 2>&1 &
+    screen=$!
+    for wait in 1 2 3 4 5 6 7 8 9 10; do
+        [ -s display ] || sleep 0.$wait
+    done
+    DISPLAY=:$(cat display)
+    export DISPLAY
+    unset WAYLAND_DISPLAY SDL_VIDEODRIVER
+else
+    echo 'skipped scripts_in_a_window: no Xvfb'
+fi
+
+on_every_scene() {
+    "$elasto" --list | while read -r scene rest; do
+        first=$(run first --headless "$scene")
+        again=$(run again --headless "$scene")
+        [ ${#first} = 16 ] || echo "$scene: $first"
+        [ "$first" = "$again" ] || echo "$scene: $first, then $again"
+        [ "$screen" ] || continue
+        seen=$(run seen '--size 700x500' "$scene")
+        [ "$first" = "$seen" ] || echo "$scene: $first, in a window $seen"
+    done
+}
+verdict every_command_on_every_scene_gives_the_same_state "$(on_every_scene)"
+
+# Commands that make no sense are told and passed over; a script that cannot be
+# read is refused.
+refusals() {
+    printf '0 pin 999\n0 set timestep -1\n0 step\n1 quit\n' >bad.script
+    "$elasto" --headless --quiet --script bad.script 2>error ||
+        echo "ends with $?"
+    [ "$(grep -c '^script: step 0: ' error)" = 2 ] || cat error
+    printf '0 jump\n' >bad.script
+    "$elasto" --headless --quiet --script bad.script 2>error
+    [ $? = 2 ] || echo 'a wrong command is no bad command line'
+    grep -q "line 1.*'jump'" error || cat error
+    "$elasto" --headless --quiet --script nowhere 2>error
+    [ $? = 2 ] || echo 'a missing script is no bad command line'
+    grep -q 'nowhere: No such file' error || cat error
+}
+verdict nonsense_is_told "$(refusals)"
+
+# Three integrators side by side have one time; files know all of them.
+panes() {
+    "$elasto" --headless --quiet --steps 4 --states states.csv \
+        --timestep 0.001,0.002 --filter clamp,none || echo "ends with $?"
+    awk -F, 'NR > 1 { nodes[$1]++; time[$1 "," $2] = 1 }
+        END { for (s = 0; s < 5; s++) if (nodes[s] != 100) print "step", s, nodes[s]
+              n = 0; for (t in time) n++
+              if (n != 5) print n, "times for 5 steps" }' states.csv
+    "$elasto" --headless --quiet --steps 1 --filter clamp,none --log log.csv \
+        2>error && echo 'two runs have one log'
+    grep -q -- '--log' error || cat error
+}
+verdict panes_have_one_time "$(panes)"
+
+exit $failed
