@@ -163,7 +163,7 @@ static Status play_page(const LecturePage *page,
     options.size[0] = HANDOUT_WIDTH;
     options.size[1] = HANDOUT_HEIGHT;
     options.steps = page->film;
-    status = player_create(&options, 1, stop, player);
+    status = player_create(&options, 1, "elasto", stop, player);
     player->recording.film_every = page->every;
     if (!status && (page->open || page->lines))
         status = play_lines(player, page);

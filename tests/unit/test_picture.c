@@ -339,7 +339,7 @@ static Canvas program_frame(const char *line, int step, bool words)
     Options options = parsed(count, arguments);
     if (!words)
         setenv("ELASTO_FONT", "", 1);
-    assert_int_equal(player_create(&options, 1, &stop, &player), 0);
+    assert_int_equal(player_create(&options, 1, "elasto", &stop, &player), 0);
     assert_int_equal(player_run(&player), 0);
     assert_int_equal(player_finish(&player), 0);
     player_free(&player);
