@@ -31,7 +31,6 @@ Status newton_start_from(Newton *newton, const double *x_n, const double *u,
     for (int i = 0; i < size; i++) {
         at->u[i] = u ? u[i] : 0;
         at->x[i] = u ? x_n[i] + u[i] : x_n[i];
-        newton->r[i] = newton->u_tilde[i];
     }
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
