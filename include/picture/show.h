@@ -69,14 +69,6 @@ typedef struct Trace {
 
 /* ---- panes -------------------------------------------------------------- */
 
-/* What the square can touch. */
-typedef struct Obstacle {
-    bool ball;
-    double at[2];     /* m, a point of the half plane, or the middle */
-    double normal[2]; /* of the half plane, a unit, away from it */
-    double radius;    /* m, of the ball */
-} Obstacle;
-
 /* One picture on the stage. */
 typedef struct Pane {
     const Simulation *simulation; /* the scene, its settings and state */
@@ -86,18 +78,10 @@ typedef struct Pane {
     const History *history;  /* energies (or radii) over time */
     const Trail *trail;      /* of node 0 of each run */
     const Trace *trace;
-    const char *label; /* over the pane where there are several */
-    Status trouble;    /* how the shown step ended */
-    /* Contact, inelasticity, fracture; all may be NULL or 0. */
-    int obstacles;
-    const Obstacle *obstacle;
-    double reach;                /* m, the barrier begins at this distance */
-    const double *force;         /* [2n] N, contact forces, as arrows */
-    const unsigned char *broken; /* [springs] 1: gone, not drawn */
-    const double *plastic;       /* [springs] plastic strain, as colour */
-    bool cells;                  /* filled lightly */
-    const double *frame;         /* [4] left, bottom, right, top, m: what fits
-                                    the stage; NULL: the picture's choice */
+    const char *label;   /* over the pane where there are several */
+    Status trouble;      /* how the shown step ended */
+    const double *frame; /* [4] left, bottom, right, top, m: what fits
+                            the stage; NULL: the picture's choice */
 } Pane;
 
 /* What the mouse is over, or holds. */

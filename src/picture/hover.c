@@ -50,12 +50,12 @@ static void draw_lines(Paper *paper, Box *box, const Lines *lines)
 
 /* Force of the springs on a node, N. */
 static void node_force(const System *system, const double *x, int node,
-                       const unsigned char *broken, double force[2])
+                       double force[2])
 {
     force[0] = force[1] = 0;
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
-        if ((i != node && j != node) || (broken && broken[s]))
+        if (i != node && j != node)
             continue;
         double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
         double pull = 2 * system->k[s] *
@@ -77,7 +77,7 @@ static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
     Lines lines = {0};
     char mass[48];
     plot_number(mass, sizeof mass, system->m[node]);
-    node_force(system, x, node, pane->broken, force);
+    node_force(system, x, node, force);
     for (int k = 0; k < 2; k++)
         tilde[k] = pane->trace && pane->trace->x_tilde
                        ? pane->trace->x_tilde[2 * node + k]

@@ -113,20 +113,19 @@ static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
                       double reach)
 {
     const Box *box = &stage->box;
-    double middle[2], far;
+    const double *n = wall->n;
+    double middle[2], p[4][2];
     camera_world(&stage->camera, box->x + 0.5 * box->width,
                  box->y + 0.5 * box->height, middle);
-    far = 2 * (box->width + box->height) / stage->camera.scale[0];
-    const double *n = wall->normal;
+    double far = 2 * (box->width + box->height) / stage->camera.scale[0];
     double t[2] = {n[1], -n[0]};
     double along =
-        (middle[0] - wall->at[0]) * t[0] + (middle[1] - wall->at[1]) * t[1];
-    double foot[2] = {wall->at[0] + along * t[0], wall->at[1] + along * t[1]};
+        (middle[0] - wall->o[0]) * t[0] + (middle[1] - wall->o[1]) * t[1];
+    double foot[2] = {wall->o[0] + along * t[0], wall->o[1] + along * t[1]};
     const double a[2] = {foot[0] - far * t[0], foot[1] - far * t[1]};
     const double b[2] = {foot[0] + far * t[0], foot[1] + far * t[1]};
     const double c[2] = {b[0] - far * n[0], b[1] - far * n[1]};
     const double d[2] = {a[0] - far * n[0], a[1] - far * n[1]};
-    double p[4][2];
     stage_pixel(stage, a, p[0]);
     stage_pixel(stage, b, p[1]);
     stage_pixel(stage, c, p[2]);
@@ -143,21 +142,23 @@ static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
         stage_dashes(paper, stage, a2, b2, 1, COLOUR_GREY);
 }
 
-void stage_obstacles(Paper *paper, const Stage *stage, const Pane *pane)
+void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,
+                     const double *x)
 {
-    for (int i = 0; i < pane->obstacles; i++) {
-        const Obstacle *obstacle = &pane->obstacle[i];
-        double scale = stage->camera.scale[0];
+    double scale = stage->camera.scale[0], reach = contact->barrier.d_hat;
+    for (int i = 0; i < contact->obstacles; i++) {
+        const Obstacle *obstacle = &contact->obstacle[i];
+        const double *at = obstacle_point(obstacle, x);
         double radius = obstacle->radius * scale;
-        if (!obstacle->ball) {
-            draw_wall(paper, stage, obstacle, pane->reach);
+        if (obstacle->kind == OBSTACLE_WALL) {
+            draw_wall(paper, stage, obstacle, reach);
             continue;
         }
-        stage_disc(paper, stage, obstacle->at, radius, COLOUR_SOLID);
-        stage_ring(paper, stage, obstacle->at, radius, 1.5, COLOUR_EDGE);
-        if (pane->reach * scale > 2)
-            stage_ring(paper, stage, obstacle->at, radius + pane->reach * scale,
-                       0.8, COLOUR_RULE);
+        stage_disc(paper, stage, at, radius, COLOUR_SOLID);
+        stage_ring(paper, stage, at, radius, 1.5, COLOUR_EDGE);
+        if (reach * scale > 2)
+            stage_ring(paper, stage, at, radius + reach * scale, 0.8,
+                       COLOUR_RULE);
     }
 }
 

@@ -4,6 +4,7 @@
 #ifndef ELASTO_MARKS_H
 #define ELASTO_MARKS_H
 
+#include "model/contact.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
 
@@ -46,7 +47,8 @@ double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
 double longest_arrow(int nodes, const double *d);
 
 /* Walls and balls, and how far their barrier reaches. */
-void stage_obstacles(Paper *paper, const Stage *stage, const Pane *pane);
+void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,
+                     const double *x);
 
 /* Lower left: a line as long as so many metres. */
 void stage_scale(Paper *paper, const Stage *stage);

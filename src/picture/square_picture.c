@@ -6,6 +6,9 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/hover.h"
+#include "model/contact.h"
+#include "model/fracture.h"
+#include "model/plasticity.h"
 #include "picture/marks.h"
 
 enum {
@@ -17,7 +20,7 @@ enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
 
 static const double ROOM = 1.14;      /* of the stage around the square */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
-static const double FORCE_ROOM = 7;   /* ems, the longest contact force */
+static const double FORCE_ROOM = 4.5; /* ems, the longest contact force */
 static const double NODE = 0.1;       /* of the distance of two nodes */
 
 /* What does not change from spring to spring. */
@@ -25,13 +28,15 @@ typedef struct SpringPen {
     Paper *paper;
     const Stage *stage;
     const Pane *pane;
-    const double *x; /* [2n] m */
-    double *at;      /* [2n] pixels; NULL: not enough memory */
-    double spacing;  /* pixels, of two nodes at rest */
-    double width;    /* pixels */
-    double range;    /* of the strains; 0: all blue */
-    bool plastic;    /* the colour is the plastic strain */
-    bool projected;  /* springs whose block was changed are lit */
+    const double *x;        /* [2n] m */
+    double *at;             /* [2n] pixels; NULL: not enough memory */
+    double spacing;         /* pixels, of two nodes at rest */
+    double width;           /* pixels */
+    double range;           /* of the strains; 0: all blue */
+    bool plastic;           /* the colour is the plastic strain ... */
+    const double *ep;       /* [springs] of each; NULL: springs do not flow */
+    const Contact *contact; /* NULL: there is nothing to touch */
+    bool projected;         /* springs whose block was changed are lit */
 } SpringPen;
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -92,7 +97,10 @@ static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show)
     pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
     for (int i = 0; pen.at && i < simulation->system.nodes; i++)
         stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
-    pen.plastic = show->strain && pane->plastic;
+    const Plasticity *plasticity = plasticity_of(&simulation->system);
+    pen.contact = contact_of(&simulation->system);
+    pen.ep = plasticity ? plasticity->ep : NULL;
+    pen.plastic = show->strain && pen.ep;
     pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
     if (show->strain)
         pen.width *= 1.4;
@@ -133,14 +141,12 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
 
 static long draw_all_springs(const SpringPen *pen, const System *system)
 {
-    const unsigned char *broken = pen->pane->broken;
-    const double *plastic = pen->pane->plastic;
     long drawn = 0;
     for (int s = 0; s < system->springs; s++) {
-        if (broken && broken[s])
+        if (spring_is_broken(system, s))
             continue;
         draw_spring(pen, system->e[2 * (size_t)s], system->e[2 * (size_t)s + 1],
-                    system->l2[s], plastic ? plastic[s] : 0);
+                    system->l2[s], pen->ep ? pen->ep[s] : 0);
         drawn++;
     }
     return drawn;
@@ -311,20 +317,45 @@ static void draw_direction(const SpringPen *pen, const double *p,
                      "search direction p \u00d7 %g", factor);
 }
 
-/* Forces as arrows of no more than some ems, and how large the largest is. */
-static void draw_forces(const SpringPen *pen, const double *force,
-                        Legend *legend)
+/* What obstacles push node i with, N. */
+static void push_on(const SpringPen *pen, int i, double force[2])
+{
+    const Contact *contact = pen->contact;
+    force[0] = force[1] = 0;
+    for (int o = 0; o < contact->obstacles; o++) {
+        if (!contact_has_pair(contact, &pen->pane->simulation->system, i, o))
+            continue;
+        Gap gap = contact_pair_gap(contact, pen->x, i, o);
+        double push = contact_force(&contact->barrier, &gap);
+        force[0] += push * gap.n[0];
+        force[1] += push * gap.n[1];
+    }
+}
+
+/* Forces as arrows, the largest some ems long, and how large that is. */
+static void draw_forces(const SpringPen *pen, Legend *legend)
 {
     char number[48];
     int nodes = pen->pane->simulation->system.nodes;
-    double most = longest_arrow(nodes, force);
-    if (stage_arrows(pen->paper, pen->stage, nodes, 1, pen->x, force,
-                     FORCE_ROOM * pen->paper->em, COLOUR_FORCE) == 0 ||
-        !pen->stage->text)
+    double most = 0, force[2];
+    for (int i = 0; i < nodes; i++) {
+        push_on(pen, i, force);
+        most = fmax(most, hypot(force[0], force[1]));
+    }
+    if (!(most > 0) || !isfinite(most))
         return;
+    double factor =
+        FORCE_ROOM * pen->paper->em / (most * pen->stage->camera.scale[0]);
+    for (int i = 0; i < nodes; i++) {
+        push_on(pen, i, force);
+        if (hypot(force[0], force[1]) > 0.02 * most)
+            stage_arrow(pen->paper, pen->stage, pen->x + 2 * (size_t)i, force,
+                        factor, 1.6, COLOUR_FORCE);
+    }
     plot_number(number, sizeof number, most);
-    stage_legend(pen->paper, pen->stage, legend, COLOUR_FORCE,
-                 "contact forces, at most %s N", number);
+    if (pen->stage->text)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_FORCE,
+                     "contact forces, at most %s N", number);
 }
 
 /* The start of the hand's spring, the spring, and its force. */
@@ -375,14 +406,19 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     const Trace *trace = pane->trace;
     Paper *paper = pen->paper;
     const Stage *stage = pen->stage;
-    stage_obstacles(paper, stage, pane);
-    if (!pane->frame) {
+    if (pen->contact)
+        stage_obstacles(paper, stage, pen->contact, pen->x);
+    if (!pane->frame && !pen->contact) {
         draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
                      COLOUR_RULE);
         if (stage->text && stage->pane == 0)
             stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
     }
-    draw_cells(pen, &simulation->mesh, pane->cells);
+    draw_cells(pen, &simulation->mesh,
+               pen->contact && !fracture_of(&simulation->system));
+    for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
+        draw_ghost(paper, stage, simulation, simulation->run[r].x,
+                   colour_of_run(r));
     if (pane->ghost) {
         draw_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
         if (stage->text)
@@ -408,8 +444,8 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
     if (trace && trace->p && trace->line >= LINE_SOLVE &&
         trace->line <= LINE_SEARCH)
         draw_direction(pen, trace->p, legend);
-    if (pane->force)
-        draw_forces(pen, pane->force, legend);
+    if (pen->contact)
+        draw_forces(pen, legend);
     draw_hover(pen, show);
     draw_hand(pen, show);
     int folded = pane_folded(pane);
@@ -464,7 +500,7 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
         (int)fmin(fmax(ceil(2 / pen.spacing), 1), simulation->mesh.segments);
     if (!show->bare)
         draw_ground(&pen, show, &legend);
-    if (stride <= 1 || pen.pane->broken)
+    if (stride <= 1 || fracture_of(system))
         count.drawn = draw_all_springs(&pen, system);
     else
         count.drawn = draw_coarse_springs(&pen, &simulation->mesh, stride);
@@ -536,7 +572,7 @@ static Pick square_pick(const Show *show, const Stage *stage, double x,
     best = reach * reach / 4;
     for (int s = 0; pick.kind == PICK_NONE && s < system->springs; s++) {
         double p[2], q[2];
-        if (pane->broken && pane->broken[s])
+        if (spring_is_broken(system, s))
             continue;
         stage_pixel(stage, at + 2 * (size_t)system->e[2 * s], p);
         stage_pixel(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
