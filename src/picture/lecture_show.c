@@ -84,6 +84,8 @@ void show_lecture(LectureColumn column, Show *show)
     const Simulation *simulation = show->pane[show->active].simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
+    if (!page && column == LECTURE_PAGES)
+        fill_pages(show);
     if (!page)
         return;
     show->lecture = page;

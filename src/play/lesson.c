@@ -61,11 +61,14 @@ static Status refuse_page(Player *player, const char *why)
 Status lesson_turn(Player *player, const Command *command)
 {
     const LecturePage *page = player->lane[0].track.settings.options.page;
-    page = page ? page : player->left; /* another scene was looked at */
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         return page ? lesson_open(player, page)
                     : refuse_page(player, "there is no such page");
+    }
+    if (!page && player->left) { /* another scene was looked at */
+        bool on = command->kind == COMMAND_PAGE_ON && player->left[1].name;
+        return lesson_open(player, player->left + on);
     }
     if (!page)
         return lesson_open(player, &lecture_pages[0]);

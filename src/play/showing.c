@@ -144,6 +144,13 @@ static void fill_chips(Player *player)
                     : "next iteration",
              false);
     add_chip(player, COMMAND_BACK, "\u2190", "back", false);
+    if (options->page) {
+        add_chip(player, COMMAND_PAGE_ON, "PgDn", "next page", ended);
+        add_chip(player, COMMAND_CODE, "K", "code",
+                 player->column == LECTURE_CODE);
+        add_chip(player, COMMAND_PAGES, "G", "pages",
+                 player->column == LECTURE_PAGES);
+    }
     add_chip(player, COMMAND_RESTART, "R", "restart", ended);
     if (newton)
         add_chip(player, COMMAND_FINER, "I", "finer", false);
@@ -159,13 +166,6 @@ static void fill_chips(Player *player)
                  false);
     if (time && simulation->runs == 1)
         add_chip(player, COMMAND_METHOD, "M", "method", false);
-    if (options->page) {
-        add_chip(player, COMMAND_PAGE_ON, "PgDn", "next page", ended);
-        add_chip(player, COMMAND_CODE, "K", "code",
-                 player->column == LECTURE_CODE);
-        add_chip(player, COMMAND_PAGES, "G", "pages",
-                 player->column == LECTURE_PAGES);
-    }
     add_chip(player, COMMAND_KEYS, "?", "all keys", player->help);
 }
 

@@ -563,7 +563,7 @@ const LecturePage lecture_pages[] = {
      .text = "Every time step from a nanosecond to a quarter of an hour, "
              "every stiffness over 21 powers of ten, three steps each.",
      .line = "envelope",
-     .cards = "page numbers",
+     .cards = "page numbers cell",
      .look = "A cell is a run; it is darker the more updates it took, and "
              "orange where a step did not converge and said so.",
      .touch = "Point at a cell for its run in small; click to load it. Drag "
