@@ -54,6 +54,8 @@ cat >commands <<'END'
 0 set timestep 0.005
 0 handle 0 0.2 0.1
 0 flip 0
+0 predict 0.5 0.2
+0 cell 3
 0 grab 2
 0 play
 2 drag 0.6 -0.5
