@@ -12,8 +12,10 @@
 #include "scenes/scene.h"
 
 enum {
-    HANDOUT_WIDTH = 800, /* pixels of the pictures */
-    HANDOUT_HEIGHT = 500,
+    STILL_WIDTH = 1120, /* pixels of the pictures */
+    STILL_HEIGHT = 700,
+    FILM_WIDTH = 736, /* and of the films */
+    FILM_HEIGHT = 460,
     TRIPLE = 3, /* bytes that become four letters */
     ROW = 57    /* bytes of a line of 76 letters, a multiple of TRIPLE */
 };
@@ -160,8 +162,9 @@ static Status play_page(const LecturePage *page,
         return status;
     options.headless = options.quiet = true;
     options.film = name;
-    options.size[0] = HANDOUT_WIDTH;
-    options.size[1] = HANDOUT_HEIGHT;
+    bool moves = page->film > 0 || page->lines > 0;
+    options.size[0] = moves ? FILM_WIDTH : STILL_WIDTH;
+    options.size[1] = moves ? FILM_HEIGHT : STILL_HEIGHT;
     options.steps = page->film;
     status = player_create(&options, 1, "elasto", stop, player);
     player->recording.film_every = page->every;
