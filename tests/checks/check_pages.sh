@@ -53,6 +53,27 @@ verdict pages_that_are_none_are_refused "$(
     refused '--steps' --handout x.html --steps 3
 )"
 
+# Touched, left and entered again it is what it was at first.
+walk() { # FOLDER LINES...: a picture of the page that the commands end at
+    mkdir "$1"
+    (
+        cd "$1" || exit 1
+        shift
+        printf '0 %s\n' pause "$@" shot quit >script
+        "$elasto" --lecture --headless --quiet --script script 2>error ||
+            cat error
+        mv elasto_*.png shot.png
+    )
+}
+verdict a_page_is_the_same_when_it_is_entered_again "$(
+    for name in $(awk '$2 !~ /race/ { print $2 }' list); do
+        walk "once_$name" "page $name"
+        walk "again_$name" "page $name" next next page-back page-on page-on \
+            "page $name"
+        cmp "once_$name/shot.png" "again_$name/shot.png" 2>&1
+    done
+)"
+
 # ---- the handout ---------------------------------------------------------
 
 timeout 300 "$elasto" --handout handout.html >output 2>error
