@@ -321,6 +321,18 @@ static Status advance_lanes(Player *player)
     return worst;
 }
 
+/* What curves and trails keep of states not seen before. */
+static void sample(Player *player)
+{
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        if (lane->sampled >= player->step)
+            continue;
+        lane->sampled = player->step;
+        show_sample(&lane->track.simulation, &lane->history, &lane->trail);
+    }
+}
+
 Status player_step(Player *player)
 {
     long before = player->step;
@@ -334,6 +346,8 @@ Status player_step(Player *player)
     if (player->recorded)
         return player->recorded;
     if (player->step != before) {
+        if (player->attended)
+            sample(player);
         Status recorded = record_states(player);
         if (recorded)
             return recorded;
@@ -400,18 +414,6 @@ static void pause_if_due(Player *player)
 static int frames_shown(const Player *player)
 {
     return player->speed < 0 ? 1 << -player->speed : 1;
-}
-
-/* What curves and trails keep of states not seen before. */
-static void sample(Player *player)
-{
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        if (lane->sampled >= player->step)
-            continue;
-        lane->sampled = player->step;
-        show_sample(&lane->track.simulation, &lane->history, &lane->trail);
-    }
 }
 
 Status player_draw(Player *player)
