@@ -52,8 +52,10 @@ typedef struct Scene {
     const char *title;    /* above its picture; NULL: its name */
     const char *sentence; /* for --list and the window, at most 60 letters */
     PictureKind picture;
-    unsigned needs; /* of enum SceneNeeds */
-    bool explains;  /* it is looked at step by step: a window waits at step 0 */
+    double frame[4]; /* m, left, bottom, right, top of what is seen; 0: the
+                        picture's choice */
+    unsigned needs;  /* of enum SceneNeeds */
+    bool explains; /* it is looked at step by step: a window waits at step 0 */
     /* Changes the default options, before the command line is applied; NULL:
      * the slides' numbers are right. */
     void (*defaults)(Options *options);

@@ -98,14 +98,19 @@ double simulation_time(const Simulation *simulation);
 /* Energies of one run, computed now. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
+/* m/s: a looser tolerance may leave a body at rest hanging in the air, or let a
+ * contact that creeps freeze: a tenth of h |g| and of the slip speed.  Infinite
+ * where neither matters. */
+double simulation_tolerance_needed(const Simulation *simulation);
+
 /* Sum over the runs of what Newton did; zero where all are explicit. */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
 /* Memory that the scene will need, about, in bytes: measured on squares of 128
  * to 1024 segments, where it is right within a tenth.  A Cholesky factor in
  * nested dissection order has of the order of n log n entries (George: Nested
- * Dissection of a Regular Finite Element Mesh, 1973); multigrid has some vectors.
- * 0 in scenes without a square. */
+ * Dissection of a Regular Finite Element Mesh, 1973); multigrid has some
+ * vectors. 0 in scenes without a square. */
 double simulation_bytes(const Options *options);
 
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */

@@ -100,7 +100,8 @@ static void describe_method(Show *show, const Simulation *simulation)
         say(show->method, sizeof show->method, "%d side by side", show->panes);
     else if (!(simulation->scene->needs & NEEDS_TIME))
         say(show->method, sizeof show->method, "Newton's method");
-    else if (simulation->runs > 1)
+    else if (simulation->runs > 1 &&
+             simulation->run[0].method != simulation->run[1].method)
         say(show->method, sizeof show->method, "%d integrators",
             simulation->runs);
     else

@@ -125,7 +125,8 @@ int pane_folded(const Pane *pane)
     if (!mesh->nodes || pane->simulation->runs < 1)
         return 0;
     for (int cell = 0; cell < mesh->segments * mesh->rows; cell++)
-        folded += square_picture_folded(mesh, pane_x(pane), cell);
+        folded += square_picture_folded(mesh, pane_x(pane), cell) &&
+                  !square_picture_torn(&pane->simulation->system, mesh, cell);
     return folded;
 }
 

@@ -8,8 +8,10 @@
 #include "picture/hover.h"
 #include "model/contact.h"
 #include "model/fracture.h"
+#include "model/friction.h"
 #include "model/plasticity.h"
 #include "picture/marks.h"
+#include "scenes/scene.h"
 
 enum {
     GHOST_SPRINGS = 700, /* of more only the outline is drawn as a ghost */
@@ -49,6 +51,20 @@ static double square_extent(double stretch)
     return s < 1 ? 1 + 1.5 * (1 - s) : s;
 }
 
+/* Whether runs have systems of their own, such as three slopes. */
+static bool has_other_systems(const Simulation *simulation)
+{
+    return simulation->runs > 1 &&
+           simulation->run[1].system != &simulation->system;
+}
+
+/* Whether the scene says what is to be seen. */
+static bool has_frame(const Simulation *simulation)
+{
+    const double *frame = simulation->scene->frame;
+    return frame[2] > frame[0];
+}
+
 /* The square as it starts; where nodes have left that, 1.5, 1.5^2, ... times
  * as much around the same middle, so that the view jumps seldom. */
 static void square_bounds(const Show *show, int pane, double bounds[4])
@@ -67,6 +83,11 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
             bounds[k] = shown->frame[k];
         return;
     }
+    if (has_frame(simulation)) {
+        for (int k = 0; k < 4; k++)
+            bounds[k] = simulation->scene->frame[k];
+        return;
+    }
     for (int i = 0; i < simulation->system.nodes; i++) {
         double reach =
             fmax(fabs(x[2 * i]) / bounds[2], fabs(x[2 * i + 1]) / bounds[3]);
@@ -83,26 +104,39 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
 
 /* ---- springs and nodes -------------------------------------------------- */
 
-static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show)
+/* Half of the largest plastic strain, or 5 %. */
+static double plastic_range(const System *system, const double *ep)
+{
+    double largest = 0.1;
+    for (int s = 0; s < system->springs; s++)
+        largest = fmax(largest, fabs(ep[s]));
+    return plot_round_up(0.5 * largest);
+}
+
+static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
+                            int run)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
     const SquareMesh *mesh = &simulation->mesh;
     const Trace *trace = pane->trace;
     SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
-    pen.x = pane_x(pane);
+    const System *system = simulation->run[run].system;
+    pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
     pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
     pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
     pen.width = fmax(1, pen.width * paper->unit);
     pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
     for (int i = 0; pen.at && i < simulation->system.nodes; i++)
         stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
-    const Plasticity *plasticity = plasticity_of(&simulation->system);
-    pen.contact = contact_of(&simulation->system);
+    const Plasticity *plasticity = plasticity_of(system);
+    pen.contact = contact_of(system);
     pen.ep = plasticity ? plasticity->ep : NULL;
-    pen.plastic = show->strain && pen.ep;
+    pen.plastic = !show->strain && !show->bare && pen.ep;
     pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
-    if (show->strain)
+    if (pen.plastic)
+        pen.range = plastic_range(system, pen.ep);
+    if (pen.range > 0)
         pen.width *= 1.4;
     pen.projected = trace && trace->line >= LINE_PROJECT &&
                     trace->line <= LINE_SEARCH && !show->strain &&
@@ -259,6 +293,20 @@ static double turn(const double *x, int a, int b, int c)
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
+bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
+{
+    int columns = mesh->segments, rows = mesh->rows;
+    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
+    int low = i * (rows + 1) + j, left = upright + i * rows + j;
+    int diagonal = upright + (columns + 1) * rows + 2 * cell;
+    const int spring[6] = {low,         low + 1,  left,
+                           left + rows, diagonal, diagonal + 1};
+    for (int k = 0; system->breaks && k < 6; k++)
+        if (spring_is_broken(system, spring[k]))
+            return true;
+    return false;
+}
+
 bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
 {
     int row = mesh->rows + 1;
@@ -277,7 +325,8 @@ static void draw_cells(const SpringPen *pen, const SquareMesh *mesh, bool all)
         const int node[4] = {a, a + row, a + row + 1, a + 1};
         bool folded = square_picture_folded(mesh, pen->x, cell);
         double p[4][2];
-        if (!folded && !all)
+        if ((!folded && !all) ||
+            square_picture_torn(&pen->pane->simulation->system, mesh, cell))
             continue;
         for (int k = 0; k < 4; k++)
             stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
@@ -406,9 +455,9 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     const Trace *trace = pane->trace;
     Paper *paper = pen->paper;
     const Stage *stage = pen->stage;
-    if (pen->contact)
+    if (pen->contact && !has_other_systems(simulation))
         stage_obstacles(paper, stage, pen->contact, pen->x);
-    if (!pane->frame && !pen->contact) {
+    if (!pane->frame && !has_frame(simulation) && !pen->contact) {
         draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
                      COLOUR_RULE);
         if (stage->text && stage->pane == 0)
@@ -417,8 +466,9 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     draw_cells(pen, &simulation->mesh,
                pen->contact && !fracture_of(&simulation->system));
     for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
-        draw_ghost(paper, stage, simulation, simulation->run[r].x,
-                   colour_of_run(r));
+        if (simulation->run[r].system == &simulation->system)
+            draw_ghost(paper, stage, simulation, simulation->run[r].x,
+                       colour_of_run(r));
     if (pane->ghost) {
         draw_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
         if (stage->text)
@@ -486,14 +536,57 @@ static void draw_numbers(const SpringPen *pen, const System *system)
     }
 }
 
+/* Where nodes touch with friction: a disc where they stick, a ring where they
+ * slide. */
+static void draw_slides(const SpringPen *pen, const System *system)
+{
+    const Term *term = system_find_term(system, &friction_energy);
+    const Friction *friction = term ? term->data : NULL;
+    double radius = fmax(node_radius(pen, false), 2 * pen->paper->unit);
+    for (int s = 0; friction && s < friction->slides; s++) {
+        const Slide *slide = &friction->slide[s];
+        const double *at = pen->x + 2 * (size_t)slide->pair.node;
+        if (fabs(slide->y) >= friction->e)
+            stage_ring(pen->paper, pen->stage, at, 1.5 * radius, 1.5,
+                       COLOUR_FORCE);
+        else
+            stage_disc(pen->paper, pen->stage, at, 1.4 * radius, COLOUR_FORCE);
+    }
+}
+
+/* Runs with a system of their own, above the obstacles of the first. */
+static void draw_other_runs(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    if (!has_other_systems(simulation))
+        return;
+    const Contact *contact = contact_of(&simulation->system);
+    if (contact && !show->bare)
+        stage_obstacles(paper, stage, contact, simulation->run[0].x);
+    for (int r = 1; r < simulation->runs; r++) {
+        const System *system = simulation->run[r].system;
+        SpringPen pen = square_pen(paper, stage, show, r);
+        if (pen.contact && !show->bare)
+            stage_obstacles(paper, stage, pen.contact, pen.x);
+        if (!pen.at)
+            continue;
+        draw_all_springs(&pen, system);
+        draw_nodes(&pen, system, show->bare);
+        if (!show->bare)
+            draw_slides(&pen, system);
+    }
+}
+
 static SpringCount square_draw(Paper *paper, const Stage *stage,
                                const Show *show)
 {
-    SpringPen pen = square_pen(paper, stage, show);
+    SpringPen pen = square_pen(paper, stage, show, 0);
     const Simulation *simulation = pen.pane->simulation;
     const System *system = &simulation->system;
     SpringCount count = {0, 0};
     Legend legend = {0, 0};
+    draw_other_runs(paper, stage, show);
+    pen = square_pen(paper, stage, show, 0);
     if (!pen.at)
         return count;
     int stride =
@@ -508,6 +601,7 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     draw_nodes(&pen, system, show->bare);
     if (show->bare)
         return count;
+    draw_slides(&pen, system);
     draw_signs(&pen, show, &legend);
     if (stage->text && show->numbers && system->nodes <= NUMBERED)
         draw_numbers(&pen, system);

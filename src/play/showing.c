@@ -85,7 +85,9 @@ static void value_text(const Number *number, const Options *options,
     number_value(number, options, value);
     if (strcmp(number->option, "integrator") == 0)
         snprintf(text, size, "%s",
-                 simulation->runs > 1  ? "three Eulers"
+                 simulation->runs > 1 && !options->integrator &&
+                         simulation->run[0].method != simulation->run[1].method
+                     ? "three Eulers"
                  : options->integrator ? options->integrator->label
                                        : integrator_methods[0].label);
     else

@@ -21,6 +21,17 @@ static void print_solver(FILE *file, const Simulation *simulation)
     fputc('\n', file);
 }
 
+/* Where contact and friction need a smaller tolerance. */
+static void print_tolerance(FILE *file, const Simulation *simulation)
+{
+    double needed = simulation_tolerance_needed(simulation);
+    if (simulation->options.tolerance > needed * (1 + 1e-9))
+        fprintf(file,
+                "tolerance           %g m/s is loose: bodies may hang or "
+                "freeze; %.3g is not\n",
+                simulation->options.tolerance, needed);
+}
+
 /* What Newton did; all 0 with explicit methods, which have no matrix. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
@@ -29,6 +40,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
     if (!(simulation->scene->needs & NEEDS_TIME))
         iterations = simulation->descent.count;
     print_solver(file, simulation);
+    print_tolerance(file, simulation);
     fprintf(file, "Newton iterations   %ld\n", iterations);
     fprintf(file, "factorisations      %ld\n", sum.factorisations);
     fprintf(file, "solves              %ld\n", sum.solves);

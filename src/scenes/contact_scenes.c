@@ -246,7 +246,7 @@ Status create_bend(Simulation *simulation, const NewtonSettings *settings)
     Status status = body_create(options, 1, mesh, system);
     if (status)
         return status;
-    double half = 0.5 * options->height, a = options->side / options->segments;
+    double a = options->side / options->segments, half = 0.5 * mesh->rows * a;
     const Obstacle ball = {.kind = OBSTACLE_BALL,
                            .radius = 0.18,
                            .friction = options->friction,

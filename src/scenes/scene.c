@@ -83,6 +83,7 @@ const Scene scenes[] = {
     {.name = "drop",
      .sentence = "a turned square falls, slides and tumbles between walls",
      .picture = PICTURE_SQUARE,
+     .frame = {-1.25, -0.65, 1.25, 1.45},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = drop_defaults,
@@ -90,6 +91,7 @@ const Scene scenes[] = {
     {.name = "slope",
      .sentence = "three blocks: one slides, one slides slowly, one holds",
      .picture = PICTURE_SQUARE,
+     .frame = {-2.3, -2.2, 0.9, 2.1},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = slope_defaults,
@@ -97,6 +99,7 @@ const Scene scenes[] = {
     {.name = "squeeze",
      .sentence = "a ceiling presses the square flat and lets it go again",
      .picture = PICTURE_SQUARE,
+     .frame = {-1.05, -0.7, 1.05, 0.7},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = squeeze_defaults,
@@ -104,6 +107,7 @@ const Scene scenes[] = {
     {.name = "dent",
      .sentence = "springs that flow: the ball leaves its mark",
      .picture = PICTURE_SQUARE,
+     .frame = {-1.3, -1.3, 1.3, 1.25},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = dent_defaults,
@@ -111,6 +115,7 @@ const Scene scenes[] = {
     {.name = "tear",
      .sentence = "a slit opens and runs: springs break where they must",
      .picture = PICTURE_SQUARE,
+     .frame = {-0.9, -0.65, 0.9, 0.65},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = tear_defaults,
@@ -118,6 +123,7 @@ const Scene scenes[] = {
     {.name = "bend",
      .sentence = "a beam on two balls, a third falls on it: everything at once",
      .picture = PICTURE_SQUARE,
+     .frame = {-1.25, -1.1, 1.25, 0.75},
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = bend_defaults,

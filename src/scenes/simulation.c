@@ -376,6 +376,20 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
+double simulation_tolerance_needed(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    const Options *options = &simulation->options;
+    double needed = INFINITY;
+    bool minimises = simulation->run[0].newton != NULL;
+    if (minimises && contact_of(system) && system_has_gravity(system))
+        needed = 0.1 * options->timestep *
+                 hypot(system->gravity[0], system->gravity[1]);
+    if (minimises && system_find_term(system, &friction_energy))
+        needed = fmin(needed, 0.1 * options->slip_speed);
+    return needed;
+}
+
 NewtonCounters simulation_counters(const Simulation *simulation)
 {
     NewtonCounters sum = {0};

@@ -131,6 +131,10 @@ typedef struct StressCase {
     bool (*run)(Tally *tally, char *reason);
 } StressCase;
 
+/* Random scenes of contact and what goes with it: 20 000, or some. */
+bool stress_contact(Tally *tally, char *reason);
+bool stress_contact_small(Tally *tally, char *reason);
+
 extern const StressCase stress_cases[]; /* ends with a NULL name */
 
 /* Adds what a watch saw. */

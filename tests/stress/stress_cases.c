@@ -320,6 +320,8 @@ const StressCase stress_cases[] = {
     {"every integrator", false, every_integrator},
     {"overflow", false, overflow},
     {"interrupted", false, interrupted},
+    {"contact", false, stress_contact_small},
+    {"contact, 20 000", true, stress_contact},
     {"a million steps", true, million_steps},
     {NULL, false, NULL},
 };

@@ -282,7 +282,7 @@ void dense_from_sparse(const Sparse *A, double *dense)
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation)
 {
-    char copy[256], message[256] = "", *argv[32] = {(char[]){"elasto"}};
+    char copy[512], message[256] = "", *argv[64] = {(char[]){"elasto"}};
     int argc = 1;
     Options options;
     snprintf(copy, sizeof copy, "%s", line);
