@@ -55,8 +55,9 @@ bool hand_over_wanted(Newton *newton)
     newton->working = SOLVER_NEWTON;
     newton->refusal = NULL;
     if (solver == SOLVER_AUTO)
-        solver = newton->system->segments > AUTO_NEWTON_SEGMENTS ? SOLVER_MULTIGRID
-                                                              : SOLVER_NEWTON;
+        solver = newton->system->segments > AUTO_NEWTON_SEGMENTS
+                     ? SOLVER_MULTIGRID
+                     : SOLVER_NEWTON;
     if (solver == SOLVER_NEWTON)
         return false;
     newton->refusal = refusal(newton);

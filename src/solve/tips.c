@@ -15,8 +15,13 @@ static const double TIP_STANDS_OUT = 20, TIP_ACTIVE = 0.1,
                     TIP_LARGEST_SHARE = 0.5;
 enum { TIP_ROWS = 8, TIP_BLOCKS = 1 };
 
-/* A phase ends when g.D g fell to this share. */
-static const double TIP_ENOUGH = 0.02;
+/* Below so many segments windows may be all of it: directions of the whole
+ * square are no better there. */
+enum { TIP_SMALL_SQUARE = 48 };
+
+/* A phase ends when g.D g fell to this share; 0.02 ... 0.3 measured about the
+ * same. */
+static const double TIP_ENOUGH = 0.1;
 
 Status tips_create(const Grid *grid, Tips *tips)
 {
@@ -86,7 +91,8 @@ static bool choose_windows(Tips *tips)
         tips->mark[b] = tips->activity[b] >= TIP_ACTIVE * most;
     dilate(grid, tips->mark, TIP_ROWS, TIP_BLOCKS, tips->spread);
     grid_region_mark(grid, tips->spread, &tips->inside);
-    if (tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
+    if (grid->segments >= TIP_SMALL_SQUARE &&
+        tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
         return false;
     dilate(grid, tips->spread, 1, 1, tips->mark);
     grid_region_mark(grid, tips->mark, &tips->around);
