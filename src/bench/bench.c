@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include "bench/bench_memory.h"
 #include "bench/bench_problem.h"
 #include "bench/bench_solver.h"
+#include "bench/bench_starts.h"
 #include "bench/bench_tolerance.h"
 #include "bench/bench_work.h"
 
@@ -29,6 +31,8 @@ static const BenchPart bench_parts[] = {
     {"work_precision", "error against run time of all methods",
      bench_work_precision},
     {"solver", "milliseconds a step, and where they go", bench_solver},
+    {"starts", "every solver over nine starts", bench_starts},
+    {"saddles", "which ends are minima, and newton's", bench_saddles},
     {"tolerance", "Newton's tolerance, its cost and its error",
      bench_tolerance},
     {"filters", "what is done with negative eigenvalues", bench_filters},
@@ -172,6 +176,7 @@ int main(int argc, char **argv)
     enum { FINE = 0, FAILED = 1, MISUSED = 2 };
     BenchCommand command;
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
+    setenv("ELASTO_THREADS", "1", 0); /* unless it is set: one thread */
     if (!parse_bench(argc, argv, &command))
         return MISUSED;
     Status status = STATUS_OK;

@@ -5,25 +5,35 @@
 
 #include "bench/bench_cost.h"
 #include "bench/bench_lecture.h"
+#include "bench/bench_starts.h"
 #include "bench/bench_work.h"
 
 enum {
     CLAIM_STEPS = 10,
-    CLAIM_ROUNDS = 9,
+    CLAIM_STARTS = 9,
+    CLAIM_SMOOTH_STEPS = 4,
     CLAIM_BARE_STEPS = 50,
     CLAIM_BARE_ROUNDS = 31
 };
 
-/* Runs longer than this are not repeated, s; and no limit. */
-static const double unrepeated_pair = 20, no_limit = 1e9;
+static const double no_limit = 1e9; /* s */
 
-/* Multigrid against newton: at least so many times as fast. */
+/* Newton's processor time over multigrid's, first ten steps: at least. */
 typedef struct SpeedClaim {
     int segments;
     double ratio;
 } SpeedClaim;
 
-static const SpeedClaim speed_claims[] = {{16, 3}, {32, 6}, {64, 8}, {128, 30}};
+static const SpeedClaim speed_claims[] = {{32, 10}, {64, 40}};
+
+/* Milliseconds of processor time a step by multigrid: at most. */
+typedef struct StepClaim {
+    int segments, steps;
+    double timestep, ms;
+} StepClaim;
+
+static const StepClaim step_claims[] = {{128, 40, 0.004, 16},
+                                        {128, 40, 1 / 60.0, 8}};
 
 /* One line of the table: at_most tells which way the limit counts. */
 static void report_claim(Bench *bench, const char *name, int segments,
@@ -37,50 +47,67 @@ static void report_claim(Bench *bench, const char *name, int segments,
                   at_most ? "at most" : "at least", limit, met);
 }
 
-/* Which saddle a minimisation passes on which side is decided by rounding, and
- * with it the number of iterations; so each round starts a billionth apart. */
-static Options round_options(const SpeedClaim *claim, int round)
-{
-    Options options = slides_options(claim->segments);
-    options.stretch += 1e-9 * round;
-    return options;
-}
-
-/* Ten steps with both, in turns; energies in % of that at the start. */
 static Status claim_speed(Bench *bench, const SpeedClaim *claim)
 {
-    double newton[CLAIM_ROUNDS], multigrid[CLAIM_ROUNDS], outside[CLAIM_ROUNDS];
-    double excess[CLAIM_ROUNDS], spent = 0;
-    int rounds = 0;
-    for (; rounds < CLAIM_ROUNDS && spent < unrepeated_pair; rounds++) {
-        Options options = round_options(claim, rounds);
-        Cost slow, fast;
-        bench_progress(bench,
-                       "claims: %d segments, newton and multigrid, %d of "
-                       "at most %d rounds",
-                       claim->segments, rounds + 1, CLAIM_ROUNDS);
+    Options options = slides_options(claim->segments);
+    StartRow newton, multigrid;
+    char name[100];
+    options.solver = SOLVER_NEWTON;
+    bench_progress(bench, "claims: %d segments, newton", claim->segments);
+    Status status =
+        starts_measure(&options, CLAIM_STARTS, CLAIM_STEPS, &newton);
+    options.solver = SOLVER_MULTIGRID;
+    bench_progress(bench, "claims: %d segments, multigrid", claim->segments);
+    if (!status)
+        status =
+            starts_measure(&options, CLAIM_STARTS, CLAIM_STEPS, &multigrid);
+    if (status)
+        return status;
+    snprintf(name, sizeof name,
+             "newton's time (%.3g-%.3g ms) over multigrid's (%.3g-%.3g)",
+             newton.least, newton.most, multigrid.least, multigrid.most);
+    report_claim(bench, name, claim->segments, newton.ms / multigrid.ms, false,
+                 claim->ratio);
+    return STATUS_OK;
+}
+
+static Status claim_step(Bench *bench, const StepClaim *claim)
+{
+    Options options = slides_options(claim->segments);
+    StartRow row;
+    char name[100];
+    options.solver = SOLVER_MULTIGRID;
+    options.timestep = claim->timestep;
+    bench_progress(bench, "claims: %d segments, %d steps", claim->segments,
+                   claim->steps);
+    Status status = starts_measure(&options, CLAIM_STARTS, claim->steps, &row);
+    if (status)
+        return status;
+    snprintf(name, sizeof name,
+             "ms a step of %.4f s by multigrid; %d steps (%.3g-%.3g)",
+             claim->timestep, claim->steps, row.least, row.most);
+    report_claim(bench, name, claim->segments, row.ms, true, claim->ms);
+    return STATUS_OK;
+}
+
+/* Steps before the square buckles cost the same for each node. */
+static Status claim_growth(Bench *bench)
+{
+    double per_node[2];
+    for (int i = 0; i < 2; i++) {
+        int segments = i == 0 ? 64 : 512;
+        Options options = slides_options(segments);
+        StartRow row;
+        options.solver = SOLVER_MULTIGRID;
+        bench_progress(bench, "claims: %d segments, smooth steps", segments);
         Status status =
-            cost_measure(&options, SOLVER_NEWTON, CLAIM_STEPS, no_limit, &slow);
-        if (!status)
-            status = cost_measure(&options, SOLVER_MULTIGRID, CLAIM_STEPS,
-                                  no_limit, &fast);
+            starts_measure(&options, CLAIM_STARTS, CLAIM_SMOOTH_STEPS, &row);
         if (status)
             return status;
-        newton[rounds] = slow.total;
-        multigrid[rounds] = fast.total;
-        outside[rounds] = 100 * cost_outside(&slow);
-        excess[rounds] =
-            100 * (fast.energy_end - slow.energy_end) / slow.energy_start;
-        spent += slow.total + fast.total;
+        per_node[i] = row.ms / ((segments + 1.0) * (segments + 1.0));
     }
-    report_claim(bench, "newton's time over multigrid's", claim->segments,
-                 bench_median(newton, rounds) / bench_median(multigrid, rounds),
-                 false, claim->ratio);
-    report_claim(bench, "multigrid's energy at the end above newton's in %",
-                 claim->segments, bench_median(excess, rounds), true, 1);
-    if (claim->segments >= 32)
-        report_claim(bench, "newton's time outside factor and solve in %",
-                     claim->segments, bench_median(outside, rounds), true, 10);
+    report_claim(bench, "smooth step's time for each node over that at 64", 512,
+                 per_node[1] / per_node[0], true, 1.5);
     return STATUS_OK;
 }
 
@@ -210,7 +237,7 @@ static Status claim_precision(Bench *bench, int segments)
 
 Status bench_claims(Bench *bench)
 {
-    int speeds = bench->quick ? 1 : 4;
+    int speeds = bench->quick ? 0 : 2;
     Status status = bench_csv_open(bench, "claims",
                                    "claim,segments,measured,sense,limit,met");
     if (status)
@@ -220,5 +247,9 @@ Status bench_claims(Bench *bench)
         status = claim_precision(bench, bench->quick ? 8 : 64);
     for (int i = 0; i < speeds && !status; i++)
         status = claim_speed(bench, &speed_claims[i]);
+    for (int i = 0; i < speeds && !status; i++)
+        status = claim_step(bench, &step_claims[i]);
+    if (!bench->quick && !status)
+        status = claim_growth(bench);
     return bench_csv_close(bench, status);
 }

@@ -150,8 +150,3 @@ const Cost *cost_median(Cost *costs, int count)
     qsort(costs, (size_t)count, sizeof *costs, compare_costs);
     return &costs[(count - 1) / 2];
 }
-
-double cost_outside(const Cost *cost)
-{
-    return 1 - (cost->factor + cost->solve) / cost->total;
-}

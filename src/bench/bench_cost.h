@@ -33,7 +33,4 @@ Status cost_measure(const Options *options, int solver, long steps,
 /* The one of count costs that has the median total. */
 const Cost *cost_median(Cost *costs, int count);
 
-/* Share of the time that is neither factor nor solve. */
-double cost_outside(const Cost *cost);
-
 #endif

@@ -16,6 +16,9 @@ typedef struct Bench {
 /* Wall-clock time, s; only differences mean something. */
 double bench_clock(void);
 
+/* Processor time of this thread, s: what a busy machine changes least. */
+double bench_cpu(void);
+
 /* The middle one, or the mean of the two in the middle; sorts the values.
  * count at least 1. */
 double bench_median(double *values, int count);

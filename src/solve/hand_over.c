@@ -52,12 +52,12 @@ static const char *refusal(const Newton *newton)
 bool hand_over_wanted(Newton *newton)
 {
     Solver solver = newton->settings.solver;
+    int segments = newton->system->segments;
     newton->working = SOLVER_NEWTON;
     newton->refusal = NULL;
     if (solver == SOLVER_AUTO)
-        solver = newton->system->segments > AUTO_NEWTON_SEGMENTS
-                     ? SOLVER_MULTIGRID
-                     : SOLVER_NEWTON;
+        solver = segments > AUTO_NEWTON_SEGMENTS ? SOLVER_MULTIGRID
+                                                 : SOLVER_NEWTON;
     if (solver == SOLVER_NEWTON)
         return false;
     newton->refusal = refusal(newton);

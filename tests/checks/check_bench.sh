@@ -67,6 +67,11 @@ solver=solver,segments,steps,total_ms,assembly_ms,analysis_ms,factor_ms
 solver=$solver,solve_ms,search_ms,multigrid_ms,rest_ms,bare_ms,iterations
 solver=$solver,factorisations
 check solver "$solver,solves,unconverged,energy_start_J,energy_end_J"
+starts=solver,segments,starts,median_ms,least_ms,most_ms,iterations
+starts=$starts,smooth_ns_per_node,buckling_ms,energy_end_percent
+check starts "$starts,unconverged"
+saddles=solver,segments,steps,buckling,saddles,buckling_saddles
+check saddles "$saddles,equal,lower,higher"
 tolerance=segments,solver,tolerance_m_s,steps,step_ms,iterations
 tolerance=$tolerance,factorisations,median_distance_m,worst_distance_m
 check tolerance "$tolerance,elsewhere,unconverged"

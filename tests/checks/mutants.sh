@@ -28,8 +28,10 @@ killers_for() { # file
     */model/*psd.[ch] | */model/*_energy.[ch])
         own="$own psd derivatives averaged body" ;;
     */model/*) own="$own derivatives body barrier mesh" ;;
-    */solve/plane_*) own="$own line_search" ;;
-    */base/quartic.[ch]) own="$own line_search" ;;
+    */solve/hand_over.c) own="$own solvers" ;;
+    */solve/grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
+        own="$own multigrid solvers" ;;
+    */base/quartic.[ch]) own="$own line_search solvers" ;;
     */step/*) own="$own integrators averaged explicit orders" ;;
     esac
     case $1 in

@@ -19,7 +19,8 @@ use warnings;
 sub files_of {
     my ($place) = @_;
     return ($place) if -f $place;
-    return sort(glob("src/$place/*.[ch]"), glob("include/$place/*.h"));
+    return sort(glob("src/$place/*.[ch]"), glob("src/$place/*.inc"),
+                glob("include/$place/*.h"));
 }
 
 sub read_file {
@@ -36,7 +37,7 @@ sub definition {
     my ($text, $name) = @_;
     return (0, length $text) if $name eq '-';
     my $head = qr/^(?![\s#\/*}])[^;{}=]*?(?<![\w.>])\Q$name\E\b/m;
-    if ($text =~ /$head\s*\([^;{]*\)\s*\{.*?\n\}/ms) {
+    if ($text =~ /$head\)?\s*\([^;{]*\)\s*\{.*?\n\}/ms) { # or EACH(name)
         return ($-[0], $+[0]); # a function
     }
     if ($text =~ /$head[^;(){}=]*=\s*\{.*?\n\};/ms) {

@@ -16,7 +16,9 @@ skipped=0
 
 # states PROGRAM: what it writes of three runs.
 states() {
-    "$1" --headless --quiet --segments 48 --steps 6 --states - &&
+    "$1" --headless --quiet --segments 16 --steps 12 --solver newton \
+        --states - &&
+        "$1" --headless --quiet --segments 48 --steps 8 --states - &&
         "$1" --headless --quiet --segments 48 --steps 6 --solver multigrid \
             --stretch 0.7 --timestep 0.02 --states - &&
         "$1" --headless --quiet --segments 40 --steps 2 --integrator avf4 \
@@ -27,7 +29,7 @@ states() {
 compare() {
     hash=$(sha256sum <"$2" | cut -c 1-16)
     builds=$((builds + 1))
-    printf '%-32s %s\n' "$1" "$hash"
+    printf '%-36s %s\n' "$1" "$hash"
     [ -s "$2" ] && [ "$(grep -c , "$2")" -gt 20000 ] || failed=1
     [ -n "$first" ] || first=$hash
     [ "$hash" = "$first" ] || failed=1
@@ -50,6 +52,12 @@ for threads in 1 2; do
     OPENBLAS_NUM_THREADS=$threads OMP_NUM_THREADS=$threads states "$elasto" \
         >table
     compare "build/elasto, threads: $threads" table
+done
+for lanes in 2 4 8; do
+    for threads in 1 2; do
+        ELASTO_LANES=$lanes ELASTO_THREADS=$threads states "$elasto" >table
+        compare "build/elasto, lanes: $lanes, threads: $threads" table
+    done
 done
 for compiler in gcc clang; do
     for level in -O0 -O2 -O3; do
