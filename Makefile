@@ -278,7 +278,7 @@ handout: build/elasto
 
 # ---- hard to break ---------------------------------------------------------
 STRESS_PARTS = stress_exact stress_watch stress_random stress_cases \
-               stress_answers stress_envelope stress_contact
+               stress_answers stress_envelope stress_contact stress_large
 STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/stress/%.o)
 
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS_OBJECTS)

@@ -83,7 +83,9 @@ static const char *next_name(const char *option, const Options *options,
     }
     bool filter = strcmp(option, "filter") == 0;
     bool search = strcmp(option, "line-search") == 0;
-    count = filter ? FILTER_COUNT : search ? LINE_SEARCH_COUNT : SOLVER_COUNT;
+    count = filter   ? FILTER_COUNT
+            : search ? LINE_SEARCH_COUNT
+                     : SOLVER_COUNT + 1;
     now = filter   ? (int)options->filter
           : search ? (int)options->line_search
                    : (int)options->solver;

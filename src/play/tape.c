@@ -125,7 +125,7 @@ static void keep_arrays(Tape *tape, TapeRound *round, const double *x,
 /* Whether one line along p is what the solver searched. */
 static bool goes_along_p(const Newton *newton)
 {
-    return newton->settings.solver == SOLVER_NEWTON ||
+    return newton->working == SOLVER_NEWTON ||
            newton->settings.search == LINE_SEARCH_NONE;
 }
 
@@ -204,8 +204,10 @@ static void add_round(Tape *tape, const Options *options, int i)
 {
     const NewtonRecord *record = &tape->record[i];
     bool searches = options->line_search != LINE_SEARCH_NONE;
-    int trials = searches && options->solver == SOLVER_NEWTON &&
-                         record->trials < TRIALS_WALKED
+    bool newton = options->solver == SOLVER_NEWTON ||
+                  (options->solver == SOLVER_AUTO &&
+                   options->segments <= AUTO_NEWTON_SEGMENTS);
+    int trials = searches && newton && record->trials < TRIALS_WALKED
                      ? record->trials
                      : 1;
     add_place(tape, i, LINE_DO, 0);

@@ -2,6 +2,7 @@
  * Those with an answer in closed form stand in stress_answers.c.
  */
 #include "stress_cases.h"
+#include "stress_large.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -297,6 +298,8 @@ static bool million_steps(Tally *tally, char *reason)
 }
 
 const StressCase stress_cases[] = {
+    {"large squares", true, large_squares},
+    {"random large squares", true, random_large_squares},
     {"at rest", false, at_rest},
     {"free flight", false, free_flight},
     {"two masses", false, two_masses},

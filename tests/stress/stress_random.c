@@ -207,6 +207,25 @@ void wild_create(uint64_t seed, long number, Wild *wild)
 }
 
 /* The same in the arrays of the core. */
+/* n where the springs are those of a square of n x n cells, else 0. */
+static int square_of(const Wild *wild)
+{
+    for (int n = 1; (n + 1) * (n + 1) <= WILD_NODES; n++) {
+        SquareMesh mesh;
+        bool same = wild->nodes == (n + 1) * (n + 1) &&
+                    square_mesh_create(n, 1, &mesh) == STATUS_OK;
+        if (!same)
+            continue;
+        same = wild->springs == mesh.springs &&
+               memcmp(wild->e, mesh.e,
+                      2 * (size_t)mesh.springs * sizeof *mesh.e) == 0;
+        square_mesh_free(&mesh);
+        if (same)
+            return n;
+    }
+    return 0;
+}
+
 static Status wild_system(const Wild *wild, System *system)
 {
     Status status = system_create(wild->nodes, wild->springs, system);
@@ -226,6 +245,7 @@ static Status wild_system(const Wild *wild, System *system)
         memcpy(system->l2, wild->l2, springs * sizeof *wild->l2);
         memcpy(system->k, wild->k, springs * sizeof *wild->k);
     }
+    system->segments = square_of(wild);
     central_field_set(system, wild->omega2);
     return STATUS_OK;
 }

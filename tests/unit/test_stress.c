@@ -3,6 +3,7 @@
  */
 #include "model/central_field.h"
 #include "stress.h"
+#include "stress_large.h"
 
 #include <math.h>
 #include <string.h>
@@ -467,9 +468,39 @@ static void envelope_is_up_to_date(void **unused)
     CHECK(memchr(&envelope, 'w', sizeof envelope) == NULL);
 }
 
+/* Large squares by multigrid, judged without a matrix; and the judge sees an
+ * iterate that is not the end. */
+static void large_squares_pass_what_they_say(void **unused)
+{
+    (void)unused;
+    const char *const lines[] = {
+        "--segments 33 --stretch 1.4", "--segments 40 --minimum",
+        "--segments 20 --stretch 0.5 --timestep 0.02",
+        "--segments 24 --pin top-corners --gravity 9.81 --integrator sdirk2"};
+    for (int i = 0; i < 4; i++) {
+        Tally tally = {0};
+        char reason[512] = "";
+        if (!large_steps(lines[i], i == 0 ? 10 : 4, &tally, reason))
+            print_error("%s\n", reason);
+        CHECK(tally.wrong == 0 && tally.judged > 0 && tally.blurred == 0);
+    }
+    Simulation simulation;
+    simulation_from_line("--segments 12 --solver multigrid", NULL, NULL,
+                         &simulation);
+    Newton *newton = simulation.run[0].newton;
+    CHECK_STATUS(newton_start(newton, simulation.run[0].x, 1.6e-5),
+                 STATUS_RUNNING);
+    CHECK(large_judge(newton) == LARGE_FAILED);
+    while (newton_iterate(newton) == STATUS_RUNNING)
+        continue;
+    CHECK(large_judge(newton) == LARGE_PASSED);
+    simulation_free(&simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(large_squares_pass_what_they_say),
         cmocka_unit_test(two_exact_formulas_agree),
         cmocka_unit_test(averaged_formulas_agree),
         cmocka_unit_test(products_are_those_of_the_matrix),
