@@ -609,6 +609,101 @@ static void observers_can_interrupt(void **unused)
     }
 }
 
+/* A term without any energy, which only exists where x > -0.3 and tells no
+ * reach beforehand: as where rounding takes a step into a wall. */
+static double no_value(const Term *term, const Place *at)
+{
+    (void)term;
+    (void)at;
+    return 0;
+}
+
+static void no_gradient(const Term *term, const Place *at, double w, double *g)
+{
+    (void)term;
+    (void)at;
+    (void)w;
+    (void)g;
+}
+
+static long long no_entries(const Term *term, const System *system)
+{
+    (void)term;
+    (void)system;
+    return 0;
+}
+
+static void no_pattern(const Term *term, const System *system,
+                       Triplets *triplets)
+{
+    (void)term;
+    (void)system;
+    (void)triplets;
+}
+
+static int no_hessian(const Term *term, const Place *at, double w,
+                      Filter filter, const int *slot, double *values)
+{
+    (void)term;
+    (void)at;
+    (void)w;
+    (void)filter;
+    (void)slot;
+    (void)values;
+    return 0;
+}
+
+static void no_product(const Term *term, const Place *at, double w,
+                       Filter filter, const double *q, double *y)
+{
+    no_gradient(term, at, w, y);
+    (void)filter;
+    (void)q;
+}
+
+static bool right_of_the_wall(const Term *term, const Place *at)
+{
+    (void)term;
+    return at->x[0] > -0.3;
+}
+
+/* From x = 0 to x_tilde = -1: 1 and 1/2 are refused, with and without a line
+ * search; no later one ends beyond the wall. */
+static void steps_into_a_wall_are_halved(void **unused)
+{
+    (void)unused;
+    const TermKind wall = {.name = "wall",
+                           .value = no_value,
+                           .gradient = no_gradient,
+                           .entries = no_entries,
+                           .pattern = no_pattern,
+                           .hessian = no_hessian,
+                           .product = no_product,
+                           .allowed = right_of_the_wall};
+    for (int search = 0; search < LINE_SEARCH_COUNT; search++) {
+        System system;
+        Newton newton;
+        const double x[2] = {0, 0};
+        const NewtonSettings settings = {.h = 1,
+                                         .tolerance = 1e-6,
+                                         .search = (LineSearch)search,
+                                         .max_iterations = 100};
+        CHECK_STATUS(system_create(1, 0, &system), STATUS_OK);
+        system.m[0] = 1;
+        CHECK(system_add_term(&system, &wall, NULL) != NULL);
+        CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
+        newton.u_tilde[0] = -1;
+        CHECK_STATUS(newton_start(&newton, x, 1), STATUS_RUNNING);
+        CHECK_STATUS(newton_iterate(&newton), STATUS_RUNNING);
+        CHECK_NEAR(newton.at.x[0], -0.25, 0);
+        while (newton_iterate(&newton) == STATUS_RUNNING)
+            CHECK(newton.at.x[0] > -0.3);
+        CHECK(newton.at.x[0] > -0.3 && newton.status != STATUS_OK);
+        newton_free(&newton);
+        system_free(&system);
+    }
+}
+
 /* Each constant has a name and a text of its own. */
 static void every_status_has_a_text(void **unused)
 {
@@ -652,6 +747,7 @@ int main(void)
         cmocka_unit_test(filters_share_the_minimum),
         cmocka_unit_test(overflow_is_reported),
         cmocka_unit_test(observers_can_interrupt),
+        cmocka_unit_test(steps_into_a_wall_are_halved),
         cmocka_unit_test(every_status_has_a_text),
     };
     return cmocka_run_group_tests_name("newton", tests, NULL, NULL);
