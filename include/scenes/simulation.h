@@ -17,7 +17,7 @@ struct Scene;
 enum {
     SIMULATION_MAX_RUNS = 3,
     DESCENT_MAX = 256,
-    SIMULATION_FORGETS = 32 /* steps, a power of two */
+    SIMULATION_FORGETS = 128 /* steps, a power of two */
 };
 
 /* The path of a minimisation that is shown iteration by iteration. */

@@ -133,8 +133,10 @@ static Status begin_run(Player *player, const Options *options, int count)
     player->active = 0;
     player->lanes = 0;
     for (int i = 0; i < count; i++) {
-        Status status = lane_create(player, i, &options[i], player->attended,
-                                    player_watch, &player->lane[i]);
+        /* pictures show the steps behind them: residuals, the time line */
+        bool keeps = player->attended || player->view;
+        Status status = lane_create(player, i, &options[i], keeps, player_watch,
+                                    &player->lane[i]);
         player->lanes++;
         if (status)
             return status;
