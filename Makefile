@@ -259,7 +259,8 @@ test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
 	  sh tests/checks/run.sh $(SUITES)
 
 # ---- pictures of the README -----------------------------------------------
-# tests/data/pictures.txt: name, step, command line; a test holds them.
+# tests/data/pictures.txt: name, step, command line; a test holds them.  The
+# moving one needs ffmpeg.
 pictures: build/elasto
 	@while read -r name step line; do \
 	  ./build/elasto $$line --headless --quiet --steps $$step \
@@ -268,6 +269,9 @@ pictures: build/elasto
 	    tests/data/$$name.png || exit 1; \
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
+	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
+	  --segments 10 --steps 75 --size 440x440 --script build/bare.txt \
+	  --film tests/data/relax.gif
 
 # ---- the lecture for a course's page ----------------------------------------
 handout: build/elasto
