@@ -397,7 +397,7 @@ static void readme_shows_what_is_drawn(void **unused)
         count++;
     }
     fclose(list);
-    CHECK(count == 5);
+    CHECK(count == 11);
 }
 
 /* SDL's software renderer shows exactly the paper. */
