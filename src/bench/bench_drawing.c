@@ -63,8 +63,8 @@ static Status draw_size(Bench *bench, int segments, int frames)
         bench_progress(bench, NULL);
         printf("  %8d %9ld %9ld %9.2f %9.2f\n", segments, springs.drawn,
                springs.skipped, bare, full);
-        bench_csv_row(bench, "%d,%ld,%ld,%d,%.6g,%.6g", segments,
-                      springs.drawn, springs.skipped, frames, bare, full);
+        bench_csv_row(bench, "%d,%ld,%ld,%d,%.6g,%.6g", segments, springs.drawn,
+                      springs.skipped, frames, bare, full);
     }
     simulation_free(&simulation);
     return status;

@@ -23,8 +23,12 @@ static void report_memory(Bench *bench, const Simulation *simulation,
 {
     const Newton *newton = simulation->run[0].newton;
     const NewtonCounters *counters = &newton->counters;
-    double cholmod = cholesky_peak_bytes(newton->search.cholesky);
-    double entries = cholesky_factor_entries(newton->search.cholesky);
+    const Cholesky *cholesky = newton->search.cholesky;
+    double cholmod = 0, entries = 0; /* multigrid needs no factor */
+    if (cholesky) {
+        cholmod = cholesky_peak_bytes(cholesky);
+        entries = cholesky_factor_entries(cholesky);
+    }
     double peak = process_peak();
     printf("  %d segments, %d unknowns: set up in %.2f s, one step in %.2f s "
            "(%ld iterations, %ld factorisations)%s\n"

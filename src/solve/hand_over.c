@@ -56,8 +56,8 @@ bool hand_over_wanted(Newton *newton)
     newton->working = SOLVER_NEWTON;
     newton->refusal = NULL;
     if (solver == SOLVER_AUTO)
-        solver = segments > AUTO_NEWTON_SEGMENTS ? SOLVER_MULTIGRID
-                                                 : SOLVER_NEWTON;
+        solver =
+            segments > AUTO_NEWTON_SEGMENTS ? SOLVER_MULTIGRID : SOLVER_NEWTON;
     if (solver == SOLVER_NEWTON)
         return false;
     newton->refusal = refusal(newton);

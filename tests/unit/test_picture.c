@@ -377,7 +377,7 @@ static int count_far_pixels(const char *name, const char *line, int step)
     canvas_free(&plain);
     canvas_free(&now);
     assert_int_equal(stat(file, &info), 0);
-    CHECK(info.st_size < 140000);
+    CHECK(info.st_size < 180000);
     return far;
 }
 
