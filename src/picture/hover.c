@@ -122,12 +122,16 @@ static void draw_eigenvalues(Paper *paper, Box *box, const double before[4],
                              const double after[4])
 {
     double most = 1e-300, low = 0;
+    bool finite = true;
     int width = paper_pixels(paper, 1.1), room = paper_pixels(paper, BARS);
     for (int k = 0; k < 4; k++) {
         most = fmax(most, fmax(fabs(before[k]), fabs(after[k])));
         low = fmin(low, before[k]);
+        finite = finite && isfinite(before[k]) && isfinite(after[k]);
     }
     double high = fmax(most, -low) - low;
+    if (!finite || !isfinite(high))
+        return; /* nothing that a bar could show */
     double scale = 0.6 * room / high;
     int base = box->y + (int)(0.62 * room + low * scale);
     for (int k = 0; k < 4; k++) {

@@ -97,8 +97,8 @@ static void work_is_what_energy_gains(void **unused)
     (void)unused;
     const char *lines[] = {
         "square --segments 3 --integrator avf --tolerance 1e-10",
-        "square --segments 2 --integrator avf4 --tolerance 1e-10 --timestep "
-        "0.002",
+        ("square --segments 2 --timestep 0.002 --integrator avf4 "
+         "--tolerance 1e-10"),
         "circle --integrator avf",
     };
     for (int line = 0; line < 3; line++) {
