@@ -47,6 +47,7 @@ void spring_defaults(Options *options)
     options->timestep = 0.02;
     options->start[0] = 0.6;
     options->start[1] = 0.3;
+    options->tolerance = 1e-6; /* or a light pull would count as rest */
 }
 
 Status create_spring(Simulation *simulation, const NewtonSettings *settings)
