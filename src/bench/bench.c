@@ -159,10 +159,10 @@ static Status run_parts(BenchCommand *command)
     for (const BenchPart *part = bench_parts; part->name && !status; part++) {
         if (command->only && command->only != part)
             continue;
-        double start = bench_clock();
+        double start = clock_now();
         printf("\n%s: %s\n", part->name, part->sentence);
         status = part->run(&command->bench);
-        printf("  (%.1f s)\n", bench_clock() - start);
+        printf("  (%.1f s)\n", clock_now() - start);
         fflush(stdout);
         if (status && status != STATUS_FILE_FAILED)
             fprintf(stderr, "elasto-bench: %s: %s\n", part->name,

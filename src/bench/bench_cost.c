@@ -18,7 +18,7 @@ const char *cost_name(int solver)
 static bool before_deadline(void *user, const NewtonRecord *record)
 {
     (void)record;
-    return bench_clock() < *(const double *)user;
+    return clock_now() < *(const double *)user;
 }
 
 /* What the counters of newton.h say; what is left is the rest. */
@@ -46,12 +46,12 @@ static Status measure_bare(Newton *newton, Cost *cost)
     if (!cholesky)
         return STATUS_OK;
     for (int i = 0; i < calls && !status; i++) {
-        double start = bench_clock();
+        double start = clock_now();
         status = cholesky_factor(cholesky);
-        double factored = bench_clock();
+        double factored = clock_now();
         if (!status)
             status = cholesky_solve(cholesky, newton->at.g, newton->at.p);
-        solve[i] = bench_clock() - factored;
+        solve[i] = clock_now() - factored;
         factor[i] = factored - start;
     }
     if (status)
@@ -66,10 +66,10 @@ static Status measure_bare(Newton *newton, Cost *cost)
 static Status cost_newton(Simulation *simulation, long steps, double deadline,
                           Cost *cost)
 {
-    double start = bench_clock();
+    double start = clock_now();
     while (cost->steps < steps) {
-        Status status = bench_clock() < deadline ? simulation_step(simulation)
-                                                 : STATUS_INTERRUPTED;
+        Status status = clock_now() < deadline ? simulation_step(simulation)
+                                               : STATUS_INTERRUPTED;
         cost->timed_out = status == STATUS_INTERRUPTED;
         if (cost->timed_out)
             return STATUS_OK;
@@ -78,7 +78,7 @@ static Status cost_newton(Simulation *simulation, long steps, double deadline,
         cost->unconverged += status != STATUS_OK;
         cost->steps++;
     }
-    cost->total = bench_clock() - start;
+    cost->total = clock_now() - start;
     NewtonCounters counters = simulation_counters(simulation);
     cost_from_counters(&counters, cost);
     cost->energy_end = simulation_energies(simulation, 0).total;
@@ -92,9 +92,9 @@ static Status cost_plain(Simulation *simulation, long steps, double deadline,
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[0];
     LectureCounters counters = {0};
-    double start = bench_clock();
+    double start = clock_now();
     while (cost->steps < steps) {
-        cost->timed_out = bench_clock() >= deadline;
+        cost->timed_out = clock_now() >= deadline;
         if (cost->timed_out)
             return STATUS_OK;
         Status status =
@@ -105,7 +105,7 @@ static Status cost_plain(Simulation *simulation, long steps, double deadline,
         cost->unconverged += status != STATUS_OK;
         cost->steps++;
     }
-    cost->total = bench_clock() - start;
+    cost->total = clock_now() - start;
     cost->assembly = counters.seconds_assembly;
     cost->analysis = counters.seconds_analysis;
     cost->factor = counters.seconds_factor;
@@ -124,7 +124,7 @@ Status cost_measure(const Options *options, int solver, long steps,
 {
     Simulation simulation;
     Options chosen = *options;
-    double deadline = bench_clock() + longest;
+    double deadline = clock_now() + longest;
     chosen.solver = solver == COST_PLAIN ? SOLVER_NEWTON : (Solver)solver;
     *cost = (Cost){0};
     Status status =

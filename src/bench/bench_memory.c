@@ -56,12 +56,12 @@ Status bench_memory(Bench *bench)
     if (status)
         return status;
     bench_progress(bench, "memory: %d segments, one step", options.segments);
-    double start = bench_clock();
+    double start = clock_now();
     status = simulation_create(&options, NULL, NULL, &simulation);
-    double created = bench_clock();
+    double created = clock_now();
     if (!status)
         status = simulation_step(&simulation);
-    double stepped = bench_clock();
+    double stepped = clock_now();
     if (!status || status_is_unconverged(status)) {
         bench_progress(bench, NULL);
         report_memory(bench, &simulation, created - start, stepped - created);

@@ -15,13 +15,6 @@
 #define BENCH_FLAGS "unknown"
 #endif
 
-double bench_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 double bench_cpu(void)
 {
     struct timespec now;

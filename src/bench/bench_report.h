@@ -4,6 +4,7 @@
 #ifndef ELASTO_BENCH_REPORT_H
 #define ELASTO_BENCH_REPORT_H
 
+#include "base/clock.h"
 #include "play/output.h"
 
 typedef struct Bench {
@@ -12,9 +13,6 @@ typedef struct Bench {
     const char *folder; /* where the CSV files go */
     Output csv;         /* the file that is being written */
 } Bench;
-
-/* Wall-clock time, s; only differences mean something. */
-double bench_clock(void);
 
 /* Processor time of this thread, s: what a busy machine changes least. */
 double bench_cpu(void);
