@@ -12,16 +12,23 @@
 
 #include "scenes/simulation.h"
 
-/* Bytes of a saved state; 0: this scene has none. */
+/* All of it, or without what integrators remember: the state of the body alone
+ * fits another method and another stiffness of the same scene. */
+typedef enum StatePart { STATE_ALL, STATE_BODY } StatePart;
+
+/* Bytes of a saved state; state_size is that of STATE_ALL, and 0 where going
+ * back must begin again, since a scene has more than this. */
+size_t state_bytes(const Simulation *simulation, StatePart part);
 size_t state_size(const Simulation *simulation);
 
-/* bytes [state_size] out. */
-void state_save(const Simulation *simulation, void *bytes);
+/* bytes [state_bytes] out. */
+void state_save(const Simulation *simulation, StatePart part, void *bytes);
 
 /* As it was when these bytes were saved.  Solvers forget what they remember
- * from step to step; see SIMULATION_FORGETS.
- *   bytes  [state_size] in, of a simulation with the same system and methods */
-void state_restore(const void *bytes, Simulation *simulation);
+ * from step to step; see SIMULATION_FORGETS.  Springs that are whole get the
+ * stiffness of the simulation's options.
+ *   bytes  [state_bytes] in, of a simulation with the same system */
+void state_restore(const void *bytes, StatePart part, Simulation *simulation);
 
 /* 64 bits of steps, positions and velocities of all runs (FNV-1a): equal
  * states have equal hashes. */

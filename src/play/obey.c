@@ -385,16 +385,6 @@ static Status restart_with(Player *player, const char *option,
     return status;
 }
 
-/* Whether terms remember what has happened: plastic or broken springs, moved
- * obstacles. */
-static bool has_memory(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    int own = system->springs > 0;
-    return system->terms > own + (hand_energy_of(system) != NULL) &&
-           system->springs > 0;
-}
-
 /* An option while the run goes on, or from the start where it cannot change
  * any more. */
 static Status set_option(Player *player, const char *text)
@@ -423,11 +413,8 @@ static Status set_option(Player *player, const char *text)
     bool time = scene->needs & NEEDS_TIME;
     bool method =
         strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
-    bool rebuilds =
-        strcmp(name, "stiffness") == 0 || strcmp(name, "integrator") == 0;
     bool live = track_can_change(name) && (time || method) &&
-                (simulation->runs == 1 || strcmp(name, "timestep") == 0) &&
-                !(rebuilds && has_memory(simulation));
+                (simulation->runs == 1 || strcmp(name, "integrator") != 0);
     Status status;
     if (!live)
         status = restart_with(player, name, value, from, to);
@@ -567,12 +554,12 @@ static Status add_pane(Player *player)
     const Lane *last = &player->lane[player->lanes - 1];
     const Simulation *simulation = &last->track.simulation;
     Command change = {.kind = COMMAND_SET};
+    const IntegratorMethod *next = next_method(simulation);
     if (player->lanes == OPTIONS_MAX_PANES)
         return refuse_command(player, "six are side by side: no room for more");
     if (!(simulation->scene->needs & NEEDS_TIME) || simulation->runs > 1 ||
-        !player->attended || has_memory(simulation))
+        !player->attended || next == simulation->run[0].method)
         return refuse_command(player, "nothing to be put beside it here");
-    const IntegratorMethod *next = next_method(simulation);
     snprintf(change.text, sizeof change.text, "integrator %s", next->name);
     Status status = player_forget_later(player);
     Lane *lane = &player->lane[player->lanes];

@@ -104,7 +104,7 @@ static void keep_state(Track *track)
             thin_states(track);
         return;
     }
-    state_save(&track->simulation, bytes);
+    state_save(&track->simulation, STATE_ALL, bytes);
     track->kept[track->kept_count++] = (KeptState){bytes, size};
     track->used += size;
 }
@@ -323,7 +323,8 @@ static Status restore(Track *track, long step, size_t *next)
     }
     status = use_settings(track);
     if (!status)
-        state_restore(track->kept[step / track->stride].bytes, simulation);
+        state_restore(track->kept[step / track->stride].bytes, STATE_ALL,
+                      simulation);
     return status;
 }
 

@@ -12,6 +12,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
+#include "scenes/state.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
  * thousands. */
@@ -286,51 +287,40 @@ void simulation_release(Simulation *simulation)
         time_integrator_forget(&simulation->run[r], true);
 }
 
-/* Positions and velocities of all runs, [runs 4 nodes], or NULL. */
-static double *copy_motion(const Simulation *simulation)
+/* What another stiffness has done to the energy is the work of whoever changed
+ * it: nothing else in the ledger jumps.  had [runs] J, dissipated before. */
+static void book_change(Simulation *simulation, const double *had)
 {
-    size_t size = 2 * (size_t)simulation->system.nodes;
-    double *copy = malloc(2 * size * (size_t)simulation->runs * sizeof *copy);
-    for (int r = 0; copy && r < simulation->runs; r++) {
-        memcpy(copy + 2 * r * size, simulation->run[r].x, size * sizeof *copy);
-        memcpy(copy + (2 * r + 1) * size, simulation->run[r].v,
-               size * sizeof *copy);
-    }
-    return copy;
+    for (int r = 0; r < simulation->runs; r++)
+        simulation->work[r] +=
+            had[r] - simulation_energies(simulation, r).dissipated;
 }
 
 Status simulation_change(Simulation *simulation, const Options *options)
 {
-    long steps = simulation->steps, unconverged = simulation->unconverged;
     double time = simulation_time(simulation);
-    Status first = simulation->first;
+    double start[SIMULATION_MAX_RUNS], had[SIMULATION_MAX_RUNS];
     NewtonObserver observer = simulation->observer;
     void *user = simulation->user;
-    size_t size = 2 * (size_t)simulation->system.nodes;
-    int runs = simulation->runs;
-    double work[SIMULATION_MAX_RUNS];
-    int reasons[STATUS_COUNT];
-    memcpy(reasons, simulation->reasons, sizeof reasons);
     simulation_release(simulation);
-    memcpy(work, simulation->work, sizeof work);
-    double *motion = copy_motion(simulation);
-    if (!motion)
+    for (int r = 0; r < simulation->runs; r++) {
+        start[r] = simulation->start[r];
+        had[r] = simulation_energies(simulation, r).dissipated;
+    }
+    void *state = malloc(state_bytes(simulation, STATE_BODY));
+    if (!state)
         return STATUS_OUT_OF_MEMORY;
+    state_save(simulation, STATE_BODY, state);
     simulation_free(simulation);
     Status status = simulation_create(options, observer, user, simulation);
-    for (int r = 0; !status && r < runs && r < simulation->runs; r++) {
-        TimeIntegrator *run = &simulation->run[r];
-        memcpy(run->x, motion + 2 * r * size, size * sizeof *motion);
-        memcpy(run->v, motion + (2 * r + 1) * size, size * sizeof *motion);
-        run->steps = steps;
+    if (!status) {
+        state_restore(state, STATE_BODY, simulation);
+        simulation->steps_before = simulation->steps;
+        simulation->time_before = time;
+        memcpy(simulation->start, start, sizeof start);
+        book_change(simulation, had);
     }
-    simulation->steps = simulation->steps_before = steps;
-    simulation->unconverged = unconverged;
-    simulation->first = first;
-    memcpy(simulation->reasons, reasons, sizeof reasons);
-    simulation->time_before = time;
-    memcpy(simulation->work, work, sizeof work);
-    free(motion);
+    free(state);
     return status;
 }
 

@@ -36,6 +36,7 @@ static size_t array_size(const Simulation *simulation)
 /* What is done with each piece of a state: counted, saved or restored. */
 typedef struct Cursor {
     enum { COUNT, SAVE, RESTORE } way;
+    StatePart part;
     unsigned char *at; /* NULL while counting */
     size_t bytes;
 } Cursor;
@@ -51,9 +52,20 @@ static void pass(Cursor *cursor, void *piece, size_t size)
     cursor->bytes += size;
 }
 
-/* What steps change in a system: stiffnesses of springs that break, plastic
- * strains, obstacles that move, and what each term has lost. */
-static void pass_system(Cursor *cursor, System *system)
+/* Which springs are broken; the others have the stiffness k. */
+static void pass_breaks(Cursor *cursor, System *system, double k)
+{
+    for (int s = 0; s < system->springs; s++) {
+        unsigned char broken = spring_is_broken(system, s);
+        pass(cursor, &broken, sizeof broken);
+        if (cursor->way == RESTORE)
+            system->k[s] = broken ? 0 : k;
+    }
+}
+
+/* What steps change in a system: broken springs, plastic strains, obstacles
+ * that move, and what each term has lost. */
+static void pass_system(Cursor *cursor, System *system, double k)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = plasticity_of(system);
@@ -67,7 +79,7 @@ static void pass_system(Cursor *cursor, System *system)
         pass(cursor, plasticity->kappa, springs);
     }
     if (breaks) {
-        pass(cursor, system->k, springs);
+        pass_breaks(cursor, system, k);
         pass(cursor, &breaks->broken, sizeof breaks->broken);
     }
     if (contact)
@@ -129,10 +141,10 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     pass(cursor, &head, sizeof head);
     pass(cursor, run->x, array);
     pass(cursor, run->v, array);
-    if (run->method->memory > 0)
+    if (run->method->memory > 0 && cursor->part == STATE_ALL)
         pass(cursor, run->memory, (size_t)run->method->memory * array);
     if (!is_known(simulation, r))
-        pass_system(cursor, run->system);
+        pass_system(cursor, run->system, simulation->options.stiffness);
     if (cursor->way != RESTORE)
         return;
     run->steps = head.steps;
@@ -141,7 +153,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     run->moved = head.moved;
     run->work = head.work;
     run->status = head.status;
-    run->remembers = head.remembers;
+    run->remembers = head.remembers && cursor->part == STATE_ALL;
     if (run->newton)
         newton_forget(run->newton);
 }
@@ -153,25 +165,29 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
         pass_run(cursor, simulation, r);
 }
 
-size_t state_size(const Simulation *simulation)
+size_t state_bytes(const Simulation *simulation, StatePart part)
 {
-    const Scene *scene = simulation->scene;
-    Cursor cursor = {COUNT, NULL, 0};
-    if (!(scene->needs & NEEDS_TIME) || scene->step || scene->handles)
-        return 0;
+    Cursor cursor = {COUNT, part, NULL, 0};
     pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
     return cursor.bytes;
 }
 
-void state_save(const Simulation *simulation, void *bytes)
+size_t state_size(const Simulation *simulation)
 {
-    Cursor cursor = {SAVE, bytes, 0};
+    const Scene *scene = simulation->scene;
+    bool known = (scene->needs & NEEDS_TIME) && !scene->step && !scene->handles;
+    return known ? state_bytes(simulation, STATE_ALL) : 0;
+}
+
+void state_save(const Simulation *simulation, StatePart part, void *bytes)
+{
+    Cursor cursor = {SAVE, part, bytes, 0};
     pass_all(&cursor, (Simulation *)simulation);
 }
 
-void state_restore(const void *bytes, Simulation *simulation)
+void state_restore(const void *bytes, StatePart part, Simulation *simulation)
 {
-    Cursor cursor = {RESTORE, (unsigned char *)bytes, 0};
+    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0};
     pass_all(&cursor, simulation);
 }
 

@@ -3,11 +3,15 @@
  */
 #include "testing.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "model/contact.h"
+#include "model/fracture.h"
+#include "model/plasticity.h"
 #include "play/track.h"
 
 enum { STEPS = 70 };
@@ -208,6 +212,68 @@ static void changes_are_repeated(void **unused)
     }
 }
 
+/* Another stiffness while the run goes on leaves what elements have been
+ * through: plastic strains, broken springs, obstacles that moved; and the
+ * ledger books what it did to the energy as work, so that nothing else in it
+ * jumps. */
+static void elements_keep_their_past(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        int steps;
+    } rows[] = {{"dent --segments 5", 130},
+                {"tear --segments 8", 90},
+                {"squeeze --segments 3", 40},
+                {"slope", 20}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Track track;
+        uint64_t hash[201];
+        int steps = rows[i].steps;
+        begin(rows[i].line, &track);
+        run(&track, steps, hash);
+        Simulation *simulation = &track.simulation;
+        System *system = &simulation->system;
+        Plasticity *plastic = plasticity_of(system);
+        Energies before = simulation_energies(simulation, 0);
+        size_t springs = (size_t)system->springs;
+        double *k = calloc(3 * springs, sizeof *k);
+        memcpy(k, system->k, springs * sizeof *k);
+        double stored = 0;
+        for (size_t s = 0; plastic && s < springs; s++)
+            stored += fabs(k[springs + s] = plastic->ep[s]);
+        int broken = system->breaks ? fracture_of(system)->broken : -1;
+        CHECK(!plastic || stored > 0.1);
+        CHECK(!system->breaks || broken > 0);
+        Obstacle wall = {0};
+        if (contact_of(system))
+            wall = contact_of(system)->obstacle[0];
+        change(&track, "set stiffness 3e4");
+        plastic = plasticity_of(system);
+        for (size_t s = 0; s < springs; s++) {
+            CHECK(system->k[s] == (k[s] == 0 ? 0 : 3e4));
+            CHECK(!plastic || plastic->ep[s] == k[springs + s]);
+        }
+        if (contact_of(system))
+            CHECK(memcmp(&wall, contact_of(system)->obstacle, sizeof wall) ==
+                  0);
+        CHECK(broken < 0 || fracture_of(system)->broken == broken);
+        CHECK(hash_of(&track) == hash[steps]);
+        Energies after = simulation_energies(simulation, 0);
+        CHECK(before.plastic == after.plastic);
+        CHECK(before.fracture == after.fracture);
+        CHECK_NEAR(after.dissipated, before.dissipated,
+                   1e-9 * (1 + fabs(after.total)));
+        for (int s = steps; s < steps + 3; s++) {
+            CHECK(!track_step(&track));
+            hash[s + 1] = hash_of(&track);
+        }
+        check_all_steps(&track, steps + 3, hash);
+        free(k);
+        track_free(&track);
+    }
+}
+
 /* A step or a change at an old step forgets the later ones. */
 static void going_on_forgets(void **unused)
 {
@@ -396,6 +462,7 @@ int main(void)
         cmocka_unit_test(one_state_is_enough),
         cmocka_unit_test(iterations_come_back),
         cmocka_unit_test(changes_are_repeated),
+        cmocka_unit_test(elements_keep_their_past),
         cmocka_unit_test(going_on_forgets),
         cmocka_unit_test(bad_changes_change_nothing),
         cmocka_unit_test(pins_hold),
