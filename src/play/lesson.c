@@ -30,7 +30,6 @@ Status lesson_prepare(Player *player)
 static Status lesson_open(Player *player, const LecturePage *page)
 {
     Options options;
-    char title[128];
     Status status = lecture_options(page, &options, player->message,
                                     sizeof player->message);
     if (status)
@@ -44,27 +43,19 @@ static Status lesson_open(Player *player, const LecturePage *page)
     player->help = false;
     if (!player->given[0].script)
         player->paused = !page->plays;
-    player_title(player, title, sizeof title);
-    if (player->view)
-        view_set_title(player->view, title);
+    player_set_title(player);
     player->fine = 0;
     return status || player->given[0].script ? status : lesson_prepare(player);
 }
 
-static Status refuse_page(Player *player, const char *why)
-{
-    snprintf(player->message, sizeof player->message, "%s", why);
-    return STATUS_INVALID_INPUT;
-}
-
 /* The first page and the last one have only one neighbour. */
-Status lesson_turn(Player *player, const Command *command)
+static Status turn_page(Player *player, const Command *command)
 {
     const LecturePage *page = player->lane[0].track.settings.options.page;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         return page ? lesson_open(player, page)
-                    : refuse_page(player, "there is no such page");
+                    : player_refuse(player, "there is no such page");
     }
     if (!page && player->left) { /* another scene was looked at */
         bool on = command->kind == COMMAND_PAGE_ON && player->left[1].name;
@@ -73,9 +64,9 @@ Status lesson_turn(Player *player, const Command *command)
     if (!page)
         return lesson_open(player, &lecture_pages[0]);
     if (command->kind == COMMAND_PAGE_ON && !page[1].name)
-        return refuse_page(player, "this is the last page");
+        return player_refuse(player, "this is the last page");
     if (command->kind == COMMAND_PAGE_BACK && page == lecture_pages)
-        return refuse_page(player, "this is the first page");
+        return player_refuse(player, "this is the first page");
     return lesson_open(player,
                        command->kind == COMMAND_PAGE_ON ? page + 1 : page - 1);
 }
@@ -89,15 +80,16 @@ bool lesson_asks(const Player *player)
     return page && page->predict && !simulation->done;
 }
 
-Status lesson_predict(Player *player, double x, double y)
+/* A guess of where the next step leads. */
+static Status predict(Player *player, const Command *command)
 {
     double at[2];
     Simulation *simulation = &player_lane(player)->track.simulation;
     if (simulation->done || simulation_point(simulation, at) == 0)
-        return refuse_page(player, "nothing to predict here");
+        return player_refuse(player, "nothing to predict here");
     player->paused = true;
     player->changed = true;
-    simulation_predict(simulation, x, y);
+    simulation_predict(simulation, command->x, command->y);
     return STATUS_OK;
 }
 
@@ -108,14 +100,16 @@ static bool has_cell(const Player *player, long cell)
            cell < (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS;
 }
 
-Status lesson_visit(Player *player, long cell)
+/* Shows a cell of the envelope. */
+static Status visit_cell(Player *player, const Command *command)
 {
+    long cell = command->number;
     Simulation *simulation = &player_lane(player)->track.simulation;
     const EnvelopeMap *map = &simulation->exhibit.map;
     int column = (int)(cell % ENVELOPE_COLUMNS);
     int row = (int)(cell / ENVELOPE_COLUMNS);
     if (!has_cell(player, cell))
-        return refuse_page(player, "there is no such cell");
+        return player_refuse(player, "there is no such cell");
     if (map->column == column && map->row == row)
         return STATUS_OK;
     player->changed = true;
@@ -128,10 +122,10 @@ Status lesson_load(Player *player, long cell)
     Simulation *simulation = &player_lane(player)->track.simulation;
     const Options *map = &simulation->options;
     Options options;
-    char title[128], word[] = "square", program[] = "elasto";
+    char word[] = "square", program[] = "elasto";
     char *argv[] = {program, word, NULL};
     if (!has_cell(player, cell))
-        return refuse_page(player, "there is no such cell");
+        return player_refuse(player, "there is no such cell");
     Status status = options_parse(2, argv, &options, player->message,
                                   sizeof player->message);
     if (status)
@@ -143,9 +137,13 @@ Status lesson_load(Player *player, long cell)
     player_keep_files(player, &options);
     status = player_restart(player, &options, 1);
     player->paused = true;
-    player_title(player, title, sizeof title);
-    if (player->view)
-        view_set_title(player->view, title);
+    player_set_title(player);
     player_note(player, "this cell as a scene; Page Down goes on");
     return status;
 }
+
+const Deed lesson_deeds[] = {
+    {COMMAND_PAGE, turn_page},      {COMMAND_PAGE_ON, turn_page},
+    {COMMAND_PAGE_BACK, turn_page}, {COMMAND_PREDICT, predict},
+    {COMMAND_CELL, visit_cell},     {COMMAND_NONE, NULL},
+};

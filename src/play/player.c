@@ -83,284 +83,6 @@ bool player_escape_ends(const Player *player)
            !(player->view && view_is_full(player->view));
 }
 
-/* ---- stepping ----------------------------------------------------------- */
-
-/* The Newton object that an observer hears of. */
-static const Newton *listened_to(const Simulation *simulation)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        if (simulation->run[r].newton)
-            return simulation->run[r].newton;
-    return NULL;
-}
-
-/* After each Newton iteration: log it, and look whether to go on. */
-bool player_watch(void *user, const NewtonRecord *record)
-{
-    Lane *lane = user;
-    Player *player = lane->player;
-    const Newton *newton = listened_to(&lane->track.simulation);
-    if (*player->stop ||
-        (player->window &&
-         view_quit_waits(player->view, player_escape_ends(player))))
-        player->quit = true;
-    if (lane->track.keeps && newton && lane->track.simulation.scene &&
-        !lane->track.simulation.scene->step)
-        tape_add(&lane->tape, newton, record);
-    if (!lane->track.repeating && lane->number == 0)
-        player->recorded = recording_update(&player->recording, record);
-    return !player->quit && !player->recorded;
-}
-
-/* The states of all lanes. */
-static Status record_states(Player *player)
-{
-    const Simulation *simulation[OPTIONS_MAX_PANES];
-    for (int i = 0; i < player->lanes; i++)
-        simulation[i] = &player->lane[i].track.simulation;
-    return recording_states(&player->recording, simulation, player->lanes,
-                            player->step);
-}
-
-/* Simulations, states and energies at step 0. */
-static Status begin_run(Player *player, const Options *options, int count)
-{
-    player->sampled = -1;
-    player->warned = player->rests = player->holds = false;
-    player->changed = true;
-    player->recorded = STATUS_OK;
-    player->step = player->newest = 0;
-    player->active = 0;
-    player->lanes = 0;
-    for (int i = 0; i < count; i++) {
-        /* pictures show the steps behind them: residuals, the time line */
-        bool keeps = player->attended || player->view;
-        Status status = lane_create(player, i, &options[i], keeps, player_watch,
-                                    &player->lane[i]);
-        player->lanes++;
-        if (status)
-            return status;
-    }
-    player_reset_speed(player);
-    if (!options[0].quiet)
-        player->start = simulation_energies(player_simulation(player), 0);
-    return record_states(player);
-}
-
-Status player_restart(Player *player, const Options *options, int count)
-{
-    Options copy[OPTIONS_MAX_PANES]; /* they may be those of the lanes */
-    memcpy(copy, options, (size_t)count * sizeof *copy);
-    bool other = copy[0].scene != player->lane[0].track.options.scene;
-    for (int i = 0; i < player->lanes; i++)
-        lane_free(&player->lane[i]);
-    Status status = recording_restart(&player->recording, &copy[0]);
-    if (other) {
-        player->speed = player_first_speed(&copy[0]);
-        player->lens = LENS_FITS;
-        player->closed = 0;
-        player->large = player->selected = -1;
-        player->show.hover = (Pick){.kind = PICK_NONE};
-        player->mouse.drag = DRAG_NONE;
-    }
-    return status ? status : begin_run(player, copy, count);
-}
-
-/* What goes whenever another step is shown. */
-static void leave_step(Player *player)
-{
-    player->changed = true;
-    player->rests = false;
-    for (int i = 0; i < player->lanes; i++) {
-        player->lane[i].place = -1;
-        lane_drop_ghost(&player->lane[i]);
-    }
-}
-
-static long clamp_step(const Player *player, long step)
-{
-    return step < 0 ? 0 : step > player->newest ? player->newest : step;
-}
-
-Status player_show(Player *player, long step)
-{
-    Status status = STATUS_OK;
-    leave_step(player);
-    player->holds = false;
-    player->paused = true;
-    if (!player->attended)
-        return STATUS_OK;
-    step = clamp_step(player, step);
-    for (int i = 0; i < player->lanes && !status; i++)
-        status = lane_show(&player->lane[i], step);
-    player->step = step;
-    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
-}
-
-Status player_retape(Player *player, long step)
-{
-    Status status = STATUS_OK;
-    if (step < 1 || step > player->newest)
-        return player_show(player, step);
-    leave_step(player);
-    player->holds = false;
-    player->paused = true;
-    for (int i = 0; i < player->lanes && !status; i++)
-        status = lane_retape(&player->lane[i], step);
-    player->step = step;
-    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
-}
-
-Status player_forget_later(Player *player)
-{
-    if (!player->attended || player->step >= player->newest)
-        return STATUS_OK;
-    for (int i = 0; i < player->lanes; i++)
-        lane_forget(&player->lane[i], player->step);
-    player->newest = player->step;
-    return recording_cut(&player->recording, player->step);
-}
-
-/* Where the lane with the longest timestep will be. */
-static double next_time(const Player *player)
-{
-    double pace = -1, time = 0;
-    for (int i = 0; i < player->lanes; i++) {
-        const Lane *lane = &player->lane[i];
-        if (!lane->failed && lane_pace(lane) > pace) {
-            pace = lane_pace(lane);
-            time = lane_time(lane);
-        }
-    }
-    return time + pace;
-}
-
-/* Whether nothing moves any more: no update was needed, and nothing is held. */
-static bool is_at_rest(const Lane *lane)
-{
-    const Simulation *simulation = &lane->track.simulation;
-    const TimeIntegrator *run = &simulation->run[0];
-    if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
-        simulation->runs > 1 || lane->track.settings.held ||
-        lane->track.now.updates > 0 || simulation->steps == 0)
-        return false;
-    for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        if (fabs(run->v[i]) > simulation->options.tolerance)
-            return false;
-    return true;
-}
-
-/* Of the statuses of several lanes the one that ends most. */
-static Status worse(Status one, Status other)
-{
-    bool first = one && !status_is_unconverged(one);
-    return first || !other ? one : other;
-}
-
-/* A failure beyond all numbers: what is shown then is the last state that can
- * be seen, at most ten times as large as the first. */
-static Status show_last_good(Player *player)
-{
-    enum { TIMES = 10 };
-    Lane *lane = &player->lane[0];
-    const Track *track = &lane->track;
-    long failed = player->step + 1, step = player->step;
-    if (player->lanes > 1 || !track->keeps || track->newest < 1 ||
-        state_size(&track->simulation) == 0)
-        return STATUS_OK;
-    double limit = TIMES * fmax(track_row(track, 1)->extent, 1e-300);
-    while (step > 0 && !(track_row(track, step)->extent <= limit))
-        step--;
-    if (step == player->step)
-        return STATUS_OK;
-    Status status = player_show(player, step);
-    player_note(player,
-                "step %ld ends beyond all numbers; shown is step %ld, the last "
-                "below ten times the size",
-                failed, step);
-    player->warning = true;
-    return status;
-}
-
-/* Whether the failure is what the scene shows: the end of its iteration. */
-static bool is_scene_end(const Simulation *simulation, Status status)
-{
-    return simulation->done && status != STATUS_OUT_OF_MEMORY &&
-           status != STATUS_TOO_LARGE;
-}
-
-/* A node that was held when this step was shown, long ago. */
-static Status let_go(Player *player)
-{
-    Command release = {.kind = COMMAND_RELEASE};
-    if (!player->lane[0].track.settings.held || player->holds)
-        return STATUS_OK;
-    return player_obey(player, &release);
-}
-
-/* All lanes, one step of the player. */
-static Status advance_lanes(Player *player)
-{
-    double target = next_time(player);
-    Status worst = STATUS_OK;
-    bool moved = false;
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        long before = track_step_shown(&lane->track);
-        Status status = lane_advance(lane, target, player->step + 1);
-        moved = moved || track_step_shown(&lane->track) > before;
-        if (is_scene_end(&lane->track.simulation, status))
-            status = STATUS_OK;
-        worst = worse(status, worst);
-        if (status == STATUS_OUT_OF_MEMORY || status == STATUS_INTERRUPTED ||
-            player->recorded)
-            break;
-    }
-    if (moved) {
-        player->step++;
-        player->newest = player->step;
-    }
-    return worst;
-}
-
-/* What curves and trails keep of states not seen before. */
-static void sample(Player *player)
-{
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        if (lane->sampled >= player->step)
-            continue;
-        lane->sampled = player->step;
-        show_sample(&lane->track.simulation, &lane->history, &lane->trail);
-    }
-}
-
-Status player_step(Player *player)
-{
-    long before = player->step;
-    Status status = player_forget_later(player);
-    if (!status)
-        status = let_go(player);
-    if (status)
-        return status;
-    leave_step(player);
-    status = advance_lanes(player);
-    if (player->recorded)
-        return player->recorded;
-    if (player->step != before) {
-        if (player->attended)
-            sample(player);
-        Status recorded = record_states(player);
-        if (recorded)
-            return recorded;
-    } else {
-        player->sampled = -1; /* draw the last frame again, and why it ends */
-    }
-    if (status == STATUS_INTERRUPTED || status_is_unconverged(status))
-        return STATUS_OK;
-    return status;
-}
-
 bool player_ended(const Player *player)
 {
     const Options *options = &player->given[0];
@@ -386,30 +108,6 @@ bool player_unconverged(const Player *player)
     return any;
 }
 
-/* Pauses at the first step that did not converge, at the end, and at rest; a
- * run of a given number of steps ends by itself and does not. */
-static void pause_if_due(Player *player)
-{
-    bool ended = true, rests = true, trouble = false;
-    if (player->given[0].steps >= 0 || !player->attended)
-        return;
-    for (int i = 0; i < player->lanes; i++) {
-        const Lane *lane = &player->lane[i];
-        ended = ended && (lane->track.simulation.done || lane->failed);
-        rests = rests && is_at_rest(lane);
-        trouble = trouble || lane->outcome;
-    }
-    if (rests && !player->rests)
-        player_note(player, "at rest: nothing moves any more; pull a node, "
-                            "change a number, or R begins again");
-    player->rests = rests;
-    player->paused = player->paused || ended || rests;
-    if (trouble && !player->warned && player->lanes == 1) {
-        player->warned = true;
-        player->paused = true;
-    }
-}
-
 /* ---- drawing ------------------------------------------------------------ */
 
 /* For how many frames' time a film shows a frame. */
@@ -429,7 +127,7 @@ Status player_draw(Player *player)
     bool fresh = player->sampled != player->step;
     bool filmed = film_runs(&player->recording.film);
     player->sampled = player->step;
-    sample(player);
+    player_sample(player);
     player_paint(player, paper);
     Status status = view_show(player->view);
     if (!status && (fresh || filmed))
@@ -496,6 +194,31 @@ static Status obey_script(Player *player)
     return status;
 }
 
+/* A failure beyond all numbers: what is shown then is the last state that can
+ * be seen, at most ten times as large as the first. */
+static Status show_last_good(Player *player)
+{
+    enum { TIMES = 10 };
+    Lane *lane = &player->lane[0];
+    const Track *track = &lane->track;
+    long failed = player->step + 1, step = player->step;
+    if (player->lanes > 1 || !track->keeps || track->newest < 1 ||
+        state_size(&track->simulation) == 0)
+        return STATUS_OK;
+    double limit = TIMES * fmax(track_row(track, 1)->extent, 1e-300);
+    while (step > 0 && !(track_row(track, step)->extent <= limit))
+        step--;
+    if (step == player->step)
+        return STATUS_OK;
+    Status status = player_show(player, step);
+    player_note(player,
+                "step %ld ends beyond all numbers; shown is step %ld, the last "
+                "below ten times the size",
+                failed, step);
+    player->warning = true;
+    return status;
+}
+
 /* A failed step is shown, and somebody may go on from it. */
 static Status show_failure(Player *player, Status status)
 {
@@ -522,7 +245,7 @@ static Status step_frame(Player *player)
             (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
             break;
         status = show_failure(player, player_step(player));
-        pause_if_due(player);
+        player_pause_if_due(player);
         if (!status)
             status = obey_script(player);
     }
@@ -585,6 +308,14 @@ void player_title(const Player *player, char *title, size_t size)
     snprintf(title, size, "elasto: %s (press ? for the keys)",
              player->lanes > 0 ? player->lane[0].track.options.scene->name
                                : player->given[0].scene->name);
+}
+
+void player_set_title(Player *player)
+{
+    char title[128];
+    player_title(player, title, sizeof title);
+    if (player->view)
+        view_set_title(player->view, title);
 }
 
 /* A window; or if there is no screen, a surface for the frames. */
@@ -682,7 +413,7 @@ Status player_create(const Options *options, int count, const char *line,
         return STATUS_OUT_OF_MEMORY;
     status = recording_open(&player->given[0], &player->recording);
     if (!status)
-        status = begin_run(player, player->given, count);
+        status = player_begin(player, player->given, count);
     player->left = options->page;
     if (!status && options->page && player->window && !options->script)
         status = lesson_prepare(player);

@@ -5,13 +5,90 @@
 
 #include "play/player.h"
 
-/* ---- player.c ----------------------------------------------------------- */
+/* ---- obey.c ------------------------------------------------------------- */
+
+/* What commands of some kinds do; lists end with a row without an act. */
+typedef Status DeedFunction(Player *player, const Command *command);
+typedef struct Deed {
+    CommandKind kind;
+    DeedFunction *act;
+} Deed;
+
+extern const Deed walk_deeds[], change_deeds[], pane_deeds[], hold_deeds[],
+    begin_deeds[], keep_deeds[], lesson_deeds[], screen_deeds[];
+
+/* The act of this kind; NULL: there is none. */
+DeedFunction *player_deed(CommandKind kind);
+
+/* Says why a command makes no sense here.  Returns INVALID_INPUT. */
+Status player_refuse(Player *player, const char *why);
+
+/* The settings of the lane whose numbers are shown. */
+const Settings *player_settings(const Player *player);
+
+/* ---- walk.c ------------------------------------------------------------- */
+
+/* Where E has risen beyond all proportion within a step that was taken by
+ * itself, that is what is shown. */
+void player_show_peaks(Player *player);
+
+/* ---- change.c ----------------------------------------------------------- */
+
+/* A change from here on, in lanes from ... to - 1 or in all of them; it makes
+ * no step again. */
+Status player_change_lanes(Player *player, const Command *change, int from,
+                           int to);
+Status player_change_all(Player *player, const Command *change);
+
+/* The present options of all lanes.  Returns how many. */
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
+
+/* The next row of the table of integrators that all terms allow. */
+const IntegratorMethod *player_next_method(const Simulation *simulation);
+
+/* ---- retake.c ----------------------------------------------------------- */
+
+/* Filter or line search, with the present step taken again.  Two outcomes that
+ * no one picture can show are put beside each other.
+ *   option, value, old  what changes, and from what
+ *   from, to            in these lanes */
+Status retake_step(Player *player, const Command *change, const char *option,
+                   const char *value, const char *old, int from, int to);
+
+/* ---- begin.c ------------------------------------------------------------ */
+
+/* Whether new runs with these options can begin, of as many lanes as there are;
+ * message says why not; and then they do. */
+Status player_try_restart(Player *player, const Options *options);
+
+/* ---- steps.c ------------------------------------------------------------ */
+
+/* Simulations, states and energies at step 0. */
+Status player_begin(Player *player, const Options *options, int count);
 
 /* New runs with these options, from step 0; files begin anew. */
 Status player_restart(Player *player, const Options *options, int count);
 
 /* The observer of all lanes. */
 bool player_watch(void *lane, const NewtonRecord *record);
+
+/* What curves and trails keep of states not seen before. */
+void player_sample(Player *player);
+
+/* Pauses at the first step that did not converge, at the end, and at rest; a
+ * run of a given number of steps ends by itself and does not. */
+void player_pause_if_due(Player *player);
+
+/* Shows another step. */
+Status player_show(Player *player, long step);
+
+/* The same, so that it can be walked through line by line. */
+Status player_retape(Player *player, long step);
+
+/* Going on from an old step: what came after it is forgotten. */
+Status player_forget_later(Player *player);
+
+/* ---- player.c ----------------------------------------------------------- */
 
 /* The lane whose numbers are shown, and the simulation in it. */
 Lane *player_lane(Player *player);
@@ -26,6 +103,7 @@ void player_note(Player *player, const char *format, ...);
 
 /* Of the window. */
 void player_title(const Player *player, char *title, size_t size);
+void player_set_title(Player *player);
 
 /* Steps, files and the like are those of the command line. */
 void player_keep_files(const Player *player, Options *options);
@@ -34,17 +112,10 @@ void player_keep_files(const Player *player, Options *options);
  * frame through time, and iterations one at a time. */
 int player_first_speed(const Options *options);
 
-/* A page of the lecture: by name or number, the next or the one before. */
-Status lesson_turn(Player *player, const Command *command);
-
 /* What the page does when it opens: its own commands. */
 Status lesson_prepare(Player *player);
 
-/* A guess of where the next step leads, m. */
-Status lesson_predict(Player *player, double x, double y);
-
-/* Shows a cell of the envelope; loads it as a square of its own. */
-Status lesson_visit(Player *player, long cell);
+/* Loads a cell of the envelope as a square of its own. */
 Status lesson_load(Player *player, long cell);
 
 /* Whether a click on a place of this scene is a guess. */
@@ -52,15 +123,6 @@ bool lesson_asks(const Player *player);
 
 /* Whether Escape ends the program: nothing else is open. */
 bool player_escape_ends(const Player *player);
-
-/* Shows another step. */
-Status player_show(Player *player, long step);
-
-/* The same, so that it can be walked through line by line. */
-Status player_retape(Player *player, long step);
-
-/* Going on from an old step: what came after it is forgotten. */
-Status player_forget_later(Player *player);
 
 /* ---- showing.c ---------------------------------------------------------- */
 

@@ -1,0 +1,96 @@
+/* begin.c - from step 0: again, from another start, or another scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+/* Whether new runs with these options can begin; the message says why not. */
+static Status try_options(Player *player, const Options *options, int count)
+{
+    Simulation *trial = calloc(1, sizeof *trial);
+    Status status = trial ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; i < count && !status; i++) {
+        status = simulation_create(&options[i], NULL, NULL, trial);
+        simulation_free(trial);
+    }
+    free(trial);
+    return status ? player_refuse(player, status_text(status)) : STATUS_OK;
+}
+
+Status player_try_restart(Player *player, const Options *options)
+{
+    Status status = try_options(player, options, player->lanes);
+    return status ? status : player_restart(player, options, player->lanes);
+}
+
+/* The options of a scene: those of the command line if it was called for
+ * there, else its defaults; files and ends are those of the command line. */
+static Status find_options(Player *player, const char *name, Options *options,
+                           int *count)
+{
+    char program[] = "elasto", word[COMMAND_TEXT_SIZE];
+    char *arguments[] = {program, word, NULL};
+    const Options *given = &player->given[0];
+    snprintf(word, sizeof word, "%s", name);
+    if (options_parse(2, arguments, options, player->message,
+                      sizeof player->message))
+        return STATUS_INVALID_INPUT;
+    *count = 1;
+    if (options->scene == given->scene) {
+        *count = player->given_count;
+        memcpy(options, given, (size_t)*count * sizeof *given);
+        return STATUS_OK;
+    }
+    player_keep_files(player, options);
+    options->speed = given->speed;
+    return STATUS_OK;
+}
+
+/* Another scene, from its start; it keeps the pause, and one that explains
+ * something begins with one. */
+static Status switch_scene(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    int count;
+    Status status = find_options(player, command->text, options, &count);
+    if (!status)
+        status = player_restart(player, options, count);
+    if (status)
+        return status;
+    if (options->scene->explains && !player->given[0].script)
+        player->paused = true;
+    player_set_title(player);
+    return STATUS_OK;
+}
+
+/* Another start, where the scene has one. */
+static Status pick_start(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    const Scene *scene = player->lane[0].track.options.scene;
+    if (!(scene->needs & NEEDS_START))
+        return player_refuse(player, "this scene has no start to choose");
+    for (int i = player_options(player, options) - 1; i >= 0; i--) {
+        options[i].start[0] = command->x;
+        options[i].start[1] = command->y;
+    }
+    player->paused = true;
+    return player_try_restart(player, options);
+}
+
+/* From step 0 with the present numbers. */
+static Status begin_again(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    (void)command;
+    return player_restart(player, options, player_options(player, options));
+}
+
+const Deed begin_deeds[] = {
+    {COMMAND_SCENE, switch_scene},
+    {COMMAND_START, pick_start},
+    {COMMAND_RESTART, begin_again},
+    {COMMAND_NONE, NULL},
+};

@@ -1,0 +1,228 @@
+/* change.c - the settings of the run: numbers and methods, while it goes on or
+ * from its start.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+/* Which lanes a change of this option is for: the active one where they are
+ * compared by it, else all.  from, to out: lanes from ... to - 1. */
+static void find_lanes(const Player *player, const char *option, int *from,
+                       int *to)
+{
+    bool one = option && player_compares(player, option);
+    *from = one ? player->active : 0;
+    *to = one ? player->active + 1 : player->lanes;
+}
+
+Status player_change_lanes(Player *player, const Command *change, int from,
+                           int to)
+{
+    Status status = player_forget_later(player);
+    player->changed = true;
+    player->rests = false;
+    for (int i = from; i < to && !status; i++)
+        status = track_change(&player->lane[i].track, change, player->message,
+                              sizeof player->message);
+    return status;
+}
+
+Status player_change_all(Player *player, const Command *change)
+{
+    player->sampled = -1;
+    return player_change_lanes(player, change, 0, player->lanes);
+}
+
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
+{
+    for (int i = 0; i < player->lanes; i++)
+        options[i] = player->lane[i].track.settings.options;
+    return player->lanes;
+}
+
+/* New runs with this option in these lanes. */
+static Status restart_with(Player *player, const char *option,
+                           const char *value, int from, int to)
+{
+    Options options[OPTIONS_MAX_PANES];
+    int active = player->active;
+    bool paused = player->paused;
+    player_options(player, options);
+    for (int i = from; i < to; i++)
+        if (options_set(&options[i], option, value, player->message,
+                        sizeof player->message))
+            return STATUS_INVALID_INPUT;
+    Status status = player_try_restart(player, options);
+    if (!status) {
+        player->active = active;
+        player->paused = paused;
+    }
+    return status;
+}
+
+/* An option while the run goes on, or from the start where it cannot change
+ * any more. */
+static Status set_option(Player *player, const char *text)
+{
+    const Simulation *simulation = player_simulation(player);
+    const Scene *scene = simulation->scene;
+    Command change = {.kind = COMMAND_SET};
+    char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
+    char old[COMMAND_TEXT_SIZE] = "";
+    size_t length = strcspn(text, " ");
+    int from, to;
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    snprintf(value, sizeof value, "%s", text[length] ? text + length + 1 : "");
+    snprintf(change.text, sizeof change.text, "%s", text);
+    Options options = player_settings(player)->options;
+    if (options_set(&options, name, value, player->message,
+                    sizeof player->message))
+        return STATUS_INVALID_INPUT;
+    if (strcmp(name, "integrator") == 0 &&
+        integrator_method_refuses(options.integrator, &simulation->system))
+        return player_refuse(player, "a term of this scene refuses it");
+    find_lanes(player, name, &from, &to);
+    const Number *number = number_find(name);
+    if (number)
+        number_value(number, &player_settings(player)->options, old);
+    bool time = scene->needs & NEEDS_TIME;
+    bool method =
+        strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
+    bool live = track_can_change(name) && (time || method) &&
+                (simulation->runs == 1 || strcmp(name, "integrator") != 0);
+    Status status;
+    if (!live)
+        status = restart_with(player, name, value, from, to);
+    else if (method && strcmp(old, value) != 0)
+        status = retake_step(player, &change, name, value, old, from, to);
+    else
+        status = player_change_lanes(player, &change, from, to);
+    player_reset_speed(player);
+    return status;
+}
+
+static Status set(Player *player, const Command *command)
+{
+    return set_option(player, command->text);
+}
+
+/* What the journal keeps of it: the number and its new value. */
+static Status obey_set(Player *player, const char *option, const char *value)
+{
+    Command command = {.kind = COMMAND_SET};
+    snprintf(command.text, sizeof command.text, "%.20s %.40s", option, value);
+    return player_obey(player, &command);
+}
+
+/* The selected number a pace up or down. */
+static Status pace_number(Player *player, const Command *command)
+{
+    char value[COMMAND_TEXT_SIZE];
+    const Number *number[NUMBERS_MOST];
+    const Options *options = &player_settings(player)->options;
+    int count = numbers_of(options, number);
+    if (count == 0)
+        return player_refuse(player, "there is no number to change here");
+    if (player->selected < 0 || player->selected >= count)
+        player->selected = 0;
+    number_paced(number[player->selected], options,
+                 command->kind == COMMAND_RAISE ? 1 : -1, value);
+    return obey_set(player, number[player->selected]->option, value);
+}
+
+/* The value that the scene has by itself, or that of the command line. */
+static Status set_default(Player *player, const Command *command)
+{
+    const char *option = command->text;
+    char value[COMMAND_TEXT_SIZE];
+    const Number *number = number_find(option);
+    Options options = player->given[0];
+    if (!number)
+        return player_refuse(player, "there is no such number");
+    if (options.scene != player->lane[0].track.options.scene) {
+        char program[] = "elasto", scene[COMMAND_TEXT_SIZE];
+        char *arguments[] = {program, scene, NULL};
+        snprintf(scene, sizeof scene, "%s",
+                 player->lane[0].track.options.scene->name);
+        if (options_parse(2, arguments, &options, player->message,
+                          sizeof player->message))
+            return STATUS_INVALID_INPUT;
+    }
+    number_value(number, &options, value);
+    return obey_set(player, option, value);
+}
+
+/* Tab: the next number, and after the last one none. */
+static Status select_number(Player *player, const Command *command)
+{
+    (void)command;
+    const Number *number[NUMBERS_MOST];
+    int count = numbers_of(&player_settings(player)->options, number);
+    player->selected = player->selected + 1 < count ? player->selected + 1 : -1;
+    return STATUS_OK;
+}
+
+/* Off, or on again as the command line has it; where there is something to
+ * switch. */
+static Status switch_method(Player *player, const Command *command)
+{
+    char text[COMMAND_TEXT_SIZE];
+    const Simulation *simulation = player_simulation(player);
+    const Options *now = &player_settings(player)->options;
+    const Options *given = &player->given[0];
+    bool search = command->kind == COMMAND_SEARCH;
+    if (search && !simulation_has_line_search(simulation))
+        return player_refuse(player, "no line search here");
+    if (!search && !simulation_has_filter(simulation))
+        return player_refuse(player, "nothing to project here");
+    LineSearch l = given->line_search, line = LINE_SEARCH_NONE;
+    Filter f = given->filter, filter = FILTER_NONE;
+    if (now->line_search == LINE_SEARCH_NONE)
+        line = l != LINE_SEARCH_NONE ? l : LINE_SEARCH_BACKTRACK;
+    if (now->filter == FILTER_NONE)
+        filter = f != FILTER_NONE ? f : FILTER_CLAMP;
+    snprintf(text, sizeof text, "%s %s", search ? "line-search" : "filter",
+             search ? line_search_name(line) : filter_name(filter));
+    return set_option(player, text);
+}
+
+const IntegratorMethod *player_next_method(const Simulation *simulation)
+{
+    const IntegratorMethod *next = simulation->run[0].method;
+    if (simulation->runs > 1)
+        return &integrator_methods[0];
+    do {
+        next = next[1].name ? next + 1 : &integrator_methods[0];
+    } while (next != simulation->run[0].method &&
+             integrator_method_refuses(next, &simulation->system));
+    return next;
+}
+
+static Status switch_integrator(Player *player, const Command *command)
+{
+    (void)command;
+    char text[COMMAND_TEXT_SIZE];
+    const Simulation *simulation = player_simulation(player);
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        return player_refuse(player, "no time passes here");
+    const IntegratorMethod *next = player_next_method(simulation);
+    snprintf(text, sizeof text, "integrator %s", next->name);
+    Status status = set_option(player, text);
+    if (!status)
+        player_note(player, "method: %s", next->label);
+    return status;
+}
+
+const Deed change_deeds[] = {
+    {COMMAND_SET, set},
+    {COMMAND_DEFAULT, set_default},
+    {COMMAND_SELECT, select_number},
+    {COMMAND_RAISE, pace_number},
+    {COMMAND_LOWER, pace_number},
+    {COMMAND_FILTER, switch_method},
+    {COMMAND_SEARCH, switch_method},
+    {COMMAND_METHOD, switch_integrator},
+    {COMMAND_NONE, NULL},
+};
