@@ -57,8 +57,9 @@ typedef struct Layout {
     Box pane[LAYOUT_PANES]; /* inside the stage */
     Box card[LAYOUT_CARDS]; /* inside the column */
     Box setting[LAYOUT_SETTINGS];
-    Box chip[LAYOUT_CHIPS];
-    Box bars; /* inside time: where the bars of the steps are */
+    Box chip[LAYOUT_CHIPS]; /* without width: there is no room for it */
+    int chips_left_out;     /* so many of them, all before the last one */
+    Box bars;               /* inside time: where the bars of the steps are */
 } Layout;
 
 typedef enum Zone {

@@ -5,7 +5,9 @@
  *   states  CSV: step,time,node,x,y,vx,vy of every node at every step from 0;
  *           nodes of run 0 first, those of run 1 numbered on
  *   log     CSV: one row a Newton update, see newton.h; in scenes with a
- *           single unknown point also where the update began and ended
+ *           single unknown point also where the update began and ended; of
+ *           several panes the last column says which, and their steps are
+ *           those that they have together
  * Numbers have 17 digits: reading them gives the same double.
  */
 #ifndef ELASTO_RECORDING_H
@@ -25,6 +27,7 @@ typedef struct Recording {
     Film film;          /* of the frames */
     long film_every;    /* it has those of every so manyth step; 0: all */
     bool points;        /* the log tells of points */
+    int panes;          /* of more than one the log tells which: 1 ... */
     Output states, log; /* not open: not written */
     bool aside; /* set: closing replaces no table that was there before */
     int reason; /* errno of the first failure, 0: none yet */
@@ -42,7 +45,7 @@ Status recording_check(const Options *options, char *message, size_t size);
  *   recording  out; close it in any case
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
  * all functions here do; INVALID_INPUT: message says why. */
-Status recording_open(const Options *options, Recording *recording);
+Status recording_open(const Options *options, int panes, Recording *recording);
 
 /* Whether frames are of use. */
 bool recording_wants_frames(const Recording *recording);
@@ -66,7 +69,8 @@ Status recording_states(Recording *recording,
                         long step);
 
 /* One row of the log, if there is one. */
-Status recording_update(Recording *recording, const NewtonRecord *record);
+Status recording_update(Recording *recording, const NewtonRecord *record,
+                        int pane);
 
 /* Begins states and log anew, for the scene in the options. */
 Status recording_restart(Recording *recording, const Options *options);

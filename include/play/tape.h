@@ -14,10 +14,16 @@
  * longer minimisation leave their records alone. */
 #define TAPE_BYTES ((size_t)64 << 20)
 
+/* E along p is drawn to 3/2 of the first trial.  Where it is no polynomial it
+ * is kept at parts of that, 1/32 of the trial apart: first, first/2, ... are
+ * among them. */
+enum { TAPE_PARTS = 32, TAPE_VALUES = TAPE_PARTS * 3 / 2 + 1 };
+
 typedef struct TapeRound {
     double *x, *p; /* [size] m; NULL: not kept */
-    Quartic along; /* E(x + alpha p) - E(x) */
-    bool exact;    /* along is all of it */
+    double first;  /* alpha that the line search begins with */
+    Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
+    double *value; /* [TAPE_VALUES] J s^2, where it is not; NULL: it is */
     double residual, slope;
     int projected;
 } TapeRound;

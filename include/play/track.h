@@ -13,7 +13,8 @@
 #include "play/script.h"
 #include "scenes/state.h"
 
-/* Bytes that the kept states of one track may take. */
+/* Bytes that the past of one track may take: states give way, and what is told
+ * of every step stays. */
 #define TRACK_BYTES ((size_t)256 << 20)
 
 /* What is told of a step when it is long over. */
@@ -24,6 +25,10 @@ typedef struct StepRow {
     double residual; /* m/s, at the end */
     double extent;   /* m, the largest coordinate of run 0 after it */
 } StepRow;
+
+/* Bytes of a step that are never given back: its row, and the lane's bar and
+ * number. */
+#define TRACK_STEP_BYTES (sizeof(StepRow) + 2 * sizeof(long))
 
 /* What can be changed while a run goes on, as it is now. */
 typedef struct Settings {
@@ -48,7 +53,7 @@ typedef struct Track {
     Settings settings; /* now */
     bool keeps;        /* states are kept: somebody may go back */
     bool remembers;    /* some step depends on more than the state before it */
-    size_t limit;      /* bytes of the kept states */
+    size_t limit;      /* of track_bytes */
 
     KeptState *kept; /* [kept_count] states of step 0, stride, 2 stride, ... */
     long kept_count, kept_size;
@@ -103,6 +108,9 @@ bool track_can_change(const char *name);
 
 /* Forgets what came after the step that is shown. */
 void track_forget(Track *track);
+
+/* Bytes of all that is kept: states, rows, changes. */
+size_t track_bytes(const Track *track);
 
 /* The step that is shown. */
 long track_step_shown(const Track *track);

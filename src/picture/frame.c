@@ -218,9 +218,15 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
                         show->message);
         return;
     }
-    for (int i = 0; i < layout->chips; i++)
-        draw_chip(paper, layout->chip[i], &show->chip[i],
+    for (int i = 0; i < layout->chips; i++) {
+        Chip chip = show->chip[i];
+        if (layout->chip[i].width <= 0)
+            continue;
+        if (layout->chips_left_out > 0 && i == layout->chips - 1)
+            chip.label = "all \u2026"; /* those that are not here, too */
+        draw_chip(paper, layout->chip[i], &chip,
                   show->over.zone == ZONE_CHIP && show->over.index == i);
+    }
 }
 
 void frame_draw(Paper *paper, const Layout *layout, const Show *show)

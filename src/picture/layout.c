@@ -9,7 +9,8 @@ static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
 static const double LETTER = 0.56;      /* a letter is wide, on average */
 static const double SETTING_GAP = 0.9;  /* between settings */
 static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
-static const double BARS = 2.4;         /* the bars of the time line are high */
+static const double CHIP_PADDING_LEAST = 1.2;
+static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double PAIR_LEAST = 32; /* a column for two cards in a row */
 
@@ -89,22 +90,40 @@ static int place_settings(const LayoutWish *wish, Layout *layout, int most)
     return line + 1;
 }
 
-/* As many chips as fit, from the left. */
+/* Pixels of chips from the left with this room beside their letters; a chip
+ * that does not fit has no width, but the last one always has. */
+static void place_chips_with(const LayoutWish *wish, Layout *layout,
+                             double padding)
+{
+    int gap = pixels(layout, 0.6), margin = pixels(layout, GAP), x = margin;
+    int count = wish->chips < LAYOUT_CHIPS ? wish->chips : LAYOUT_CHIPS;
+    int inset = pixels(layout, 0.35), width[LAYOUT_CHIPS] = {0};
+    for (int i = 0; i < count; i++)
+        width[i] =
+            pixels(layout, wish->chip_letters[i] * LETTER * 0.92 + padding);
+    int room = layout->width - 2 * margin - (count ? width[count - 1] : 0);
+    bool full = false;
+    layout->chips = count;
+    layout->chips_left_out = 0;
+    for (int i = 0; i < count; i++) {
+        full = full || (i < count - 1 && x - margin + width[i] + gap > room);
+        bool out = full && i < count - 1;
+        layout->chip[i] = (Box){x, layout->last.y + inset, out ? 0 : width[i],
+                                layout->last.height - 2 * inset};
+        layout->chips_left_out += out;
+        x += out ? 0 : width[i] + gap;
+    }
+}
+
+/* In a row; closer together if they need it, and then as many of the first ones
+ * as fit.  The last one, which tells of all keys, is never lost. */
 static void place_chips(const LayoutWish *wish, Layout *layout)
 {
-    int x = pixels(layout, GAP), gap = pixels(layout, 0.6);
-    int right = layout->width - x;
-    Box inner = layout->last;
-    inner.y += pixels(layout, 0.35);
-    inner.height -= 2 * pixels(layout, 0.35);
-    for (int i = 0; i < wish->chips && i < LAYOUT_CHIPS; i++) {
-        int width = pixels(layout, wish->chip_letters[i] * LETTER * 0.92 +
-                                       CHIP_PADDING);
-        if (x + width > right)
-            return;
-        layout->chip[layout->chips++] = (Box){x, inner.y, width, inner.height};
-        x += width + gap;
-    }
+    if (layout->last.width <= 0)
+        return;
+    place_chips_with(wish, layout, CHIP_PADDING);
+    if (layout->chips_left_out > 0)
+        place_chips_with(wish, layout, CHIP_PADDING_LEAST);
 }
 
 /* Strip, row, time line, last line off the whole; what is left is returned. */

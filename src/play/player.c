@@ -393,12 +393,6 @@ Status player_create(const Options *options, int count, const char *line,
     player->speed = player_first_speed(options);
     player->lens = LENS_FITS;
     player->large = player->selected = -1;
-    if (count > 1 && options->log) {
-        snprintf(player->message, sizeof player->message,
-                 "--log: it is that of one run; %d side by side have no log",
-                 count);
-        return STATUS_INVALID_INPUT;
-    }
     Status status = read_script(player);
     if (!status)
         status = open_view(player);
@@ -411,7 +405,7 @@ Status player_create(const Options *options, int count, const char *line,
     Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
     if (player->paused && script_add(&player->journal, 0, &pause))
         return STATUS_OUT_OF_MEMORY;
-    status = recording_open(&player->given[0], &player->recording);
+    status = recording_open(&player->given[0], count, &player->recording);
     if (!status)
         status = player_begin(player, player->given, count);
     player->left = options->page;

@@ -51,8 +51,9 @@ static Status write_headers(Recording *recording)
               recording->log.file) < 0)
         return recording_note(recording, STATUS_FILE_FAILED,
                               recording->log.name);
-    fputs(recording->points ? ",from_x,from_y,to_x,to_y\n" : "\n",
-          recording->log.file);
+    if (recording->points)
+        fputs(",from_x,from_y,to_x,to_y", recording->log.file);
+    fputs(recording->panes > 1 ? ",pane\n" : "\n", recording->log.file);
     return recording_note(recording, output_check(&recording->log),
                           recording->log.name);
 }
@@ -92,9 +93,10 @@ bool recording_wants_frames(const Recording *recording)
 }
 
 /* Folder, film, states, log. */
-Status recording_open(const Options *options, Recording *recording)
+Status recording_open(const Options *options, int panes, Recording *recording)
 {
-    *recording = (Recording){.folder = options->frames, .last_frame = -1};
+    *recording = (Recording){
+        .folder = options->frames, .last_frame = -1, .panes = panes};
     recording->points = !(options->scene->needs & NEEDS_TIME);
     Status status = STATUS_OK;
     if (recording->folder)
@@ -232,7 +234,8 @@ Status recording_states(Recording *recording,
 }
 
 /* The numbers of the record, in the order of the header. */
-Status recording_update(Recording *recording, const NewtonRecord *record)
+Status recording_update(Recording *recording, const NewtonRecord *record,
+                        int pane)
 {
     Output *log = &recording->log;
     if (!log->file)
@@ -249,6 +252,8 @@ Status recording_update(Recording *recording, const NewtonRecord *record)
     if (recording->points)
         fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
                 record->from[1], record->to[0], record->to[1]);
+    if (recording->panes > 1)
+        fprintf(log->file, ",%d", pane);
     putc('\n', log->file);
     return recording_note(recording, output_check(log), log->name);
 }

@@ -82,6 +82,10 @@ static void value_text(const Number *number, const Options *options,
                        const Simulation *simulation, char *text, size_t size)
 {
     char value[COMMAND_TEXT_SIZE];
+    const char *unit = number->unit;
+    if (strcmp(number->option, "tolerance") == 0 &&
+        simulation->descent.scalar.f.value)
+        unit = NULL; /* of a function of a number */
     number_value(number, options, value);
     if (strcmp(number->option, "integrator") == 0)
         snprintf(text, size, "%s",
@@ -91,8 +95,8 @@ static void value_text(const Number *number, const Options *options,
                  : options->integrator ? options->integrator->label
                                        : integrator_methods[0].label);
     else
-        snprintf(text, size, "%.20s%s%s", value, number->unit ? " " : "",
-                 number->unit ? number->unit : "");
+        snprintf(text, size, "%.20s%s%s", value, unit ? " " : "",
+                 unit ? unit : "");
 }
 
 /* The row of numbers. */

@@ -28,8 +28,14 @@ bool player_watch(void *user, const NewtonRecord *record)
     if (lane->track.keeps && newton && lane->track.simulation.scene &&
         !lane->track.simulation.scene->step)
         tape_add(&lane->tape, newton, record);
-    if (!lane->track.repeating && lane->number == 0)
-        player->recorded = recording_update(&player->recording, record);
+    if (!lane->track.repeating) {
+        NewtonRecord row = *record;
+        if (player->recording.panes > 1)
+            row.step = player->step + 1;
+        if (lane->number < player->recording.panes)
+            player->recorded =
+                recording_update(&player->recording, &row, lane->number + 1);
+    }
     return !player->quit && !player->recorded;
 }
 

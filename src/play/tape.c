@@ -16,6 +16,7 @@ static void free_round(TapeRound *round)
 {
     free(round->x);
     free(round->p);
+    free(round->value);
     *round = (TapeRound){0};
 }
 
@@ -122,6 +123,40 @@ static void keep_arrays(Tape *tape, TapeRound *round, const double *x,
     memcpy(round->p, p, bytes);
 }
 
+/* E along p, from the place where `at` is; nothing where memory is missing. */
+static void keep_line(Tape *tape, TapeRound *round, const Iterate *at)
+{
+    round->first = incremental_potential_reach(at);
+    double pace = round->first / TAPE_PARTS;
+    Along along = incremental_potential_along(at, (TAPE_VALUES - 1) * pace);
+    round->along = along.smooth;
+    round->slope = along.smooth.q[0];
+    if (along.rough == 0 || !round->x)
+        return;
+    round->value = malloc(TAPE_VALUES * sizeof *round->value);
+    if (!round->value) {
+        free_round(round);
+        return;
+    }
+    tape->bytes += TAPE_VALUES * sizeof *round->value;
+    for (int i = 0; i < TAPE_VALUES; i++)
+        round->value[i] = along_difference(&along, i * pace);
+}
+
+/* The kept values, joined by straight lines. */
+static double kept_difference(const void *function, double alpha)
+{
+    const TapeRound *round = function;
+    double place = alpha / round->first * TAPE_PARTS;
+    if (!(place >= 0 && place <= TAPE_VALUES - 1))
+        return NAN;
+    int i = (int)place;
+    double part = place - i;
+    return part == 0 ? round->value[i]
+                     : round->value[i] +
+                           part * (round->value[i + 1] - round->value[i]);
+}
+
 /* Whether one line along p is what the solver searched. */
 static bool goes_along_p(const Newton *newton)
 {
@@ -154,9 +189,7 @@ static void begin_rounds(Tape *tape, const Newton *newton,
         return;
     Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
     incremental_potential_gradient(E, u, round->x, g);
-    Along along = incremental_potential_along(&at, 1);
-    round->along = along.smooth;
-    round->exact = along.rough == 0;
+    keep_line(tape, round, &at);
     free(g);
 }
 
@@ -166,11 +199,8 @@ static void keep_next(Tape *tape, const Newton *newton)
     TapeRound *round = &tape->round[tape->count];
     free_round(round);
     keep_arrays(tape, round, newton->at.x, newton->at.p);
-    Along along = incremental_potential_along(&newton->at, 1);
-    round->along = along.smooth;
-    round->exact = along.rough == 0;
+    keep_line(tape, round, &newton->at);
     round->residual = newton->residual;
-    round->slope = along.smooth.q[0];
     round->projected = newton->record.projected;
 }
 
@@ -270,6 +300,16 @@ int tape_back(const Tape *tape, int fine, int place)
     return place;
 }
 
+/* E along p of a round, if it was kept. */
+static void show_line(const TapeRound *round, Trace *trace)
+{
+    trace->first = round->first;
+    if (!round->x)
+        return;
+    trace->difference = round->value ? kept_difference : quartic_difference;
+    trace->function = round->value ? (const void *)round : &round->along;
+}
+
 const double *tape_trace(const Tape *tape, int place, Trace *trace)
 {
     *trace = (Trace){.updates = tape->count,
@@ -291,10 +331,7 @@ const double *tape_trace(const Tape *tape, int place, Trace *trace)
         trace->projected = round->projected;
         trace->trials = record->trials;
         trace->accepted = record->alpha > 0;
-        if (round->exact && round->x) {
-            trace->difference = quartic_difference;
-            trace->function = &round->along;
-        }
+        show_line(round, trace);
         return NULL;
     }
     const TapePlace *at = &tape->place[place];
@@ -317,10 +354,8 @@ const double *tape_trace(const Tape *tape, int place, Trace *trace)
     trace->residual = solved ? round->residual : 0;
     trace->slope = solved ? round->slope : 0;
     trace->updates = at->round + (made && solved);
-    if (solved && round->exact && round->x) {
-        trace->difference = quartic_difference;
-        trace->function = &round->along;
-    }
+    if (solved)
+        show_line(round, trace);
     trace->trials = at->trials;
     trace->accepted = made && at->trials == record->trials && record->alpha > 0;
     bool moved = made && (at->line == LINE_UPDATE || at->line == LINE_TEST);

@@ -47,6 +47,13 @@ static bool watch(void *user, const NewtonRecord *record)
 
 /* ---- kept states -------------------------------------------------------- */
 
+size_t track_bytes(const Track *track)
+{
+    return track->used + (size_t)track->kept_size * sizeof *track->kept +
+           (size_t)track->newest * TRACK_STEP_BYTES +
+           track->changes.count * sizeof *track->changes.line;
+}
+
 /* Lets go of kept states from this index on. */
 static void drop_states(Track *track, long from)
 {
@@ -94,7 +101,7 @@ static void keep_state(Track *track)
     long step = track_step_shown(track);
     if (!track->keeps || size == 0)
         return;
-    while (track->kept_count > 1 && track->used + size > track->limit)
+    while (track->kept_count > 1 && track_bytes(track) + size > track->limit)
         thin_states(track);
     if (step % track->stride != 0 || step / track->stride != track->kept_count)
         return;

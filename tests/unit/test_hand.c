@@ -157,7 +157,8 @@ static void drags_are_repeated(void **unused)
         begin("square --segments 3 --integrator bdf2 --solver multigrid",
               &track);
         if (thin)
-            track.limit = 4 * state_size(&track.simulation);
+            track.limit = track_bytes(&track) + STEPS * TRACK_STEP_BYTES +
+                          3 * state_size(&track.simulation);
         for (int i = 0; i <= STEPS; i++) {
             if (i == 8)
                 change(&track, COMMAND_GRAB, 5, 0, 0);

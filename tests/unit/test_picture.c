@@ -517,7 +517,7 @@ static Options recording_options(void)
 
 static bool record_update(void *user, const NewtonRecord *record)
 {
-    return recording_update(user, record) == STATUS_OK;
+    return recording_update(user, record, 1) == STATUS_OK;
 }
 
 /* Header, then a row a node and step; what is read is what was there. */
@@ -530,7 +530,7 @@ static void states_are_exact(void **unused)
     snprintf(name, sizeof name, "%s", in_folder("states.csv"));
     Options options = recording_options();
     options.states = name;
-    CHECK_STATUS(recording_open(&options, &recording), STATUS_OK);
+    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
     assert_int_equal(simulation_create(&options, NULL, NULL, &simulation), 0);
     const Simulation *only = &simulation;
     CHECK_STATUS(recording_states(&recording, &only, 1, 0), STATUS_OK);
@@ -572,7 +572,7 @@ static void log_has_every_update(void **unused)
     snprintf(name, sizeof name, "%s", in_folder("log.csv"));
     Options options = recording_options();
     options.log = name;
-    CHECK_STATUS(recording_open(&options, &recording), STATUS_OK);
+    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
     assert_int_equal(
         simulation_create(&options, record_update, &recording, &simulation), 0);
     for (int i = 0; i < 5; i++)
@@ -604,7 +604,7 @@ static void frames_are_numbered_by_step(void **unused)
     options.frames = name;
     assert_int_equal(canvas_create(3, 3, &canvas), 0);
     for (int i = 0; i < 2; i++) {
-        CHECK_STATUS(recording_open(&options, &recording), STATUS_OK);
+        CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
         CHECK_STATUS(recording_frame(&recording, &canvas, 0, 1), STATUS_OK);
         CHECK_STATUS(recording_frame(&recording, &canvas, 12, 1), STATUS_OK);
         assert_int_equal(recording.frames, 2);
@@ -626,18 +626,18 @@ static void recording_failures_name_the_file(void **unused)
     write_text(file, "text");
     Options options = recording_options();
     options.frames = file;
-    CHECK_STATUS(recording_open(&options, &recording), STATUS_FILE_FAILED);
+    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_FILE_FAILED);
     assert_string_equal(recording.failed, file);
     assert_int_equal(recording.reason, ENOTDIR);
     recording_close(&recording);
     options.frames = NULL;
     options.states = none;
-    CHECK_STATUS(recording_open(&options, &recording), STATUS_FILE_FAILED);
+    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_FILE_FAILED);
     assert_string_equal(recording.failed, none);
     assert_int_equal(recording.reason, ENOENT);
     recording_close(&recording);
     options.states = "/dev/full";
-    CHECK_STATUS(recording_open(&options, &recording), STATUS_OK);
+    CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
     CHECK_STATUS(recording_close(&recording), STATUS_FILE_FAILED);
     assert_string_equal(recording.failed, "/dev/full");
     assert_int_equal(recording.reason, ENOSPC);
