@@ -44,10 +44,9 @@ enum { CELL_ENTRIES = 21 };
  * something negative was changed. */
 bool cell_hessian(const Corner *corner, Filter filter, double H[CELL_ENTRIES]);
 
-/* y_a, y_b, y_c += H q for the three nodes. */
-void cell_multiply(const double H[CELL_ENTRIES], const double *q_a,
-                   const double *q_b, const double *q_c, double *y_a,
-                   double *y_b, double *y_c);
+/* y += H q for the three nodes; q, y [2n]. */
+void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
+                   const double *q, double *y);
 
 /* Along a step with the edges P1, P2 J becomes J + J1 + J2. */
 void cell_along(const Corner *corner, const double P1[2], const double P2[2],
@@ -89,10 +88,5 @@ extern const TermKind cell_energy;
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status cells_add(System *system, int columns, int rows, double step,
                  double stiffness);
-
-/* The smallest J in positions x [2n] m; infinite where there are no triangles.
- *   triangle  out, where it is; NULL: not wanted */
-double cells_smallest(const Cells *cells, const System *system, const double *x,
-                      int *triangle);
 
 #endif

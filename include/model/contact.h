@@ -135,20 +135,14 @@ double contact_node_radius(const Contact *contact, int node);
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
-/* The smallest gap in positions x [2n] m; infinite without obstacles.
- *   pair  out, where it is; NULL: not wanted */
-double contact_smallest_gap(const Contact *contact, const System *system,
-                            const double *x, ContactPair *pair);
-
 /* For terms that act on pairs (contact and friction): their entries in the
- * Hessian, and a pair's block [[H, -H], [-H, H]], or H alone for an obstacle
- * that is no node, into slots and into a product. */
+ * Hessian, and how a pair's block [[H, -H], [-H, H]], or H alone for an
+ * obstacle that is no node, is added (TermKind's hessian). */
 long long contact_entries(const Contact *contact, const System *system);
 void contact_pattern(const Contact *contact, const System *system,
                      Triplets *triplets);
-void contact_scatter(const Contact *contact, ContactPair pair, double w,
-                     const double H[3], const int *slot, double *values);
-void contact_multiply(const Contact *contact, ContactPair pair, double w,
-                      const double H[3], const double *q, double *y);
+void contact_add_block(const Contact *contact, ContactPair pair,
+                       const double H[3], const int *slot, const double *q,
+                       double *out);
 
 #endif

@@ -1,67 +1,70 @@
 /* mass_spring_energy.h - P(x) = sum l2 k/2 s^2, s = |d|^2/l2 - 1,
- * d = x_i - x_j (slide MassSpringEnergy.py).
- *
- *   springs  number of springs
- *   x        [2n] m, in
- *   e        [2 springs] nodes i, j of each spring, in
- *   l2       [springs] m^2, squared rest lengths, in
- *   k        [springs] J/m^2, stiffness, in
- *   scale    factor on everything that is added (h^2 for implicit Euler)
+ * d = x_i - x_j (slide MassSpringEnergy.py), and what other energies of springs
+ * share with it.
  */
 #ifndef ELASTO_MASS_SPRING_ENERGY_H
 #define ELASTO_MASS_SPRING_ENERGY_H
 
-#include "model/term.h"
+#include "model/system.h"
 
 /* The springs of the system as a term; it needs no data. */
 extern const TermKind mass_spring_energy;
 
-/* P(x), J. */
-double mass_spring_energy_value(int springs, const double *x, const int *e,
-                                const double *l2, const double *k);
+/* The strain s of a spring in positions x [2n] m; d [2] m out. */
+static inline double spring_strain(const System *system, const double *x,
+                                   int spring, double d[2])
+{
+    const int *e = system->e + 2 * spring;
+    const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
+    d[0] = xi[0] - xj[0];
+    d[1] = xi[1] - xj[1];
+    return (d[0] * d[0] + d[1] * d[1]) / system->l2[spring] - 1;
+}
 
-/* g += scale * grad P; the share of node i is 2 k s d, node j gets its
- * opposite.  g [2n] in/out. */
-void mass_spring_energy_gradient(int springs, const double *x, const int *e,
-                                 const double *l2, const double *k,
-                                 double scale, double *g);
+/* H [3] J/m^2 out (xx, xy, yy), H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), with
+ * its negative eigenvalues treated as the filter says.  The spring's 4x4 block
+ * is [[H, -H], [-H, H]], with the eigenvalues 0, 0 and twice those of H: so
+ * this is the slide's make_PSD without any eigenvalue routine.  Returns whether
+ * there was a negative one that was changed.
+ *
+ * The eigenvectors of H are d, with the eigenvalue (2k/l2) (3|d|^2 - l2), and
+ * the one across, with (2k/l2) (|d|^2 - l2).  A stretched spring has none that
+ * is negative; one that is shorter than its rest length over sqrt(3) has two,
+ * also where |d| = 0. */
+static inline bool spring_hessian(const double d[2], double l2, double k,
+                                  Filter filter, double H[3])
+{
+    double factor = 2 * k / l2, d2 = d[0] * d[0] + d[1] * d[1];
+    double along = 3 * d2 - l2, across = d2 - l2;
+    bool absolute = filter == FILTER_ABS;
+    if (across >= 0 || (filter != FILTER_CLAMP && !absolute)) {
+        H[0] = factor * (2 * d[0] * d[0] + across);
+        H[1] = factor * (2 * d[0] * d[1]);
+        H[2] = factor * (2 * d[1] * d[1] + across);
+        return false;
+    }
+    across = absolute ? -across : 0;
+    along = along > 0 ? along : absolute ? -along : 0;
+    double slope = d2 > 0 ? factor * ((along - across) / d2) : 0;
+    H[0] = factor * across + slope * d[0] * d[0];
+    H[1] = slope * d[0] * d[1];
+    H[2] = factor * across + slope * d[1] * d[1];
+    return true;
+}
 
-/* Entries a spring has in one triangle of the Hessian: its 4x4 block is
- * [[H, -H], [-H, H]], so ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy. */
+/* Entries of a spring in one triangle of the Hessian: ii: xx xy yy,
+ * jj: xx xy yy, ij: xx xy yx yy. */
 enum { SPRING_ENTRIES = 10 };
 
-/* values[slot[t]] += scale * entry t of the (projected) Hessian, entries
- * counted spring by spring; slot NULL: t itself, the plain triplets.
- *   slot    [10 springs] in
- *   values  in/out
- * Returns how many springs were projected. */
-int mass_spring_energy_hessian(int springs, const double *x, const int *e,
-                               const double *l2, const double *k, double scale,
-                               Filter filter, const int *slot, double *values);
-
-/* y += scale * (projected) Hessian of P at x times q, spring by spring.
- *   q  [2n] in; y [2n] in/out */
-void mass_spring_energy_product(int springs, const double *x, const int *e,
-                                const double *l2, const double *k, double scale,
-                                Filter filter, const double *q, double *y);
-
-/* Coefficients of alpha^2, alpha^3, alpha^4 in P(x + alpha p), times scale,
- * added to q.  p [2n] m, in; q [3] in/out. */
-void mass_spring_energy_along(int springs, const double *x, const double *p,
-                              const int *e, const double *l2, const double *k,
-                              double scale, double q[3]);
-
-/* Number and triplets of the Hessian's entries: 10 for each spring. */
+/* The functions entries and pattern of a term with a block for each spring, and
+ * its bounds: max k, and max k sqrt(l2) of a spring compressed to nothing. */
 long long mass_spring_entries(const Term *term, const System *system);
 void mass_spring_pattern(const Term *term, const System *system,
                          Triplets *triplets);
+void mass_spring_bounds(const Term *term, const System *system,
+                        double *stiffest, double *force);
 
-/* max k, J/m^2, and max k sqrt(l2), J/m: of a spring compressed to nothing. */
-double mass_spring_stiffest(const Term *term, const System *system);
-double mass_spring_force(const Term *term, const System *system);
-
-/* y += [[H, -H], [-H, H]] q for the spring between nodes e[0] and e[1]: with
- * t = H (q_i - q_j), y_i += t and y_j -= t. */
+/* y += [[H, -H], [-H, H]] q for the nodes e[0] and e[1]. */
 static inline void mass_spring_multiply(const double H[3], const int e[2],
                                         const double *q, double *y)
 {
@@ -75,26 +78,25 @@ static inline void mass_spring_multiply(const double H[3], const int e[2],
     yj[1] -= t1;
 }
 
-/* Adds the block [[H, -H], [-H, H]] of spring i through its ten slots.
- *   H  [3] in: H_xx, H_xy, H_yy; slot, values as above */
-static inline void mass_spring_scatter(const double H[3], int i,
-                                       const int *slot, double *values)
+/* The same block of a spring: added to a matrix through its slots, or, where q
+ * is given, multiplied (TermKind's hessian). */
+static inline void mass_spring_add(const double H[3], const System *system,
+                                   int spring, const int *slot, const double *q,
+                                   double *out)
 {
-    static const int plain[SPRING_ENTRIES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-    if (slot) {
-        slot += SPRING_ENTRIES * i;
-    } else {
-        values += SPRING_ENTRIES * i;
-        slot = plain;
+    if (q) {
+        mass_spring_multiply(H, system->e + 2 * spring, q, out);
+        return;
     }
+    slot += SPRING_ENTRIES * spring;
     for (int t = 0; t < 3; t++) {
-        values[slot[t]] += H[t];
-        values[slot[3 + t]] += H[t];
+        out[slot[t]] += H[t];
+        out[slot[3 + t]] += H[t];
     }
-    values[slot[6]] -= H[0];
-    values[slot[7]] -= H[1];
-    values[slot[8]] -= H[1];
-    values[slot[9]] -= H[2];
+    out[slot[6]] -= H[0];
+    out[slot[7]] -= H[1];
+    out[slot[8]] -= H[1];
+    out[slot[9]] -= H[2];
 }
 
 #endif

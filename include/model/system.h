@@ -61,6 +61,10 @@ Status system_check(const System *system, const double *x);
 /* P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
+/* The share of one kind of term; 0 where there is none. */
+double system_energy_of(const System *system, const TermKind *kind,
+                        const double *x);
+
 /* -sum m g.x, J, and whether there is gravity. */
 bool system_has_gravity(const System *system);
 double system_gravity_potential(const System *system, const double *x);
@@ -79,9 +83,9 @@ bool system_is_free(const System *system);
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
 
-/* Largest bound of the terms' curvature, J/m^2, and of their forces, J/m. */
-double system_stiffest(const System *system);
-double system_force(const System *system);
+/* The largest bounds of the terms, out: their curvature, J/m^2, their force,
+ * J/m. */
+void system_bounds(const System *system, double *stiffest, double *force);
 
 /* Before a step and after it: begin and end of all terms.  end returns whether
  * arrays have changed. */

@@ -24,6 +24,7 @@ typedef struct Place {
     const double *x_n; /* [2n] m, start of the step */
     const double *u;   /* [2n] m, displacement from there */
     const double *x;   /* [2n] m, x_n + u */
+    bool averaged;     /* the averaged twin is asked */
 } Place;
 
 typedef struct TermKind {
@@ -46,17 +47,13 @@ typedef struct TermKind {
     long long (*entries)(const Term *term, const System *system);
     void (*pattern)(const Term *term, const System *system, Triplets *triplets);
 
-    /* values[slot[t]] += w entry t of the Hessian at x, each block filtered:
-     * with CLAMP and ABS what is added must be positive semi-definite; NONE and
-     * ON_DEMAND mean the Hessian as it is.  Returns how many blocks were
-     * changed by the filter. */
+    /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
+     * out += w Hessian q, without a matrix: out and q are then [2n].  Each
+     * block is filtered: with CLAMP and ABS what is added must be positive
+     * semi-definite; NONE and ON_DEMAND mean the Hessian as it is.  Returns how
+     * many blocks were changed by the filter. */
     int (*hessian)(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, double *values);
-
-    /* y += w (filtered) Hessian q, without a matrix.  q [2n] in, y [2n] in/out.
-     * It must agree with the assembled one to rounding. */
-    void (*product)(const Term *term, const Place *at, double w, Filter filter,
-                    const double *q, double *y);
+                   const int *slot, const double *q, double *out);
 
     /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
      * 1: the slope of all terms together is g.p.
@@ -95,24 +92,20 @@ typedef struct TermKind {
      * grad P(x_n + t u) over t = 0 ... 1.  NULL: those methods refuse it. */
     const struct TermKind *averaged;
 
-    /* J/m^2, a bound of the curvature's size at rest; and J/m, the size of a
-     * force that a vanishing gradient is compared with. */
-    double (*stiffest)(const Term *term, const System *system);
-    double (*force)(const Term *term, const System *system);
+    /* Raises *stiffest to a bound of the curvature's size at rest, J/m^2, and
+     * *force, J/m, to the size of a force that a vanishing gradient is compared
+     * with. */
+    void (*bounds)(const Term *term, const System *system, double *stiffest,
+                   double *force);
 
     /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive
-     * semi-definite; sum [n], one for both coordinates.  NULL: not known, and a
-     * factorisation tells. */
+     * semi-definite; sum [n], one for both coordinates.  NULL: the term bends
+     * up everywhere. */
     void (*concave)(const Term *term, const Place *at, double w, double *sum);
-
-    /* Where this term stands alone: the minimiser u of
-     * |u - u_tilde|_M^2/2 + w P in closed form, [2n] out.  NULL: there is none;
-     * Newton's method finds it. */
-    void (*closed_form)(const Term *term, const Place *at, double w,
-                        const double *u_tilde, double *u);
 
     void (*free)(void *data); /* NULL: the term does not own its data */
 
+    bool diagonal;    /* quadratic, and each coordinate stands alone */
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
                          backward Euler; other methods refuse it by name */
@@ -128,5 +121,8 @@ struct Term {
  * (i = j) only xx xy yy. */
 enum { BLOCK_ENTRIES = 4, DIAGONAL_ENTRIES = 3 };
 void term_add_block(const System *system, int i, int j, Triplets *triplets);
+
+/* Triplets xx and yy of node i alone. */
+void term_add_diagonal(const System *system, int i, Triplets *triplets);
 
 #endif

@@ -40,13 +40,8 @@ Status cholesky_factor(Cholesky *cholesky);
  * solution within 1e-8 of b; only INDEFINITE looks). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* INDEFINITE: how many eigenvalues of A are negative (Sylvester's law of
- * inertia: as many as D has); else 0. */
-int cholesky_negative_pivots(const Cholesky *cholesky);
-
-/* Entries of the factor and bytes that CHOLMOD holds now / held at most. */
+/* Entries of the factor, and bytes that CHOLMOD held at most. */
 double cholesky_factor_entries(const Cholesky *cholesky);
-double cholesky_bytes(const Cholesky *cholesky);
 double cholesky_peak_bytes(const Cholesky *cholesky);
 
 #endif

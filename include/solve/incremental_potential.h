@@ -30,10 +30,6 @@ typedef struct Iterate {
     double *p; /* m, search direction; 0 for pinned nodes */
 } Iterate;
 
-/* The row of functions that stands for term t of the system in E. */
-const TermKind *incremental_potential_kind(const IncrementalPotential *E,
-                                           int t);
-
 /* E(x), J s^2.  u [2n] m, in: x - x_n; x [2n] m, in: x_n + u. */
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x);
@@ -70,10 +66,10 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
 void incremental_potential_product(const Iterate *at, Filter filter,
                                    const double *q, double *y);
 
-/* Where no term or one that knows its minimiser stands alone: u and x of the
- * minimum, without any matrix.  Writes over p.
+/* Where each coordinate stands alone in all terms, or there is none: u and x of
+ * the minimum, without any matrix.  Writes over g and p.
  *   status  out: OK or NOT_FINITE
- * Returns false, and does nothing, where there is no such form. */
+ * Returns false, and does nothing, where it is not so. */
 bool incremental_potential_solve(Iterate *at, Status *status);
 
 /* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
@@ -98,11 +94,9 @@ bool incremental_potential_is_limited(const IncrementalPotential *E);
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
-/* Whether `times` the masses outweigh all that bends down in the terms: then
- * the Hessian as it is, plus (times - 1) M, is positive definite without any
- * factorisation.
+/* A number c for which the Hessian of w P as it is, plus c M, is positive
+ * semi-definite: where c < 1, E is convex.
  *   sum  [n] out */
-bool incremental_potential_is_convex(const Iterate *at, double times,
-                                     double *sum);
+double incremental_potential_concave(const Iterate *at, double *sum);
 
 #endif

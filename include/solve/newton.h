@@ -12,7 +12,6 @@
 #include "solve/multigrid.h"
 #include "solve/search_direction.h"
 
-/* How the minimiser is found. */
 typedef enum Solver {
     SOLVER_NEWTON,    /* Algorithm 3: a new factor for each direction */
     SOLVER_MULTIGRID, /* its minimum without a factor, on square grids */
@@ -87,6 +86,8 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 typedef struct Rounding {
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
+    double concave;  /* 1/s^2, incremental_potential_concave for w = 1, wherever
+                        the nodes are */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
     bool held;       /* to what E really is */
     double start, energy; /* J s^2, E at the start and at the iterate */

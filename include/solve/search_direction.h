@@ -35,9 +35,8 @@ typedef struct SearchDirection {
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
 
-/* The factor is not to be used any more; one update has passed since it. */
+/* The factor is not to be used any more. */
 void search_direction_forget(SearchDirection *search);
-void search_direction_grow_old(SearchDirection *search);
 
 /* The next assembly makes the pattern and its analysis again. */
 void search_direction_rebuild(SearchDirection *search);
@@ -66,12 +65,11 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at);
 
 /* Looks for negative curvature: conjugate gradients on the Hessian at u, x as
  * it is, from random numbers, preconditioned with the last factor.  Without
- * any, they reduce those numbers and end.
- *   d      [2n] out, d.H d < 0 and d.g <= 0, where some was found
- *   found  out
+ * any, they reduce those numbers and end.  Writes over p.
+ *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   double *d, bool *found);
+                                   bool *found);
 
 /* How well at->p solves H p = -g for the Hessian of the last assembly, applied
  * term by term; search->r becomes -g - H p.

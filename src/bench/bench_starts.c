@@ -196,12 +196,13 @@ static bool judge_step(void *user, const NewtonRecord *record)
     const Iterate *at = &end->simulation->run[0].newton->at;
     int projected;
     end->energy = incremental_potential_value(&at->E, at->u, at->x);
-    end->status = search_direction_assemble(&end->search, at, FILTER_NONE,
-                                            false, &projected);
+    end->status = search_direction_assemble(&end->search, at, FILTER_NONE, true,
+                                            &projected);
     if (!end->status)
         end->status = cholesky_factor(end->search.cholesky);
-    end->saddle =
-        !end->status && cholesky_negative_pivots(end->search.cholesky) > 0;
+    end->saddle = end->status == STATUS_NOT_POSITIVE_DEFINITE;
+    if (end->saddle)
+        end->status = STATUS_OK;
     return true;
 }
 

@@ -150,16 +150,15 @@ static void multiply_pair(const double B[4], const double *q_r,
     y_c[1] += B[1] * q_r[0] + B[3] * q_r[1];
 }
 
-void cell_multiply(const double H[CELL_ENTRIES], const double *q_a,
-                   const double *q_b, const double *q_c, double *y_a,
-                   double *y_b, double *y_c)
+void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
+                   const double *q, double *y)
 {
-    multiply_own(H, q_a, y_a);
-    multiply_own(H + 3, q_b, y_b);
-    multiply_own(H + 6, q_c, y_c);
-    multiply_pair(H + 9, q_a, q_b, y_a, y_b);
-    multiply_pair(H + 13, q_a, q_c, y_a, y_c);
-    multiply_pair(H + 17, q_b, q_c, y_b, y_c);
+    const int pair[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    for (int k = 0; k < 3; k++) {
+        multiply_own(H + 3 * k, q + 2 * node[k], y + 2 * node[k]);
+        const int r = 2 * node[pair[k][0]], c = 2 * node[pair[k][1]];
+        multiply_pair(H + 9 + 4 * k, q + r, q + c, y + r, y + c);
+    }
 }
 
 void cell_along(const Corner *corner, const double P1[2], const double P2[2],
@@ -215,21 +214,6 @@ static bool next_squeezed(const Cells *cells, const Place *at, int *t,
     return false;
 }
 
-double cells_smallest(const Cells *cells, const System *system, const double *x,
-                      int *triangle)
-{
-    double smallest = INFINITY;
-    for (int t = 0; t < cells->triangles; t++) {
-        double J = corner_at(cells, x, t).J;
-        if (J >= smallest || !is_whole(cells, system, t))
-            continue;
-        smallest = J;
-        if (triangle)
-            *triangle = t;
-    }
-    return smallest;
-}
-
 static bool valid(const Term *term, const System *system)
 {
     const Cells *cells = term->data;
@@ -281,34 +265,23 @@ static void pattern(const Term *term, const System *system, Triplets *triplets)
 }
 
 static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, double *values)
+                   const int *slot, const double *q, double *out)
 {
     const Cells *cells = term->data;
     int projected = 0;
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
+        const int *node = cells->node + 3 * t;
         double H[CELL_ENTRIES];
         projected += cell_hessian(&corner, filter, H);
         for (int k = 0; k < CELL_ENTRIES; k++)
-            values[slot[CELL_ENTRIES * t + k]] += w * H[k];
+            H[k] *= w;
+        if (q)
+            cell_multiply(H, node, q, out);
+        for (int k = 0; k < CELL_ENTRIES && !q; k++)
+            out[slot[CELL_ENTRIES * t + k]] += H[k];
     }
     return projected;
-}
-
-static void product(const Term *term, const Place *at, double w, Filter filter,
-                    const double *q, double *y)
-{
-    const Cells *cells = term->data;
-    Corner corner;
-    for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
-        const int *node = cells->node + 3 * t;
-        double H[CELL_ENTRIES];
-        cell_hessian(&corner, filter, H);
-        for (int k = 0; k < CELL_ENTRIES; k++)
-            H[k] *= w;
-        cell_multiply(H, q + 2 * node[0], q + 2 * node[1], q + 2 * node[2],
-                      y + 2 * node[0], y + 2 * node[1], y + 2 * node[2]);
-    }
 }
 
 /* J1 and J2 of a triangle for the step p. */
@@ -381,18 +354,30 @@ static bool allowed(const Term *term, const Place *at)
 
 /* The curvature where the barrier begins, and the force there if it went on
  * without bending: both by g = K e with sides of the rest length. */
-static double stiffest(const Term *term, const System *system)
+static void bounds(const Term *term, const System *system, double *stiffest,
+                   double *force)
 {
     const Cells *cells = term->data;
+    double c = 2 * cells->c / CELL_J_HAT;
     (void)system;
-    return 2 * cells->c / (CELL_J_HAT * CELL_J_HAT) / cells->area;
+    *stiffest = fmax(*stiffest, c / CELL_J_HAT / cells->area);
+    *force = fmax(*force, c / sqrt(cells->area));
 }
 
-static double force(const Term *term, const System *system)
+/* Along e = (x_b - x_a, x_c - x_a) the lower eigenvalue is c1 q (edge_hessian),
+ * and |e|^2 <= 4 |x_a|^2 + 2 |x_b|^2 + 2 |x_c|^2. */
+static void concave(const Term *term, const Place *at, double w, double *sum)
 {
     const Cells *cells = term->data;
-    (void)system;
-    return 2 * cells->c / CELL_J_HAT / sqrt(cells->area);
+    Corner corner;
+    for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
+        const int *node = cells->node + 3 * t;
+        double down = -w * cells->c / CELL_J_HAT / cells->area *
+                      barrier_slope(corner.J / CELL_J_HAT);
+        sum[node[0]] += 2 * down;
+        sum[node[1]] += down;
+        sum[node[2]] += down;
+    }
 }
 
 static void free_cells(void *data)
@@ -412,13 +397,12 @@ const TermKind cell_energy = {
     .entries = entries,
     .pattern = pattern,
     .hessian = hessian,
-    .product = product,
     .along = along,
     .remainder = remainder_along,
     .reach = reach,
     .allowed = allowed,
-    .stiffest = stiffest,
-    .force = force,
+    .bounds = bounds,
+    .concave = concave,
     .free = free_cells,
     .internal = true,
     .end_of_step = true,

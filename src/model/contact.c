@@ -161,21 +161,6 @@ static bool next_touching(const Contact *contact, const Place *at,
     return false;
 }
 
-double contact_smallest_gap(const Contact *contact, const System *system,
-                            const double *x, ContactPair *pair)
-{
-    double smallest = INFINITY;
-    for (ContactPair next = {-1, 0}; next_pair(contact, system, &next);) {
-        double d = contact_pair_gap(contact, x, next.node, next.obstacle).d;
-        if (d >= smallest)
-            continue;
-        smallest = d;
-        if (pair)
-            *pair = next;
-    }
-    return smallest;
-}
-
 static bool valid(const Term *term, const System *system)
 {
     const Contact *contact = term->data;
@@ -252,33 +237,26 @@ void contact_pattern(const Contact *contact, const System *system,
     }
 }
 
-void contact_scatter(const Contact *contact, ContactPair pair, double w,
-                     const double H[3], const int *slot, double *values)
+void contact_add_block(const Contact *contact, ContactPair pair,
+                       const double H[3], const int *slot, const double *q,
+                       double *out)
 {
-    slot += (long long)entries_of_a_node(contact) * pair.node;
-    bool shared = contact->obstacle[pair.obstacle].node >= 0;
-    for (int t = 0; t < 3; t++) {
-        values[slot[t]] += w * H[t];
-        if (shared)
-            values[slot[3 + t]] += w * H[t];
+    int i = 2 * pair.node, ball = contact->obstacle[pair.obstacle].node;
+    if (q && ball >= 0) {
+        mass_spring_multiply(H, (int[2]){pair.node, ball}, q, out);
+    } else if (q) {
+        out[i] += H[0] * q[i] + H[1] * q[i + 1];
+        out[i + 1] += H[1] * q[i] + H[2] * q[i + 1];
+    } else {
+        slot += (long long)entries_of_a_node(contact) * pair.node;
+        for (int t = 0; t < 3; t++) {
+            out[slot[t]] += H[t];
+            if (ball >= 0)
+                out[slot[3 + t]] += H[t];
+        }
+        for (int t = 0; ball >= 0 && t < 4; t++)
+            out[slot[6 + t]] -= H[(t + 1) / 2];
     }
-    for (int t = 0; shared && t < 4; t++)
-        values[slot[6 + t]] -= w * H[(t + 1) / 2];
-}
-
-void contact_multiply(const Contact *contact, ContactPair pair, double w,
-                      const double H[3], const double *q, double *y)
-{
-    int ball = contact->obstacle[pair.obstacle].node;
-    const int e[2] = {pair.node, ball};
-    const double wH[3] = {w * H[0], w * H[1], w * H[2]};
-    if (ball >= 0) {
-        mass_spring_multiply(wH, e, q, y);
-        return;
-    }
-    const double *qi = q + 2 * pair.node;
-    y[2 * pair.node] += wH[0] * qi[0] + wH[1] * qi[1];
-    y[2 * pair.node + 1] += wH[1] * qi[0] + wH[2] * qi[1];
 }
 
 static long long entries(const Term *term, const System *system)
@@ -292,7 +270,7 @@ static void pattern(const Term *term, const System *system, Triplets *triplets)
 }
 
 static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, double *values)
+                   const int *slot, const double *q, double *out)
 {
     const Contact *contact = term->data;
     int projected = 0;
@@ -300,21 +278,11 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
     for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
         double H[3];
         projected += contact_hessian(&contact->barrier, &gap, filter, H);
-        contact_scatter(contact, pair, w, H, slot, values);
+        for (int t = 0; t < 3; t++)
+            H[t] *= w;
+        contact_add_block(contact, pair, H, slot, q, out);
     }
     return projected;
-}
-
-static void product(const Term *term, const Place *at, double w, Filter filter,
-                    const double *q, double *y)
-{
-    const Contact *contact = term->data;
-    Gap gap;
-    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
-        double H[3];
-        contact_hessian(&contact->barrier, &gap, filter, H);
-        contact_multiply(contact, pair, w, H, q, y);
-    }
 }
 
 /* P = scale times p of the node minus p of the free ball; returns |P|. */
@@ -383,19 +351,14 @@ static bool allowed(const Term *term, const Place *at)
 }
 
 /* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
-static double stiffest(const Term *term, const System *system)
+static void bounds(const Term *term, const System *system, double *stiffest,
+                   double *force)
 {
-    const Contact *contact = term->data;
+    const Barrier *barrier = &((const Contact *)term->data)->barrier;
     (void)system;
-    return 2 * contact->barrier.c /
-           (contact->barrier.d_hat * contact->barrier.d_hat);
-}
-
-static double force(const Term *term, const System *system)
-{
-    const Contact *contact = term->data;
-    (void)system;
-    return 2 * contact->barrier.c / contact->barrier.d_hat;
+    double half_way = 2 * barrier->c / barrier->d_hat;
+    *stiffest = fmax(*stiffest, half_way / barrier->d_hat);
+    *force = fmax(*force, half_way);
 }
 
 /* A ball's curvature bends down by force/r across the normal. */
@@ -427,13 +390,11 @@ const TermKind contact_energy = {
     .entries = entries,
     .pattern = pattern,
     .hessian = hessian,
-    .product = product,
     .along = along,
     .remainder = remainder_along,
     .reach = reach,
     .allowed = allowed,
-    .stiffest = stiffest,
-    .force = force,
+    .bounds = bounds,
     .concave = concave,
     .free = free_contact,
     .end_of_step = true,

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
+
 Fracture *fracture_of(const System *system)
 {
     Term *term = system_find_term(system, &fracture);
@@ -29,17 +31,6 @@ static double scatter_of(int s)
 double fracture_strength(const Fracture *fracture, int s)
 {
     return fracture->strength * (1 + fracture->scatter * scatter_of(s));
-}
-
-/* Strain over strength. */
-static double load_at(const Fracture *fracture, const System *system,
-                      const double *x, int s)
-{
-    const double *xi = x + 2 * system->e[2 * s];
-    const double *xj = x + 2 * system->e[2 * s + 1];
-    double dx = xi[0] - xj[0], dy = xi[1] - xj[1];
-    double strain = (dx * dx + dy * dy) / system->l2[s] - 1;
-    return strain / fracture_strength(fracture, s);
 }
 
 /* The most loaded candidates first, by a heap; equal loads by number. */
@@ -70,7 +61,8 @@ static int find_candidates(Fracture *fracture, const System *system,
     for (int s = 0; s < system->springs; s++) {
         if (spring_is_broken(system, s))
             continue;
-        fracture->load[s] = load_at(fracture, system, x, s);
+        double d[2], strain = spring_strain(system, x, s, d);
+        fracture->load[s] = strain / fracture_strength(fracture, s);
         if (fracture->load[s] > 1)
             fracture->candidate[count++] = s;
     }

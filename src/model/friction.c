@@ -174,43 +174,22 @@ static void pattern(const Term *term, const System *system, Triplets *triplets)
 }
 
 /* mu lambda f0'' t t^T, never negative */
-static void slide_hessian(const Friction *friction, const Slide *slide,
-                          double y, double H[3])
-{
-    const double *t = slide->t;
-    double bend = slide->weight * friction_curvature(y, friction->e);
-    H[0] = bend * t[0] * t[0];
-    H[1] = bend * t[0] * t[1];
-    H[2] = bend * t[1] * t[1];
-}
-
 static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, double *values)
+                   const int *slot, const double *q, double *out)
 {
     const Friction *friction = term->data;
     const Contact *contact = contact_of(at->system);
     (void)filter;
     for (int s = 0; s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
-        double H[3];
-        slide_hessian(friction, slide, way(contact, slide, at), H);
-        contact_scatter(contact, slide->pair, w, H, slot, values);
+        const double *t = slide->t;
+        double bend = w * slide->weight *
+                      friction_curvature(way(contact, slide, at), friction->e);
+        double H[3] = {bend * t[0] * t[0], bend * t[0] * t[1],
+                       bend * t[1] * t[1]};
+        contact_add_block(contact, slide->pair, H, slot, q, out);
     }
     return 0;
-}
-
-static void product(const Term *term, const Place *at, double w, Filter filter,
-                    const double *q, double *y)
-{
-    const Friction *friction = term->data;
-    const Contact *contact = contact_of(at->system);
-    (void)filter;
-    for (int s = 0; s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        double H[3];
-        slide_hessian(friction, slide, way(contact, slide, at), H);
-        contact_multiply(contact, slide->pair, w, H, q, y);
-    }
 }
 
 static double remainder_along(const Term *term, const Place *at,
@@ -228,14 +207,6 @@ static double remainder_along(const Term *term, const Place *at,
     return w * sum;
 }
 
-static void concave(const Term *term, const Place *at, double w, double *sum)
-{
-    (void)term; /* it bends up everywhere */
-    (void)at;
-    (void)w;
-    (void)sum;
-}
-
 static void free_friction(void *data)
 {
     Friction *friction = data;
@@ -251,11 +222,9 @@ const TermKind friction_energy = {
     .entries = entries,
     .pattern = pattern,
     .hessian = hessian,
-    .product = product,
     .remainder = remainder_along,
     .begin = begin,
     .end = end,
-    .concave = concave,
     .free = free_friction,
     .end_of_step = true,
 };

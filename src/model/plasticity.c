@@ -89,11 +89,7 @@ static SpringLaw law_of(const Plasticity *plasticity, int s)
 static double strain_at(const Plasticity *plasticity, const System *system,
                         const double *x, int s, double d[2])
 {
-    const double *xi = x + 2 * system->e[2 * s];
-    const double *xj = x + 2 * system->e[2 * s + 1];
-    d[0] = xi[0] - xj[0];
-    d[1] = xi[1] - xj[1];
-    return (d[0] * d[0] + d[1] * d[1]) / system->l2[s] - 1 - plasticity->ep[s];
+    return spring_strain(system, x, s, d) - plasticity->ep[s];
 }
 
 static bool valid(const Term *term, const System *system)
@@ -135,36 +131,19 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
     }
 }
 
-/* The filtered Hessian of spring s at x, weighted. */
-static bool hessian_at(const Plasticity *plasticity, const Place *at, double w,
-                       Filter filter, int s, double H[3])
-{
-    const System *system = at->system;
-    double d[2], e = strain_at(plasticity, system, at->x, s, d);
-    return spring_law_hessian(law_of(plasticity, s), d, system->l2[s],
-                              w * system->k[s], e, filter, H);
-}
-
 static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, double *values)
+                   const int *slot, const double *q, double *out)
 {
+    const Plasticity *plasticity = term->data;
+    const System *system = at->system;
     int projected = 0;
-    for (int s = 0; s < at->system->springs; s++) {
-        double H[3];
-        projected += hessian_at(term->data, at, w, filter, s, H);
-        mass_spring_scatter(H, s, slot, values);
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], e = strain_at(plasticity, system, at->x, s, d), H[3];
+        projected += spring_law_hessian(law_of(plasticity, s), d, system->l2[s],
+                                        w * system->k[s], e, filter, H);
+        mass_spring_add(H, system, s, slot, q, out);
     }
     return projected;
-}
-
-static void product(const Term *term, const Place *at, double w, Filter filter,
-                    const double *q, double *y)
-{
-    for (int s = 0; s < at->system->springs; s++) {
-        double H[3];
-        hessian_at(term->data, at, w, filter, s, H);
-        mass_spring_multiply(H, at->system->e + 2 * s, q, y);
-    }
 }
 
 /* With D = alpha B + alpha^2 C the remainder of k l2 V is
@@ -267,12 +246,10 @@ const TermKind plastic_energy = {
     .entries = mass_spring_entries,
     .pattern = mass_spring_pattern,
     .hessian = hessian,
-    .product = product,
     .along = along,
     .remainder = remainder_along,
     .end = end,
-    .stiffest = mass_spring_stiffest,
-    .force = mass_spring_force,
+    .bounds = mass_spring_bounds,
     .concave = concave,
     .free = free_plasticity,
     .internal = true,

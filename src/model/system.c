@@ -103,7 +103,7 @@ static bool spring_is_valid(const System *system, int s)
 /* At x, at rest since the start of a step. */
 static Place place_at(const System *system, const double *x)
 {
-    return (Place){system, x, NULL, x};
+    return (Place){system, x, NULL, x, false};
 }
 
 static bool term_is_valid(const System *system, const Term *term,
@@ -145,6 +145,14 @@ double system_gravity_potential(const System *system, const double *x)
     for (int i = 0; i < system->nodes; i++)
         sum -= system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
     return sum;
+}
+
+double system_energy_of(const System *system, const TermKind *kind,
+                        const double *x)
+{
+    const Term *term = system_find_term(system, kind);
+    Place at = place_at(system, x);
+    return term ? kind->value(term, &at) : 0;
 }
 
 double system_potential(const System *system, const double *x)
@@ -190,26 +198,13 @@ void system_acceleration(const System *system, const double *x, double *a)
     system_clear_pinned(system, a);
 }
 
-double system_stiffest(const System *system)
+void system_bounds(const System *system, double *stiffest, double *force)
 {
-    double stiffest = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const Term *term = &system->term[t];
-        if (term->kind->stiffest)
-            stiffest = fmax(stiffest, term->kind->stiffest(term, system));
-    }
-    return stiffest;
-}
-
-double system_force(const System *system)
-{
-    double force = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const Term *term = &system->term[t];
-        if (term->kind->force)
-            force = fmax(force, term->kind->force(term, system));
-    }
-    return force;
+    *stiffest = *force = 0;
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->bounds)
+            system->term[t].kind->bounds(&system->term[t], system, stiffest,
+                                         force);
 }
 
 void system_begin(System *system, const double *x_n, const double *v_n,
@@ -239,6 +234,13 @@ void term_add_block(const System *system, int i, int j, Triplets *triplets)
     if (r != c)
         triplets_add(triplets, 2 * r + 1, 2 * c);
     triplets_add(triplets, 2 * r + 1, 2 * c + 1);
+}
+
+void term_add_diagonal(const System *system, int i, Triplets *triplets)
+{
+    int place = system->order ? system->order[i] : i;
+    triplets_add(triplets, 2 * place, 2 * place);
+    triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }
 
 /* sum m_i |v_i|^2 / 2 */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "model/mass_spring_energy.h"
 #include "picture/colour_map.h"
 #include "picture/marks.h"
 
@@ -175,7 +176,7 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
             after[m] = filter == FILTER_ABS ? -before[m] : 0;
     Lines lines = {0};
     char number[48], rest[48];
-    spring_hessian(d, l2, k, H);
+    spring_hessian(d, l2, k, FILTER_NONE, H);
     plot_number(number, sizeof number, 100 * (sqrt(d2 / l2) - 1));
     plot_number(rest, sizeof rest, l2);
     snprintf(next_line(&lines), HOVER_TEXT, "spring %d\u2013%d", i, j);

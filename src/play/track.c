@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/hand_energy.h"
+#include "model/pull_energy.h"
 #include "scenes/scene.h"
 
 /* Options that may change from one step to the next. */
@@ -97,9 +97,9 @@ static bool make_room(Track *track)
  * is not there makes the past coarser; it is no failure. */
 static void keep_state(Track *track)
 {
-    size_t size = state_size(&track->simulation);
+    size_t size = track->keeps ? state_size(&track->simulation) : 0;
     long step = track_step_shown(track);
-    if (!track->keeps || size == 0)
+    if (size == 0)
         return;
     while (track->kept_count > 1 && track_bytes(track) + size > track->limit)
         thin_states(track);
@@ -246,7 +246,7 @@ static Status use_hands(Track *track)
         if (simulation_is_pinned(simulation, i) != pinned)
             status = simulation_pin(simulation, i, pinned);
     }
-    const HandEnergy *hand = hand_energy_of(&simulation->system);
+    const Pull *hand = hand_energy_of(&simulation->system);
     if (!settings->held) {
         simulation_release(simulation);
         return status;

@@ -1,6 +1,6 @@
 #include "scenes/circle_scene.h"
 
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 
 static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
 

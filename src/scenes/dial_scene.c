@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
+
 /* h from 1e-3 to 10 s, ten to a power of ten. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
@@ -45,7 +47,7 @@ static void dial_derivatives(const Simulation *simulation, double h,
         const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
         double l2 = system->l2[s], k = system->k[s], own[3];
         double strain = (d[0] * d[0] + d[1] * d[1] - l2) / l2;
-        spring_hessian_psd(d, l2, k, own);
+        spring_hessian(d, l2, k, FILTER_CLAMP, own);
         for (int i = 0; i < 2; i++)
             g[i] += w * 2 * k * strain * d[i];
         for (int i = 0; i < 3; i++)

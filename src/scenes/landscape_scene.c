@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
+
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
 static const double LANDSCAPE_MASS = 1;        /* kg */
@@ -206,7 +208,7 @@ static void node_hessian(const Simulation *simulation, Filter filter, double x,
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {x - pin[0], y - pin[1]};
         double own[3];
-        spring_hessian_filtered(d, system->l2[s], system->k[s], filter, own);
+        spring_hessian(d, system->l2[s], system->k[s], filter, own);
         for (int i = 0; i < 3; i++)
             H[i] += weight * own[i];
     }

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 
 void mass_defaults(Options *options)
 {

@@ -8,7 +8,7 @@
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/friction.h"
-#include "model/hand_energy.h"
+#include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
@@ -244,8 +244,9 @@ bool simulation_is_pinned(const Simulation *simulation, int node)
  * what it can do: it bends the square, and does not tear nodes out of it. */
 static double hand_stiffness(const Simulation *simulation, int node)
 {
-    double k = 0.25 * mass_spring_stiffest(NULL, &simulation->system);
-    return k > 0 ? k : 100 * simulation->system.m[node];
+    double k = 0, force = 0;
+    mass_spring_bounds(NULL, &simulation->system, &k, &force);
+    return k > 0 ? 0.25 * k : 100 * simulation->system.m[node];
 }
 
 /* work += sign P of the hand, in every run. */
@@ -253,15 +254,15 @@ static void book_hand(Simulation *simulation, double sign)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->work[r] +=
-            sign *
-            hand_energy_value(simulation->run[r].system, simulation->run[r].x);
+            sign * system_energy_of(simulation->run[r].system, &hand_energy,
+                                    simulation->run[r].x);
 }
 
 Status simulation_grab(Simulation *simulation, int node, double x, double y)
 {
     System *system = &simulation->system;
-    HandEnergy *hand = hand_energy_of(system);
-    HandEnergy wanted = {.node = node, .target = {x, y}};
+    Pull *hand = hand_energy_of(system);
+    Pull wanted = {.node = node, .target = {x, y}};
     if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
         return STATUS_INVALID_INPUT;
     bool other = !hand || hand->node != node;
@@ -324,15 +325,6 @@ Status simulation_change(Simulation *simulation, const Options *options)
     return status;
 }
 
-/* J, of one kind of term in positions x [2n] m; 0 where there is none. */
-static double energy_of(const System *system, const TermKind *kind,
-                        const double *x)
-{
-    const Term *term = system_find_term(system, kind);
-    Place at = {system, x, NULL, x};
-    return term ? kind->value(term, &at) : 0;
-}
-
 /* J, what one kind of term has taken out of the system. */
 static double lost_by(const System *system, const TermKind *kind)
 {
@@ -348,9 +340,9 @@ Energies simulation_energies(const Simulation *simulation, int run)
     Energies energies = {
         .kinetic = system_kinetic(system, integrator->v),
         .gravity = system_gravity_potential(system, x),
-        .hand = hand_energy_value(system, x),
-        .contact = energy_of(system, &contact_energy, x) +
-                   energy_of(system, &cell_energy, x),
+        .hand = system_energy_of(system, &hand_energy, x),
+        .contact = system_energy_of(system, &contact_energy, x) +
+                   system_energy_of(system, &cell_energy, x),
         .plastic = lost_by(system, &plastic_energy),
         .fracture = lost_by(system, &fracture),
         .friction = lost_by(system, &friction_energy),

@@ -4,7 +4,7 @@
 
 #include "model/contact.h"
 #include "model/fracture.h"
-#include "model/hand_energy.h"
+#include "model/pull_energy.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
 

@@ -239,28 +239,9 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
     return solve_refined(cholesky, x);
 }
 
-/* D stands on the diagonal of the simplicial factor, first in its column. */
-int cholesky_negative_pivots(const Cholesky *cholesky)
-{
-    const cholmod_factor *L = cholesky->L;
-    const int *start = L->p;
-    const double *value = L->x;
-    int count = 0;
-    if (cholesky->kind != CHOLESKY_INDEFINITE)
-        return 0;
-    for (size_t j = 0; j < L->n; j++)
-        count += value[start[j]] < 0;
-    return count;
-}
-
 double cholesky_factor_entries(const Cholesky *cholesky)
 {
     return cholesky->common.lnz;
-}
-
-double cholesky_bytes(const Cholesky *cholesky)
-{
-    return (double)cholesky->common.memory_inuse;
 }
 
 double cholesky_peak_bytes(const Cholesky *cholesky)

@@ -1,4 +1,4 @@
-#include "solve/direction.h"
+#include "solve/newton_parts.h"
 
 #include <math.h>
 
@@ -226,31 +226,39 @@ static Status direction_at(Newton *newton, bool *alone)
  * compressed to nothing. */
 static bool gradient_vanishes(const Newton *newton)
 {
-    const System *system = newton->system;
-    double largest = 0;
-    for (int i = 0; i < 2 * system->nodes; i++)
+    double largest = 0, stiffest, force;
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
         largest = fmax(largest, fabs(newton->at.g[i]));
-    return largest <= 1e-12 * newton->at.E.weight * system_force(system);
+    system_bounds(newton->system, &stiffest, &force);
+    return largest <= 1e-12 * newton->at.E.weight * force;
 }
 
-/* Where the gradient vanishes may be a maximum or a saddle, such as all nodes
- * in one point.  There the Hessian as it is, not projected, has a negative
- * eigenvalue: a pivot of L D L^T that is not positive. */
-static Status check_minimum(Newton *newton)
+/* Whether the Hessian as it is, with `times` M in place of M, is known to be
+ * positive definite without a factorisation.  Writes over r. */
+static bool is_convex(Newton *newton, double times)
 {
-    if (newton->settings.filter == FILTER_NONE || !gradient_vanishes(newton) ||
-        incremental_potential_is_convex(&newton->at, 1, newton->at.p))
-        return STATUS_OK;
+    return newton->at.E.weight * newton->rounding.concave < times ||
+           incremental_potential_concave(&newton->at, newton->r) < times;
+}
+
+/* The same by a Cholesky factor where the bounds do not tell.
+ * Returns OK, NOT_A_MINIMUM, or a failure. */
+static Status look_for_minimum(Newton *newton, double times)
+{
+    SearchDirection *search = &newton->search;
     int projected;
-    Status status = search_direction_assemble(&newton->search, &newton->at,
-                                              FILTER_NONE, false, &projected);
-    if (!status)
-        status = cholesky_factor(newton->search.cholesky);
-    newton->search.age = -1;
+    if (newton->settings.filter == FILTER_NONE || is_convex(newton, times))
+        return STATUS_OK;
+    Status status = search_direction_assemble(search, &newton->at, FILTER_NONE,
+                                              true, &projected);
+    if (status)
+        return status;
+    search_direction_add_masses(search, times - 1);
+    search->age = -1;
     newton->counters.factorisations++;
-    if (!status && cholesky_negative_pivots(newton->search.cholesky) > 0)
-        return STATUS_NOT_A_MINIMUM;
-    return status;
+    status = cholesky_factor(search->cholesky);
+    return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
+                                                  : status;
 }
 
 /* Saddles that one minimisation leaves, and how far: the first trial moves the
@@ -267,13 +275,12 @@ static Status leave_saddle(Newton *newton)
     double *p = newton->at.p, largest = 0, l2 = INFINITY;
     bool found = false;
     if (!newton->settings.minimum || newton->settings.filter == FILTER_NONE ||
-        newton->left == MAX_SADDLES ||
-        incremental_potential_is_convex(&newton->at, 1, p))
+        newton->left == MAX_SADDLES || is_convex(newton, 1))
         return STATUS_OK;
     Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
     if (!status)
-        status = search_direction_bends_down(&newton->search, &newton->at, p,
-                                             &found);
+        status =
+            search_direction_bends_down(&newton->search, &newton->at, &found);
     if (status || !found)
         return status;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -294,28 +301,6 @@ static Status leave_saddle(Newton *newton)
  * E, and it is not called one. */
 static const double MASSES_DOWN = 100;
 
-/* After the test was passed: a Cholesky factor of the Hessian as it is plus
- * MASSES_DOWN M tells, where no cheaper bound does. */
-static Status check_end(Newton *newton)
-{
-    SearchDirection *search = &newton->search;
-    int projected;
-    if (newton->settings.filter == FILTER_NONE ||
-        incremental_potential_is_convex(&newton->at, 1 + MASSES_DOWN,
-                                        newton->r))
-        return STATUS_OK;
-    Status status = search_direction_assemble(search, &newton->at, FILTER_NONE,
-                                              true, &projected);
-    if (status)
-        return status;
-    search_direction_add_masses(search, MASSES_DOWN);
-    search->age = -1;
-    newton->counters.factorisations++;
-    status = cholesky_factor(search->cholesky);
-    return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
-                                                  : status;
-}
-
 Status direction_first(Newton *newton)
 {
     SearchDirection *search = &newton->search;
@@ -324,8 +309,10 @@ Status direction_first(Newton *newton)
     search->updates = 0;
     Status status = direction_at(newton, &alone);
     newton->left = 0;
+    /* Where the gradient vanishes may be a maximum, too. */
     if (alone && !newton->settings.minimum)
-        return check_minimum(newton);
+        return gradient_vanishes(newton) ? look_for_minimum(newton, 1)
+                                         : STATUS_OK;
     return status ? status : leave_saddle(newton);
 }
 
@@ -339,7 +326,7 @@ Status direction_next(Newton *newton)
     if (status == STATUS_OK)
         status = leave_saddle(newton);
     if (status == STATUS_OK)
-        status = check_end(newton);
+        status = look_for_minimum(newton, 1 + MASSES_DOWN);
     if (status != STATUS_NOT_A_MINIMUM)
         return status;
     newton->search.bends_down = true; /* p leads on from here */

@@ -1,13 +1,10 @@
-#include "solve/hand_over.h"
+#include "solve/newton_parts.h"
 
 #include <math.h>
 #include <stddef.h>
 
 #include "base/clock.h"
 #include "model/mass_spring_energy.h"
-#include "solve/direction.h"
-#include "solve/newton_record.h"
-#include "solve/rounding.h"
 
 /* Iterations that multigrid gets; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };

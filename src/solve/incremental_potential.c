@@ -5,29 +5,33 @@
 
 #include "model/inertia_energy.h"
 
-const TermKind *incremental_potential_kind(const IncrementalPotential *E, int t)
+/* The next term with an energy, *term NULL at first, and the row of functions
+ * that stands for it in E; NULL at the end. */
+static const TermKind *next_term(const IncrementalPotential *E,
+                                 const Term **term)
 {
-    const TermKind *kind = E->system->term[t].kind;
-    return E->averaged && kind->value ? kind->averaged : kind;
+    const Term *end = E->system->term + E->system->terms;
+    for (*term = *term ? *term + 1 : E->system->term; *term < end; ++*term)
+        if ((*term)->kind->value)
+            return E->averaged ? (*term)->kind->averaged : (*term)->kind;
+    return NULL;
 }
 
 static Place place_of(const IncrementalPotential *E, const double *u,
                       const double *x)
 {
-    return (Place){E->system, E->x_n, u, x};
+    return (Place){E->system, E->x_n, u, x, E->averaged};
 }
 
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    const System *system = E->system;
     Place at = place_of(E, u, x);
+    const TermKind *kind;
     double sum = 0;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            sum +=
-                incremental_potential_kind(E, t)->value(&system->term[t], &at);
-    return inertia_energy_value(system->nodes, u, E->u_tilde, system->m) +
+    for (const Term *term = NULL; (kind = next_term(E, &term));)
+        sum += kind->value(term, &at);
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * sum;
 }
 
@@ -35,13 +39,14 @@ double incremental_potential_value(const IncrementalPotential *E,
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    const System *system = E->system;
-    Place at = place_of(E, u, x);
+    IncrementalPotential plain = *E;
+    plain.averaged = false;
+    Place at = place_of(&plain, u, x);
+    const TermKind *kind;
     double sum = 0;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            sum += fabs(system->term[t].kind->value(&system->term[t], &at));
-    return inertia_energy_value(system->nodes, u, E->u_tilde, system->m) +
+    for (const Term *term = NULL; (kind = next_term(&plain, &term));)
+        sum += fabs(kind->value(term, &at));
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * sum;
 }
 
@@ -50,35 +55,29 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 {
     const System *system = E->system;
     Place at = place_of(E, u, x);
+    const TermKind *kind;
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            incremental_potential_kind(E, t)->gradient(&system->term[t], &at,
-                                                       E->weight, g);
+    for (const Term *term = NULL; (kind = next_term(E, &term));)
+        kind->gradient(term, &at, E->weight, g);
     system_clear_pinned(system, g);
 }
 
 /* The masses on the diagonal, then the terms one after the other. */
 static Status create_triplets(const System *system, Triplets *triplets)
 {
+    IncrementalPotential E = {.system = system};
+    const TermKind *kind;
     long long count = 2LL * system->nodes;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            count += system->term[t].kind->entries(&system->term[t], system);
+    for (const Term *term = NULL; (kind = next_term(&E, &term));)
+        count += kind->entries(term, system);
     Status status = triplets_create(2 * system->nodes, count, triplets);
-    if (status)
-        return status;
-    for (int i = 0; i < system->nodes; i++) {
-        int place = system->order ? system->order[i] : i;
-        triplets_add(triplets, 2 * place, 2 * place);
-        triplets_add(triplets, 2 * place + 1, 2 * place + 1);
-    }
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            system->term[t].kind->pattern(&system->term[t], system, triplets);
-    return STATUS_OK;
+    for (int i = 0; i < system->nodes && !status; i++)
+        term_add_diagonal(system, i, triplets);
+    for (const Term *term = NULL; !status && (kind = next_term(&E, &term));)
+        kind->pattern(term, system, triplets);
+    return status;
 }
 
 /* Slots of the terms' entries in rows or columns of pinned nodes. */
@@ -123,17 +122,14 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
+    const TermKind *kind;
     int projected = 0;
     sparse_clear(A);
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
     slot += 2 * system->nodes;
-    for (int t = 0; t < system->terms; t++) {
-        const Term *term = &system->term[t];
-        const TermKind *kind = incremental_potential_kind(E, t);
-        if (!kind->value)
-            continue;
-        projected +=
-            kind->hessian(term, &place, E->weight, filter, slot, A->value);
+    for (const Term *term = NULL; (kind = next_term(E, &term));) {
+        projected += kind->hessian(term, &place, E->weight, filter, slot, NULL,
+                                   A->value);
         slot += kind->entries(term, system);
     }
     return projected;
@@ -145,12 +141,11 @@ void incremental_potential_product(const Iterate *at, Filter filter,
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
+    const TermKind *kind;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            incremental_potential_kind(E, t)->product(&system->term[t], &place,
-                                                      E->weight, filter, q, y);
+    for (const Term *term = NULL; (kind = next_term(E, &term));)
+        kind->hessian(term, &place, E->weight, filter, NULL, q, y);
     system_clear_pinned(system, y);
 }
 
@@ -160,17 +155,16 @@ Along incremental_potential_along(const Iterate *at, double reach)
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
+    const TermKind *kind;
     Along along = {.at = at};
     double *q = along.smooth.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += at->g[i] * at->p[i];
         q[1] += 0.5 * system->m[i / 2] * at->p[i] * at->p[i];
     }
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(E, t);
+    for (const Term *term = NULL; (kind = next_term(E, &term));) {
         if (kind->along)
-            kind->along(&system->term[t], &place, at->p, E->weight, reach,
-                        q + 1);
+            kind->along(term, &place, at->p, E->weight, reach, q + 1);
         along.rough += kind->remainder != NULL;
     }
     return along;
@@ -184,32 +178,29 @@ double along_difference(const void *function, double alpha)
         return sum;
     const Iterate *at = along->at;
     Place place = place_of(&at->E, at->u, at->x);
-    for (int t = 0; t < at->E.system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(&at->E, t);
+    const TermKind *kind;
+    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
         if (kind->remainder)
-            sum += kind->remainder(&at->E.system->term[t], &place, at->p,
-                                   at->E.weight, alpha);
-    }
+            sum += kind->remainder(term, &place, at->p, at->E.weight, alpha);
     return sum;
 }
 
 double incremental_potential_reach(const Iterate *at)
 {
     Place place = place_of(&at->E, at->u, at->x);
+    const TermKind *kind;
     double reach = 1;
-    for (int t = 0; t < at->E.system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(&at->E, t);
+    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
         if (kind->reach)
-            reach =
-                fmin(reach, kind->reach(&at->E.system->term[t], &place, at->p));
-    }
+            reach = fmin(reach, kind->reach(term, &place, at->p));
     return reach;
 }
 
 bool incremental_potential_is_limited(const IncrementalPotential *E)
 {
-    for (int t = 0; t < E->system->terms; t++)
-        if (incremental_potential_kind(E, t)->allowed)
+    const TermKind *kind;
+    for (const Term *term = NULL; (kind = next_term(E, &term));)
+        if (kind->allowed)
             return true;
     return false;
 }
@@ -218,56 +209,49 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
     Place at = place_of(E, u, x);
-    for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(E, t);
-        if (kind->allowed && !kind->allowed(&E->system->term[t], &at))
+    const TermKind *kind;
+    for (const Term *term = NULL; (kind = next_term(E, &term));)
+        if (kind->allowed && !kind->allowed(term, &at))
             return false;
-    }
     return true;
 }
 
-bool incremental_potential_is_convex(const Iterate *at, double times,
-                                     double *sum)
+double incremental_potential_concave(const Iterate *at, double *sum)
 {
     const System *system = at->E.system;
     Place place = place_of(&at->E, at->u, at->x);
+    const TermKind *kind;
+    double largest = 0;
     for (int i = 0; i < system->nodes; i++)
         sum[i] = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(&at->E, t);
-        if (!kind->value)
-            continue;
-        if (!kind->concave)
-            return false;
-        kind->concave(&system->term[t], &place, at->E.weight, sum);
-    }
+    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
+        if (kind->concave)
+            kind->concave(term, &place, at->E.weight, sum);
     for (int i = 0; i < system->nodes; i++)
-        if (!(sum[i] < times * system->m[i]))
-            return false;
-    return true;
+        if (!(sum[i] / system->m[i] <= largest))
+            largest = sum[i] / system->m[i];
+    return largest;
 }
 
+/* From u_tilde each coordinate alone has its Newton step g/H, and H g tells H:
+ * it is exact where E is quadratic. */
 bool incremental_potential_solve(Iterate *at, Status *status)
 {
     const System *system = at->E.system;
-    Place place = place_of(&at->E, at->u, at->x);
+    const TermKind *kind;
     double sum = 0;
-    if (system->terms > 1 ||
-        (system->terms == 1 &&
-         !incremental_potential_kind(&at->E, 0)->closed_form))
-        return false;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        at->p[i] = at->E.u_tilde[i];
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = incremental_potential_kind(&at->E, t);
-        if (!kind->closed_form)
+    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
+        if (!kind->diagonal)
             return false;
-        kind->closed_form(&system->term[t], &place, at->E.weight, at->E.u_tilde,
-                          at->p);
-    }
     for (int i = 0; i < 2 * system->nodes; i++) {
         if (!system->pinned || !system->pinned[i / 2])
-            at->u[i] = at->p[i];
+            at->u[i] = at->E.u_tilde[i];
+        at->x[i] = at->E.x_n[i] + at->u[i];
+    }
+    incremental_potential_gradient(&at->E, at->u, at->x, at->g);
+    incremental_potential_product(at, FILTER_NONE, at->g, at->p);
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        at->u[i] -= at->g[i] == 0 ? 0 : at->g[i] * (at->g[i] / at->p[i]);
         at->x[i] = at->E.x_n[i] + at->u[i];
         sum += 0 * at->x[i];
     }

@@ -1,15 +1,10 @@
-#include "solve/newton.h"
+#include "solve/newton_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
-#include "solve/direction.h"
-#include "solve/hand_over.h"
-#include "solve/newton_record.h"
-#include "solve/rounding.h"
-#include "solve/step_length.h"
 
 /* Algorithm 3 of the slides:
  *
@@ -26,11 +21,14 @@ Status newton_start_from(Newton *newton, const double *x_n, const double *u,
 {
     Iterate *at = &newton->at;
     int size = 2 * newton->system->nodes;
+    size_t bytes = (size_t)size * sizeof *x_n;
     at->E = (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde,
                                    newton->settings.averaged};
-    for (int i = 0; i < size; i++) {
-        at->u[i] = u ? u[i] : 0;
-        at->x[i] = u ? x_n[i] + u[i] : x_n[i];
+    memset(at->u, 0, bytes);
+    memcpy(at->x, x_n, bytes);
+    for (int i = 0; u && i < size; i++) {
+        at->u[i] = u[i];
+        at->x[i] = x_n[i] + u[i];
     }
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
@@ -54,7 +52,7 @@ static Status newton_update(Newton *newton)
         sum += 0 * (at->E.x_n[i] + (at->u[i] + alpha * at->p[i]));
     if (!(sum == 0))
         return STATUS_NOT_FINITE;
-    if (!rounding_allows(newton, at->p, alpha, newton->r)) {
+    if (!rounding_allows(newton, alpha)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
@@ -63,7 +61,8 @@ static Status newton_update(Newton *newton)
         at->x[i] = at->E.x_n[i] + at->u[i];
     }
     newton->counters.iterations++;
-    search_direction_grow_old(&newton->search);
+    if (newton->search.age >= 0)
+        newton->search.age++;
     return STATUS_OK;
 }
 
@@ -181,7 +180,6 @@ Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton)
 {
     *newton = (Newton){.settings = *settings, .system = system};
-    newton_forget(newton);
     size_t size = 2 * (size_t)system->nodes;
     double **vectors[] = {&newton->at.u, &newton->at.x, &newton->u_tilde,
                           &newton->at.g, &newton->at.p, &newton->r};
@@ -190,7 +188,10 @@ Status newton_create(const System *system, const NewtonSettings *settings,
         if (!*vectors[i])
             return STATUS_OUT_OF_MEMORY;
     }
-    return search_direction_create(system, &newton->search);
+    Status status = search_direction_create(system, &newton->search);
+    if (!status)
+        newton_forget(newton);
+    return status;
 }
 
 void newton_free(Newton *newton)
@@ -210,7 +211,7 @@ void newton_free(Newton *newton)
 
 void newton_forget(Newton *newton)
 {
-    rounding_bounds(newton->system, &newton->rounding);
+    rounding_bounds(newton);
     search_direction_forget(&newton->search);
     multigrid_forget(newton->multigrid);
 }
@@ -219,4 +220,35 @@ void newton_rebuild(Newton *newton)
 {
     newton_forget(newton);
     search_direction_rebuild(&newton->search);
+}
+
+Status newton_tell(Newton *newton, const NewtonRecord *record)
+{
+    const NewtonSettings *settings = &newton->settings;
+    if (settings->observer && !settings->observer(settings->user, record))
+        return STATUS_INTERRUPTED;
+    return record->status;
+}
+
+void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
+{
+    sum->minimisations += counters->minimisations;
+    sum->iterations += counters->iterations;
+    sum->gradients += counters->gradients;
+    sum->factorisations += counters->factorisations;
+    sum->solves += counters->solves;
+    sum->projected += counters->projected;
+    sum->trials += counters->trials;
+    sum->shifted += counters->shifted;
+    sum->skipped += counters->skipped;
+    sum->certified += counters->certified;
+    sum->cycles += counters->cycles;
+    sum->local += counters->local;
+    sum->saddles += counters->saddles;
+    sum->taken_back += counters->taken_back;
+    sum->seconds_assembly += counters->seconds_assembly;
+    sum->seconds_factor += counters->seconds_factor;
+    sum->seconds_solve += counters->seconds_solve;
+    sum->seconds_search += counters->seconds_search;
+    sum->seconds_multigrid += counters->seconds_multigrid;
 }

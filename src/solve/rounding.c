@@ -1,7 +1,8 @@
-#include "solve/rounding.h"
+#include "solve/newton_parts.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* After this many iterations without a smaller residual, rounding may be all
  * that is left. */
@@ -14,12 +15,24 @@ static const double BLURRED_MASSES = 1e10, HIDDEN_MASSES = 1e16;
 /* E may seem to rise by this part of its size. */
 static const double MARGIN = 1e-12;
 
-void rounding_bounds(const System *system, Rounding *rounding)
+/* A spring bends down most where its ends meet: so in a system of internal
+ * forces alone with all nodes in one point. */
+void rounding_bounds(Newton *newton)
 {
+    const System *system = newton->system;
+    Rounding *rounding = &newton->rounding;
+    double *zero = newton->search.b, force;
     rounding->lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         rounding->lightest = fmin(rounding->lightest, system->m[i]);
-    rounding->stiffest = system_stiffest(system);
+    system_bounds(system, &rounding->stiffest, &force);
+    memset(zero, 0, 2 * (size_t)system->nodes * sizeof *zero);
+    Iterate point = {.E = {system, 1, zero, zero, newton->settings.averaged},
+                     .u = zero,
+                     .x = zero};
+    rounding->concave = system_is_free(system)
+                            ? incremental_potential_concave(&point, newton->r)
+                            : INFINITY;
 }
 
 void rounding_start(Newton *newton)
@@ -47,18 +60,17 @@ bool rounding_hides(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-bool rounding_allows(Newton *newton, const double *way, double alpha,
-                     double *spare)
+bool rounding_allows(Newton *newton, double alpha)
 {
     const Iterate *at = &newton->at;
     Rounding *rounding = &newton->rounding;
     if (!rounding->held || newton->settings.search == LINE_SEARCH_NONE)
         return true;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
-        at->g[i] = at->u[i] + alpha * way[i];
-        spare[i] = at->E.x_n[i] + at->g[i];
+        at->g[i] = at->u[i] + alpha * at->p[i];
+        newton->r[i] = at->E.x_n[i] + at->g[i];
     }
-    double energy = incremental_potential_value(&at->E, at->g, spare);
+    double energy = incremental_potential_value(&at->E, at->g, newton->r);
     if (!(energy <= rounding->energy + rounding->margin))
         return false;
     rounding->energy = energy;

@@ -9,6 +9,10 @@
 enum { CURVATURE_MAX_ITERATIONS = 30 };
 static const double NO_CURVATURE = 1e-3;
 
+/* Conjugate gradients reduce the squared remainder to this part of the first.
+ */
+static const double ALL_DIGITS = 1e-28;
+
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
 
@@ -25,8 +29,7 @@ Status search_direction_create(const System *system, SearchDirection *search)
     return search->b ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
-/* The matrix, its slots and its factor. */
-static void free_matrix(SearchDirection *search)
+void search_direction_rebuild(SearchDirection *search)
 {
     cholesky_free(search->cholesky);
     search->cholesky = NULL;
@@ -39,7 +42,7 @@ void search_direction_free(SearchDirection *search)
 {
     if (!search)
         return;
-    free_matrix(search);
+    search_direction_rebuild(search);
     free(search->b);
     free(search->r);
     *search = (SearchDirection){0};
@@ -52,17 +55,6 @@ void search_direction_forget(SearchDirection *search)
     search->clamps = 0;
 }
 
-void search_direction_grow_old(SearchDirection *search)
-{
-    if (search->age >= 0)
-        search->age++;
-}
-
-void search_direction_rebuild(SearchDirection *search)
-{
-    free_matrix(search);
-}
-
 /* Pattern and symbolic analysis: once, and again only when another kind of
  * factor is wanted. */
 static Status analyse(SearchDirection *search, bool definite)
@@ -70,7 +62,7 @@ static Status analyse(SearchDirection *search, bool definite)
     CholeskyKind kind = definite ? CHOLESKY_DEFINITE : CHOLESKY_INDEFINITE;
     if (search->cholesky && search->kind == kind)
         return STATUS_OK;
-    free_matrix(search);
+    search_direction_rebuild(search);
     search->kind = kind;
     Status status = incremental_potential_pattern(
         search->system, cholesky_triangle(kind), &search->A, &search->slot);
@@ -78,7 +70,7 @@ static Status analyse(SearchDirection *search, bool definite)
         status = cholesky_create(
             &search->A, kind, search->system->order != NULL, &search->cholesky);
     if (status)
-        free_matrix(search);
+        search_direction_rebuild(search);
     return status;
 }
 
@@ -183,8 +175,9 @@ static Status create_workspaces(SearchDirection *search)
 typedef struct ConjugateGradients {
     const Iterate *at;
     Filter filter;
-    double rz; /* r.z, squared size of the residual; the first is kept */
-    double first;
+    double enough;    /* part of the first r.z at which they end */
+    double rz, first; /* r.z, squared size of the residual, and the first */
+    double curvature; /* d.H d of the last direction */
 } ConjugateGradients;
 
 /* p = 0, r = -g */
@@ -197,7 +190,7 @@ static void conjugate_start(SearchDirection *search, const Iterate *at)
 }
 
 /* One step along the next direction, z being known.  Returns false where there
- * is nothing left to gain. */
+ * is nothing left to gain, or E bends down along d. */
 static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
 {
     int n = 2 * search->system->nodes;
@@ -205,15 +198,17 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
     double *p = state->at->p;
     double last = state->rz;
     state->rz = dot(n, r, z);
+    state->curvature = 0;
     if (last == 0)
         state->first = state->rz;
-    if (!(state->rz > 1e-28 * state->first))
+    if (!(state->rz > state->enough * state->first))
         return false;
     for (int i = 0; i < n; i++)
-        d[i] = z[i] + (last == 0 ? 0 : state->rz / last) * d[i];
+        d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
     incremental_potential_product(state->at, state->filter, d, q);
-    double curvature = dot(n, d, q), alpha = state->rz / curvature;
-    if (!(curvature > 0) || !(alpha > 0) || !isfinite(alpha))
+    state->curvature = dot(n, d, q);
+    double alpha = state->rz / state->curvature;
+    if (!(state->curvature > 0) || !(alpha > 0) || !isfinite(alpha))
         return false; /* rounding has eaten it */
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
@@ -225,7 +220,7 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
 /* With the factor of H + shift I. */
 static Status solve_shifted(SearchDirection *search, const Iterate *at)
 {
-    ConjugateGradients state = {at, search->filter, 0, 0};
+    ConjugateGradients state = {at, search->filter, .enough = ALL_DIGITS};
     conjugate_start(search, at);
     for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
         Status status = apply_factor(search, search->r, search->z);
@@ -259,7 +254,7 @@ Status search_direction_refine(SearchDirection *search, const Iterate *at,
                                Filter filter, GoodEnough enough,
                                const void *user, double *error, int *solves)
 {
-    ConjugateGradients state = {at, filter, 0, 0};
+    ConjugateGradients state = {at, filter, .enough = ALL_DIGITS};
     *solves = 0;
     Status status = create_workspaces(search);
     if (status)
@@ -304,40 +299,28 @@ static void random_numbers(const System *system, double *r)
 }
 
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   double *d, bool *found)
+                                   bool *found)
 {
     int n = 2 * search->system->nodes;
-    double last = 0, first = 0;
+    double *d = search->d;
+    ConjugateGradients state = {
+        .at = at, .filter = FILTER_NONE, .enough = NO_CURVATURE * NO_CURVATURE};
     *found = false;
     Status status = create_workspaces(search);
     if (status)
         return status;
-    double *r = search->r, *z = search->z, *q = search->q;
-    random_numbers(search->system, r);
+    random_numbers(search->system, search->r);
     for (int k = 0; k < CURVATURE_MAX_ITERATIONS; k++) {
-        status = apply_factor(search, r, z);
+        status = apply_factor(search, search->r, search->z);
         if (status)
             return status;
-        double rz = dot(n, r, z);
-        first = k == 0 ? rz : first;
-        if (!(rz > NO_CURVATURE * NO_CURVATURE * first))
-            return STATUS_OK;
-        for (int i = 0; i < n; i++)
-            d[i] = z[i] + (k == 0 ? 0 : rz / last * d[i]);
-        incremental_potential_product(at, FILTER_NONE, d, q);
-        double bend = dot(n, d, q);
-        if (bend < 0) {
-            *found = true;
-            double sign = dot(n, d, at->g) > 0 ? -1 : 1;
-            for (int i = 0; i < n; i++)
-                d[i] *= sign;
-            return STATUS_OK;
-        }
-        if (!(bend > 0))
-            return STATUS_OK;
-        for (int i = 0; i < n; i++)
-            r[i] -= rz / bend * q[i];
-        last = rz;
+        if (conjugate_step(search, &state))
+            continue;
+        *found = state.curvature < 0;
+        break;
     }
+    double sign = dot(n, d, at->g) > 0 ? -1 : 1;
+    for (int i = 0; i < n && *found; i++)
+        at->p[i] = sign * d[i];
     return STATUS_OK;
 }

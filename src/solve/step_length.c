@@ -1,9 +1,8 @@
-#include "solve/step_length.h"
+#include "solve/newton_parts.h"
 
 #include <math.h>
 
 #include "base/clock.h"
-#include "solve/rounding.h"
 
 /* Whether the terms allow u + alpha p; rounding may say no where the reach of
  * p said yes.  Writes over r. */

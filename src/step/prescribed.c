@@ -134,7 +134,7 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
 {
     const System *system = integrator->system;
     const Newton *newton = integrator->newton;
-    Place at = {system, newton->at.E.x_n, newton->at.u, newton->at.x};
+    Place at = {system, newton->at.E.x_n, newton->at.u, newton->at.x, false};
     double sum = 0;
     if (!system->pin_v || !system->pinned)
         return 0;

@@ -26,7 +26,7 @@ killers_for() { # file
     done
     case $1 in
     */model/*psd.[ch] | */model/*_energy.[ch])
-        own="$own psd derivatives averaged body" ;;
+        own="$own psd derivatives averaged body hand" ;;
     */model/*) own="$own derivatives body barrier mesh" ;;
     */solve/hand_over.c) own="$own solvers" ;;
     */solve/grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)

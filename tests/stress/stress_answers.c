@@ -1,5 +1,5 @@
 /* Named cases whose answer is known beforehand. */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "stress_cases.h"
 
 #include <float.h>

@@ -32,13 +32,8 @@ static bool look(void *user, const NewtonRecord *record)
         if (!run->newton || run->newton->counters.minimisations == 0)
             continue;
         const double *x = run->newton->at.x;
-        const Contact *contact = contact_of(run->system);
-        const Term *cells = system_find_term(run->system, &cell_energy);
-        double gap = contact
-                         ? contact_smallest_gap(contact, run->system, x, NULL)
-                         : INFINITY;
-        double J = cells ? cells_smallest(cells->data, run->system, x, NULL)
-                         : INFINITY;
+        double gap = smallest_gap(run->system, x);
+        double J = smallest_cell(run->system, x);
         for (int i = 0; i < 2 * run->system->nodes; i++)
             narrow->finite = narrow->finite && isfinite(x[i]);
         narrow->gap = fmin(narrow->gap, gap);

@@ -2,7 +2,7 @@
  * sums over springs, averages along the step by Gauss's two points, which are
  * exact for the polynomials that occur, and a dense L D L^T.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "stress.h"
 
 #include <float.h>
@@ -38,10 +38,9 @@ static long double potential_on_way(const IncrementalPotential *E,
         sum += system->k[s] / (2 * (long double)system->l2[s]) * change *
                (2 * more + change);
     }
-    for (int i = 0; i < 2 * system->nodes && central_field_omega2(system) > 0;
-         i++)
-        sum += 0.5L * central_field_omega2(system) * system->m[i / 2] * t *
-               u[i] * (2 * (long double)E->x_n[i] + t * u[i]);
+    for (int i = 0; i < 2 * system->nodes && central_omega2(system) > 0; i++)
+        sum += 0.5L * central_omega2(system) * system->m[i / 2] * t * u[i] *
+               (2 * (long double)E->x_n[i] + t * u[i]);
     return sum;
 }
 
@@ -70,10 +69,8 @@ long double wide_potential(const System *system, const double *x)
         long double more = dx * dx + dy * dy - system->l2[s];
         sum += system->k[s] / (2 * (long double)system->l2[s]) * more * more;
     }
-    for (int i = 0; i < 2 * system->nodes && central_field_omega2(system) > 0;
-         i++)
-        sum += 0.5L * central_field_omega2(system) * system->m[i / 2] * x[i] *
-               x[i];
+    for (int i = 0; i < 2 * system->nodes && central_omega2(system) > 0; i++)
+        sum += 0.5L * central_omega2(system) * system->m[i / 2] * x[i] * x[i];
     return sum;
 }
 
@@ -156,7 +153,7 @@ void wide_derivatives(const IncrementalPotential *E, const double *u,
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
-    Wide w = E->weight * (Wide)central_field_omega2(system);
+    Wide w = E->weight * (Wide)central_omega2(system);
     Wide way = E->averaged ? (Wide)0.5 : (Wide)1;
     for (int i = 0; i < n * n && H; i++)
         H[i] = 0;
@@ -229,7 +226,7 @@ void rounding_of_gradient(const IncrementalPotential *E, const double *u,
         long double x = fabsl(E->x_n[i]) + fabsl(u[i]);
         noise[i] = DBL_EPSILON * system->m[i / 2] *
                    (fabsl(u[i]) + fabsl(E->u_tilde[i]) +
-                    E->weight * central_field_omega2(system) * x);
+                    E->weight * central_omega2(system) * x);
     }
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];

@@ -1,5 +1,5 @@
 /* Random scenes, and how one that fails is made smaller. */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "stress.h"
 
 #include <math.h>

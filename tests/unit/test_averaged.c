@@ -2,7 +2,7 @@
  * points, which is exact for its cubic integrands; and both energies as
  * polynomials along a line and in a plane.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <stdlib.h>

@@ -237,15 +237,9 @@ typedef struct Watch {
 
 static void look(Watch *watch, const TimeIntegrator *run)
 {
-    const Contact *contact = contact_of(run->system);
-    const Term *cells = system_find_term(run->system, &cell_energy);
     const double *x = run->newton->at.x;
-    if (contact)
-        watch->gap = fmin(watch->gap,
-                          contact_smallest_gap(contact, run->system, x, NULL));
-    if (cells)
-        watch->J =
-            fmin(watch->J, cells_smallest(cells->data, run->system, x, NULL));
+    watch->gap = fmin(watch->gap, smallest_gap(run->system, x));
+    watch->J = fmin(watch->J, smallest_cell(run->system, x));
     watch->iterates++;
 }
 
@@ -295,7 +289,7 @@ static void nothing_penetrates_or_turns_over(void **unused)
 /* grad P at x, all terms but friction, pins not left out. */
 static void potential_gradient(const System *system, const double *x, double *g)
 {
-    Place at = {system, x, NULL, x};
+    Place at = {system, x, NULL, x, false};
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value &&
@@ -675,8 +669,7 @@ static void a_fast_ceiling_comes_in_parts(void **unused)
     CHECK_NEAR(run->moved, 1, 1e-15);
     CHECK_STATUS(simulation_step(&simulation), STATUS_BLOCKED);
     CHECK(ceiling->o[1] > -0.51 && run->moved < 1);
-    const Contact *contact = contact_of(run->system);
-    CHECK(contact_smallest_gap(contact, run->system, run->x, NULL) > 0);
+    CHECK(smallest_gap(run->system, run->x) > 0);
     simulation_free(&simulation);
 }
 

@@ -1,7 +1,7 @@
 /* Gradient against value and Hessian against gradient, for each energy and
  * for their sum; and the checker itself against kernels that are wrong.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <stdlib.h>
@@ -51,14 +51,13 @@ typedef struct Kernel {
 static double energy_value(const Energy *energy, const double *x)
 {
     const System *system = &energy->system;
+    Place at = {system, energy->x_n, x, x, false};
     double value = 0;
     if (energy->part == TERM_INERTIA)
         value =
             inertia_energy_value(system->nodes, x, energy->x_tilde, system->m);
     else if (energy->part == TERM_SPRINGS)
-        value = energy->E.weight *
-                mass_spring_energy_value(system->springs, x, system->e,
-                                         system->l2, system->k);
+        value = energy->E.weight * mass_spring_energy.value(NULL, &at);
     else if (energy->part == TERM_CENTRAL)
         value = energy->E.weight * system_potential(system, x);
     else
@@ -75,15 +74,14 @@ static void energy_gradient(const Energy *energy, const double *x, double *g)
     IncrementalPotential E = energy->E;
     E.system = &fewer;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
-    Place at = {system, energy->x_n, x, x};
+    Place at = {&fewer, energy->x_n, x, x, false};
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     if (energy->part == TERM_INERTIA)
         inertia_energy_gradient(system->nodes, x, energy->x_tilde, system->m,
                                 g);
     else if (energy->part == TERM_SPRINGS)
-        mass_spring_energy_gradient(fewer.springs, x, system->e, system->l2,
-                                    system->k, E.weight, g);
+        mass_spring_energy.gradient(NULL, &at, E.weight, g);
     else if (energy->part == TERM_CENTRAL)
         central_field.gradient(system_find_term(system, &central_field), &at,
                                E.weight, g);
@@ -129,13 +127,13 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
     Sparse A;
     int *slot;
     Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
+    Place place = {&fewer, energy->x_n, x, x, false};
     CHECK_STATUS(
         incremental_potential_pattern(&fewer, TRIANGLE_UPPER, &A, &slot),
         STATUS_OK);
     if (energy->part == TERM_SPRINGS)
-        mass_spring_energy_hessian(fewer.springs, x, fewer.e, fewer.l2, fewer.k,
-                                   E.weight, FILTER_NONE,
-                                   slot + 2 * fewer.nodes, A.value);
+        mass_spring_energy.hessian(NULL, &place, E.weight, FILTER_NONE,
+                                   slot + 2 * fewer.nodes, NULL, A.value);
     else if (energy->part == TERM_INERTIA)
         inertia_energy_hessian(fewer.nodes, fewer.m, slot, A.value);
     else

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
 #include "scenes/dial_scene.h"
 #include "scenes/envelope_scene.h"
 #include "scenes/mass_scene.h"
@@ -372,7 +373,7 @@ static void spring_eigenvalues_are_those_of_the_block(void **unused)
         double H[3], a[16];
         SpringFacts facts;
         spring_facts(d, 1, 100, &facts);
-        spring_hessian(d, 1, 100, H);
+        spring_hessian(d, 1, 100, FILTER_NONE, H);
         for (int i = 0; i < 16; i++) {
             int row = i / 4, column = i % 4;
             double sign = row / 2 == column / 2 ? 1 : -1;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/hand_energy.h"
+#include "model/pull_energy.h"
 #include "play/track.h"
 
 static void begin(const char *line, Track *track)
@@ -39,10 +39,10 @@ static void derivatives_are_those_of_the_formula(void **unused)
         System system;
         double x[MAX_SIZE], u[MAX_SIZE], end[MAX_SIZE], g[MAX_SIZE] = {0};
         random_system(&random, SPRINGS_MIXED, &system, x);
-        HandEnergy hand = {.node = random_below(&random, system.nodes),
-                           .k = random_uniform(&random, 1, 100),
-                           .target = {random_uniform(&random, -2, 2),
-                                      random_uniform(&random, -2, 2)}};
+        Pull hand = {.node = random_below(&random, system.nodes),
+                     .k = random_uniform(&random, 1, 100),
+                     .target = {random_uniform(&random, -2, 2),
+                                random_uniform(&random, -2, 2)}};
         CHECK_STATUS(hand_energy_set(&system, &hand), STATUS_OK);
         const Term *term = system_find_term(&system, &hand_energy);
         CHECK(term && term->kind->valid(term, &system));
@@ -50,11 +50,12 @@ static void derivatives_are_those_of_the_formula(void **unused)
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
         }
-        Place at = {&system, x, u, end};
+        Place at = {&system, x, u, end, false};
+        Place way = {&system, x, u, end, true};
         int i = 2 * hand.node;
         double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
         double P = hand.k / 2 * (dx * dx + dy * dy);
-        CHECK_NEAR(hand_energy_value(&system, end), P, 1e-14 * P);
+        CHECK_NEAR(system_energy_of(&system, &hand_energy, end), P, 1e-14 * P);
         term->kind->gradient(term, &at, 3, g);
         for (int j = 0; j < 2 * system.nodes; j++) {
             double exact = j == i ? dx : j == i + 1 ? dy : 0;
@@ -64,28 +65,29 @@ static void derivatives_are_those_of_the_formula(void **unused)
          * exact for a linear function. */
         double mean[MAX_SIZE] = {0};
         const TermKind *averaged = term->kind->averaged;
-        averaged->gradient(term, &at, 1, mean);
+        averaged->gradient(term, &way, 1, mean);
         double start = hand.k * (x[i] - hand.target[0]);
         CHECK_NEAR(mean[i], (start + hand.k * dx) / 2, 1e-13 * hand.k);
         /* And u . mean is what P gains from x_n to x_n + u. */
-        double gained = P - hand_energy_value(&system, x);
+        double gained = P - system_energy_of(&system, &hand_energy, x);
         CHECK_NEAR(mean[i] * u[i] + mean[i + 1] * u[i + 1], gained,
                    1e-12 * hand.k);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
-        Place begin = {&system, x, g, x};
+        Place begin = {&system, x, g, x, false};
         term->kind->along(term, &begin, u, 1, 1, q);
-        averaged->along(term, &begin, u, 1, 1, half);
+        averaged->along(term, &way, u, 1, 1, half);
         double slope =
             start * u[i] + hand.k * (x[i + 1] - hand.target[1]) * u[i + 1];
         CHECK_NEAR(slope + q[0], gained, 1e-12 * hand.k);
         CHECK(half[0] == q[0] / 2 && q[1] == 0 && q[2] == 0);
         double y[MAX_SIZE] = {0}, d = u[i] * u[i] + u[i + 1] * u[i + 1];
-        term->kind->product(term, &begin, 1, FILTER_CLAMP, u, y);
+        term->kind->hessian(term, &begin, 1, FILTER_CLAMP, NULL, u, y);
         CHECK_NEAR(y[i] * u[i] + y[i + 1] * u[i + 1], 2 * q[0],
                    1e-13 * hand.k * d);
         hand_energy_remove(&system);
-        CHECK(hand_energy_value(&system, end) == 0 && !hand_energy_of(&system));
+        CHECK(system_energy_of(&system, &hand_energy, end) == 0 &&
+              !hand_energy_of(&system));
         system_free(&system);
     }
 }

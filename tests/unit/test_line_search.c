@@ -1,5 +1,5 @@
 /* The energy along a line as a quartic, and backtracking on it. */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <math.h>

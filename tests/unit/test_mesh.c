@@ -1,7 +1,7 @@
 /* The square: nodes, springs and numbering as on the slides; the scene made
  * of it; and what is refused.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <float.h>

@@ -642,23 +642,17 @@ static void no_pattern(const Term *term, const System *system,
 }
 
 static int no_hessian(const Term *term, const Place *at, double w,
-                      Filter filter, const int *slot, double *values)
+                      Filter filter, const int *slot, const double *q,
+                      double *out)
 {
     (void)term;
     (void)at;
     (void)w;
     (void)filter;
     (void)slot;
-    (void)values;
-    return 0;
-}
-
-static void no_product(const Term *term, const Place *at, double w,
-                       Filter filter, const double *q, double *y)
-{
-    no_gradient(term, at, w, y);
-    (void)filter;
     (void)q;
+    (void)out;
+    return 0;
 }
 
 static bool right_of_the_wall(const Term *term, const Place *at)
@@ -678,7 +672,6 @@ static void steps_into_a_wall_are_halved(void **unused)
                            .entries = no_entries,
                            .pattern = no_pattern,
                            .hessian = no_hessian,
-                           .product = no_product,
                            .allowed = right_of_the_wall};
     for (int search = 0; search < LINE_SEARCH_COUNT; search++) {
         System system;

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
+
 /* [[H, -H], [-H, H]] */
 static void block_from_spring(const double H[3], double a[16])
 {
@@ -92,11 +94,11 @@ static void closed_form_is_the_4x4_form(void **unused)
         double ratio = trial % 3 ? random_uniform(&random, 0, 1.5)
                                  : random_logarithmic(&random, 1e-9, 1);
         double l2 = random_spring(&random, ratio, d, &k);
-        spring_hessian(d, l2, k, H);
+        spring_hessian(d, l2, k, FILTER_NONE, H);
         block_from_spring(H, plain);
         memcpy(general, plain, sizeof plain);
         make_psd(general);
-        spring_hessian_psd(d, l2, k, H);
+        spring_hessian(d, l2, k, FILTER_CLAMP, H);
         block_from_spring(H, closed);
         CHECK_AT_MOST(frobenius(closed, general), 1e-13 * norm(plain));
     }
@@ -115,7 +117,7 @@ static void spring_hessian_has_its_eigenvalues(void **unused)
         double d2 = d[0] * d[0] + d[1] * d[1];
         double along = 2 * k / l2 * (3 * d2 - l2);
         double across = 2 * k / l2 * (d2 - l2);
-        spring_hessian(d, l2, k, H);
+        spring_hessian(d, l2, k, FILTER_NONE, H);
         CHECK_NEAR(H[0] * d[0] + H[1] * d[1], along * d[0],
                    1e-14 * 20 * k * sqrt(d2));
         CHECK_NEAR(H[1] * d[0] + H[2] * d[1], along * d[1],
@@ -133,7 +135,7 @@ static void results_are_positive_semidefinite(void **unused)
         double d[2], k, H[3], a[16];
         double l2 =
             random_spring(&random, random_uniform(&random, 0, 1.5), d, &k);
-        bool cut = spring_hessian_psd(d, l2, k, H);
+        bool cut = spring_hessian(d, l2, k, FILTER_CLAMP, H);
         block_from_spring(H, a);
         CHECK(is_positive(a, 1e-14 * k * 10));
         CHECK(cut == (d[0] * d[0] + d[1] * d[1] < l2));
@@ -154,8 +156,8 @@ static void blocks_that_are_psd_stay(void **unused)
         double d[2], k, H[3], plain[3], a[16], before[16];
         double l2 =
             random_spring(&random, random_uniform(&random, 1.001, 3), d, &k);
-        spring_hessian(d, l2, k, plain);
-        CHECK(!spring_hessian_psd(d, l2, k, H));
+        spring_hessian(d, l2, k, FILTER_NONE, plain);
+        CHECK(!spring_hessian(d, l2, k, FILTER_CLAMP, H));
         CHECK_SAME_BITS(H, plain, 3);
         block_from_spring(H, a);
         memcpy(before, a, sizeof a);
@@ -204,9 +206,9 @@ static void results_are_nearest(void **unused)
         check_nearest(&random, plain, answer);
         double l2 =
             random_spring(&random, random_uniform(&random, 0, 1), d, &k);
-        spring_hessian(d, l2, k, H);
+        spring_hessian(d, l2, k, FILTER_NONE, H);
         block_from_spring(H, plain);
-        spring_hessian_psd(d, l2, k, H);
+        spring_hessian(d, l2, k, FILTER_CLAMP, H);
         block_from_spring(H, answer);
         check_nearest(&random, plain, answer);
     }
@@ -246,9 +248,9 @@ static void no_length_gives_zero(void **unused)
     (void)unused;
     const double d[2] = {0, 0}, zero[16] = {0};
     double H[3], a[16];
-    CHECK(spring_hessian_psd(d, 2, 3, H));
+    CHECK(spring_hessian(d, 2, 3, FILTER_CLAMP, H));
     CHECK(H[0] == 0 && H[1] == 0 && H[2] == 0);
-    spring_hessian(d, 2, 3, H);
+    spring_hessian(d, 2, 3, FILTER_NONE, H);
     CHECK(H[0] == -6 && H[1] == 0 && H[2] == -6);
     block_from_spring(H, a);
     make_psd(a);
@@ -267,17 +269,18 @@ static void borders_are_continuous(void **unused)
         for (int ulps = -3; ulps <= 3; ulps++) {
             double d[2] = {borders[b] * (1 + ulps * DBL_EPSILON), 0};
             double H[3], across[3];
-            spring_hessian_psd(d, 1, 1, H);
+            spring_hessian(d, 1, 1, FILTER_CLAMP, H);
             CHECK_NEAR(H[0], b == 0 ? 4 : 0, 3e-14);
             CHECK(H[0] >= 0 && H[1] == 0 && H[2] >= 0);
             CHECK_NEAR(H[2], 0, 3e-14);
             const double turned[2] = {0, d[0]};
-            spring_hessian_psd(turned, 1, 1, across);
+            spring_hessian(turned, 1, 1, FILTER_CLAMP, across);
             CHECK(across[0] == H[2] && across[2] == H[0]);
         }
     const double d[2] = {1, 0};
     double H[3];
-    CHECK(!spring_hessian_psd(d, 1, 1, H)); /* exactly at rest: not cut */
+    CHECK(!spring_hessian(d, 1, 1, FILTER_CLAMP,
+                          H)); /* exactly at rest: not cut */
     CHECK(H[0] == 4 && H[1] == 0 && H[2] == 0);
 }
 
@@ -323,15 +326,15 @@ static void absolute_values_are_right(void **unused)
         double d[2], k, H[3], A[3];
         double ratio = i % 10 == 0 ? 0 : random_uniform(&random, 0, 1.5);
         double l2 = random_spring(&random, ratio, d, &k);
-        spring_hessian(d, l2, k, H);
-        bool changed = spring_hessian_filtered(d, l2, k, FILTER_ABS, A);
+        spring_hessian(d, l2, k, FILTER_NONE, H);
+        bool changed = spring_hessian(d, l2, k, FILTER_ABS, A);
         check_absolute(H, A);
         CHECK(changed == (d[0] * d[0] + d[1] * d[1] < l2));
         if (!changed)
             CHECK_SAME_BITS(A, H, 3);
         for (int c = 0; c < 3; c++)
             A[c] = H[c] = random_uniform(&random, -1, 1);
-        if (!make_abs_2x2(A))
+        if (!filter_2x2(FILTER_ABS, A))
             CHECK_SAME_BITS(A, H, 3);
         check_absolute(H, A);
     }
@@ -342,11 +345,11 @@ static void filters_do_what_they_say(void **unused)
     (void)unused;
     const double d[2] = {0.3, 0.1}, mixed[3] = {1, 0, -2};
     double H[3], plain[3];
-    spring_hessian(d, 1, 2, plain);
-    CHECK(spring_hessian_filtered(d, 1, 2, FILTER_CLAMP, H) && H[0] == 0);
-    CHECK(!spring_hessian_filtered(d, 1, 2, FILTER_NONE, H));
+    spring_hessian(d, 1, 2, FILTER_NONE, plain);
+    CHECK(spring_hessian(d, 1, 2, FILTER_CLAMP, H) && H[0] == 0);
+    CHECK(!spring_hessian(d, 1, 2, FILTER_NONE, H));
     CHECK_SAME_BITS(H, plain, 3);
-    CHECK(!spring_hessian_filtered(d, 1, 2, FILTER_ON_DEMAND, H));
+    CHECK(!spring_hessian(d, 1, 2, FILTER_ON_DEMAND, H));
     CHECK_SAME_BITS(H, plain, 3);
     for (int filter = 0; filter < FILTER_COUNT; filter++) {
         const double last[FILTER_COUNT] = {[FILTER_CLAMP] = 0,

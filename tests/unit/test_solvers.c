@@ -1,7 +1,7 @@
 /* Multigrid against Algorithm 3, and what a step may skip: each by a
  * counter, or by formulas that share nothing with the solvers.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <math.h>

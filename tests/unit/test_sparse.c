@@ -1,7 +1,7 @@
 /* Triplets, compressed columns and the slot map, against dense matrices; and
  * the assembly of the Hessian through them.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "testing.h"
 
 #include <limits.h>
@@ -279,17 +279,20 @@ static void plain_triplets_sum_to_the_same(void **unused)
             triplets_create(size, SPRING_ENTRIES * system->springs, &triplets),
             STATUS_OK);
         mass_spring_pattern(NULL, system, &triplets);
-        mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
-                                   system->k, 1, FILTER_CLAMP, NULL, value);
+        Place at = {system, a.x, NULL, a.x, false};
+        int plain[SPRING_ENTRIES * MAX_SPRINGS];
+        for (int t = 0; t < SPRING_ENTRIES * system->springs; t++)
+            plain[t] = t;
+        mass_spring_energy.hessian(NULL, &at, 1, FILTER_CLAMP, plain, NULL,
+                                   value);
         for (int t = 0; t < SPRING_ENTRIES * system->springs; t++) {
             int r = triplets.row[t], c = triplets.column[t];
             by_hand[size * r + c] += value[t];
             if (r != c)
                 by_hand[size * c + r] += value[t];
         }
-        mass_spring_energy_hessian(system->springs, a.x, system->e, system->l2,
-                                   system->k, 1, FILTER_CLAMP, a.slot + size,
-                                   a.A.value);
+        mass_spring_energy.hessian(NULL, &at, 1, FILTER_CLAMP, a.slot + size,
+                                   NULL, a.A.value);
         triplets_free(&triplets);
         dense_from_sparse(&a.A, dense);
         for (int i = 0; i < size * size; i++) /* another order of the sum */

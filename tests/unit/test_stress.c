@@ -1,7 +1,7 @@
 /* A short run of what `make stress` does for minutes, and proofs that its
  * judge sees a broken promise.
  */
-#include "model/central_field.h"
+#include "model/pull_energy.h"
 #include "stress.h"
 #include "stress_large.h"
 

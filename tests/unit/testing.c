@@ -1,10 +1,13 @@
-#include "model/central_field.h"
 #include "testing.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/pull_energy.h"
 
 void check_near(const char *what, long double got, long double expected,
                 long double tolerance, const char *file, int line)
@@ -159,6 +162,110 @@ static Dual exact_spring(const System *system, const double *x, int s, int i,
                        length2);
 }
 
+double central_omega2(const System *system)
+{
+    const Term *term = system_find_term(system, &central_field);
+    return term ? ((const Pull *)term->data)->k : 0;
+}
+
+double smallest_gap(const System *system, const double *x)
+{
+    const Contact *contact = contact_of(system);
+    double smallest = INFINITY;
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int i = 0; i < system->nodes; i++)
+            if (contact_has_pair(contact, system, i, k))
+                smallest = fmin(smallest, contact_pair_gap(contact, x, i, k).d);
+    return smallest;
+}
+
+double smallest_cell(const System *system, const double *x)
+{
+    const Term *term = system_find_term(system, &cell_energy);
+    const Cells *cells = term ? term->data : NULL;
+    double smallest = INFINITY;
+    for (int t = 0; cells && t < cells->triangles; t++) {
+        const int *i = cells->node + 3 * t, *s = cells->spring + 3 * t;
+        Corner corner = cell_corner(x + 2 * i[0], x + 2 * i[1], x + 2 * i[2],
+                                    cells->area, cells->c);
+        if (system->k[s[0]] > 0 && system->k[s[1]] > 0 && system->k[s[2]] > 0)
+            smallest = fmin(smallest, corner.J);
+    }
+    return smallest;
+}
+
+/* Sum of squares above the diagonal. */
+static double off_diagonal(const double a[16])
+{
+    double sum = 0;
+    for (int r = 0; r < 4; r++)
+        for (int c = r + 1; c < 4; c++)
+            sum += a[4 * r + c] * a[4 * r + c];
+    return sum;
+}
+
+/* A = J^T A J and Q = Q J with the rotation J in plane (r, c) that makes
+ * A_rc = 0: t = tan of the smaller of the two possible angles. */
+static void jacobi_rotate(double a[16], double q[16], int r, int c)
+{
+    double a_rc = a[4 * r + c];
+    if (a_rc == 0)
+        return;
+    double theta = (a[5 * c] - a[5 * r]) / (2 * a_rc);
+    double t = copysign(1, theta) / (fabs(theta) + hypot(1, theta));
+    double cosine = 1 / hypot(1, t), sine = t * cosine;
+    for (int i = 0; i < 4; i++) { /* columns r and c of A and of Q */
+        double ar = a[4 * i + r], ac = a[4 * i + c];
+        double qr = q[4 * i + r], qc = q[4 * i + c];
+        a[4 * i + r] = cosine * ar - sine * ac;
+        a[4 * i + c] = sine * ar + cosine * ac;
+        q[4 * i + r] = cosine * qr - sine * qc;
+        q[4 * i + c] = sine * qr + cosine * qc;
+    }
+    for (int i = 0; i < 4; i++) { /* rows r and c of A */
+        double ar = a[4 * r + i], ac = a[4 * c + i];
+        a[4 * r + i] = cosine * ar - sine * ac;
+        a[4 * c + i] = sine * ar + cosine * ac;
+    }
+    a[4 * r + c] = a[4 * c + r] = 0;
+}
+
+/* A = Q L Q^T: the eigenvalues end on the diagonal of A, the eigenvectors in
+ * the columns of Q.  Convergence is quadratic; 4x4 needs about 5 sweeps. */
+static void jacobi_eigen(double a[16], double q[16])
+{
+    enum { MAX_SWEEPS = 30 };
+    for (int i = 0; i < 16; i++)
+        q[i] = i % 5 == 0;
+    for (int sweep = 0; sweep < MAX_SWEEPS && off_diagonal(a) > 0; sweep++)
+        for (int r = 0; r < 4; r++)
+            for (int c = r + 1; c < 4; c++)
+                jacobi_rotate(a, q, r, c);
+}
+
+void make_psd(double a[16])
+{
+    double l[16], q[16];
+    memcpy(l, a, sizeof l);
+    jacobi_eigen(l, q);
+    /* Eigenvalues that are 0 but for rounding are not negative. */
+    double largest = 0;
+    bool negative = false;
+    for (int i = 0; i < 4; i++)
+        largest = fmax(largest, fabs(l[5 * i]));
+    for (int i = 0; i < 4; i++)
+        negative = negative || l[5 * i] < -1e-15 * largest;
+    if (!negative)
+        return;
+    for (int r = 0; r < 4; r++)
+        for (int c = r; c < 4; c++) {
+            double sum = 0;
+            for (int i = 0; i < 4; i++)
+                sum += fmax(l[5 * i], 0) * q[4 * r + i] * q[4 * c + i];
+            a[4 * r + c] = a[4 * c + r] = sum;
+        }
+}
+
 Dual exact_energy(const IncrementalPotential *E, const double *u,
                   const double *x, int i, int j)
 {
@@ -168,7 +275,7 @@ Dual exact_energy(const IncrementalPotential *E, const double *u,
         P = dual_add(P, exact_spring(system, x, s, i, j));
     for (int c = 0; c < 2 * system->nodes; c++) {
         long double half_m = 0.5L * system->m[c / 2];
-        P = dual_add(P, dual_square(half_m * central_field_omega2(system),
+        P = dual_add(P, dual_square(half_m * central_omega2(system),
                                     dual_coordinate(x[c], c, i, j)));
         if (!u)
             continue;
@@ -214,9 +321,8 @@ void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
     for (int i = 0; i < size * size; i++)
         H[i] = 0;
     for (int i = 0; i < size; i++)
-        H[size * i + i] =
-            system->m[i / 2] *
-            (1 + (long double)E->weight * central_field_omega2(system));
+        H[size * i + i] = system->m[i / 2] *
+                          (1 + (long double)E->weight * central_omega2(system));
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
         long double dx = (long double)x[i] - x[j];

@@ -71,6 +71,21 @@ enum { MAX_NODES = 12, MAX_SIZE = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 void random_system(Random *random, SpringState state, System *system,
                    double *x);
 
+/* omega2 of the system's central field, 1/s^2; 0 where it has none. */
+double central_omega2(const System *system);
+
+/* The smallest gap, m, and the smallest J of a whole triangle of cells in
+ * positions x [2n] m; infinite where there is none. */
+double smallest_gap(const System *system, const double *x);
+double smallest_cell(const System *system, const double *x);
+
+/* A, a symmetric 4x4 block, becomes the nearest positive semi-definite matrix
+ * in the Frobenius norm: A = Q L Q^T -> Q max(L, 0) Q^T (slide utils.py).  A
+ * block without negative eigenvalues stays as it is, to the last bit.
+ *   a  [16] in/out, row by row
+ * Eigenvalues by cyclic Jacobi rotations (Golub, Van Loan: 8.5). */
+void make_psd(double a[16]);
+
 /* Sums, products and with them both derivatives of a polynomial, exactly:
  * a + b e1 + c e2 + d e1 e2 with e1^2 = e2^2 = 0. */
 typedef struct Dual {

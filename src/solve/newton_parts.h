@@ -1,0 +1,74 @@
+/* newton_parts.h - what Newton's loop (newton.c) calls by name, each in a file
+ * of its own.
+ */
+#ifndef ELASTO_NEWTON_PARTS_H
+#define ELASTO_NEWTON_PARTS_H
+
+#include "solve/newton.h"
+
+/* Shows the record to the observer.  Returns its status, or INTERRUPTED where
+ * the observer asks to stop. */
+Status newton_tell(Newton *newton, const NewtonRecord *record);
+
+/* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
+ * each iterate, with as few factorisations as will do. */
+
+/* At the start of a minimisation: fills g, p, residual and, of the record, what
+ * concerns them.  Where the test is passed by the gradient alone, a vanishing
+ * one may be that of a maximum or a saddle, such as all nodes in one point:
+ * that is looked after.
+ * Returns OK (the test is passed), RUNNING, NOT_A_MINIMUM, or a failure. */
+Status direction_first(Newton *newton);
+
+/* The same after an update.  Returns OK, RUNNING, or a failure. */
+Status direction_next(Newton *newton);
+
+/* ---- step_length.c: how far to go along p (slide: Algorithm 2). */
+
+/* Fills alpha, trials, slope and change of the record.
+ * Returns OK, or why no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT,
+ * ROUNDING_LIMIT, NOT_FINITE; alpha and change are then 0. */
+Status step_length(Newton *newton);
+
+/* ---- rounding.c: what guards the digits.  Two places lose them.  Near a
+ * minimum every further decrease may be smaller than the rounding of E.  And
+ * where w k outweighs the masses beyond the 16 digits of a double, the gradient
+ * itself may be rounding, and along a far direction its slope anything.  In the
+ * second kind of scene, and in every one without a line search, a minimisation
+ * is held to what E really is. */
+
+/* Bounds of the system: before the first minimisation, and after stiffnesses
+ * or masses changed. */
+void rounding_bounds(Newton *newton);
+
+/* At the start of a minimisation. */
+void rounding_start(Newton *newton);
+
+/* Whether a change of E, J s^2, is at most a few units in its last place. */
+bool rounding_hides(const Newton *newton, double change);
+
+/* Whether E is as low at u + alpha p as the line search says it is; always true
+ * where the minimisation is not held to it.  Writes over g and r. */
+bool rounding_allows(Newton *newton, double alpha);
+
+/* After an iteration that did not converge: RUNNING, or ROUNDING_LIMIT where
+ * the residual has not become smaller for long and E does not fall. */
+Status rounding_stagnation(Newton *newton);
+
+/* Whether a minimisation that is held to E has ended above its start. */
+bool rounding_sees_rise(const Newton *newton);
+
+/* ---- hand_over.c: minimisations that multigrid takes over. */
+
+/* Whether multigrid is asked for, and takes the minimisation that newton->at
+ * describes; working and refusal say so. */
+bool hand_over_wanted(Newton *newton);
+
+/* In the place of direction_first. */
+Status hand_over_start(Newton *newton);
+
+/* In the place of an iteration.  What multigrid cannot end, such as a search
+ * among rounding errors, goes on by factors from where it is. */
+Status hand_over_iterate(Newton *newton);
+
+#endif
