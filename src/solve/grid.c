@@ -103,24 +103,6 @@ Status grid_region_create(const Grid *grid, GridRegion *region)
     return region->run ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
-void grid_region_mark(const Grid *grid, const unsigned char *mark,
-                      GridRegion *region)
-{
-    const GridLayout *layout = &grid->layout;
-    region->runs = region->blocks = 0;
-    for (int i = 0; i < layout->nodes; i++, mark += layout->blocks)
-        for (int b = 0; b < layout->blocks; b++) {
-            if (!mark[b])
-                continue;
-            int first = b;
-            while (b + 1 < layout->blocks && mark[b + 1])
-                b++;
-            region->run[region->runs++] = (GridRun){
-                grid_at(layout, i, GRID_BLOCK * first), b + 1 - first};
-            region->blocks += b + 1 - first;
-        }
-}
-
 void grid_set_nodes(Grid *grid, const double *m, const unsigned char *pinned)
 {
     const GridLayout *layout = &grid->layout;
@@ -324,6 +306,14 @@ void grid_activity(const Grid *grid, const GridRegion *region, const double *D,
 void grid_clear(const Grid *grid, double *a)
 {
     memset(a, 0, 2 * (size_t)grid->layout.plane * sizeof *a);
+}
+
+void grid_region_clear(const Grid *grid, const GridRegion *region, double *a)
+{
+    for (int r = 0; r < region->runs; r++)
+        for (int c = 0; c < 2; c++)
+            memset(a + c * grid->layout.plane + region->run[r].start, 0,
+                   GRID_BLOCK * (size_t)region->run[r].blocks * sizeof *a);
 }
 
 double grid_dot(const Grid *grid, const double *a, const double *b)

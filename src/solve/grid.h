@@ -59,6 +59,12 @@ typedef struct GridRegion {
     GridRun *run;
 } GridRegion;
 
+/* The row of nodes that a run is in. */
+static inline int grid_row(const GridLayout *layout, GridRun run)
+{
+    return run.start / layout->pitch - 1;
+}
+
 typedef struct GridKernels GridKernels;
 
 /* A step's problem: minimise
@@ -96,10 +102,6 @@ double *grid_planes(const Grid *grid, int planes);
 /* An empty region with room for every node: at most so many runs a row.
  * Returns OK, OUT_OF_MEMORY. */
 Status grid_region_create(const Grid *grid, GridRegion *region);
-
-/* The blocks that are marked.  mark [nodes * blocks] in, row by row. */
-void grid_region_mark(const Grid *grid, const unsigned char *mark,
-                      GridRegion *region);
 
 /* Masses and pins.  m [n] kg in; pinned [n] in or NULL. */
 void grid_set_nodes(Grid *grid, const double *m, const unsigned char *pinned);
@@ -158,8 +160,9 @@ void grid_move(const Grid *grid, const GridRegion *region, double a,
 void grid_activity(const Grid *grid, const GridRegion *region, const double *D,
                    const double *g, double *activity);
 
-/* a = 0 */
+/* a = 0, everywhere, padding and ghosts too, or in a region. */
 void grid_clear(const Grid *grid, double *a);
+void grid_region_clear(const Grid *grid, const GridRegion *region, double *a);
 
 /* a.b; |a|_(M^-1)^2; max over nodes of |a_x| + |a_y|. */
 double grid_dot(const Grid *grid, const double *a, const double *b);

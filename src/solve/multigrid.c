@@ -280,13 +280,20 @@ static bool leaves_saddle(Multigrid *mg)
     return true;
 }
 
+/* The bound at x, where g is known. */
+static void bound_residual(Multigrid *mg)
+{
+    mg->norm2 = grid_inverse_mass_square(&mg->grid, mg->g);
+    mg->bound = mg->residual = grid_residual_per_norm(mg) * sqrt(mg->norm2);
+    mg->directed = mg->set_up = false;
+}
+
 /* g and the bound at x. */
 static void evaluate(Multigrid *mg)
 {
-    mg->norm2 = grid_gradient(&mg->grid, NULL, mg->g);
+    grid_gradient(&mg->grid, NULL, mg->g);
     mg->counters.gradients++;
-    mg->bound = mg->residual = grid_residual_per_norm(mg) * sqrt(mg->norm2);
-    mg->directed = mg->set_up = false;
+    bound_residual(mg);
 }
 
 /* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
@@ -403,16 +410,19 @@ Status multigrid_iterate(Multigrid *mg)
     mg->updated = true;
     mg->iterations++;
     mg->counters.iterations++;
-    if (mg->windows) {
-        long phases = mg->tips.phases, local = mg->tips.iterations;
-        grid_combine(grid, NULL, 1, grid->u, 0, mg->z);
-        mg->record.change += tips_minimise(&mg->tips, mg->g);
-        grid_combine(grid, NULL, 1, grid->u, 1, mg->r);
-        grid_combine(grid, NULL, -1, mg->z, 1, mg->r);
-        mg->counters.windows += mg->tips.phases - phases;
-        mg->counters.local += mg->tips.iterations - local;
+    if (!mg->windows) {
+        evaluate(mg);
+        return multigrid_test(mg);
     }
-    evaluate(mg);
+    long phases = mg->tips.phases, local = mg->tips.iterations;
+    grid_combine(grid, NULL, 1, grid->u, 0, mg->z);
+    mg->record.change += tips_minimise(&mg->tips, mg->record.change, mg->g);
+    grid_combine(grid, NULL, 1, grid->u, 1, mg->r);
+    grid_combine(grid, NULL, -1, mg->z, 1, mg->r);
+    mg->counters.windows += mg->tips.phases - phases;
+    mg->counters.local += mg->tips.iterations - local;
+    mg->counters.gradients++;
+    bound_residual(mg);
     return multigrid_test(mg);
 }
 

@@ -5,13 +5,17 @@
 
 #include "base/quartic.h"
 
-/* Phases, each with its windows, and iterations in one. */
-enum { TIP_PHASES = 20, TIP_ITERATIONS = 40, TIP_DIAGONAL_EVERY = 10 };
+/* Iterations of a phase at most, and those between new diagonal blocks; phases
+ * at most. */
+enum { TIP_ITERATIONS = 20, TIP_DIAGONAL_EVERY = 10, TIP_PHASES = 1000 };
+
+/* A phase ends when g.D g fell to this share. */
+static const double TIP_ENOUGH = 0.3;
 
 /* A tip is a block this much more active than all are on average.  Windows are
  * around the blocks with this share of the largest activity, so many rows and
  * blocks beyond them, and cover at most this share of the square. */
-static const double TIP_STANDS_OUT = 20, TIP_ACTIVE = 0.1,
+static const double TIP_STANDS_OUT = 20, TIP_ACTIVE = 0.6,
                     TIP_LARGEST_SHARE = 0.5;
 enum { TIP_ROWS = 8, TIP_BLOCKS = 1 };
 
@@ -19,24 +23,28 @@ enum { TIP_ROWS = 8, TIP_BLOCKS = 1 };
  * square are no better there. */
 enum { TIP_SMALL_SQUARE = 48 };
 
-/* A phase ends when g.D g fell to this share; 0.02 ... 0.3 measured about the
- * same. */
-static const double TIP_ENOUGH = 0.1;
+/* Work is counted in iterations of one block: an iteration of the whole square
+ * takes about so many for each block, and so does looking where E has changed.
+ * Phases go on while they lower E by more than this times what the last
+ * iteration of the whole square did for the same work.  That is an average over
+ * the last phases, of which each counts this times as much as the next. */
+enum { WORK_GLOBAL = 6, WORK_LOOK = 2 };
+static const double TIP_PACE = 1, TIP_MEMORY = 0.8;
 
 Status tips_create(const Grid *grid, Tips *tips)
 {
     *tips = (Tips){.grid = grid};
-    size_t blocks = (size_t)grid->all.blocks;
+    size_t blocks = (size_t)grid->all.blocks, rows = (size_t)grid->all.runs;
     tips->activity = malloc(blocks * sizeof *tips->activity);
-    tips->mark = malloc(blocks);
-    tips->spread = malloc(blocks);
+    tips->row = malloc(rows * sizeof *tips->row);
+    tips->mark = calloc(blocks, 1);
+    tips->first = grid->layout.nodes;
     tips->D = grid_planes(grid, 3);
     tips->z = grid_planes(grid, 2);
     tips->p = grid_planes(grid, 2);
     tips->old_g = grid_planes(grid, 2);
-    if (!tips->activity || !tips->mark || !tips->spread || !tips->D ||
-        !tips->z || !tips->p || !tips->old_g ||
-        grid_region_create(grid, &tips->inside))
+    if (!tips->activity || !tips->row || !tips->mark || !tips->D || !tips->z ||
+        !tips->p || !tips->old_g || grid_region_create(grid, &tips->inside))
         return STATUS_OUT_OF_MEMORY;
     return grid_region_create(grid, &tips->around);
 }
@@ -46,8 +54,8 @@ void tips_free(Tips *tips)
     if (!tips)
         return;
     free(tips->activity);
+    free(tips->row);
     free(tips->mark);
-    free(tips->spread);
     free(tips->D);
     free(tips->z);
     free(tips->p);
@@ -57,50 +65,100 @@ void tips_free(Tips *tips)
     *tips = (Tips){0};
 }
 
-/* to = from and all that is at most so many rows and blocks away. */
-static void dilate(const Grid *grid, const unsigned char *from, int rows,
-                   int blocks, unsigned char *to)
+/* Marks the blocks from row and block (i, b) to just before (end_i, end_b). */
+static void mark_blocks(Tips *tips, int i, int b, int end_i, int end_b)
 {
-    int width = grid->layout.blocks, height = grid->layout.nodes;
-    memset(to, 0, (size_t)width * (size_t)height);
-    for (int i = 0; i < height; i++)
-        for (int b = 0; b < width; b++) {
-            if (!from[i * width + b])
+    int width = tips->grid->layout.blocks, height = tips->grid->layout.nodes;
+    i = i > 0 ? i : 0;
+    b = b > 0 ? b : 0;
+    end_i = end_i < height ? end_i : height;
+    end_b = end_b < width ? end_b : width;
+    tips->first = i < tips->first ? i : tips->first;
+    tips->end = end_i > tips->end ? end_i : tips->end;
+    for (; i < end_i; i++)
+        memset(tips->mark + i * width + b, 1, (size_t)(end_b - b));
+}
+
+/* The blocks that are marked; none is afterwards. */
+static void take_marks(Tips *tips, GridRegion *region)
+{
+    const GridLayout *layout = &tips->grid->layout;
+    region->runs = region->blocks = 0;
+    for (int i = tips->first; i < tips->end; i++) {
+        unsigned char *mark = tips->mark + i * layout->blocks;
+        for (int b = 0; b < layout->blocks; b++) {
+            int first = b;
+            while (b < layout->blocks && mark[b])
+                mark[b++] = 0;
+            if (b == first)
                 continue;
-            int first = b > blocks ? b - blocks : 0;
-            int past = b + blocks < width ? b + blocks + 1 : width;
-            for (int row = i > rows ? i - rows : 0;
-                 row <= i + rows && row < height; row++)
-                memset(to + row * width + first, 1, (size_t)(past - first));
+            region->run[region->runs++] =
+                (GridRun){grid_at(layout, i, GRID_BLOCK * first), b - first};
+            region->blocks += b - first;
         }
+    }
+    tips->first = layout->nodes;
+    tips->end = 0;
+}
+
+/* g and the activity of all blocks, which have changed in this region (NULL:
+ * everywhere) since the last look.  D may be older there: it only weighs. */
+static void look(Tips *tips, const GridRegion *changed, double *g)
+{
+    const Grid *grid = tips->grid;
+    int width = grid->layout.blocks;
+    grid_gradient(grid, changed, g);
+    if (!changed)
+        grid_diagonal(grid, NULL, tips->D);
+    grid_activity(grid, changed, tips->D, g, tips->activity);
+    changed = changed ? changed : &grid->all;
+    for (int r = 0; r < changed->runs; r++) {
+        int i = grid_row(&grid->layout, changed->run[r]);
+        TipRow *row = &tips->row[i];
+        *row = (TipRow){0, 0};
+        for (int b = 0; b < width; b++) {
+            double activity = tips->activity[i * width + b];
+            row->sum += activity;
+            row->most = activity > row->most ? activity : row->most;
+        }
+    }
 }
 
 /* The windows of a phase; false where there is none, or too much is one. */
 static bool choose_windows(Tips *tips)
 {
     const Grid *grid = tips->grid;
-    int blocks = grid->all.blocks;
+    const GridLayout *layout = &grid->layout;
+    int blocks = grid->all.blocks, width = layout->blocks;
     double sum = 0, most = 0;
-    for (int b = 0; b < blocks; b++) {
-        sum += tips->activity[b];
-        most = tips->activity[b] > most ? tips->activity[b] : most;
+    for (int i = 0; i < layout->nodes; i++) {
+        sum += tips->row[i].sum;
+        most = tips->row[i].most > most ? tips->row[i].most : most;
     }
     if (!(most >= TIP_STANDS_OUT * sum / blocks))
         return false;
-    for (int b = 0; b < blocks; b++)
-        tips->mark[b] = tips->activity[b] >= TIP_ACTIVE * most;
-    dilate(grid, tips->mark, TIP_ROWS, TIP_BLOCKS, tips->spread);
-    grid_region_mark(grid, tips->spread, &tips->inside);
+    for (int i = 0; i < layout->nodes; i++)
+        for (int b = 0; b < width && tips->row[i].most >= TIP_ACTIVE * most;
+             b++)
+            if (tips->activity[i * width + b] >= TIP_ACTIVE * most)
+                mark_blocks(tips, i - TIP_ROWS, b - TIP_BLOCKS,
+                            i + TIP_ROWS + 1, b + TIP_BLOCKS + 1);
+    take_marks(tips, &tips->inside);
     if (grid->segments >= TIP_SMALL_SQUARE &&
         tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
         return false;
-    dilate(grid, tips->spread, 1, 1, tips->mark);
-    grid_region_mark(grid, tips->mark, &tips->around);
+    for (int r = 0; r < tips->inside.runs; r++) {
+        GridRun run = tips->inside.run[r];
+        int i = grid_row(layout, run);
+        int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
+        mark_blocks(tips, i - 1, b - 1, i + 2, b + run.blocks + 1);
+    }
+    take_marks(tips, &tips->around);
     return true;
 }
 
 /* Nonlinear conjugate gradients (Polak and Ribiere, beta >= 0) in the windows,
- * from g and D at x.  Returns by how much E has changed. */
+ * from g at x.  Returns by how much E has changed. */
 static double minimise_windows(Tips *tips, double *g)
 {
     const Grid *grid = tips->grid;
@@ -109,7 +167,7 @@ static double minimise_windows(Tips *tips, double *g)
     for (int i = 0; i < TIP_ITERATIONS; i++) {
         if (i > 0)
             grid_gradient(grid, inside, g);
-        if (i > 0 && i % TIP_DIAGONAL_EVERY == 0)
+        if (i % TIP_DIAGONAL_EVERY == 0)
             grid_diagonal(grid, inside, tips->D);
         double old, inertia, beta = 0;
         double now = grid_precondition(grid, inside, tips->D, g, tips->old_g,
@@ -135,25 +193,30 @@ static double minimise_windows(Tips *tips, double *g)
         last = now;
         tips->iterations++;
     }
-    grid_clear(grid, tips->p);
+    grid_region_clear(grid, inside, tips->p);
     return change;
 }
 
-double tips_minimise(Tips *tips, double *g)
+double tips_minimise(Tips *tips, double global, double *g)
 {
-    const Grid *grid = tips->grid;
-    const GridRegion *changed = NULL; /* since g and D were computed */
-    double change = 0;
+    const GridRegion *changed = NULL; /* since the last look */
+    double pace = TIP_PACE * global / WORK_GLOBAL / tips->grid->all.blocks;
+    double change = 0, lowered = 0, work = 0;
     for (int phase = 0; phase < TIP_PHASES; phase++) {
-        grid_gradient(grid, changed, g);
-        grid_diagonal(grid, changed, tips->D);
-        grid_activity(grid, changed, tips->D, g, tips->activity);
+        look(tips, changed, g);
         if (!choose_windows(tips))
             return change;
         changed = &tips->around;
-        change += minimise_windows(tips, g);
+        long before = tips->iterations;
+        double by = minimise_windows(tips, g);
+        change += by;
+        lowered = TIP_MEMORY * lowered + by;
+        work = TIP_MEMORY * work + WORK_LOOK * changed->blocks +
+               (double)(tips->iterations - before) * tips->inside.blocks;
         tips->phases++;
+        if (!(lowered < pace * work))
+            break;
     }
-    grid_gradient(grid, changed, g);
+    grid_gradient(tips->grid, changed, g);
     return change;
 }

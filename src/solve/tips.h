@@ -12,13 +12,19 @@
 
 #include "solve/grid.h"
 
+/* The activity of a row's blocks. */
+typedef struct TipRow {
+    double sum, most;
+} TipRow;
+
 typedef struct Tips {
     const Grid *grid;
-    double *activity;          /* [rows * blocks] g.D g of each block */
-    unsigned char *mark;       /* [rows * blocks] */
-    unsigned char *spread;     /* [rows * blocks] */
-    GridRegion inside;         /* nodes that move */
-    GridRegion around;         /* and their neighbours */
+    double *activity;    /* [rows * blocks] g.D g of each block */
+    TipRow *row;         /* [rows] */
+    unsigned char *mark; /* [rows * blocks] 0, but while regions are made */
+    int first, end;      /* rows with marks */
+    GridRegion inside;   /* nodes that move */
+    GridRegion around;   /* and their neighbours */
     double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
     long phases, iterations;   /* done so far */
 } Tips;
@@ -28,9 +34,11 @@ typedef struct Tips {
 Status tips_create(const Grid *grid, Tips *tips);
 void tips_free(Tips *tips);
 
-/* Moves windows until no part of the square stands out.
- *   g  [2 planes] out, grad E where that has led
+/* Moves windows until no part of the square stands out, or iterations of the
+ * whole square lower E faster.
+ *   global  by how much the last of these changed E, < 0
+ *   g       [2 planes] out, grad E where that has led
  * Returns by how much E has changed, <= 0. */
-double tips_minimise(Tips *tips, double *g);
+double tips_minimise(Tips *tips, double global, double *g);
 
 #endif
