@@ -25,11 +25,11 @@ enum { TIP_SMALL_SQUARE = 48 };
 
 /* Work is counted in iterations of one block: an iteration of the whole square
  * takes about so many for each block, and so does looking where E has changed.
- * Phases go on while they lower E by more than this times what the last
- * iteration of the whole square did for the same work.  That is an average over
- * the last phases, of which each counts this times as much as the next. */
+ * Phases go on while they lower E by more than the last iteration of the whole
+ * square did for the same work.  That is an average over the last phases, of
+ * which each counts this times as much as the next. */
 enum { WORK_GLOBAL = 6, WORK_LOOK = 2 };
-static const double TIP_PACE = 1, TIP_MEMORY = 0.8;
+static const double TIP_MEMORY = 0.8;
 
 Status tips_create(const Grid *grid, Tips *tips)
 {
@@ -200,7 +200,7 @@ static double minimise_windows(Tips *tips, double *g)
 double tips_minimise(Tips *tips, double global, double *g)
 {
     const GridRegion *changed = NULL; /* since the last look */
-    double pace = TIP_PACE * global / WORK_GLOBAL / tips->grid->all.blocks;
+    double pace = global / WORK_GLOBAL / tips->grid->all.blocks;
     double change = 0, lowered = 0, work = 0;
     for (int phase = 0; phase < TIP_PHASES; phase++) {
         look(tips, changed, g);
