@@ -259,9 +259,14 @@ test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
 	  sh tests/checks/run.sh $(SUITES)
 
 # ---- pictures of the README -----------------------------------------------
-# tests/data/pictures.txt: name, step, command line; a test holds them.  The
-# moving one needs ffmpeg.
+# tests/data/pictures.txt: name, step, command line; a test holds them.  What
+# moves needs ffmpeg: the square, and a sheet of eight films of 61 frames each
+# (tests/data/films.txt: name, steps a picture, steps, command line).
+SHEET = [0][1][2][3]hstack=inputs=4[a];[4][5][6][7]hstack=inputs=4[b];[a][b]vstack
+
 pictures: build/elasto
+	@command -v ffmpeg >/dev/null 2>&1 || { \
+	  echo 'make pictures needs ffmpeg (apt-get install ffmpeg)'; exit 1; }
 	@while read -r name step line; do \
 	  ./build/elasto $$line --headless --quiet --steps $$step \
 	    --frames build/frames-$$name || [ $$? = 3 ] || exit 1; \
@@ -270,8 +275,20 @@ pictures: build/elasto
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
 	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
-	  --segments 10 --steps 75 --size 440x440 --script build/bare.txt \
-	  --film tests/data/relax.gif
+	  --segments 10 --steps 75 --size 360x360 --script build/bare.txt \
+	  --film tests/data/relax.gif && echo tests/data/relax.gif
+	@mkdir -p build/films; while read -r name every steps line; do \
+	  ./build/elasto $$line --headless --quiet --steps $$steps \
+	    --size 300x300 --film build/films/$$name.apng && \
+	  ffmpeg -v error -nostdin -y -i build/films/$$name.apng -vf \
+	    "select=not(mod(n\,$$every)),setpts=N/20/TB,fps=12,crop=300:260:0:0,scale=225:195:flags=area" \
+	    -c:v ffv1 -pix_fmt bgr0 build/films/$$name.mkv || exit 1; \
+	done <tests/data/films.txt
+	@ffmpeg -v error -nostdin -y \
+	  $$(sed 's|^\([a-z]*\) .*|-i build/films/\1.mkv|' tests/data/films.txt) \
+	  -filter_complex '$(SHEET)' -c:v libwebp_anim -quality 30 \
+	  -compression_level 6 -loop 0 tests/data/scenes.webp && \
+	  rm -rf build/films && echo tests/data/scenes.webp
 
 # ---- the lecture for a course's page ----------------------------------------
 handout: build/elasto

@@ -54,6 +54,8 @@ typedef struct Scene {
     PictureKind picture;
     double frame[4]; /* m, left, bottom, right, top of what is seen; 0: the
                         picture's choice */
+    double strain;   /* its springs are coloured by strain from the start, the
+                        full colours at this one; 0: only if one asks */
     unsigned needs;  /* of enum SceneNeeds */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
     /* Changes the default options, before the command line is applied; NULL:

@@ -7,19 +7,28 @@ static uint32_t blend_byte(Colour from, Colour to, int shift, uint32_t part)
     return ((a * (256 - part) + b * part) >> 8) << shift;
 }
 
-/* Straight lines in RGB from the grey in the middle to both ends. */
+/* Straight lines in RGB from the grey of rest to an end. */
+static Colour blend(Colour end, double part)
+{
+    uint32_t whole = 0;
+    if (part >= 1)
+        whole = 256;
+    else if (part > 0)
+        whole = (uint32_t)(256 * part);
+    return 0xff000000u | blend_byte(COLOUR_REST, end, 16, whole) |
+           blend_byte(COLOUR_REST, end, 8, whole) |
+           blend_byte(COLOUR_REST, end, 0, whole);
+}
+
 Colour colour_map_strain(double strain, double range)
 {
-    Colour end = strain < 0 ? COLOUR_COMPRESS : COLOUR_STRETCH;
-    double size = strain < 0 ? -strain : strain;
-    uint32_t part = 0;
-    if (size >= range)
-        part = 256;
-    else if (size > 0)
-        part = (uint32_t)(256 * (size / range));
-    return 0xff000000u | blend_byte(COLOUR_REST, end, 16, part) |
-           blend_byte(COLOUR_REST, end, 8, part) |
-           blend_byte(COLOUR_REST, end, 0, part);
+    return blend(strain < 0 ? COLOUR_COMPRESS : COLOUR_STRETCH,
+                 (strain < 0 ? -strain : strain) / range);
+}
+
+Colour colour_map_plastic(double strain, double range)
+{
+    return blend(COLOUR_PLASTIC, (strain < 0 ? -strain : strain) / range);
 }
 
 /* Vermilion, green, blue, purple, brown, sky blue. */
@@ -35,6 +44,7 @@ Colour colour_of_energy(int energy)
 {
     static const Colour colours[] = {0xff1c1c1cu, 0xff3d9bd6u, 0xffb8860bu,
                                      0xff6b8e23u, 0xffa0522du, 0xff8a8a8au,
-                                     0xff7b68a8u, 0xffc2738bu, 0xff2f6f6fu};
-    return colours[energy < 0 ? 0 : energy % 9];
+                                     0xff7b1fa2u, 0xffc2738bu, 0xff2f6f6fu,
+                                     0xff0072b2u, 0xff00a88fu};
+    return colours[energy < 0 ? 0 : energy % 11];
 }

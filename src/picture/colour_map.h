@@ -38,6 +38,7 @@
 #define COLOUR_STRETCH  0xffd55e00u
 #define COLOUR_REST     0xffb8b8b8u
 #define COLOUR_COMPRESS 0xff0072b2u
+#define COLOUR_PLASTIC  0xff7b1fa2u /* what has flowed */
 
 /* Where E is not convex, and words about it. */
 #define COLOUR_SHADE  0xfffdf0d5u
@@ -50,5 +51,8 @@ Colour colour_of_energy(int energy);
 /* From COLOUR_COMPRESS at -range over COLOUR_REST at 0 to COLOUR_STRETCH at
  * range > 0; strains outside get the colour of the end, NaN that of rest. */
 Colour colour_map_strain(double strain, double range);
+
+/* From COLOUR_REST at 0 to COLOUR_PLASTIC at range > 0, either sign. */
+Colour colour_map_plastic(double strain, double range);
 
 #endif

@@ -9,6 +9,7 @@
 static const double HEAD = 0.62;        /* ems, length of an arrow's head */
 static const double ARROW_LEAST = 1.5;  /* ems, the longest arrow has */
 static const double LEGEND_SIZE = 0.92; /* ems */
+static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
 
 void stage_line(Paper *paper, const Stage *stage, const double *a,
@@ -108,9 +109,9 @@ double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
 
 /* ---- obstacles ---------------------------------------------------------- */
 
-/* The half plane as two triangles that reach beyond the stage. */
+/* The half plane as two triangles that reach beyond the stage, or a slab. */
 static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
-                      double reach)
+                      double reach, bool thin)
 {
     const Box *box = &stage->box;
     const double *n = wall->n;
@@ -124,8 +125,9 @@ static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
     double foot[2] = {wall->o[0] + along * t[0], wall->o[1] + along * t[1]};
     const double a[2] = {foot[0] - far * t[0], foot[1] - far * t[1]};
     const double b[2] = {foot[0] + far * t[0], foot[1] + far * t[1]};
-    const double c[2] = {b[0] - far * n[0], b[1] - far * n[1]};
-    const double d[2] = {a[0] - far * n[0], a[1] - far * n[1]};
+    double deep = thin ? SLAB * paper->em / stage->camera.scale[0] : far;
+    const double c[2] = {b[0] - deep * n[0], b[1] - deep * n[1]};
+    const double d[2] = {a[0] - deep * n[0], a[1] - deep * n[1]};
     stage_pixel(stage, a, p[0]);
     stage_pixel(stage, b, p[1]);
     stage_pixel(stage, c, p[2]);
@@ -143,7 +145,7 @@ static void draw_wall(Paper *paper, const Stage *stage, const Obstacle *wall,
 }
 
 void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,
-                     const double *x)
+                     const double *x, bool thin)
 {
     double scale = stage->camera.scale[0], reach = contact->barrier.d_hat;
     for (int i = 0; i < contact->obstacles; i++) {
@@ -151,7 +153,7 @@ void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,
         const double *at = obstacle_point(obstacle, x);
         double radius = obstacle->radius * scale;
         if (obstacle->kind == OBSTACLE_WALL) {
-            draw_wall(paper, stage, obstacle, reach);
+            draw_wall(paper, stage, obstacle, reach, thin);
             continue;
         }
         stage_disc(paper, stage, at, radius, COLOUR_SOLID);
@@ -195,6 +197,29 @@ void stage_scale(Paper *paper, const Stage *stage)
                 y - 1.4 * paper->em, ALIGN_CENTRE, "%s %s", number, name);
 }
 
+/* The next word of the legend after `before` pixels for a sign. */
+static void legend_word(Paper *paper, const Stage *stage, Legend *legend,
+                        int before, Colour colour, const char *words)
+{
+    int width = before + paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
+    int margin = paper_pixels(paper, 0.9);
+    if (legend->x > 0 && legend->x + width > stage->box.width - 2 * margin) {
+        legend->x = 0;
+        legend->y += paper_pixels(paper, 1.35);
+    }
+    double x = stage->box.x + margin + legend->x;
+    double y = stage->box.y + 0.6 * paper->em + legend->y;
+    if (before > 0) {
+        double middle = y + 0.65 * LEGEND_SIZE * paper->em;
+        double length = before - 0.6 * paper->em;
+        canvas_arrow(&paper->canvas, x, middle, x + length, middle,
+                     fmax(1, 1.8 * paper->unit), HEAD * paper->em, colour);
+    }
+    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour, x + before, y,
+                ALIGN_LEFT, "%s", words);
+    legend->x += width + paper_pixels(paper, 1.6);
+}
+
 void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
                   Colour colour, const char *format, ...)
 {
@@ -203,17 +228,19 @@ void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
     va_start(arguments, format);
     vsnprintf(words, sizeof words, format, arguments);
     va_end(arguments);
-    int width = paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
-    int margin = paper_pixels(paper, 0.9);
-    if (legend->x > 0 && legend->x + width > stage->box.width - 2 * margin) {
-        legend->x = 0;
-        legend->y += paper_pixels(paper, 1.35);
-    }
-    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour,
-                stage->box.x + margin + legend->x,
-                stage->box.y + 0.6 * paper->em + legend->y, ALIGN_LEFT, "%s",
+    legend_word(paper, stage, legend, 0, colour, words);
+}
+
+void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
+               Colour colour, const char *format, ...)
+{
+    char words[128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    legend_word(paper, stage, legend, paper_pixels(paper, length + 0.6), colour,
                 words);
-    legend->x += width + paper_pixels(paper, 1.6);
 }
 
 Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,

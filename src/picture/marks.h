@@ -46,9 +46,9 @@ double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
 /* The longest of d [2n], those that are not finite left out. */
 double longest_arrow(int nodes, const double *d);
 
-/* Walls and balls, and how far their barrier reaches. */
+/* Walls and balls, and how far their barrier reaches; thin: walls as slabs. */
 void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,
-                     const double *x);
+                     const double *x, bool thin);
 
 /* Lower left: a line as long as so many metres. */
 void stage_scale(Paper *paper, const Stage *stage);
@@ -60,6 +60,10 @@ typedef struct Legend {
 } Legend;
 void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
                   Colour colour, const char *format, ...);
+
+/* The same behind an arrow so many ems long: what that length stands for. */
+void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
+               Colour colour, const char *format, ...);
 
 /* Axes over the whole stage, with numbers where there is room for words. */
 Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,

@@ -8,9 +8,9 @@
 #include "picture/hover.h"
 #include "model/contact.h"
 #include "model/fracture.h"
-#include "model/friction.h"
 #include "model/plasticity.h"
 #include "picture/marks.h"
+#include "picture/square_contact.h"
 #include "scenes/scene.h"
 
 enum {
@@ -22,7 +22,6 @@ enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
 
 static const double ROOM = 1.14;      /* of the stage around the square */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
-static const double FORCE_ROOM = 4.5; /* ems, the longest contact force */
 static const double NODE = 0.1;       /* of the distance of two nodes */
 
 /* What does not change from spring to spring. */
@@ -49,13 +48,6 @@ static double square_extent(double stretch)
 {
     double s = fabs(stretch);
     return s < 1 ? 1 + 1.5 * (1 - s) : s;
-}
-
-/* Whether runs have systems of their own, such as three slopes. */
-static bool has_other_systems(const Simulation *simulation)
-{
-    return simulation->runs > 1 &&
-           simulation->run[1].system != &simulation->system;
 }
 
 /* Whether the scene says what is to be seen. */
@@ -161,7 +153,7 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     Colour colour = COLOUR_X;
     double width = pen->width;
     if (pen->plastic) {
-        colour = colour_map_strain(plastic, pen->range);
+        colour = colour_map_plastic(plastic, pen->range);
     } else if (pen->range > 0) {
         double strain = hypot(a[0] - b[0], a[1] - b[1]) / sqrt(l2) - 1;
         colour = colour_map_strain(strain, pen->range);
@@ -223,7 +215,9 @@ static double node_radius(const SpringPen *pen, bool bare)
 static void draw_nodes(const SpringPen *pen, const System *system, bool bare)
 {
     double radius = node_radius(pen, bare);
-    Colour colour = pen->range > 0 ? COLOUR_TEXT : COLOUR_X;
+    Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
+    if (pen->range > 0) /* they would hide the colours of a fine mesh */
+        radius *= 0.75;
     if (radius >= 0.5 * pen->width)
         for (int i = 0; i < system->nodes; i++)
             canvas_disc(&pen->paper->canvas, pen->at[2 * (size_t)i],
@@ -317,8 +311,10 @@ bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
 
 /* Cells whose four sides are whole are filled lightly; those that have turned
  * over in another colour. */
-static void draw_cells(const SpringPen *pen, const SquareMesh *mesh, bool all)
+static void draw_cells(const SpringPen *pen, const Simulation *simulation,
+                       bool all)
 {
+    const SquareMesh *mesh = &simulation->mesh;
     int rows = mesh->rows, row = rows + 1;
     for (int cell = 0; cell < mesh->segments * rows; cell++) {
         int a = cell / rows * row + cell % rows;
@@ -326,7 +322,7 @@ static void draw_cells(const SpringPen *pen, const SquareMesh *mesh, bool all)
         bool folded = square_picture_folded(mesh, pen->x, cell);
         double p[4][2];
         if ((!folded && !all) ||
-            square_picture_torn(&pen->pane->simulation->system, mesh, cell))
+            square_picture_torn(&simulation->system, mesh, cell))
             continue;
         for (int k = 0; k < 4; k++)
             stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
@@ -366,45 +362,16 @@ static void draw_direction(const SpringPen *pen, const double *p,
                      "search direction p \u00d7 %g", factor);
 }
 
-/* What obstacles push node i with, N. */
-static void push_on(const SpringPen *pen, int i, double force[2])
+/* The run of this number as its contacts see it. */
+static ContactView contact_view(const SpringPen *pen, int run)
 {
-    const Contact *contact = pen->contact;
-    force[0] = force[1] = 0;
-    for (int o = 0; o < contact->obstacles; o++) {
-        if (!contact_has_pair(contact, &pen->pane->simulation->system, i, o))
-            continue;
-        Gap gap = contact_pair_gap(contact, pen->x, i, o);
-        double push = contact_force(&contact->barrier, &gap);
-        force[0] += push * gap.n[0];
-        force[1] += push * gap.n[1];
-    }
-}
-
-/* Forces as arrows, the largest some ems long, and how large that is. */
-static void draw_forces(const SpringPen *pen, Legend *legend)
-{
-    char number[48];
-    int nodes = pen->pane->simulation->system.nodes;
-    double most = 0, force[2];
-    for (int i = 0; i < nodes; i++) {
-        push_on(pen, i, force);
-        most = fmax(most, hypot(force[0], force[1]));
-    }
-    if (!(most > 0) || !isfinite(most))
-        return;
-    double factor =
-        FORCE_ROOM * pen->paper->em / (most * pen->stage->camera.scale[0]);
-    for (int i = 0; i < nodes; i++) {
-        push_on(pen, i, force);
-        if (hypot(force[0], force[1]) > 0.02 * most)
-            stage_arrow(pen->paper, pen->stage, pen->x + 2 * (size_t)i, force,
-                        factor, 1.6, COLOUR_FORCE);
-    }
-    plot_number(number, sizeof number, most);
-    if (pen->stage->text)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_FORCE,
-                     "contact forces, at most %s N", number);
+    const Simulation *simulation = pen->pane->simulation;
+    return (ContactView){.paper = pen->paper,
+                         .stage = pen->stage,
+                         .run = &simulation->run[run],
+                         .x = pen->x,
+                         .h = simulation->options.timestep,
+                         .node = node_radius(pen, false)};
 }
 
 /* The start of the hand's spring, the spring, and its force. */
@@ -447,7 +414,7 @@ static void draw_hover(const SpringPen *pen, const Show *show)
 
 /* ---- all of it ---------------------------------------------------------- */
 
-/* Below the springs: obstacles, rest shape, ghosts, cells. */
+/* Below the springs: rest shape, ghosts, cells. */
 static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
 {
     const Pane *pane = pen->pane;
@@ -455,16 +422,14 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     const Trace *trace = pane->trace;
     Paper *paper = pen->paper;
     const Stage *stage = pen->stage;
-    if (pen->contact && !has_other_systems(simulation))
-        stage_obstacles(paper, stage, pen->contact, pen->x);
     if (!pane->frame && !has_frame(simulation) && !pen->contact) {
         draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
                      COLOUR_RULE);
         if (stage->text && stage->pane == 0)
             stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
     }
-    draw_cells(pen, &simulation->mesh,
-               pen->contact && !fracture_of(&simulation->system));
+    draw_cells(pen, simulation,
+               pen->contact || fracture_of(&simulation->system));
     for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
         if (simulation->run[r].system == &simulation->system)
             draw_ghost(paper, stage, simulation, simulation->run[r].x,
@@ -494,8 +459,6 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
     if (trace && trace->p && trace->line >= LINE_SOLVE &&
         trace->line <= LINE_SEARCH)
         draw_direction(pen, trace->p, legend);
-    if (pen->contact)
-        draw_forces(pen, legend);
     draw_hover(pen, show);
     draw_hand(pen, show);
     int folded = pane_folded(pane);
@@ -504,26 +467,34 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
                      "%d cell%s folded over", folded, folded == 1 ? "" : "s");
 }
 
-/* The bar from compressed to stretched, lower right. */
-static void draw_strain_bar(Paper *paper, const Stage *stage, double range,
+/* What the colours mean, lower right: from compressed to stretched, or from
+ * nothing to the largest plastic strain. */
+static void draw_colour_bar(Paper *paper, const Stage *stage, double range,
                             bool plastic)
 {
-    int width = paper_pixels(paper, 11), height = paper_pixels(paper, 0.6);
+    int width = paper_pixels(paper, 14), height = paper_pixels(paper, 0.6);
     int x = stage->box.x + stage->box.width - width - paper_pixels(paper, 1);
     int y = stage->box.y + stage->box.height - paper_pixels(paper, 1.2);
-    for (int i = 0; i < width; i++)
-        canvas_rectangle(&paper->canvas, x + i, y, 1, height,
-                         colour_map_strain(2 * (i + 0.5) / width - 1, 1));
     double above = y - 1.4 * paper->em;
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_COMPRESS, x, above,
-                ALIGN_LEFT, "\u2212%.3g %%", 100 * fmin(range, 1));
+    for (int i = 0; i < width; i++) {
+        double part = (i + 0.5) / width;
+        canvas_rectangle(&paper->canvas, x + i, y, 1, height,
+                         plastic ? colour_map_plastic(part, 1)
+                                 : colour_map_strain(2 * part - 1, 1));
+    }
+    if (plastic)
+        paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x, above,
+                    ALIGN_LEFT, "0");
+    else
+        paper_write(paper, FACE_REGULAR, 0.85, COLOUR_COMPRESS, x, above,
+                    ALIGN_LEFT, "\u2212%.3g %%", 100 * fmin(range, 1));
     paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * width, above,
                 ALIGN_CENTRE, plastic ? "plastic strain" : "strain");
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_STRETCH, x + width, above,
-                ALIGN_RIGHT, "+%.3g %%", 100 * range);
+    paper_write(paper, FACE_REGULAR, 0.85,
+                plastic ? COLOUR_PLASTIC : COLOUR_STRETCH, x + width, above,
+                ALIGN_RIGHT, plastic ? "%.3g %%" : "+%.3g %%", 100 * range);
 }
 
-/* From the ground up. */
 /* The number of each node beside it. */
 static void draw_numbers(const SpringPen *pen, const System *system)
 {
@@ -536,47 +507,69 @@ static void draw_numbers(const SpringPen *pen, const System *system)
     }
 }
 
-/* Where nodes touch with friction: a disc where they stick, a ring where they
- * slide. */
-static void draw_slides(const SpringPen *pen, const System *system)
+/* Obstacles of all runs, so that no wall hides a body. */
+static void draw_obstacles(const SpringPen *pen)
 {
-    const Term *term = system_find_term(system, &friction_energy);
-    const Friction *friction = term ? term->data : NULL;
-    double radius = fmax(node_radius(pen, false), 2 * pen->paper->unit);
-    for (int s = 0; friction && s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        const double *at = pen->x + 2 * (size_t)slide->pair.node;
-        if (fabs(slide->y) >= friction->e)
-            stage_ring(pen->paper, pen->stage, at, 1.5 * radius, 1.5,
-                       COLOUR_FORCE);
-        else
-            stage_disc(pen->paper, pen->stage, at, 1.4 * radius, COLOUR_FORCE);
+    const Simulation *simulation = pen->pane->simulation;
+    bool apart = square_contact_apart(simulation);
+    for (int r = 0; r < (apart ? simulation->runs : 1); r++) {
+        ContactView view = contact_view(pen, r);
+        view.x = r == 0 ? pen->x : simulation->run[r].x;
+        square_contact_obstacles(&view, apart);
+        if (apart && pen->stage->text)
+            square_contact_label(&view);
     }
 }
 
-/* Runs with a system of their own, above the obstacles of the first. */
+/* Runs with a system of their own; the first one is drawn last. */
 static void draw_other_runs(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
-    if (!has_other_systems(simulation))
-        return;
-    const Contact *contact = contact_of(&simulation->system);
-    if (contact && !show->bare)
-        stage_obstacles(paper, stage, contact, simulation->run[0].x);
-    for (int r = 1; r < simulation->runs; r++) {
-        const System *system = simulation->run[r].system;
+    for (int r = 1; square_contact_apart(simulation) && r < simulation->runs;
+         r++) {
         SpringPen pen = square_pen(paper, stage, show, r);
-        if (pen.contact && !show->bare)
-            stage_obstacles(paper, stage, pen.contact, pen.x);
         if (!pen.at)
-            continue;
-        draw_all_springs(&pen, system);
-        draw_nodes(&pen, system, show->bare);
+            return;
         if (!show->bare)
-            draw_slides(&pen, system);
+            draw_cells(&pen, simulation, true);
+        draw_all_springs(&pen, simulation->run[r].system);
+        draw_nodes(&pen, simulation->run[r].system, show->bare);
     }
 }
 
+/* Forces on all runs, in one scale, and what they mean. */
+static void draw_forces(const SpringPen *pen, Legend *legend)
+{
+    const Simulation *simulation = pen->pane->simulation;
+    int runs = square_contact_apart(simulation) ? simulation->runs : 1;
+    ContactView view[SIMULATION_MAX_RUNS];
+    double most = 0;
+    for (int r = 0; r < runs; r++) {
+        view[r] = contact_view(pen, r);
+        view[r].x = r == 0 ? pen->x : simulation->run[r].x;
+        most = fmax(most, square_contact_most(&view[r]));
+    }
+    for (int r = 0; r < runs; r++)
+        square_contact_forces(&view[r], most);
+    if (pen->stage->text)
+        square_contact_legend(&view[0], most, legend);
+}
+
+/* A tolerance at which bodies would hang in the air or freeze. */
+static void draw_tolerance(const SpringPen *pen, Legend *legend)
+{
+    const Simulation *simulation = pen->pane->simulation;
+    double needed = simulation_tolerance_needed(simulation);
+    char number[48];
+    if (!(simulation->options.tolerance > needed * (1 + 1e-9)))
+        return;
+    plot_number(number, sizeof number, needed);
+    stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+                 "\u03b5 is loose: above %s m/s bodies may hang or freeze",
+                 number);
+}
+
+/* From the ground up. */
 static SpringCount square_draw(Paper *paper, const Stage *stage,
                                const Show *show)
 {
@@ -585,6 +578,8 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     const System *system = &simulation->system;
     SpringCount count = {0, 0};
     Legend legend = {0, 0};
+    if (pen.contact)
+        draw_obstacles(&pen);
     draw_other_runs(paper, stage, show);
     pen = square_pen(paper, stage, show, 0);
     if (!pen.at)
@@ -601,14 +596,16 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     draw_nodes(&pen, system, show->bare);
     if (show->bare)
         return count;
-    draw_slides(&pen, system);
+    if (pen.contact)
+        draw_forces(&pen, &legend);
     draw_signs(&pen, show, &legend);
     if (stage->text && show->numbers && system->nodes <= NUMBERED)
         draw_numbers(&pen, system);
     if (stage->text) {
+        draw_tolerance(&pen, &legend);
         stage_scale(paper, stage);
         if (pen.range > 0)
-            draw_strain_bar(paper, stage, pen.range, pen.plastic);
+            draw_colour_bar(paper, stage, pen.range, pen.plastic);
     }
     return count;
 }
@@ -686,14 +683,14 @@ static Pick square_pick(const Show *show, const Stage *stage, double x,
 static void square_sample(const Simulation *simulation, History *history,
                           Trail *trail)
 {
-    static const char *const names[] = {"total",   "kinetic",  "elastic",
-                                        "gravity", "contact",  "hand",
-                                        "plastic", "fracture", "friction"};
+    static const char *const names[] = {
+        "total",   "kinetic",  "elastic",  "gravity", "contact",   "hand",
+        "plastic", "fracture", "friction", "work",    "dissipated"};
     enum { NAMES = sizeof names / sizeof *names };
     Energies e = simulation_energies(simulation, 0);
-    const double value[NAMES] = {e.total,   e.kinetic,  e.elastic,
-                                 e.gravity, e.contact,  e.hand,
-                                 e.plastic, e.fracture, e.friction};
+    const double value[NAMES] = {e.total,    e.kinetic, e.elastic,   e.gravity,
+                                 e.contact,  e.hand,    e.plastic,   e.fracture,
+                                 e.friction, e.work,    e.dissipated};
     (void)trail;
     history->series = NAMES;
     for (int s = 0; s < NAMES; s++)
@@ -704,6 +701,8 @@ static void square_sample(const Simulation *simulation, History *history,
 double square_picture_strain_range(const Simulation *simulation)
 {
     double strain = fabs(fabs(simulation->options.stretch) - 1);
+    if (simulation->scene->strain > 0)
+        return simulation->scene->strain;
     return plot_round_up(fmax(0.5 * strain, 0.05));
 }
 

@@ -295,7 +295,8 @@ void player_fill(Player *player)
     show->closed ^= player->closed;
     show->large = player->large;
     show->lens = player->lens;
-    show->strain = player->strain;
+    show->strain =
+        player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
     if (player->help)
         fill_help(show);

@@ -1,0 +1,45 @@
+/* square_contact.h - what bodies meet: walls and balls, the forces of contact
+ * and friction, and which contacts stick.
+ *
+ * All of it follows from positions and velocities alone, so that a state from
+ * the history is drawn as it was when it was new.
+ */
+#ifndef ELASTO_SQUARE_CONTACT_H
+#define ELASTO_SQUARE_CONTACT_H
+
+#include "picture/marks.h"
+#include "scenes/simulation.h"
+
+/* A run whose contacts are drawn. */
+typedef struct ContactView {
+    Paper *paper;
+    const Stage *stage;
+    const TimeIntegrator *run; /* its system and velocities */
+    const double *x;           /* [2n] m, where its nodes are drawn */
+    double h;                  /* s, the time step */
+    double node;               /* pixels, radius of a node's disc */
+} ContactView;
+
+/* Whether runs have systems of their own, such as three slopes. */
+bool square_contact_apart(const Simulation *simulation);
+
+/* Walls and balls of the run; thin walls: as slabs, so that those of several
+ * runs stay apart. */
+void square_contact_obstacles(const ContactView *view, bool thin);
+
+/* The largest force that an obstacle and its friction put on a node, N. */
+double square_contact_most(const ContactView *view);
+
+/* These forces as arrows that end at their nodes, `most` some ems long; a disc
+ * where friction holds a node, a ring where it slides. */
+void square_contact_forces(const ContactView *view, double most);
+
+/* What arrows, discs and rings mean. */
+void square_contact_legend(const ContactView *view, double most,
+                           Legend *legend);
+
+/* Under the left end of the first wall: its coefficient of friction as a
+ * part of its slope, and whether the body slides. */
+void square_contact_label(const ContactView *view);
+
+#endif
