@@ -56,6 +56,8 @@ typedef struct Trace {
     const double *x; /* [2n] m, x^i, where p was made */
     const double *p; /* [2n] m, from line 4 on; NULL before */
     double residual; /* of p, m/s */
+    bool passed;     /* it is not above the tolerance, and that was known
+                        without p: the numbers of line 4 are not there */
     double slope;    /* grad E . p, J s^2 */
     int projected;   /* springs; < 0: not known */
     /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */
@@ -229,8 +231,8 @@ void show_zoom(Show *show, const Layout *layout, double x, double y,
 void show_move(Show *show, const Layout *layout, int pane, double dx,
                double dy);
 
-/* The row of help or of the list of pages at this height; -1: none. */
-int show_help_row(const Show *show, const Layout *layout, double y);
+/* The row of help or of the list of pages at this pixel; -1: none. */
+int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);

@@ -19,6 +19,7 @@ typedef struct Lane {
     Track track;
     Tape tape;       /* of the last step that was made */
     bool taped;      /* it is that of the step shown */
+    bool retried;    /* or it was tried to make it that */
     int place;       /* shown of the tape; -1: the state after the step */
     History history; /* of energies or radii */
     Trail trail;

@@ -57,7 +57,9 @@ typedef struct Player {
     bool warned;      /* paused once because a step did not converge */
     bool holds;       /* the hand has not let go since it took a node */
     bool paused;
+    bool halted;       /* by itself: at rest, at an end, after a failure */
     bool rests;        /* nothing moves any more */
+    bool leaving;      /* the last command was Escape, with nothing open */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
@@ -78,6 +80,7 @@ typedef struct Player {
     bool strain, bare, help, blank;
     unsigned closed; /* cards that are not as the picture has them */
     int large, selected;
+    char typed[16]; /* what is being typed for the selected number, or "" */
     CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
     const Number *number[NUMBERS_MOST]; /* what the row has */
     int numbers;

@@ -46,6 +46,7 @@ typedef struct Tape {
     int before_room;
     NewtonRecord *record_before;
     bool ended;      /* round [count] is there */
+    bool passed;     /* its test was passed without a direction */
     double *x_tilde; /* [size] m */
     bool tilde;      /* it is known */
     double *scratch; /* [2 size] */

@@ -54,6 +54,7 @@ typedef struct Simulation {
     Status first;              /* how the first of these ended */
     int reasons[STATUS_COUNT]; /* how many of these ended in this way */
     Status status;             /* of the last step */
+    NewtonCounters counted;    /* by solvers that are no more */
 } Simulation;
 
 /* The ledger of a run, J.  What it holds now:

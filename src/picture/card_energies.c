@@ -3,6 +3,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/plot.h"
 #include "scenes/scene.h"
 
@@ -187,7 +188,8 @@ static void draw_radius(Paper *paper, Box inside, const Show *show)
         paper, inside, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){0, RADIUS_AXIS, false, false, NULL});
     for (int s = 0; s < pane->history->series; s++)
-        draw_series(paper, &plot, pane->history, s, 1.8, colour_of_run(s));
+        draw_series(paper, &plot, pane->history, s, 1.8,
+                    circle_colour(simulation, s));
 }
 
 const Card card_radius = {

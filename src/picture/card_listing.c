@@ -118,14 +118,14 @@ void alpha_text(char *text, size_t size, double alpha)
         plot_number(text, size, alpha);
 }
 
-/* "52 of 72 projected" */
+/* "52 of 72 springs" */
 static void projected_value(char *value, const Simulation *simulation,
                             const Trace *trace)
 {
     if (simulation->options.filter == FILTER_NONE)
         snprintf(value, LISTING_VALUE, "off: P = \u2207\u00b2E");
     else if (trace->projected >= 0)
-        snprintf(value, LISTING_VALUE, "%d of %d projected", trace->projected,
+        snprintf(value, LISTING_VALUE, "%d of %d springs", trace->projected,
                  simulation->system.springs);
 }
 
@@ -165,6 +165,12 @@ static void line_value(char *value, const Simulation *simulation,
     if (!isfinite(trace->residual))
         return;
     plot_number(b, sizeof b, tolerance);
+    if (trace->passed) {
+        if (line == LINE_TEST)
+            snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b,
+                     scalar ? "" : " m/s");
+        return;
+    }
     if (line == LINE_SOLVE) {
         plot_number(a, sizeof a, trace->residual * (scalar ? 1 : h));
         snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s%s", a,

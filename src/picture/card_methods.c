@@ -2,6 +2,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/plot.h"
 
 #include <math.h>
@@ -20,6 +21,26 @@ static const Formula formulas[] = {
     {"backward-euler", "v^{n+1} = v^{n} + h a({x}^{n+1})",
      "{x}^{n+1} = {x}^{n} + h v^{n+1}",
      "radius / \u221a(1 + (h\u03c9)\u00b2) a step: it shrinks"},
+    {"verlet",
+     "v^{n+\u00bd} = v^{n} + \u00bdh a({x}^{n});   "
+     "{x}^{n+1} = {x}^{n} + h v^{n+\u00bd}",
+     "v^{n+1} = v^{n+\u00bd} + \u00bdh a({x}^{n+1})",
+     "stays on an ellipse, nearly the circle"},
+    {"bdf2", "{x}^{n+1} = (4{x}^{n} \u2212 {x}^{n\u22121})/3 + \u2154h v^{n+1}",
+     "v^{n+1} = (4v^{n} \u2212 v^{n\u22121})/3 + \u2154h a({x}^{n+1})",
+     "shrinks, by far less than backward Euler"},
+    {"midpoint", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
+     "v^{n+1} = v^{n} + h a(\u00bd({x}^{n} + {x}^{n+1}))",
+     "stays on the circle, a little late"},
+    {"sdirk2", "two stages of backward Euler with \u03b3h,",
+     "\u03b3 = 1 \u2212 1/\u221a2; the second one is the end",
+     "shrinks, by far less than backward Euler"},
+    {"avf", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
+     "v^{n+1} = v^{n} + h \u222b a on the way from {x}^{n} to {x}^{n+1}",
+     "stays on the circle: energy is kept"},
+    {"avf4", "five steps of the averaged field:",
+     "g h, g h, (1 \u2212 4g) h, g h, g h;  g = 1/(4 \u2212 4^{1/3})",
+     "stays on the circle, hardly late"},
 };
 enum { FORMULAS = sizeof formulas / sizeof *formulas };
 
@@ -42,8 +63,8 @@ static void draw_methods(Paper *paper, Box inside, const Show *show)
         const Formula *formula = find_formula(method);
         double y = inside.y + r * block * paper->em;
         double step = line * paper->em, x = inside.x + 0.3 * paper->em;
-        paper_write(paper, FACE_BOLD, 1, colour_of_run(r), x, y, ALIGN_LEFT,
-                    "%s", method->label);
+        paper_write(paper, FACE_BOLD, 1, circle_colour(simulation, r), x, y,
+                    ALIGN_LEFT, "%s", method->label);
         if (!formula)
             continue;
         paper_write(paper, FACE_REGULAR, 1, COLOUR_TEXT, x, y + step,

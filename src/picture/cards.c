@@ -102,13 +102,23 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
     return inside;
 }
 
-/* Ems, height of a row of help. */
-static double help_line(const Show *show, Box inside, double em)
+/* Rows of help: one below the other, and in as many columns as it takes. */
+typedef struct HelpGrid {
+    int rows, columns; /* in each column; side by side */
+    double line;       /* pixels */
+} HelpGrid;
+
+static HelpGrid help_grid(const Show *show, Box inside, double em)
 {
-    double line = 1.5;
-    if (show->help_rows * line * em > inside.height)
-        line = fmax(inside.height / (show->help_rows * em), 0.6);
-    return line;
+    const double line = 1.5, least = 1.3, wide = 24; /* ems */
+    HelpGrid grid = {show->help_rows > 0 ? show->help_rows : 1, 1, line * em};
+    int most = (int)fmax(inside.width / (wide * em), 1);
+    while (grid.rows * least * em > inside.height && grid.columns < most) {
+        grid.columns++;
+        grid.rows = (show->help_rows + grid.columns - 1) / grid.columns;
+    }
+    grid.line = fmin(grid.line, inside.height / (double)grid.rows);
+    return grid;
 }
 
 /* What is inside the frame of a page. */
@@ -120,14 +130,16 @@ static Box page_inside(Box column, double em)
                  box.height - bar - margin / 2};
 }
 
-int show_help_row(const Show *show, const Layout *layout, double y)
+int show_help_row(const Show *show, const Layout *layout, double x, double y)
 {
     Box inside = page_inside(layout->column, layout->em);
-    double line = help_line(show, inside, layout->em) * layout->em;
-    double row = floor((y - inside.y) / line);
-    bool there = show->page.kind == PAGE_HELP && row >= 0 &&
-                 row < show->help_rows && y < inside.y + inside.height;
-    return there ? (int)row : -1;
+    HelpGrid grid = help_grid(show, inside, layout->em);
+    if (show->page.kind != PAGE_HELP || !box_contains(inside, x, y))
+        return -1;
+    int column = (int)((x - inside.x) * grid.columns / inside.width);
+    int row = (int)((y - inside.y) / grid.line);
+    int at = column * grid.rows + row;
+    return row < grid.rows && at < show->help_rows ? at : -1;
 }
 
 /* One line in letters as small as it takes. */
@@ -144,17 +156,19 @@ static void write_fitting(Paper *paper, double size, double x, double y,
 /* Key and meaning, row by row; a row without a meaning is a heading. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
-    double line = help_line(show, inside, paper->em);
-    double size = fmin(0.95, line / 1.3);
+    HelpGrid grid = help_grid(show, inside, paper->em);
+    double size = fmin(0.95, grid.line / (1.3 * paper->em));
     bool pages = show->help == show->page_row;
     double key = (pages ? 2.6 : 8) * size * paper->em;
+    double wide = inside.width / (double)grid.columns;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
-        double y = inside.y + i * line * paper->em;
-        paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, inside.x, y,
-                    ALIGN_LEFT, "%s", row->key);
+        double x = inside.x + i / grid.rows * wide;
+        double y = inside.y + i % grid.rows * grid.line;
+        paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
+                    row->key);
         if (row->text)
-            write_fitting(paper, size, inside.x + key, y, inside.width - key,
+            write_fitting(paper, size, x + key, y, wide - key - 0.5 * paper->em,
                           row->text);
     }
 }

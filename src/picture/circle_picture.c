@@ -31,8 +31,7 @@ static void draw_exact_circle(Paper *paper, const Stage *stage)
                     at[1] + 0.2 * paper->em, ALIGN_CENTRE, "1 m");
 }
 
-/* Colour of a run: its own, by its method, whatever else runs. */
-static Colour run_colour(const Simulation *simulation, int run)
+Colour circle_colour(const Simulation *simulation, int run)
 {
     int number = 0;
     const IntegratorMethod *method = simulation->run[run].method;
@@ -56,10 +55,10 @@ static SpringCount circle_draw(Paper *paper, const Stage *stage,
     for (int r = 0; trail && r < simulation->runs; r++)
         for (int i = 1; i < trail->count; i++)
             stage_line(paper, stage, trail->point[r][i - 1], trail->point[r][i],
-                       2.2, run_colour(simulation, r));
+                       2.2, circle_colour(simulation, r));
     for (int r = 0; r < simulation->runs; r++)
         stage_disc(paper, stage, simulation->run[r].x, 7 * paper->unit,
-                   run_colour(simulation, r));
+                   circle_colour(simulation, r));
     if (show->bare || !stage->text)
         return (SpringCount){0, 0};
     stage_legend(paper, stage, &legend, COLOUR_GREY, "exact: |{x}| = 1 m");
@@ -67,7 +66,7 @@ static SpringCount circle_draw(Paper *paper, const Stage *stage,
         char radius[48];
         const double *x = simulation->run[r].x;
         plot_number(radius, sizeof radius, hypot(x[0], x[1]));
-        stage_legend(paper, stage, &legend, run_colour(simulation, r),
+        stage_legend(paper, stage, &legend, circle_colour(simulation, r),
                      "%s: %s m", simulation->run[r].method->label, radius);
     }
     stage_scale(paper, stage);

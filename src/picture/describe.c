@@ -80,6 +80,13 @@ static void describe_line(Show *show, const Simulation *simulation,
         say(s, SHOW_TEXT, "line 6: the square moves by {alpha} {p}");
         break;
     case LINE_TEST:
+        if (trace->passed) {
+            say(s, SHOW_TEXT,
+                "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
+                "bound is below, and {p} is not needed",
+                other);
+            break;
+        }
         say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", number,
             trace->residual > options->tolerance ? "above" : "not above",
             other);

@@ -21,6 +21,9 @@ extern const Picture dial_picture;
 void landscape_bounds(const Show *show, int pane, double bounds[4]);
 Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show);
 
+/* The circle's colour of a run: its own, by its method, whatever else runs. */
+Colour circle_colour(const Simulation *simulation, int run);
+
 /* One spring: force, eigenvalues, energy over its length. */
 extern const Picture spring_picture;
 

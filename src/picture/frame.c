@@ -25,9 +25,17 @@ static void draw_ground(Paper *paper, Box zone, bool rule_below)
                      zone.width, thick, COLOUR_RULE);
 }
 
-/* Topic and sentence from the left; method and state from the right. */
-static void draw_strip(Paper *paper, Box strip, const Show *show)
+/* Whether the strip has two lines: then it tells the message, and the last line
+ * keeps its chips. */
+static bool strip_tells(const Layout *layout)
 {
+    return layout->strip.height > 2.6 * layout->em;
+}
+
+/* Topic and sentence from the left; method and state from the right. */
+static void draw_strip(Paper *paper, const Layout *layout, const Show *show)
+{
+    Box strip = layout->strip;
     if (strip.width <= 0)
         return;
     draw_ground(paper, strip, true);
@@ -58,12 +66,17 @@ static void draw_strip(Paper *paper, Box strip, const Show *show)
     Box room = {(int)(left + topic + 1.1 * em), (int)(middle - 0.65 * em), 0,
                 strip.height};
     room.width = (int)right - room.x;
-    if (room.width > 6 * em && show->sentence[0]) {
-        int full = paper_width(paper, FACE_REGULAR, SENTENCE, show->sentence);
+    bool message = show->message[0] && strip_tells(layout);
+    const char *said = message ? show->message : show->sentence;
+    Colour colour = message && show->warning ? COLOUR_WARNING
+                    : message                ? COLOUR_VALUE
+                                             : COLOUR_TEXT;
+    if (room.width > 6 * em && said[0]) {
+        int full = paper_width(paper, FACE_REGULAR, SENTENCE, said);
         bool two = full > room.width && strip.height > 2.6 * em;
         room.y -= two ? (int)(0.62 * em) : 0;
-        paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : SENTENCE, COLOUR_TEXT,
-                        room, two ? 2 : 1, show->sentence);
+        paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : SENTENCE, colour, room,
+                        two ? 2 : 1, said);
     }
     canvas_clip(&paper->canvas, before);
 }
@@ -209,7 +222,7 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
     if (last.width <= 0)
         return;
     draw_ground(paper, last, false);
-    if (show->message[0]) {
+    if (show->message[0] && !strip_tells(layout)) {
         Box room = {last.x + (int)em,
                     (int)(last.y + 0.5 * last.height - 0.65 * em),
                     last.width - (int)(2 * em), last.height};
@@ -231,7 +244,7 @@ static void draw_last(Paper *paper, const Layout *layout, const Show *show)
 
 void frame_draw(Paper *paper, const Layout *layout, const Show *show)
 {
-    draw_strip(paper, layout->strip, show);
+    draw_strip(paper, layout, show);
     draw_row(paper, layout, show);
     draw_time(paper, layout, show);
     draw_last(paper, layout, show);

@@ -14,6 +14,9 @@ static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double PAIR_LEAST = 32; /* a column for two cards in a row */
 
+/* Cards fold where the room is less than this part of what they need. */
+static const double FOLDS = 1.15;
+
 /* The column's part of the width. */
 static const double COLUMN_PART = 0.38;
 
@@ -165,6 +168,30 @@ static bool card_is_bar(const LayoutWish *wish, int cards, int card)
     return (wish->closed >> card & 1) || (large && card != wish->large);
 }
 
+/* Cards that become bars since there is no room for all: from the last one on,
+ * and never the first that is open. */
+static LayoutWish fold_cards(const LayoutWish *wish, double room, double gap)
+{
+    LayoutWish folded = *wish;
+    int cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
+    double least = -gap;
+    for (int i = 0; i < cards; i++)
+        if (!(wish->hidden >> i & 1))
+            least += gap +
+                     (card_is_bar(wish, cards, i) ? TITLE_BAR : wish->least[i]);
+    int open = 0;
+    for (int i = 0; i < cards; i++)
+        open += !(wish->hidden >> i & 1) && !card_is_bar(wish, cards, i);
+    for (int i = cards - 1; i > 0 && open > 1 && least > FOLDS * room; i--) {
+        if ((wish->hidden >> i & 1) || card_is_bar(wish, cards, i))
+            continue;
+        folded.closed |= 1u << i;
+        least -= wish->least[i] - TITLE_BAR;
+        open--;
+    }
+    return folded;
+}
+
 /* Whether a card and the next one stand in one row. */
 static bool cards_pair(const LayoutWish *wish, const Layout *layout, int card)
 {
@@ -178,10 +205,13 @@ static bool cards_pair(const LayoutWish *wish, const Layout *layout, int card)
 
 /* Rows of one or two cards: each has what it needs, and what is left is shared
  * by weight; if there is not enough, what they need shrinks alike. */
-static void place_cards(const LayoutWish *wish, Layout *layout)
+static void place_cards(const LayoutWish *wished, Layout *layout)
 {
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
     Box inner = box_inset(layout->column, pixels(layout, GAP));
+    bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
+    LayoutWish folded = fold_cards(wished, inner.height / layout->em, GAP);
+    const LayoutWish *wish = pairs ? wished : &folded;
     double room = inner.height + gap, least = 0, weights = 0;
     layout->cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
     for (int i = 0; i < layout->cards; i++) {
@@ -250,7 +280,8 @@ Layout layout_create(int width, int height, const LayoutWish *wish)
     layout.em = fmax(size, EM_LEAST);
     layout.stage = place_zones(wish, &layout);
     double wide = width / layout.em, high = height / layout.em;
-    if (!wish->bare && wide >= 60 && high >= 36 &&
+    bool low = wish->page && high < 50; /* a page needs all of the width */
+    if (!wish->bare && wide >= 60 && high >= 36 && !low &&
         (wish->page || wish->cards > 0)) {
         int column = pixels(&layout, fmax(COLUMN_PART * wide, COLUMN_LEAST));
         layout.column = layout.stage;

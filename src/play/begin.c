@@ -54,11 +54,13 @@ static Status switch_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int count;
+    bool halted = player->halted;
     Status status = find_options(player, command->text, options, &count);
     if (!status)
         status = player_restart(player, options, count);
     if (status)
         return status;
+    player->paused = player->paused && !halted;
     if (options->scene->explains && !player->given[0].script)
         player->paused = true;
     player_set_title(player);
@@ -85,7 +87,11 @@ static Status begin_again(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     (void)command;
-    return player_restart(player, options, player_options(player, options));
+    player_options(player, options);
+    if (player->halted && !player_explains(&options[0]))
+        player->paused = false; /* nobody asked for this pause */
+    player->lens = LENS_FITS;
+    return player_restart(player, options, player->lanes);
 }
 
 const Deed begin_deeds[] = {

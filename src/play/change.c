@@ -22,6 +22,8 @@ Status player_change_lanes(Player *player, const Command *change, int from,
 {
     Status status = player_forget_later(player);
     player->changed = true;
+    if (player->rests && player->halted) /* something may move again */
+        player->paused = player->halted = false;
     player->rests = false;
     for (int i = from; i < to && !status; i++)
         status = track_change(&player->lane[i].track, change, player->message,
@@ -161,6 +163,7 @@ static Status select_number(Player *player, const Command *command)
     const Number *number[NUMBERS_MOST];
     int count = numbers_of(&player_settings(player)->options, number);
     player->selected = player->selected + 1 < count ? player->selected + 1 : -1;
+    player->typed[0] = '\0';
     return STATUS_OK;
 }
 

@@ -91,6 +91,39 @@ static Status drag_number(Player *player)
                                    : ask_set(player, number->option, value);
 }
 
+/* Keys that belong into the selected number: its digits, Return that sets it,
+ * Backspace.  taken out: whether this was one. */
+static Status type_number(Player *player, const char *key, bool *taken)
+{
+    char *typed = player->typed, value[sizeof player->typed];
+    size_t length = strlen(typed);
+    int index = player->selected;
+    *taken = index >= 0 && index < player->numbers &&
+             player->number[index]->kind != NUMBER_NAME;
+    if (!*taken)
+        return STATUS_OK;
+    bool digit = key[1] == '\0' && key[0] && strchr("0123456789.", key[0]);
+    bool power = length > 0 && strcmp(key, "E") == 0;
+    bool sign = length > 0 && typed[length - 1] == 'e' &&
+                (strcmp(key, "-") == 0 || strcmp(key, "+") == 0);
+    if ((digit || power || sign) && length + 1 < sizeof player->typed) {
+        typed[length] = power ? 'e' : key[0];
+        typed[length + 1] = '\0';
+    } else if (length > 0 && strcmp(key, "Backspace") == 0) {
+        typed[length - 1] = '\0';
+    } else if (length > 0 && (strcmp(key, "Return") == 0 ||
+                              strcmp(key, "Keypad Enter") == 0)) {
+        memcpy(value, typed, sizeof value);
+        typed[0] = '\0';
+        return ask_set(player, player->number[index]->option, value);
+    } else {
+        *taken = false;
+        return STATUS_OK;
+    }
+    player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+    return STATUS_OK;
+}
+
 /* ---- the stage ---------------------------------------------------------- */
 
 /* The stretch that puts the edge under the mouse. */
@@ -105,6 +138,26 @@ static Status drag_edge(Player *player, const Pick *pick)
                                    : ask_set(player, "stretch", value);
 }
 
+/* The node nearest to a place of the body, or -1: it is beside it. */
+static int near_node(const Player *player, const Pick *pick)
+{
+    const Pane *pane = &player->show.pane[pick->pane];
+    const Simulation *simulation = pane->simulation;
+    const SquareMesh *mesh = &simulation->mesh;
+    const double *x = pane_x(pane);
+    double reach = mesh->segments ? 0.75 * mesh->side / mesh->segments : 0;
+    int nearest = -1;
+    for (int i = 0; i < mesh->nodes; i++) {
+        double away =
+            hypot(x[2 * i] - pick->point[0], x[2 * i + 1] - pick->point[1]);
+        if (away < reach) {
+            reach = away;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
 /* Takes what is under the mouse. */
 static Status take(Player *player, const Pick *pick)
 {
@@ -113,9 +166,10 @@ static Status take(Player *player, const Pick *pick)
     switch (pick->kind) {
     case PICK_NODE:
         mouse->drag = DRAG_NODE;
-        return ask_number(player, COMMAND_GRAB, pick->index, 0, 0);
+        return STATUS_OK;
     case PICK_EDGE:
-        mouse->drag = player->paused ? DRAG_EDGE : DRAG_PICTURE;
+        mouse->drag = player->paused && !player->halted ? DRAG_EDGE : DRAG_NODE;
+        mouse->index = near_node(player, pick);
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag = DRAG_HANDLE;
@@ -135,7 +189,8 @@ static Status take(Player *player, const Pick *pick)
         return ask_number(player, COMMAND_START, 0, pick->point[0],
                           pick->point[1]);
     default:
-        mouse->drag = DRAG_PICTURE;
+        mouse->index = near_node(player, pick);
+        mouse->drag = mouse->index >= 0 ? DRAG_NODE : DRAG_PICTURE;
         return STATUS_OK;
     }
 }
@@ -162,10 +217,14 @@ static Status follow(Player *player, const Layout *layout)
     if (hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
         CLICK_ROOM)
         mouse->moved = true;
+    Status status = STATUS_OK;
     switch (mouse->moved ? mouse->drag : DRAG_NONE) {
     case DRAG_NODE:
-        return ask_number(player, COMMAND_DRAG, 0, pick.point[0],
-                          pick.point[1]);
+        if (!player_lane(player)->track.settings.held)
+            status = ask_number(player, COMMAND_GRAB, mouse->index, 0, 0);
+        return status ? status
+                      : ask_number(player, COMMAND_DRAG, 0, pick.point[0],
+                                   pick.point[1]);
     case DRAG_EDGE:
         return drag_edge(player, &pick);
     case DRAG_START:
@@ -218,7 +277,8 @@ static Status hover(Player *player, const Layout *layout)
 static Status page_clicked(Player *player, const Layout *layout)
 {
     Command command = {.kind = COMMAND_PAGE};
-    int row = show_help_row(&player->show, layout, player->mouse.y);
+    int row =
+        show_help_row(&player->show, layout, player->mouse.x, player->mouse.y);
     if (player->column != LECTURE_PAGES || row < 0)
         return STATUS_OK;
     snprintf(command.text, sizeof command.text, "%d", row + 1);
@@ -229,6 +289,7 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
 {
     Mouse *mouse = &player->mouse;
     Hit hit = layout_hit(layout, mouse->x, mouse->y);
+    player_deselect(player);
     switch (hit.zone) {
     case ZONE_CHIP:
         return ask(player, player->chip[hit.index]);
@@ -268,6 +329,11 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
             return status;
     }
     Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
+    if (pick.kind == PICK_NONE || pick.kind == PICK_SPRING) {
+        Pick world = world_at(player, layout);
+        memcpy(pick.point, world.point, sizeof pick.point);
+        pick.pane = world.pane;
+    }
     if (clicks == 2 && (pick.kind == PICK_NONE || pick.kind == PICK_SPRING))
         return ask(player, COMMAND_FIT);
     return take(player, &pick);
@@ -332,8 +398,13 @@ Status player_input(Player *player, const Input *input)
 {
     Command command = {.kind = COMMAND_NONE};
     Mouse *mouse = &player->mouse;
+    Status status;
+    bool typed;
     switch (input->kind) {
     case INPUT_KEY:
+        status = type_number(player, input->key, &typed);
+        if (typed)
+            return status;
         command_from_key(input->key, input->repeats, &command);
         return command.kind == COMMAND_NONE ? STATUS_OK
                                             : player_obey(player, &command);

@@ -34,6 +34,9 @@ static Status grab(Player *player, const Command *command)
     }
     Status status = player_change_all(player, &change);
     player->holds = player->holds || !status;
+    if (!status && player->paused)
+        player_note(player, "paused: the hand pulls as soon as time goes on "
+                            "(Space, N)");
     return status;
 }
 

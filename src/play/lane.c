@@ -113,7 +113,7 @@ Status lane_advance(Lane *lane, double target, long step)
 
 Status lane_show(Lane *lane, long step)
 {
-    lane->failed = lane->taped = false;
+    lane->failed = lane->taped = lane->retried = false;
     lane->place = -1;
     Status status = track_show(&lane->track, lane->at[step]);
     if (lane->track.keeps && step > 0 && lane->at[step] > 0 && !status)

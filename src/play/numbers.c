@@ -8,7 +8,7 @@
 
 static const Number numbers[] = {
     {"timestep", "h", "s", 8, NUMBER_FACTOR, 0},
-    {"stiffness", "k", NULL, 6, NUMBER_FACTOR, 0},
+    {"stiffness", "k", "J/m\u00b2", 11, NUMBER_FACTOR, 0},
     {"stretch", "stretch", NULL, 5, NUMBER_STEP, 0.05},
     {"segments", "segments", NULL, 4, NUMBER_STEP, 1},
     {"tolerance", "\u03b5", "m/s", 9, NUMBER_FACTOR, 0},

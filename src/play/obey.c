@@ -50,6 +50,7 @@ static bool keeps_note(CommandKind kind)
 Status player_obey(Player *player, const Command *command)
 {
     Command resolved = resolve(player, command);
+    bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
     player->changed = true;
     player->message[0] = '\0';
     if (!keeps_note(resolved.kind))
@@ -59,6 +60,7 @@ Status player_obey(Player *player, const Command *command)
         return STATUS_OUT_OF_MEMORY;
     DeedFunction *act = player_deed(resolved.kind);
     Status status = act ? act(player, &resolved) : STATUS_OK;
+    player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;

@@ -77,10 +77,22 @@ uint64_t player_hash(const Player *player)
     return hash;
 }
 
+bool player_is_open(const Player *player)
+{
+    return player->help || player->column || player->blank ||
+           player->selected >= 0 ||
+           (player->view && view_is_full(player->view));
+}
+
 bool player_escape_ends(const Player *player)
 {
-    return !player->help && !player->column && !player->blank &&
-           !(player->view && view_is_full(player->view));
+    return player->leaving && !player_is_open(player);
+}
+
+void player_deselect(Player *player)
+{
+    player->selected = -1;
+    player->typed[0] = '\0';
 }
 
 bool player_ended(const Player *player)
@@ -116,11 +128,33 @@ static int frames_shown(const Player *player)
     return player->speed < 0 ? 1 << -player->speed : 1;
 }
 
+/* Of a step that was gone to, the cards shall know every update: it is made
+ * once more, unless that is long work, or the time line is still dragged. */
+static void know_step(Player *player)
+{
+    enum { LONG = 400000 }; /* nodes times updates */
+    for (int i = 0; i < player->lanes; i++) {
+        Lane *lane = &player->lane[i];
+        const Simulation *simulation = &lane->track.simulation;
+        if (!player->paused || !player->attended || lane->taped ||
+            lane->retried || lane->failed || player->step == 0 ||
+            player->mouse.drag == DRAG_TIME || !simulation->run[0].newton ||
+            !track_step_shown(&lane->track) || state_size(simulation) == 0)
+            continue;
+        long work = simulation->system.nodes;
+        work *= 1 + lane->bar[player->step - 1].updates;
+        if (work <= LONG && lane_retape(lane, player->step))
+            lane_show(lane, player->step);
+        lane->retried = true;
+    }
+}
+
 Status player_draw(Player *player)
 {
     player->changed = false;
     if (!player->view)
         return STATUS_OK;
+    know_step(player);
     Paper *paper = view_paper(player->view);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
@@ -378,8 +412,7 @@ void player_keep_files(const Player *player, Options *options)
     options->log = given->log;
 }
 
-/* Whether the window begins with a pause. */
-static bool explains(const Options *options)
+bool player_explains(const Options *options)
 {
     return options->page ? !options->page->plays : options->scene->explains;
 }
@@ -401,7 +434,7 @@ Status player_create(const Options *options, int count, const char *line,
     player->attended = player->window || options->script || options->page;
     player->paused =
         options->paused || (player->window && !options->script &&
-                            options->steps < 0 && explains(options));
+                            options->steps < 0 && player_explains(options));
     Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
     if (player->paused && script_add(&player->journal, 0, &pause))
         return STATUS_OUT_OF_MEMORY;

@@ -121,8 +121,16 @@ Status lesson_load(Player *player, long cell);
 /* Whether a click on a place of this scene is a guess. */
 bool lesson_asks(const Player *player);
 
-/* Whether Escape ends the program: nothing else is open. */
+/* Whether Escape has anything to close; whether it ends the program: it was
+ * pressed with nothing open, and is pressed again. */
+bool player_is_open(const Player *player);
 bool player_escape_ends(const Player *player);
+
+/* Whether the window begins with a pause. */
+bool player_explains(const Options *options);
+
+/* Without a number that is selected or typed. */
+void player_deselect(Player *player);
 
 /* ---- showing.c ---------------------------------------------------------- */
 

@@ -33,12 +33,16 @@ static Status switch_full(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Help, a black screen or full screen end first, then the program. */
+/* What is open ends first; then, asked twice, the program. */
 static Status leave(Player *player, const Command *command)
 {
     (void)command;
-    if (player->help)
+    if (player_escape_ends(player))
+        player->quit = true;
+    else if (player->help)
         player->help = false;
+    else if (player->selected >= 0)
+        player_deselect(player);
     else if (player->column)
         player->column = LECTURE_CARDS;
     else if (player->blank)
@@ -46,7 +50,7 @@ static Status leave(Player *player, const Command *command)
     else if (player->view && view_is_full(player->view))
         view_set_full(player->view, false);
     else
-        player->quit = true;
+        player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
 

@@ -41,10 +41,13 @@ static void pretty_keys(const char *keys, char *text, size_t size)
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
-        {"drag", "pulls a node; an edge of the paused square: the stretch"},
-        {"right click", "pins a node, or sets it free"},
-        {"wheel", "zooms; over a number: changes it"},
-        {"middle drag", "moves the picture; double click fits it"},
+        {"drag", "pulls the square by a node"},
+        {"drag an edge", "of the paused square: stretch"},
+        {"right click", "pins a node, or frees it"},
+        {"wheel", "zooms, or changes a number"},
+        {"middle drag", "moves the picture"},
+        {"double click", "fits it; on a number: default"},
+        {"digits", "typed into a lit number; Enter"},
     };
     int count = 0;
     for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++)
@@ -120,6 +123,9 @@ static void fill_settings(Player *player)
         setting->off = strcmp(now, "none") == 0;
     }
     show->selected = player->selected;
+    if (player->typed[0] && player->selected < player->numbers)
+        snprintf(show->setting[player->selected].value, SHOW_VALUE, "%s_",
+                 player->typed);
 }
 
 static void add_chip(Player *player, CommandKind kind, const char *key,

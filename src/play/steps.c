@@ -52,6 +52,7 @@ static Status record_states(Player *player)
 Status player_begin(Player *player, const Options *options, int count)
 {
     player->sampled = -1;
+    player->halted = false;
     player->warned = player->rests = player->holds = false;
     player->changed = true;
     player->recorded = STATUS_OK;
@@ -85,7 +86,8 @@ Status player_restart(Player *player, const Options *options, int count)
         player->speed = player_first_speed(&copy[0]);
         player->lens = LENS_FITS;
         player->closed = 0;
-        player->large = player->selected = -1;
+        player->large = -1;
+        player_deselect(player);
         player->show.hover = (Pick){.kind = PICK_NONE};
         player->mouse.drag = DRAG_NONE;
     }
@@ -276,9 +278,11 @@ void player_pause_if_due(Player *player)
         player_note(player, "at rest: nothing moves any more; pull a node, "
                             "change a number, or R begins again");
     player->rests = rests;
-    player->paused = player->paused || ended || rests;
+    player->halted = !player->paused && (ended || rests);
+    player->paused = player->paused || player->halted;
     if (trouble && !player->warned && player->lanes == 1) {
         player->warned = true;
+        player->halted = player->halted || !player->paused;
         player->paused = true;
     }
 }

@@ -26,7 +26,7 @@ void tape_clear(Tape *tape)
         free_round(&tape->round[i]);
     tape->count = tape->before = tape->places = 0;
     tape->bytes = 0;
-    tape->ended = tape->tilde = false;
+    tape->ended = tape->tilde = tape->passed = false;
 }
 
 void tape_free(Tape *tape)
@@ -193,7 +193,8 @@ static void begin_rounds(Tape *tape, const Newton *newton,
     free(g);
 }
 
-/* The round that comes next: where the solver is now. */
+/* The round that comes next: where the solver is now.  A test that a bound or
+ * an old factor decides leaves no direction that belongs there. */
 static void keep_next(Tape *tape, const Newton *newton)
 {
     TapeRound *round = &tape->round[tape->count];
@@ -206,6 +207,10 @@ static void keep_next(Tape *tape, const Newton *newton)
 
 void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *record)
 {
+    bool at_rest = record->iteration < 0 && tape->count == 0;
+    if (at_rest || record->status == STATUS_OK)
+        tape->passed =
+            newton->working == SOLVER_NEWTON && !newton->record.factorised;
     if (record->iteration < 0 || tape->size == 0 || !make_room(tape))
         return;
     if (record->iteration == 0)
@@ -268,9 +273,10 @@ Status tape_end(Tape *tape, const Options *options)
         add_round(tape, options, i);
     if (tape->ended && tape->count > 0) {
         add_place(tape, tape->count, LINE_DO, 0);
-        if (options->filter != FILTER_NONE)
+        if (options->filter != FILTER_NONE && !tape->passed)
             add_place(tape, tape->count, LINE_PROJECT, 0);
-        add_place(tape, tape->count, LINE_SOLVE, 0);
+        if (!tape->passed)
+            add_place(tape, tape->count, LINE_SOLVE, 0);
         add_place(tape, tape->count, LINE_TEST, 0);
     }
     add_place(tape, tape->count, LINE_END, 0);
@@ -310,6 +316,51 @@ static void show_line(const TapeRound *round, Trace *trace)
     trace->function = round->value ? (const void *)round : &round->along;
 }
 
+/* The whole step is over: its last update, as far as there is one. */
+static void trace_last(const Tape *tape, Trace *trace)
+{
+    trace->iteration = tape->count - 1;
+    if (tape->count == 0) {
+        trace->passed = tape->passed;
+        return;
+    }
+    const TapeRound *round = &tape->round[tape->count - 1];
+    const NewtonRecord *record = &tape->record[tape->count - 1];
+    trace->x = round->x;
+    trace->p = round->p;
+    trace->residual = round->residual;
+    trace->slope = round->slope;
+    trace->projected = round->projected;
+    trace->trials = record->trials;
+    trace->accepted = record->alpha > 0;
+    show_line(round, trace);
+}
+
+/* The numbers of a round from the line on at which they are known. */
+static void trace_round(const Tape *tape, const TapePlace *at, Trace *trace)
+{
+    const TapeRound *round = &tape->round[at->round];
+    bool made = at->round < tape->count;
+    bool passed = !made && tape->passed;
+    const NewtonRecord *record = made ? &tape->record[at->round] : NULL;
+    bool solved = at->line >= LINE_SOLVE;
+    trace->x = round->x;
+    trace->passed = passed && solved;
+    trace->updates = at->round + (made && solved);
+    trace->trials = at->trials;
+    trace->accepted = made && at->trials == record->trials && record->alpha > 0;
+    if (solved)
+        trace->residual = round->residual;
+    if (passed)
+        return;
+    trace->projected = at->line >= LINE_PROJECT ? round->projected : -1;
+    if (!solved)
+        return;
+    trace->p = round->p;
+    trace->slope = round->slope;
+    show_line(round, trace);
+}
+
 const double *tape_trace(const Tape *tape, int place, Trace *trace)
 {
     *trace = (Trace){.updates = tape->count,
@@ -318,48 +369,23 @@ const double *tape_trace(const Tape *tape, int place, Trace *trace)
                      .record_before = tape->record_before,
                      .projected = -1,
                      .x_tilde = tape->tilde ? tape->x_tilde : NULL};
-    if (place < 0 || place >= tape->places) { /* the last update as a whole */
-        trace->iteration = tape->count - 1;
-        if (tape->count == 0)
-            return NULL;
-        const TapeRound *round = &tape->round[tape->count - 1];
-        const NewtonRecord *record = &tape->record[tape->count - 1];
-        trace->x = round->x;
-        trace->p = round->p;
-        trace->residual = round->residual;
-        trace->slope = round->slope;
-        trace->projected = round->projected;
-        trace->trials = record->trials;
-        trace->accepted = record->alpha > 0;
-        show_line(round, trace);
+    if (place < 0 || place >= tape->places) {
+        trace_last(tape, trace);
         return NULL;
     }
     const TapePlace *at = &tape->place[place];
-    const TapeRound *round = &tape->round[at->round];
     trace->line = at->line;
-    trace->iteration = at->round;
-    trace->updates = at->round;
-    if (at->line == LINE_END)
-        return NULL;
+    trace->iteration = trace->updates = at->round;
     if (tape->room == 0)
         return NULL;
+    const TapeRound *round = &tape->round[at->round];
     if (at->line == LINE_START)
         return round->x;
-    bool made = at->round < tape->count;
-    const NewtonRecord *record = made ? &tape->record[at->round] : NULL;
-    bool solved = at->line >= LINE_SOLVE;
-    trace->x = round->x;
-    trace->projected = at->line >= LINE_PROJECT ? round->projected : -1;
-    trace->p = solved ? round->p : NULL;
-    trace->residual = solved ? round->residual : 0;
-    trace->slope = solved ? round->slope : 0;
-    trace->updates = at->round + (made && solved);
-    if (solved)
-        show_line(round, trace);
-    trace->trials = at->trials;
-    trace->accepted = made && at->trials == record->trials && record->alpha > 0;
-    bool moved = made && (at->line == LINE_UPDATE || at->line == LINE_TEST);
+    if (at->line != LINE_END || tape->ended)
+        trace_round(tape, at, trace);
+    bool moved = at->round < tape->count &&
+                 (at->line == LINE_UPDATE || at->line == LINE_TEST);
     if (moved && (at->round + 1 < tape->count || tape->ended))
         return tape->round[at->round + 1].x;
-    return moved ? NULL : round->x;
+    return moved || at->line == LINE_END ? NULL : round->x;
 }

@@ -325,8 +325,11 @@ static Status restore(Track *track, long step, size_t *next)
     if (state_size(simulation) == 0 || track->kept_count == 0) {
         NewtonObserver observer = simulation->observer;
         void *user = simulation->user;
+        NewtonCounters counted = simulation_counters(simulation);
         simulation_free(simulation);
-        return simulation_create(&track->options, observer, user, simulation);
+        status = simulation_create(&track->options, observer, user, simulation);
+        simulation->counted = counted;
+        return status;
     }
     status = use_settings(track);
     if (!status)

@@ -6,6 +6,7 @@
 static Status set_paused(Player *player, bool paused)
 {
     player->paused = paused;
+    player->halted = false;
     player->rests = player->rests && paused;
     for (int i = 0; !paused && i < player->lanes; i++)
         player->lane[i].place = -1;

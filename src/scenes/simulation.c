@@ -301,6 +301,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
 {
     double time = simulation_time(simulation);
     double start[SIMULATION_MAX_RUNS], had[SIMULATION_MAX_RUNS];
+    NewtonCounters counted = simulation_counters(simulation);
     NewtonObserver observer = simulation->observer;
     void *user = simulation->user;
     simulation_release(simulation);
@@ -314,6 +315,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
     state_save(simulation, STATE_BODY, state);
     simulation_free(simulation);
     Status status = simulation_create(options, observer, user, simulation);
+    simulation->counted = counted;
     if (!status) {
         state_restore(state, STATE_BODY, simulation);
         simulation->steps_before = simulation->steps;
@@ -374,7 +376,7 @@ double simulation_tolerance_needed(const Simulation *simulation)
 
 NewtonCounters simulation_counters(const Simulation *simulation)
 {
-    NewtonCounters sum = {0};
+    NewtonCounters sum = simulation->counted;
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             newton_counters_add(&simulation->run[i].newton->counters, &sum);

@@ -205,7 +205,7 @@ circle_keys() {
     frame 3
     key space
     common_keys
-    key Escape
+    key Escape Escape
     end 0
     awk -F, 'NR > 1 && $3 > 2 { print "node " $3 }' states
 }
@@ -370,6 +370,9 @@ full_screen() {
     a=$(shot a)
     [ "$a" = 0 ] || echo 'Escape ends the program first'
     key Escape
+    a=$(shot b)
+    [ "$a" = 0 ] || echo 'Escape does not ask again'
+    key Escape Escape
     end 0
 }
 verdict escape_leaves_full_screen_first "$(full_screen)"
