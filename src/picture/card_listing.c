@@ -129,7 +129,7 @@ static void projected_value(char *value, const Simulation *simulation,
                  simulation->system.springs);
 }
 
-/* "alpha = 1/4, 3rd trial" */
+/* "alpha = 1/4: refused" */
 static void search_value(char *value, const Simulation *simulation,
                          const Trace *trace)
 {

@@ -68,7 +68,8 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     int last = trace->updates - 1; /* it may be the present one already */
     bool counted = last >= 0 && trace->record[last].residual == trace->residual;
     bool pending = trace->residual > 0 && isfinite(trace->residual) &&
-                   trace->line >= LINE_SOLVE && !counted;
+                   (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
+                   !counted;
     NewtonRecord now = {.residual = trace->residual};
     extend_range(trace->record, trace->updates, &low, &high);
     extend_range(trace->record_before, trace->updates_before, &low, &high);
@@ -95,7 +96,15 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
         const double b[2] = {trace->updates + 1, trace->residual};
         plot_line(paper, &plot, a, b, 1.3, COLOUR_P);
     }
-    draw_updates(paper, &plot, &now, 1, trace->updates + 1, 5.5, COLOUR_P);
+    if (trace->passed) { /* a bound of it */
+        double at[2], unit = paper->unit;
+        plot_place(&plot, trace->updates + 1, trace->residual, at);
+        canvas_ring(&paper->canvas, at[0], at[1], 4.5 * unit, 1.6 * unit,
+                    COLOUR_P);
+    } else {
+        draw_updates(paper, &plot, &now, 1, trace->updates + 1,
+                     trace->line ? 5.5 : 3.5, COLOUR_P);
+    }
 }
 
 static const char *residual_title(const Show *show)

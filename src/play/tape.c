@@ -96,10 +96,8 @@ static bool make_room(Tape *tape)
     memset(round + tape->room, 0, (size_t)(room - tape->room) * sizeof *round);
     tape->round = round;
     NewtonRecord *record = realloc(tape->record, (size_t)room * sizeof *record);
-    if (!record) {
-        tape->room = tape->room ? tape->room : 0;
+    if (!record)
         return false;
-    }
     tape->record = record;
     tape->room = room;
     return true;
@@ -316,19 +314,18 @@ static void show_line(const TapeRound *round, Trace *trace)
     trace->function = round->value ? (const void *)round : &round->along;
 }
 
-/* The whole step is over: its last update, as far as there is one. */
+/* The whole step is over: its last update, and the test that ended it. */
 static void trace_last(const Tape *tape, Trace *trace)
 {
     trace->iteration = tape->count - 1;
-    if (tape->count == 0) {
-        trace->passed = tape->passed;
+    trace->passed = tape->passed;
+    if (tape->count == 0)
         return;
-    }
     const TapeRound *round = &tape->round[tape->count - 1];
     const NewtonRecord *record = &tape->record[tape->count - 1];
     trace->x = round->x;
     trace->p = round->p;
-    trace->residual = round->residual;
+    trace->residual = round[tape->ended].residual;
     trace->slope = round->slope;
     trace->projected = round->projected;
     trace->trials = record->trials;
