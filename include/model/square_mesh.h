@@ -19,7 +19,8 @@ typedef struct SquareMesh {
     int springs;  /* in a square 2 segments (segments+1) + 2 segments^2 */
     double *x;    /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
     int *e;       /* [2 springs] nodes of each spring */
-    int *order;   /* [n] place of node i in the elimination order */
+    int *order;   /* [n] place of node i in the elimination order, by nested
+                     dissection: a Cholesky factor has O(n log n) entries */
 } SquareMesh;
 
 /* Builds the mesh.
@@ -36,12 +37,5 @@ Status square_mesh_create_beam(int columns, int rows, double side,
 
 /* Accepts NULL and a zeroed struct. */
 void square_mesh_free(SquareMesh *mesh);
-
-/* Nested dissection of the grid (George 1973): the two halves first, the line
- * of nodes between them last, again in each half.  With it a Cholesky factor
- * of the mesh has O(n log n) entries.
- *   segments  in
- *   order     [n] out, place of each node; a permutation of 0 ... n-1 */
-void square_mesh_order(int segments, int *order);
 
 #endif

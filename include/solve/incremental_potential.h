@@ -77,7 +77,7 @@ bool incremental_potential_solve(Iterate *at, Status *status);
 typedef struct Along {
     Quartic smooth;
     const Iterate *at;
-    int rough; /* terms with a remainder */
+    bool rough; /* a term has a remainder, or does not allow every place */
 } Along;
 
 /* For alpha in 0 ... reach; at->u, x, g, p in. */
@@ -89,8 +89,7 @@ double along_difference(const void *along, double alpha);
 /* The largest alpha, at most 1, that every term lets p be followed. */
 double incremental_potential_reach(const Iterate *at);
 
-/* Whether any term is to be asked that; whether all allow u, x [2n]. */
-bool incremental_potential_is_limited(const IncrementalPotential *E);
+/* Whether every term allows u, x [2n]. */
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x);
 

@@ -23,11 +23,13 @@ typedef double (*EnergyDifference)(const void *function, double alpha);
 /* Halvings after which alpha is below 2^-64: then no step lowers E. */
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
 
-/* Algorithm 2: alpha = 1 (or what contact leaves of it); while E(x + alpha p) >
- * E(x): alpha = alpha / 2. difference, function  E(x + alpha p) - E(x) alpha
- * in, where to start; out, that, 1/2, 1/4, ... of it; 0 after a failure trials
- * out, energies looked at Returns OK, LINE_SEARCH_LIMIT; NaN counts as "not
- * lower". */
+/* Algorithm 2: while E(x + alpha p) > E(x), alpha = alpha/2.
+ *   difference  E(x + alpha p) - E(x), called with function and alpha; NaN
+ *               counts as "not lower"
+ *   alpha       in: where to start, 1 or what contact leaves of it; out: that,
+ *               1/2, 1/4, ... of it; 0 after a failure
+ *   trials      out, energies looked at
+ * Returns OK, LINE_SEARCH_LIMIT. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials);
 

@@ -104,7 +104,7 @@ typedef struct Newton {
     long step;           /* copied into the records */
     double residual;     /* of p at the present iterate, m/s */
     const System *system;
-    Iterate at;      /* E, u, x, g, p */
+    Iterate at;      /* E, u, x, g, p; u holds all arrays, in one piece */
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
     double *r;       /* [2n] m, workspace */
     SearchDirection search; /* the Hessian and its factor */
@@ -122,16 +122,13 @@ Status newton_create(const System *system, const NewtonSettings *settings,
                      Newton *newton);
 void newton_free(Newton *newton);
 
-/* Begins to minimise |u - u_tilde|_M^2/2 + weight P(x_n + u) from u = 0, with
+/* Begins to minimise |u - u_tilde|_M^2/2 + weight P(x_n + u), with
  * newton->u_tilde filled by the caller; computes the first direction.
  *   x_n  [2n] m, in; must stay valid until the end
- * Returns RUNNING, OK (x_n is the minimiser), or how it failed. */
-Status newton_start(Newton *newton, const double *x_n, double weight);
-
-/* The same from another displacement (prescribed motion: pinned nodes keep
- * theirs).  u [2n] m, in; NULL: 0. */
-Status newton_start_from(Newton *newton, const double *x_n, const double *u,
-                         double weight);
+ *   u    [2n] m, where to begin, NULL: 0; pinned nodes keep theirs
+ * Returns RUNNING, OK (it is the minimiser), or how it failed. */
+Status newton_start(Newton *newton, const double *x_n, const double *u,
+                    double weight);
 
 /* One iteration: step length, update, next direction, test.
  * Returns RUNNING, OK (converged), or how it failed; u and x are then the last
@@ -144,11 +141,9 @@ Status newton_iterate(Newton *newton);
  * a failure. */
 void newton_finish(Newton *newton);
 
-/* newton_start, newton_iterate until the end, newton_finish; from u = 0, or
- * from another displacement. */
-Status newton_minimise(Newton *newton, const double *x_n, double weight);
-Status newton_minimise_from(Newton *newton, const double *x_n, const double *u,
-                            double weight);
+/* newton_start, newton_iterate until the end, newton_finish. */
+Status newton_minimise(Newton *newton, const double *x_n, const double *u,
+                       double weight);
 
 /* After stiffnesses, lengths or numbers of terms have changed: bounds are
  * computed again, and the factor is not used any more. */

@@ -33,7 +33,7 @@ struct TimeIntegrator {
     bool moves;       /* whether anything is moved in the present step */
     double moved;     /* part of its way that moved things went in it */
     double work;      /* J, done so far by what moves walls and pins */
-    double *x;        /* [2n] m */
+    double *x;        /* [2n] m; the arrays below are in the same piece */
     double *v;        /* [2n] m/s */
     double *new_x;    /* [2n] m, workspace of step functions */
     double *new_v;    /* [2n] m/s, workspace of step functions */

@@ -44,12 +44,40 @@ static void square_mesh_springs(SquareMesh *mesh)
         }
 }
 
+/* A rectangle of grid nodes: columns begin[0] ... end[0]-1, rows begin[1] ...
+ * end[1]-1. */
+typedef struct GridPart {
+    int begin[2], end[2];
+} GridPart;
+
+/* Parts of at most this many nodes are not cut any further. */
+enum { GRID_LEAF = 9 };
+
+/* Nested dissection (George 1973): numbers the nodes of a part from `next` on,
+ * the two halves first, the line between them last; returns the next free
+ * number.  The longer side is cut, so the line is the shorter one. */
+static int dissect_grid(GridPart part, int row, int *order, int next)
+{
+    int wide = part.end[0] - part.begin[0], high = part.end[1] - part.begin[1];
+    if (wide * high > GRID_LEAF) {
+        int side = wide >= high ? 0 : 1;
+        int cut = part.begin[side] + (side == 0 ? wide : high) / 2;
+        GridPart low = part, upper = part;
+        low.end[side] = part.begin[side] = cut;
+        upper.begin[side] = part.end[side] = cut + 1;
+        next = dissect_grid(low, row, order, next);
+        next = dissect_grid(upper, row, order, next);
+    }
+    for (int i = part.begin[0]; i < part.end[0]; i++)
+        for (int j = part.begin[1]; j < part.end[1]; j++)
+            order[i * row + j] = next++;
+    return next;
+}
+
 Status square_mesh_create(int segments, double side, SquareMesh *mesh)
 {
     return square_mesh_create_beam(segments, segments, side, mesh);
 }
-
-static void order_grid(int columns, int rows, int *order);
 
 Status square_mesh_create_beam(int columns, int rows, double side,
                                SquareMesh *mesh)
@@ -69,7 +97,8 @@ Status square_mesh_create_beam(int columns, int rows, double side,
         return STATUS_OUT_OF_MEMORY;
     square_mesh_nodes(mesh);
     square_mesh_springs(mesh);
-    order_grid(columns, rows, mesh->order);
+    GridPart all = {{0, 0}, {columns + 1, rows + 1}};
+    dissect_grid(all, rows + 1, mesh->order, 0);
     return STATUS_OK;
 }
 
@@ -81,52 +110,4 @@ void square_mesh_free(SquareMesh *mesh)
     free(mesh->e);
     free(mesh->order);
     *mesh = (SquareMesh){0};
-}
-
-/* A rectangle of grid nodes: columns i0 ... i1-1, rows j0 ... j1-1. */
-typedef struct GridPart {
-    int i0, i1, j0, j1;
-} GridPart;
-
-/* Parts of at most this many nodes are not cut any further. */
-enum { GRID_LEAF = 9 };
-
-/* Numbers the nodes of a part from `next` on; returns the next free number.
- * The longer side is cut, so the line between the halves is the shorter. */
-static int dissect_grid(GridPart part, int row, int *order, int next)
-{
-    int wide = part.i1 - part.i0, high = part.j1 - part.j0;
-    if (wide * high > GRID_LEAF && wide >= high) {
-        int cut = part.i0 + wide / 2;
-        GridPart left = part, right = part;
-        left.i1 = cut;
-        right.i0 = cut + 1;
-        next = dissect_grid(left, row, order, next);
-        next = dissect_grid(right, row, order, next);
-        part.i0 = cut;
-        part.i1 = cut + 1;
-    } else if (wide * high > GRID_LEAF) {
-        int cut = part.j0 + high / 2;
-        GridPart low = part, upper = part;
-        low.j1 = cut;
-        upper.j0 = cut + 1;
-        next = dissect_grid(low, row, order, next);
-        next = dissect_grid(upper, row, order, next);
-        part.j0 = cut;
-        part.j1 = cut + 1;
-    }
-    for (int i = part.i0; i < part.i1; i++)
-        for (int j = part.j0; j < part.j1; j++)
-            order[i * row + j] = next++;
-    return next;
-}
-
-static void order_grid(int columns, int rows, int *order)
-{
-    dissect_grid((GridPart){0, columns + 1, 0, rows + 1}, rows + 1, order, 0);
-}
-
-void square_mesh_order(int segments, int *order)
-{
-    order_grid(segments, segments, order);
 }

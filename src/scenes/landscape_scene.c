@@ -81,7 +81,8 @@ void aim_landscape(Simulation *simulation)
     for (int i = 0; i < 2; i++)
         run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
     memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
-    Status status = newton_start(run->newton, run->new_x, run->h * run->h);
+    Status status =
+        newton_start(run->newton, run->new_x, NULL, run->h * run->h);
     simulation->done = status != STATUS_RUNNING;
     simulation->status = simulation->done ? status : STATUS_OK;
     show_node(simulation);

@@ -26,16 +26,6 @@ static double residual_per_norm(const Newton *newton)
     return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
 }
 
-/* The projected Hessian is M plus something positive semi-definite, so
- * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would: no
- * factorisation is needed.  (On demand, where the Hessian as it is may be less
- * than M, the test is that of the projected one here.) */
-static double newton_residual_bound(const Newton *newton)
-{
-    return residual_per_norm(newton) *
-           system_inverse_mass_norm(newton->system, newton->at.g);
-}
-
 /* Assembles and factors the Hessian at x, once. */
 static Status factor_as(Newton *newton, Filter filter, bool definite)
 {
@@ -89,24 +79,19 @@ static Status newton_solve(Newton *newton)
     return status;
 }
 
-/* Whether the next test of Algorithm 3 is likely to be passed: in a step after
- * one without updates, or after a direction that was nearly short enough. */
-static bool expects_convergence(const Newton *newton)
-{
-    if (newton->search.updates == 0)
-        return newton->search.resting;
-    return newton->search.residual <= 10 * newton->settings.tolerance;
-}
-
 /* Whether the factor of the iterate before is worth a try: it may decide that
- * the test is passed. */
+ * the test is passed, which is likely in a step after one without updates, and
+ * after a direction that was nearly short enough. */
 static bool factor_may_serve(const Newton *newton)
 {
-    if (newton->settings.filter == FILTER_NONE || newton->search.age < 0 ||
-        newton->search.kind == CHOLESKY_INDEFINITE ||
-        newton->search.shift > 0 || newton->rounding.blurred)
+    const SearchDirection *search = &newton->search;
+    if (newton->settings.filter == FILTER_NONE || search->age < 0 ||
+        search->age > 1 || search->kind == CHOLESKY_INDEFINITE ||
+        search->shift > 0 || newton->rounding.blurred)
         return false;
-    return newton->search.age <= 1 && expects_convergence(newton);
+    return search->updates == 0
+               ? search->resting
+               : search->residual <= 10 * newton->settings.tolerance;
 }
 
 /* The test of Algorithm 3. */
@@ -202,23 +187,29 @@ static Status direction_at(Newton *newton, bool *alone)
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
+    /* The projected Hessian is M plus something positive semi-definite, so
+     * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would:
+     * no factorisation is needed.  (On demand, where the Hessian as it is may
+     * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
-        newton->residual = newton_residual_bound(newton);
+        newton->residual =
+            residual_per_norm(newton) *
+            system_inverse_mass_norm(newton->system, newton->at.g);
         if (newton->residual <= newton->settings.tolerance) {
             newton->counters.skipped++;
             *alone = true;
             return STATUS_OK;
         }
     }
-    if (factor_may_serve(newton)) {
-        bool decided;
-        Status status = direction_from_old_factor(newton, &decided);
-        if (decided && !status)
-            newton->counters.certified++;
-        if (decided && !status)
-            return status;
+    bool decided = false;
+    Status status = STATUS_OK;
+    if (factor_may_serve(newton))
+        status = direction_from_old_factor(newton, &decided);
+    if (decided && !status) {
+        newton->counters.certified++;
+        return STATUS_OK;
     }
-    Status status = newton_factor(newton);
+    status = newton_factor(newton);
     return status ? status : newton_solve_and_test(newton);
 }
 

@@ -165,7 +165,7 @@ Along incremental_potential_along(const Iterate *at, double reach)
     for (const Term *term = NULL; (kind = next_term(E, &term));) {
         if (kind->along)
             kind->along(term, &place, at->p, E->weight, reach, q + 1);
-        along.rough += kind->remainder != NULL;
+        along.rough = along.rough || kind->remainder || kind->allowed;
     }
     return along;
 }
@@ -174,7 +174,7 @@ double along_difference(const void *function, double alpha)
 {
     const Along *along = function;
     double sum = quartic_value(&along->smooth, alpha);
-    if (along->rough == 0)
+    if (!along->rough)
         return sum;
     const Iterate *at = along->at;
     Place place = place_of(&at->E, at->u, at->x);
@@ -194,15 +194,6 @@ double incremental_potential_reach(const Iterate *at)
         if (kind->reach)
             reach = fmin(reach, kind->reach(term, &place, at->p));
     return reach;
-}
-
-bool incremental_potential_is_limited(const IncrementalPotential *E)
-{
-    const TermKind *kind;
-    for (const Term *term = NULL; (kind = next_term(E, &term));)
-        if (kind->allowed)
-            return true;
-    return false;
 }
 
 bool incremental_potential_allowed(const IncrementalPotential *E,

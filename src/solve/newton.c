@@ -16,8 +16,8 @@
  * The loop stands at the end of this file; above it are its three parts. */
 
 /* From u = 0 or another displacement; then p there, and the test. */
-Status newton_start_from(Newton *newton, const double *x_n, const double *u,
-                         double weight)
+Status newton_start(Newton *newton, const double *x_n, const double *u,
+                    double weight)
 {
     Iterate *at = &newton->at;
     int size = 2 * newton->system->nodes;
@@ -156,24 +156,14 @@ void newton_finish(Newton *newton)
     newton->status = newton_tell(newton, &end);
 }
 
-Status newton_minimise_from(Newton *newton, const double *x_n, const double *u,
-                            double weight)
+Status newton_minimise(Newton *newton, const double *x_n, const double *u,
+                       double weight)
 {
-    Status status = newton_start_from(newton, x_n, u, weight);
+    Status status = newton_start(newton, x_n, u, weight);
     while (status == STATUS_RUNNING)
         status = newton_iterate(newton);
     newton_finish(newton);
     return newton->status;
-}
-
-Status newton_start(Newton *newton, const double *x_n, double weight)
-{
-    return newton_start_from(newton, x_n, NULL, weight);
-}
-
-Status newton_minimise(Newton *newton, const double *x_n, double weight)
-{
-    return newton_minimise_from(newton, x_n, NULL, weight);
 }
 
 Status newton_create(const System *system, const NewtonSettings *settings,
@@ -181,13 +171,14 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    double **vectors[] = {&newton->at.u, &newton->at.x, &newton->u_tilde,
-                          &newton->at.g, &newton->at.p, &newton->r};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-        *vectors[i] = calloc(size, sizeof(double));
-        if (!*vectors[i])
-            return STATUS_OUT_OF_MEMORY;
-    }
+    newton->at.u = calloc(6 * size, sizeof(double));
+    if (!newton->at.u)
+        return STATUS_OUT_OF_MEMORY;
+    newton->at.x = newton->at.u + size;
+    newton->at.g = newton->at.x + size;
+    newton->at.p = newton->at.g + size;
+    newton->u_tilde = newton->at.p + size;
+    newton->r = newton->u_tilde + size;
     Status status = search_direction_create(system, &newton->search);
     if (!status)
         newton_forget(newton);
@@ -201,11 +192,6 @@ void newton_free(Newton *newton)
     search_direction_free(&newton->search);
     multigrid_free(newton->multigrid);
     free(newton->at.u);
-    free(newton->at.x);
-    free(newton->u_tilde);
-    free(newton->at.g);
-    free(newton->at.p);
-    free(newton->r);
     *newton = (Newton){0};
 }
 

@@ -9,14 +9,13 @@
 static bool is_allowed(Newton *newton, double alpha)
 {
     const Iterate *at = &newton->at;
-    if (!incremental_potential_is_limited(&at->E))
-        return true;
-    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+    int size = 2 * newton->system->nodes;
+    for (int i = 0; i < size; i++) {
         newton->r[i] = at->u[i] + alpha * at->p[i];
         at->x[i] = at->E.x_n[i] + newton->r[i];
     }
     bool allowed = incremental_potential_allowed(&at->E, newton->r, at->x);
-    for (int i = 0; i < 2 * newton->system->nodes; i++)
+    for (int i = 0; i < size; i++)
         at->x[i] = at->E.x_n[i] + at->u[i];
     return allowed;
 }
@@ -37,7 +36,7 @@ static Status search_line(Newton *newton)
             status = line_search_backtrack(along_difference, &along,
                                            &record->alpha, &trials);
         record->trials += trials;
-        allowed = status || is_allowed(newton, record->alpha);
+        allowed = status || !along.rough || is_allowed(newton, record->alpha);
         if (!allowed)
             record->alpha /= 2;
         if (!allowed && record->alpha < 1e-300)

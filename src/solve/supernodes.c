@@ -1,6 +1,28 @@
 #include "solve/supernodes.h"
 
-#include "base/lanes.h"
+#include <string.h>
+
+/* Two numbers in one register, an extension of C that gcc and clang share:
+ * arithmetic works lane by lane, with the bits that each would have alone. */
+enum { LANES = 2 };
+typedef double Lanes __attribute__((vector_size(LANES * sizeof(double))));
+
+static inline Lanes lanes_load(const double *a)
+{
+    Lanes lanes;
+    memcpy(&lanes, a, sizeof lanes);
+    return lanes;
+}
+
+static inline void lanes_store(double *a, Lanes lanes)
+{
+    memcpy(a, &lanes, sizeof lanes);
+}
+
+static inline double lanes_sum(Lanes a)
+{
+    return a[0] + a[1];
+}
 
 /* Columns that are eliminated together. */
 enum { GROUP = 4 };

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/quartic.h"
+#include "solve/plane_search.h"
 
 /* Iterations of a phase at most, and those between new diagonal blocks; phases
  * at most. */

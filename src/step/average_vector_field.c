@@ -1,4 +1,4 @@
-#include "step/average_vector_field.h"
+#include "step/methods.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "step/explicit_methods.h"
+#include "step/methods.h"
 
 /* v_(n+1) = v_n + h a(x_n), into new_v. */
 static void kick(TimeIntegrator *integrator)

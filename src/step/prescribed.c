@@ -117,7 +117,7 @@ Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
         left = blocked ? 0 : left - part;
         if (left > 0)
             newton->settings.tolerance = 10 * tolerance + 0.01;
-        status = newton_minimise_from(newton, x_n, u, weight);
+        status = newton_minimise(newton, x_n, u, weight);
         newton->settings.tolerance = tolerance;
         if (status && !status_is_unconverged(status))
             return status;

@@ -4,10 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "step/average_vector_field.h"
-#include "step/backward_euler.h"
-#include "step/explicit_methods.h"
-#include "step/implicit_methods.h"
+#include "step/methods.h"
 #include "step/prescribed.h"
 
 const IntegratorMethod integrator_methods[] = {
@@ -33,27 +30,6 @@ const IntegratorMethod *integrator_method(const char *name)
         if (strcmp(row->name, name) == 0)
             return row;
     return NULL;
-}
-
-/* A copy of an array, or NULL; with source NULL an array of zeros. */
-static double *copy_array(const double *source, size_t count)
-{
-    double *copy = calloc(count, sizeof *copy);
-    if (copy && source)
-        memcpy(copy, source, count * sizeof *copy);
-    return copy;
-}
-
-/* The Newton object that implicit methods need. */
-static Status create_newton(const NewtonSettings *settings,
-                            TimeIntegrator *integrator)
-{
-    integrator->newton = calloc(1, sizeof *integrator->newton);
-    if (!integrator->newton)
-        return STATUS_OUT_OF_MEMORY;
-    NewtonSettings own = *settings;
-    own.averaged = integrator->method->averaged;
-    return newton_create(integrator->system, &own, integrator->newton);
 }
 
 const Term *integrator_method_refuses(const IntegratorMethod *method,
@@ -88,17 +64,23 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->at_end))
         return STATUS_INVALID_INPUT;
-    size_t size = 2 * (size_t)system->nodes;
-    integrator->x = copy_array(x, size);
-    integrator->v = copy_array(v, size);
-    integrator->new_x = copy_array(NULL, size);
-    integrator->new_v = copy_array(NULL, size);
-    if (method->memory > 0)
-        integrator->memory = copy_array(NULL, size * (size_t)method->memory);
-    if (!integrator->x || !integrator->v || !integrator->new_x ||
-        !integrator->new_v || (method->memory > 0 && !integrator->memory))
+    size_t size = 2 * (size_t)system->nodes,
+           arrays = 4 + (size_t)method->memory;
+    integrator->x = calloc(arrays * size, sizeof *x);
+    integrator->newton =
+        method->implicit ? calloc(1, sizeof *integrator->newton) : NULL;
+    if (!integrator->x || (method->implicit && !integrator->newton))
         return STATUS_OUT_OF_MEMORY;
-    return method->implicit ? create_newton(settings, integrator) : STATUS_OK;
+    integrator->v = integrator->x + size;
+    integrator->new_x = integrator->v + size;
+    integrator->new_v = integrator->new_x + size;
+    integrator->memory = integrator->new_v + size;
+    memcpy(integrator->x, x, size * sizeof *x);
+    memcpy(integrator->v, v, size * sizeof *v);
+    NewtonSettings own = *settings;
+    own.averaged = method->averaged;
+    return method->implicit ? newton_create(system, &own, integrator->newton)
+                            : STATUS_OK;
 }
 
 void time_integrator_free(TimeIntegrator *integrator)
@@ -108,10 +90,6 @@ void time_integrator_free(TimeIntegrator *integrator)
     newton_free(integrator->newton);
     free(integrator->newton);
     free(integrator->x);
-    free(integrator->v);
-    free(integrator->new_x);
-    free(integrator->new_v);
-    free(integrator->memory);
     *integrator = (TimeIntegrator){0};
 }
 
@@ -151,9 +129,10 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
     if (system_has_gravity(integrator->system))
         add_gravity(integrator, weight);
     integrator->newton->step = integrator->steps + 1;
-    Status status = integrator->moves
-                        ? prescribed_minimise(integrator, x_n, weight)
-                        : newton_minimise(integrator->newton, x_n, weight);
+    Status status =
+        integrator->moves
+            ? prescribed_minimise(integrator, x_n, weight)
+            : newton_minimise(integrator->newton, x_n, NULL, weight);
     if (!status_is_unconverged(status))
         return status;
     integrator->status = status;

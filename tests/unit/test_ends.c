@@ -118,10 +118,10 @@ static void a_step_that_raised_E_has_diverged(void **unused)
     Newton *newton = simulation.run[0].newton;
     double x[2 * 4], h = newton->settings.h;
     memcpy(x, simulation.run[0].x, sizeof x);
-    CHECK_STATUS(newton_start(newton, x, h * h), STATUS_RUNNING);
+    CHECK_STATUS(newton_start(newton, x, NULL, h * h), STATUS_RUNNING);
     double start =
         incremental_potential_value(&newton->at.E, newton->at.u, newton->at.x);
-    CHECK_STATUS(newton_minimise(newton, x, h * h), STATUS_DIVERGED);
+    CHECK_STATUS(newton_minimise(newton, x, NULL, h * h), STATUS_DIVERGED);
     CHECK(incremental_potential_value(&newton->at.E, newton->at.u,
                                       newton->at.x) > start);
     simulation_free(&simulation);

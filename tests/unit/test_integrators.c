@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "step/explicit_methods.h"
+#include "step/methods.h"
 
 /* Squares of up to 4 segments. */
 enum { SIZE = 2 * 25 };

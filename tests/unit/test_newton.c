@@ -207,8 +207,8 @@ static void pieces_are_the_whole(void **unused)
     double h = whole->settings.h;
     CHECK_STATUS(newton_create(&simulation.system, &whole->settings, &pieces),
                  STATUS_OK);
-    CHECK_STATUS(newton_minimise(whole, x_n, h * h), STATUS_OK);
-    CHECK_STATUS(newton_start(&pieces, x_n, h * h), STATUS_RUNNING);
+    CHECK_STATUS(newton_minimise(whole, x_n, NULL, h * h), STATUS_OK);
+    CHECK_STATUS(newton_start(&pieces, x_n, NULL, h * h), STATUS_RUNNING);
     int iterations = 1;
     while (newton_iterate(&pieces) == STATUS_RUNNING)
         iterations++;
@@ -346,7 +346,7 @@ static void check_pair_in_one_point(double m0, double m1, Status expected)
     system.m[0] = m0;
     system.m[1] = m1;
     CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
-    CHECK_STATUS(newton_minimise(&newton, x, 1), expected);
+    CHECK_STATUS(newton_minimise(&newton, x, NULL, 1), expected);
     newton_free(&newton);
     system_free(&system);
 }
@@ -403,7 +403,7 @@ static void line_search_limit_is_reached(void **unused)
     (void)unused;
     Lever lever;
     lever_create((1 - 1e-8) / 1.5, 1e30, &lever);
-    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1),
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, NULL, 1),
                  STATUS_LINE_SEARCH_LIMIT);
     CHECK(lever.newton.record.slope < 0 && lever.newton.record.alpha == 0);
     CHECK(lever.newton.record.trials == 65);
@@ -418,7 +418,8 @@ static void singular_hessian_is_reported(void **unused)
     (void)unused;
     Lever lever;
     lever_create(2.0 / 3, 1, &lever);
-    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_SINGULAR);
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, NULL, 1),
+                 STATUS_SINGULAR);
     for (int i = 0; i < 4; i++)
         CHECK(lever.newton.at.u[i] == 0 && lever.newton.at.x[i] == lever.x[i]);
     lever_free(&lever);
@@ -431,7 +432,7 @@ static void pins_hold(void **unused)
     Lever lever;
     lever_create(2.0 / 3, 1, &lever);
     lever.newton.settings.filter = FILTER_CLAMP;
-    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, 1), STATUS_OK);
+    CHECK_STATUS(newton_minimise(&lever.newton, lever.x, NULL, 1), STATUS_OK);
     CHECK(lever.newton.at.u[0] == 0 && lever.newton.at.u[1] == 0);
     CHECK(lever.newton.at.u[3] > 0.5);
     long double g[4];
@@ -502,7 +503,7 @@ static void iterations_never_rise_without_masses(void **unused)
         double h = simulation.options.timestep;
         for (int c = 0; c < 2 * simulation.system.nodes; c++)
             newton->u_tilde[c] = 0;
-        Status status = newton_start(newton, run->x, h * h);
+        Status status = newton_start(newton, run->x, NULL, h * h);
         double start = incremental_potential_value(&newton->at.E, newton->at.u,
                                                    newton->at.x);
         while (status == STATUS_RUNNING) {
@@ -686,7 +687,7 @@ static void steps_into_a_wall_are_halved(void **unused)
         CHECK(system_add_term(&system, &wall, NULL) != NULL);
         CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
         newton.u_tilde[0] = -1;
-        CHECK_STATUS(newton_start(&newton, x, 1), STATUS_RUNNING);
+        CHECK_STATUS(newton_start(&newton, x, NULL, 1), STATUS_RUNNING);
         CHECK_STATUS(newton_iterate(&newton), STATUS_RUNNING);
         CHECK_NEAR(newton.at.x[0], -0.25, 0);
         while (newton_iterate(&newton) == STATUS_RUNNING)

@@ -185,7 +185,7 @@ static void refining_with_the_right_factor_is_one_step(void **unused)
     Newton *newton = simulation.run[0].newton;
     double error;
     int solves, n = 2 * simulation.system.nodes;
-    CHECK_STATUS(newton_start(newton, simulation.run[0].x, 16e-6),
+    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 16e-6),
                  STATUS_RUNNING);
     double size = system_inverse_mass_norm(&simulation.system, newton->at.g);
     double p[2 * 16], accuracy = 1e-10 * size;
@@ -240,7 +240,7 @@ static void shifted_solves_find_the_masses(void **unused)
         newton->u_tilde[i] = 1e-3 * (3 - run->x[i + 1]);
         newton->u_tilde[i + 1] = 1e-3 * (run->x[i] - 2);
     }
-    CHECK_STATUS(newton_start(newton, run->x, 16e-6), STATUS_RUNNING);
+    CHECK_STATUS(newton_start(newton, run->x, NULL, 16e-6), STATUS_RUNNING);
     CHECK(newton->search.shift > 1e6 * simulation.system.m[0]);
     Wide g[N], H[N * N];
     int negative;
@@ -488,7 +488,7 @@ static void large_squares_pass_what_they_say(void **unused)
     simulation_from_line("--segments 12 --solver multigrid", NULL, NULL,
                          &simulation);
     Newton *newton = simulation.run[0].newton;
-    CHECK_STATUS(newton_start(newton, simulation.run[0].x, 1.6e-5),
+    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 1.6e-5),
                  STATUS_RUNNING);
     CHECK(large_judge(newton) == LARGE_FAILED);
     while (newton_iterate(newton) == STATUS_RUNNING)
