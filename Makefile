@@ -10,6 +10,11 @@ ONE_THREAD ?= 1
 V       ?= 0
 ARGS    ?=
 
+# As many jobs as there are processors, unless -j says otherwise.
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
+endif
+
 # ---- what is built ---------------------------------------------------------
 # The rooms, from the ground up; each uses itself and those before it.
 ROOMS = base model solve step scenes picture play
@@ -37,7 +42,7 @@ COMPILE      = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS)
 Q = $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' $(1) $(2))
 
-.PHONY: all run run-lecture test bench figures pictures install uninstall \
+.PHONY: all run run-lecture test long-test bench figures pictures install uninstall \
         clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -60,8 +65,8 @@ run-lecture: build/lecture
 GOALS := $(or $(MAKECMDGOALS),all)
 ifneq ($(filter-out clean help uninstall figures,$(GOALS)),)
 include $(CONFIG)
-ifneq ($(filter test suites stress envelope mutants coverage analyse \
-          build/stress,$(GOALS)),)
+ifneq ($(filter test long-test suites stress envelope mutants coverage analyse \
+          build/stress $(B)/tests/%,$(GOALS)),)
 include build/config-test.mk
 endif
 endif
@@ -147,7 +152,19 @@ build/config-test.mk: $(CONFIG)
 build/elasto: $(B)/elasto FORCE
 	@cmp -s $< $@ || cp $< $@
 
-$(B)/elasto: $(OBJECTS) $(B)/main.o
+# All rooms in one archive; a program takes from it what it uses.  It is made
+# anew whenever the list of its members changes, so that it holds no old ones.
+LIBRARY = $(B)/libelasto.a
+
+$(B)/members: FORCE
+	@mkdir -p $(B)
+	@echo '$(OBJECTS)' | cmp -s - $@ || echo '$(OBJECTS)' >$@
+
+$(LIBRARY): $(OBJECTS) $(B)/members
+	$(Q)rm -f $@
+	$(Q)$(AR) rcs $@ $(OBJECTS)
+
+$(B)/elasto: $(B)/main.o $(LIBRARY)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
 
@@ -207,7 +224,7 @@ $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
 build/elasto-bench: $(B)/elasto-bench FORCE
 	@cmp -s $< $@ || cp $< $@
 
-$(B)/elasto-bench: $(OBJECTS) $(BENCH_OBJECTS) $(B)/bench/bench.o
+$(B)/elasto-bench: $(BENCH_OBJECTS) $(B)/bench/bench.o $(LIBRARY)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
 
@@ -228,15 +245,21 @@ figures:
 	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
 
 # ---- tests -----------------------------------------------------------------
+# The tests' own sources are compiled sooner: their speed matters little.
+$(B)/tests/%.o: private CFLAGS := $(CFLAGS:-O2=-O1)
+
 $(B)/tests/%.o: tests/%.c $(B)/flags
 	$(call say,CC,$<)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(COMPILE) -Itests/unit -Itests/stress -MMD -MP -c $< -o $@
 
-$(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o $(OBJECTS)
+$(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o $(LIBRARY)
 	$(call say,LINK,$@)
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LINKED) -o $@ $(TEST_LIBS) \
 	  $(DEP_LIBS) $(LDLIBS)
+
+# Archives come last.
+LINKED = $(filter %.o,$^) $(filter %.a,$^)
 
 # These need more than the demo has.
 $(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
@@ -252,11 +275,14 @@ $(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
 suites: $(SUITES)
 .PHONY: suites
 
-test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
-	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
-	  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
-	  LECTURE=$(B)/lecture \
+# test: every promise once, in a minute.  long-test: also all variations.
+test long-test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
+	@$(CHECK_ENVIRONMENT) LONG=$(filter long-test,$@) \
 	  sh tests/checks/run.sh $(SUITES)
+
+CHECK_ENVIRONMENT = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' \
+  DEP_LIBS='$(DEP_LIBS)' SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto \
+  BENCH=$(B)/elasto-bench LECTURE=$(B)/lecture
 
 # ---- pictures of the README -----------------------------------------------
 # tests/data/pictures.txt: name, step, command line; a test holds them.  What
@@ -304,23 +330,23 @@ STRESS_OBJECTS = $(STRESS_PARTS:%=$(B)/tests/stress/%.o)
 
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS_OBJECTS)
 
-$(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) $(B)/tests/unit/testing.o \
-             $(OBJECTS)
+$(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) \
+             $(B)/tests/unit/testing.o $(LIBRARY)
 	$(call say,LINK,$@)
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(TEST_LIBS) \
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LINKED) -o $@ $(TEST_LIBS) \
 	  $(DEP_LIBS) $(LDLIBS)
 
 build/stress: $(B)/stress-tests FORCE
 	@cmp -s $< $@ || cp $< $@
 
 # The program with faults linked in: sanitizers see what they do.
-$(B)/elasto-faults: $(OBJECTS) $(B)/main.o tests/checks/faults.c
+$(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
 	$(call say,LINK,$@)
-	$(Q)$(COMPILE) -DFAULT_WRAP $(filter-out %.o,$^) $(filter %.o,$^) -o $@ \
+	$(Q)$(COMPILE) -DFAULT_WRAP $(filter %.c,$^) $(LINKED) -o $@ \
 	  $(ALL_LDFLAGS) $(DEP_LIBS) $(LDLIBS) \
 	  $(foreach call,malloc calloc realloc fopen fdopen open rename mkdir,-Wl,--wrap=$(call))
 
-test: $(if $(SANITIZE),$(B)/elasto-faults)
+test long-test: $(if $(SANITIZE),$(B)/elasto-faults)
 
 # Ends by itself within ten minutes.
 stress: build/stress build/elasto
@@ -329,9 +355,6 @@ stress: build/stress build/elasto
 
 envelope: build/stress
 	./build/stress --envelope tests/data/envelope.csv tests/data/envelope.png
-
-CHECK_ENVIRONMENT = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' \
-  DEP_LIBS='$(DEP_LIBS)' SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto
 
 same-bits: build/elasto
 	@$(CHECK_ENVIRONMENT) sh tests/checks/same_bits.sh

@@ -71,7 +71,7 @@ verdict the_line_names_value_and_range "$(
     grep -q "side=2.*side_len rho k" err || cat err
 )"
 verdict what_does_not_end_is_ended "$(
-    ends 1 steps=1 tol=1e-30
+    ends 1 steps=1 n_seg=1 tol=1e-30
     ends 1 steps=1 k=1e30 rho=1e-30
     ends 1 steps=2000 method=2 h=0.1
 )"
@@ -93,7 +93,7 @@ verdict states_need_their_folder "$(ends 1 steps=1 states=nowhere/states)"
 verdict states_are_whole_or_not_there "$(
     "$lecture" steps=2 states=whole >/dev/null || echo 'it failed'
     [ "$(wc -l <whole)" = 76 ] || echo "whole has $(wc -l <whole) lines"
-    ends 1 steps=2 tol=1e-30 states=broken
+    ends 1 steps=2 n_seg=1 tol=1e-30 states=broken
     [ ! -e broken ] && [ -s broken.part ] || echo 'a broken run left a file'
     [ ! -e whole.part ] || echo 'whole.part is left'
 )"

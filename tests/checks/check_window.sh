@@ -67,9 +67,10 @@ find_window() {
 }
 
 # begin SCENE LINE...: a window with this scene, keys go to it.
+side=500
 begin() {
     rm -rf frames ./*.png ./*.script states log
-    "$elasto" "$@" --size 900x900 --quiet --frames frames --states states \
+    "$elasto" "$@" --size "${side}x$side" --quiet --frames frames --states states \
         --log log 2>error &
     pid=$!
     until_true find_window "$1" || echo "$1: no window"
@@ -79,7 +80,7 @@ begin() {
     found=$(has_title "$1" | tail -n 1)
     window=${found:-$window}
     timeout $timeout xdotool windowfocus --sync "$window" \
-        mousemove --window "$window" 450 880 2>/dev/null
+        mousemove --window "$window" $((side / 2)) $((side - 20)) 2>/dev/null
 }
 
 # end CODE: waits for the end of the program and complains about its code.
@@ -245,6 +246,7 @@ verdict keys_work_in_landscape "$(landscape_keys)"
 
 # A click is a start; further right is a larger x, further down a smaller y.
 mouse_picks() {
+    side=900
     old=
     for place in '250 350' '350 350' '250 450'; do
         begin landscape
@@ -290,6 +292,7 @@ point() { # X Y: at 900 x 900 the square is where it is, whatever it shows
 # A real hand: it pulls the middle while the square runs, lets go, pins a
 # corner, sees the wheel zoom and 0 fit, and takes steps.
 hands() {
+    side=900
     begin square --segments 2 --stretch 1 --paused
     point 279 389
     xdotool mousedown 1
@@ -319,6 +322,7 @@ verdict hands_pull_and_pin "$(hands)"
 
 # The edge of the paused square, a number that is dragged and taken back, Up.
 numbers() {
+    side=900
     begin square --segments 2 --stretch 1 --paused
     point 524 260
     xdotool mousedown 1
@@ -448,12 +452,14 @@ fi
 any_size() {
     begin square --segments 32
     last=0
-    for size in '1 1' '4000 4000' '4000 1' '300 200'; do
+    large=1500
+    [ -z "${LONG:-}" ] || large=4000
+    for size in '1 1' "$large $large" '4000 1' '300 200'; do
         # shellcheck disable=SC2086
         timeout $timeout xdotool windowsize $window $size || echo "no $size"
         until_true has_size $size || echo "$size is not its size"
         last=$(newest)
-        frame $((last + 5))
+        frame $((last + 3))
     done
     key q
     end 0
@@ -470,11 +476,11 @@ newest() {
 }
 verdict a_window_may_have_any_size "$(any_size)"
 
-# A step of this square takes seconds; keys and signals end it between Newton
+# A step of this square takes many seconds; keys and signals end it between Newton
 # iterations.
 in_a_step() {
     for way in q TERM; do
-        begin square --segments 128
+        begin square --segments 256 --solver newton
         if [ $way = q ]; then key q; else kill -$way $pid; fi
         end 0
         [ "$(newest)" -lt 2 ] || echo "$way: after frame $(newest)"

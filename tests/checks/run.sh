@@ -48,23 +48,30 @@ report() { # name passed failed skipped
     skipped=$((skipped + $4))
 }
 
-# These wait most of the time: for windows, for signals.
-beside='check_faults.sh check_window.sh check_files.sh'
-is_beside() {
-    case " $beside " in
-    *" $(basename "$1") "*) return 0 ;;
-    *) return 1 ;;
-    esac
-}
+# The longest begin first; some of them wait most of the time, for windows and
+# signals, so that one job more than there are processors runs.
+slow="$checks/check_scripts.sh
+$checks/check_window.sh
+$checks/check_pages.sh
+$checks/check_faults.sh"
+jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + 1))}
 
-for check in "$checks"/check_*.sh; do
-    ! is_beside "$check" || run "$(basename "$check")" sh "$check" &
-done
-for suite in "$@"; do
-    run "$(basename "$suite")" "$suite"
-done
-for check in "$checks"/check_*.sh; do
-    is_beside "$check" || run "$(basename "$check")" sh "$check"
+# A worker goes through all of them and runs those that no other has taken.
+work() { # suites...
+    printf '%s\n' "$slow" "$checks"/check_*.sh | while IFS= read -r check; do
+        { [ -f "$check" ] && take "$(basename "$check")"; } || continue
+        run "$(basename "$check")" sh "$check" </dev/null
+    done
+    for suite in "$@"; do
+        take "$(basename "$suite")" || continue
+        run "$(basename "$suite")" "$suite" </dev/null
+    done
+}
+take() { # name
+    mkdir "$outputs/$1.taken" 2>/dev/null
+}
+for job in $(seq "$jobs"); do
+    work "$@" &
 done
 wait
 

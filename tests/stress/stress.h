@@ -127,6 +127,7 @@ void wild_print(const Wild *wild);
 typedef struct StressCase {
     const char *name;
     bool slow; /* only in `make stress` */
+    bool same; /* once more in other units or places: not in `make test` */
     /* Returns false, with a reason [512], where something is wrong. */
     bool (*run)(Tally *tally, char *reason);
 } StressCase;

@@ -125,7 +125,7 @@ static Verdict contact_run(const char *line, Tally *tally, char *reason)
         tally->statuses[status]++;
         if (ended && narrow.gap > 0 && narrow.J > 0 && narrow.finite)
             continue;
-        snprintf(reason, 512, "%s: step %d: %s, smallest gap %g, cell %g%s",
+        snprintf(reason, 512, "%.400s: step %d: %s, smallest gap %g, cell %g%s",
                  line, step + 1, status_name(status), narrow.gap, narrow.J,
                  narrow.finite ? "" : ", not finite");
         tally->wrong++;

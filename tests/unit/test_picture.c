@@ -340,7 +340,13 @@ static Canvas program_frame(const char *line, int step, bool words)
     if (!words)
         setenv("ELASTO_FONT", "", 1);
     assert_int_equal(player_create(&options, 1, "elasto", &stop, &player), 0);
-    assert_int_equal(player_run(&player), 0);
+    player.attended = true; /* plots know all steps, only two are drawn */
+    assert_int_equal(player_draw(&player), 0);
+    while (player.step < step) {
+        Status status = player_step(&player);
+        CHECK(!status || status_is_unconverged(status));
+    }
+    assert_int_equal(player_draw(&player), 0);
     assert_int_equal(player_finish(&player), 0);
     player_free(&player);
     if (kept)

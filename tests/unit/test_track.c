@@ -49,15 +49,21 @@ static void run(Track *track, int steps, uint64_t *hash)
     }
 }
 
+/* From one step to the next that is looked at. */
+static int stride(int all, int some)
+{
+    return tests_are_long() ? all : some;
+}
+
 /* Every way back to a step gives its bits: forwards, backwards, at random. */
 static void check_all_steps(Track *track, int steps, const uint64_t *hash)
 {
     Random random = {7};
-    for (int i = steps; i >= 0; i -= 3) {
+    for (int i = steps; i >= 0; i -= stride(3, 9)) {
         CHECK_STATUS(track_show(track, i), STATUS_OK);
         CHECK(track_step_shown(track) == i && hash_of(track) == hash[i]);
     }
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < 20; i += stride(1, 3)) {
         int step = random_below(&random, steps + 1);
         CHECK_STATUS(track_show(track, step), STATUS_OK);
         CHECK(hash_of(track) == hash[step]);
@@ -105,7 +111,7 @@ static void states_come_back(void **unused)
         begin(lines[i], &track);
         run(&track, STEPS, hash);
         check_all_steps(&track, STEPS, hash);
-        for (int from = STEPS - 1; from > 0; from -= 14)
+        for (int from = STEPS - 1; from > 0; from -= stride(14, 42))
             check_going_on(&track, from, STEPS, hash);
         track_free(&track);
     }

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/cells.h"
@@ -58,6 +59,12 @@ void check_true(bool condition, const char *what, const char *file, int line)
         return;
     print_error("not true: %s\n", what);
     _fail(file, line);
+}
+
+bool tests_are_long(void)
+{
+    const char *set = getenv("LONG");
+    return set && *set;
 }
 
 /* SplitMix64 (Steele, Lea, Flood 2014). */

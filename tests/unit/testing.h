@@ -43,6 +43,10 @@ void check_status(const char *what, Status got, Status expected,
                   const char *file, int line);
 void check_true(bool condition, const char *what, const char *file, int line);
 
+/* Whether all variations are asked for (make long-test), or each promise once
+ * (make test). */
+bool tests_are_long(void);
+
 /* Random numbers, the same on every machine (SplitMix64). */
 typedef struct Random {
     uint64_t state; /* the seed */
