@@ -67,6 +67,8 @@ typedef struct Trace {
     int trials;    /* shown so far: first, first/2, ...; the last one is */
     bool accepted; /* taken, else it was refused like those before */
     const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
+    double rest; /* 1 ... 0: how much of the line's motion is still to come:
+                    arrows that grow, a trial that hops, a point that drops */
 } Trace;
 
 /* ---- panes -------------------------------------------------------------- */

@@ -26,6 +26,7 @@ typedef struct Lane {
     long sampled;  /* player's step up to which these know of it */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[64];
+    double *from;   /* [4n] m, where a glide begins, and where it is; NULL */
     char label[64]; /* what is different here */
     long *at;       /* [room] the track's step for each of the player's */
     StepBar *bar;   /* [room] */

@@ -80,6 +80,7 @@ typedef struct Player {
     bool strain, bare, help, blank;
     unsigned closed; /* cards that are not as the picture has them */
     int large, selected;
+    double glide;   /* s, when the way to the next line began; 0: it is over */
     char typed[16]; /* what is being typed for the selected number, or "" */
     CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
     const Number *number[NUMBERS_MOST]; /* what the row has */

@@ -122,11 +122,15 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     plot_disc(paper, &plot, origin, 3.5, COLOUR_TEXT);
     draw_words(paper, &plot, trace);
     for (int t = 0; t < trace->trials; t++) {
-        double at = ldexp(first, -t), value = exact_value(trace, at);
+        double end = ldexp(first, -t), at = end;
         bool last = t == trace->trials - 1;
-        draw_trial(paper, &plot, at, value, last && trace->accepted);
+        if (last &&
+            trace->line == LINE_SEARCH) /* it hops from the one before */
+            at += trace->rest * (t > 0 ? end : -end);
+        draw_trial(paper, &plot, at, exact_value(trace, at),
+                   last && trace->accepted);
         if (last)
-            draw_verdict(paper, &plot, trace, at, value);
+            draw_verdict(paper, &plot, trace, end, exact_value(trace, end));
     }
 }
 
@@ -142,7 +146,10 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
     paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
                 inside.x + 0.5 * inside.width,
                 inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
-                "drawn from the search direction on");
+                trace && trace->passed && trace->line ? "no {p} was needed"
+                : trace && trace->line ? "from line 4 on, where {p} is known"
+                : show->step == 0      ? "N makes a step"
+                                       : "no update was needed");
 }
 
 static const char *line_title(const Show *show)

@@ -71,6 +71,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                    (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
                    !counted;
     NewtonRecord now = {.residual = trace->residual};
+    bool drops = trace->rest > 0 && trace->line == LINE_TEST;
     extend_range(trace->record, trace->updates, &low, &high);
     extend_range(trace->record_before, trace->updates_before, &low, &high);
     if (pending)
@@ -82,6 +83,8 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
               false, NULL};
     Plot plot = plot_create(paper, inside, x, y);
+    if (drops) /* onto its place, from the upper edge */
+        now.residual *= pow(y.high / now.residual, trace->rest);
     draw_updates(paper, &plot, trace->record_before, trace->updates_before, 1,
                  2.5, COLOUR_BORDER);
     draw_tolerance(paper, &plot, tolerance);

@@ -88,7 +88,7 @@ double longest_arrow(int nodes, const double *d)
 }
 
 double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
-                    const double *x, const double *d, double most,
+                    const double *x, const double *d, double part, double most,
                     Colour colour)
 {
     double scale = stage->camera.scale[0], factor = 1;
@@ -102,7 +102,7 @@ double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
         factor = pow(10, -ceil(log10(length / most)));
     for (int i = 0; i < nodes; i += stride)
         if (hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
-            stage_arrow(paper, stage, x + 2 * i, d + 2 * i, factor, 1.6,
+            stage_arrow(paper, stage, x + 2 * i, d + 2 * i, part * factor, 1.6,
                         colour);
     return factor;
 }

@@ -35,12 +35,12 @@ void stage_ring(Paper *paper, const Stage *stage, const double *a,
 void stage_pin(Paper *paper, const Stage *stage, const double *a,
                double radius);
 
-/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten times as
- * long as they are, so that the longest has between a tenth of `most` pixels
- * and `most`, where that is not so by itself; returns that factor, 0 if there
- * is nothing to draw. */
+/* Arrows of part times d [2n] at x [2n], every stride-th node.  A power of ten
+ * times as long as they are, so that the longest has between a tenth of `most`
+ * pixels and `most`, where that is not so by itself; returns that factor, 0 if
+ * there is nothing to draw. */
 double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
-                    const double *x, const double *d, double most,
+                    const double *x, const double *d, double part, double most,
                     Colour colour);
 
 /* The longest of d [2n], those that are not finite left out. */

@@ -348,10 +348,12 @@ static void draw_direction(const SpringPen *pen, const double *p,
                            Legend *legend)
 {
     const Box *box = &pen->stage->box;
-    double factor =
-        stage_arrows(pen->paper, pen->stage,
-                     pen->pane->simulation->system.nodes, arrow_stride(pen),
-                     pen->x, p, 0.5 * fmin(box->width, box->height), COLOUR_P);
+    const Trace *trace = pen->pane->trace;
+    double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
+    double factor = stage_arrows(pen->paper, pen->stage,
+                                 pen->pane->simulation->system.nodes,
+                                 arrow_stride(pen), pen->x, p, grown,
+                                 0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0 || !pen->stage->text)
         return;
     if (factor == 1)

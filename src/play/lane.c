@@ -46,6 +46,7 @@ void lane_free(Lane *lane)
     track_free(&lane->track);
     tape_free(&lane->tape);
     free(lane->ghost);
+    free(lane->from);
     free(lane->at);
     free(lane->bar);
     *lane = (Lane){0};

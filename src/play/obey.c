@@ -53,6 +53,8 @@ Status player_obey(Player *player, const Command *command)
     bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
     player->changed = true;
     player->message[0] = '\0';
+    if (resolved.kind != COMMAND_REDRAW)
+        player->glide = 0;
     if (!keeps_note(resolved.kind))
         player->note[0] = '\0';
     if (command_row(resolved.kind)->kept &&

@@ -314,7 +314,7 @@ static Status run_frame(Player *player, double *next)
         status = step_frame(player);
         measure_speed(player);
     }
-    if (!status && !player->quit && player->changed)
+    if (!status && !player->quit && (player->changed || player->glide > 0))
         status = player_draw(player);
     return status;
 }
@@ -325,7 +325,9 @@ Status player_run(Player *player)
     Status status = player_draw(player);
     while (!status && !player_ended(player)) {
         status = run_frame(player, &next);
-        double wait = player->paused ? IDLE_WAIT : 1e3 * (next - clock_now());
+        double wait = player->glide > 0 ? 1e3 / FRAME_RATE
+                      : player->paused  ? IDLE_WAIT
+                                        : 1e3 * (next - clock_now());
         bool busy = !script_is_over(&player->script) && player->paused;
         if (!player->window)
             show_progress(player);

@@ -32,6 +32,17 @@ const Settings *player_settings(const Player *player);
  * itself, that is what is shown. */
 void player_show_peaks(Player *player);
 
+/* ---- glide.c ------------------------------------------------------------ */
+
+/* From what is shown now, before another line is; only in a window. */
+void glide_begin(Player *player);
+
+/* The part of the way that is still to go: 1 ... 0; 0: it is over. */
+double glide_rest(Player *player);
+
+/* The positions there, [2n] m, the lane's own. */
+const double *glide_between(Lane *lane, double rest);
+
 /* ---- change.c ----------------------------------------------------------- */
 
 /* A change from here on, in lanes from ... to - 1 or in all of them; it makes

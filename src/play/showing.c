@@ -182,7 +182,7 @@ static void fill_chips(Player *player)
 }
 
 /* One picture on the stage. */
-static void fill_pane(Player *player, int i, Trace *trace)
+static void fill_pane(Player *player, int i, double rest, Trace *trace)
 {
     Lane *lane = &player->lane[i];
     Pane *pane = &player->show.pane[i];
@@ -202,7 +202,10 @@ static void fill_pane(Player *player, int i, Trace *trace)
     if (lane->taped && newton) {
         pane->x = tape_trace(&lane->tape, lane->place, trace);
         pane->trace = trace;
+        trace->rest = rest;
     }
+    if (rest > 0)
+        pane->x = glide_between(lane, rest);
 }
 
 /* The hand, where it pulls. */
@@ -279,9 +282,10 @@ void player_fill(Player *player)
     show_create(player_simulation(player), show);
     show->panes = player->lanes;
     show->active = player->active;
+    double rest = glide_rest(player);
     fill_labels(player);
     for (int i = 0; i < player->lanes; i++)
-        fill_pane(player, i, &traces[i]);
+        fill_pane(player, i, rest, &traces[i]);
     show->hover = hover;
     show->over = over;
     show->paused = player->paused;

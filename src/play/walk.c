@@ -51,6 +51,7 @@ static void enter_tapes(Player *player, bool at_end)
 static bool walk_on(Player *player)
 {
     bool moved = false;
+    glide_begin(player);
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         int last = lane->tape.places - 1;
@@ -67,6 +68,7 @@ static bool walk_on(Player *player)
 static bool walk_back(Player *player)
 {
     bool moved = false;
+    glide_begin(player);
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         if (lane->place <= 0)
