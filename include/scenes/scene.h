@@ -8,6 +8,7 @@
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
 
+#include "model/contact.h"
 #include "scenes/simulation.h"
 
 /* How the picture layer shows a scene. */
@@ -63,6 +64,11 @@ typedef struct Scene {
     void (*defaults)(Options *options);
     /* Fills simulation->system, mesh and the start. */
     Status (*create)(Simulation *simulation, const NewtonSettings *settings);
+    /* The obstacle that comes with the scene beside those of the options, as it
+     * begins, o a ball's centre too; own_name is what messages call it.  NULL:
+     * there is none. */
+    Obstacle (*own)(const Options *options);
+    const char *own_name;
     /* One step; NULL: a step in time of every run. */
     Status (*step)(Simulation *simulation);
     /* The next direction again, after filter or line search changed; NULL:

@@ -114,8 +114,9 @@ bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle)
 {
     int ball = contact->obstacle[obstacle].node;
-    return node != ball &&
-           !(is_pinned(system, node) && (ball < 0 || is_pinned(system, ball)));
+    bool held = is_pinned(system, node) && !system->pin_v &&
+                contact->obstacle[obstacle].motion.phases == 0;
+    return node != ball && !(held && (ball < 0 || is_pinned(system, ball)));
 }
 
 double contact_node_radius(const Contact *contact, int node)

@@ -10,13 +10,6 @@ static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
-/* One contact as it is now. */
-typedef struct Touch {
-    double force[2]; /* N, on the node, friction included */
-    bool rough;      /* it has friction ... */
-    bool slides;     /* ... and is faster than eps_v */
-} Touch;
-
 bool square_contact_apart(const Simulation *simulation)
 {
     return simulation->runs > 1 &&
@@ -30,10 +23,8 @@ void square_contact_obstacles(const ContactView *view, bool thin)
         stage_obstacles(view->paper, view->stage, contact, view->x, thin);
 }
 
-/* What this obstacle does to this node, with the normal force of now; false:
- * nothing. */
-static bool touch_of(const ContactView *view, int node, int number,
-                     Touch *touch)
+bool square_contact_touch(const ContactView *view, int node, int number,
+                          Touch *touch)
 {
     const System *system = view->run->system;
     const Contact *contact = contact_of(system);
@@ -70,7 +61,7 @@ static bool slides(const ContactView *view)
     for (int o = 0; o < contact->obstacles; o++)
         for (int i = 0; i < view->run->system->nodes; i++) {
             Touch touch;
-            if (touch_of(view, i, o, &touch) && touch.rough) {
+            if (square_contact_touch(view, i, o, &touch) && touch.rough) {
                 if (!touch.slides)
                     return false;
                 moves = true;
@@ -86,7 +77,7 @@ double square_contact_most(const ContactView *view)
     for (int o = 0; contact && o < contact->obstacles; o++)
         for (int i = 0; i < view->run->system->nodes; i++) {
             Touch touch;
-            if (touch_of(view, i, o, &touch))
+            if (square_contact_touch(view, i, o, &touch))
                 most = fmax(most, hypot(touch.force[0], touch.force[1]));
         }
     return isfinite(most) ? most : 0;
@@ -115,7 +106,7 @@ void square_contact_forces(const ContactView *view, double most)
         for (int i = 0; i < view->run->system->nodes; i++) {
             const double *at = view->x + 2 * (size_t)i;
             Touch touch;
-            if (!touch_of(view, i, o, &touch))
+            if (!square_contact_touch(view, i, o, &touch))
                 continue;
             const double tail[2] = {at[0] - factor * touch.force[0],
                                     at[1] - factor * touch.force[1]};

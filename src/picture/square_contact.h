@@ -23,6 +23,18 @@ typedef struct ContactView {
 /* Whether runs have systems of their own, such as three slopes. */
 bool square_contact_apart(const Simulation *simulation);
 
+/* One contact as it is now. */
+typedef struct Touch {
+    double force[2]; /* N, on the node, friction included */
+    bool rough;      /* it has friction ... */
+    bool slides;     /* ... and is faster than eps_v */
+} Touch;
+
+/* What this obstacle does to this node, with the normal force of now; false:
+ * nothing. */
+bool square_contact_touch(const ContactView *view, int node, int obstacle,
+                          Touch *touch);
+
 /* Walls and balls of the run; thin walls: as slabs, so that those of several
  * runs stay apart. */
 void square_contact_obstacles(const ContactView *view, bool thin);

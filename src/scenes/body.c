@@ -11,6 +11,7 @@
 #include "model/friction.h"
 #include "model/plasticity.h"
 #include "scenes/pins.h"
+#include "scenes/scene.h"
 
 /* Part by which the strengths of springs differ. */
 #define TEAR_SCATTER 0.1
@@ -244,6 +245,49 @@ static double nearest_node(const Options *options, const unsigned char *pinned,
     return nearest;
 }
 
+/* Whether one obstacle leaves room for the body; a message if not. */
+static bool check_obstacle(const Options *options, const unsigned char *pinned,
+                           const Obstacle *obstacle, const char *name,
+                           char *message, size_t size)
+{
+    int node = 0;
+    bool moves = options->moving_pins || obstacle->motion.phases > 0;
+    double d = nearest_node(options, moves ? NULL : pinned, obstacle, &node);
+    if (d > 0)
+        return true;
+    snprintf(message, size,
+             "%s: node %d would begin at a distance of %g m; it must be above "
+             "0",
+             name, node, d);
+    return false;
+}
+
+/* The scene's own obstacle: the body must not touch it, nor a ball that is free
+ * what the options put in its way. */
+static bool check_own(const Options *options, const unsigned char *pinned,
+                      const Obstacle list[], int count, char *message,
+                      size_t size)
+{
+    const Scene *scene = options->scene;
+    if (!scene || !scene->own)
+        return true;
+    const Obstacle own = scene->own(options);
+    for (int i = 0; i < count && own.kind == OBSTACLE_BALL; i++) {
+        double d = contact_gap(&list[i], list[i].o, own.o, own.radius).d;
+        char name[128];
+        if (d > 0)
+            continue;
+        name_obstacle(options, i, name, sizeof name);
+        snprintf(message, size,
+                 "%s: %s would begin at a distance of %g m; it must be above "
+                 "0",
+                 name, scene->own_name, d);
+        return false;
+    }
+    return check_obstacle(options, pinned, &own, scene->own_name, message,
+                          size);
+}
+
 /* The first obstacle that the body touches. */
 static Status check_obstacles(const Options *options,
                               const unsigned char *pinned, char *message,
@@ -251,25 +295,22 @@ static Status check_obstacles(const Options *options,
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
     char name[128];
-    int count = list_obstacles(options, list), node = 0;
+    int count = list_obstacles(options, list);
     for (int i = 0; i < count; i++) {
         name_obstacle(options, i, name, sizeof name);
-        double d = 0;
-        if (!obstacle_is_sound(options, i))
+        if (!obstacle_is_sound(options, i)) {
             snprintf(message, size, "%s: %s", name,
                      i < options->grounds
                          ? "the normal is 0,0; it must point somewhere"
                          : "the radius must be above 0");
-        else if (!((d = nearest_node(options, pinned, &list[i], &node)) > 0))
-            snprintf(message, size,
-                     "%s: node %d would begin at a distance of %g m; it must "
-                     "be above 0",
-                     name, node, d);
-        else
-            continue;
-        return STATUS_INVALID_INPUT;
+            return STATUS_INVALID_INPUT;
+        }
+        if (!check_obstacle(options, pinned, &list[i], name, message, size))
+            return STATUS_INVALID_INPUT;
     }
-    return STATUS_OK;
+    return check_own(options, pinned, list, count, message, size)
+               ? STATUS_OK
+               : STATUS_INVALID_INPUT;
 }
 
 Status body_check(const Options *options, char *message, size_t size)
@@ -282,9 +323,10 @@ Status body_check(const Options *options, char *message, size_t size)
         return STATUS_INVALID_INPUT;
     }
     int columns = options->segments, rows = body_rows(options);
+    bool own = options->scene && options->scene->own;
     unsigned char *pinned = NULL;
     Status status = STATUS_OK;
-    if (options->grounds == 0 && options->balls == 0)
+    if (options->grounds == 0 && options->balls == 0 && !own)
         return STATUS_OK;
     if (options->pin) {
         pinned = calloc((size_t)(columns + 1) * (size_t)(rows + 1), 1);

@@ -129,19 +129,24 @@ static void disturb(const SquareMesh *mesh, double size, double *v)
 
 /* The ceiling begins as far above the square as the floor is below it, takes
  * 0.55 of its height, and goes back at twice the speed. */
-Status create_squeeze(Simulation *simulation, const NewtonSettings *settings)
+Obstacle squeeze_ceiling(const Options *options)
 {
-    const Options *options = &simulation->options;
-    System *system = &simulation->system;
     double down = 0.55 / 0.4, back = down + 0.7;
     double speed = 0.4 * options->side;
-    const Obstacle ceiling = {
+    return (Obstacle){
         .kind = OBSTACLE_WALL,
         .n = {0, -1},
         .o = {0, 0.51 * options->side + options->at[1]},
         .friction = options->friction,
         .motion = {2, {down, back}, {{0, -speed}, {0, 2 * speed}}},
         .node = -1};
+}
+
+Status create_squeeze(Simulation *simulation, const NewtonSettings *settings)
+{
+    const Options *options = &simulation->options;
+    System *system = &simulation->system;
+    const Obstacle ceiling = squeeze_ceiling(options);
     Status status = body_create(options, 0, &simulation->mesh, system);
     if (!status)
         status =
@@ -238,6 +243,17 @@ void bend_defaults(Options *options)
     add_ground(options, 0, 1, 0, -1);
 }
 
+/* It begins 0.05 m above the beam. */
+Obstacle bend_ball(const Options *options)
+{
+    double half = 0.5 * body_rows(options) * options->side / options->segments;
+    return (Obstacle){.kind = OBSTACLE_BALL,
+                      .o = {0, half + 0.18 + 0.05},
+                      .radius = 0.18,
+                      .friction = options->friction,
+                      .node = -1};
+}
+
 Status create_bend(Simulation *simulation, const NewtonSettings *settings)
 {
     const Options *options = &simulation->options;
@@ -247,11 +263,9 @@ Status create_bend(Simulation *simulation, const NewtonSettings *settings)
     if (status)
         return status;
     double a = options->side / options->segments, half = 0.5 * mesh->rows * a;
-    const Obstacle ball = {.kind = OBSTACLE_BALL,
-                           .radius = 0.18,
-                           .friction = options->friction,
-                           .node = mesh->nodes};
-    const double start[4] = {0, half + ball.radius + 0.05, 0, -3};
+    Obstacle ball = bend_ball(options);
+    const double start[4] = {ball.o[0], ball.o[1], 0, -3};
+    ball.node = mesh->nodes;
     system->m[mesh->nodes] = 60;
     status = body_add_terms(options, mesh, 1, &ball, system);
     if (status)

@@ -6,6 +6,7 @@
 #ifndef ELASTO_CONTACT_SCENES_H
 #define ELASTO_CONTACT_SCENES_H
 
+#include "model/contact.h"
 #include "scenes/simulation.h"
 
 /* A square tumbles down between two walls. */
@@ -18,6 +19,7 @@ Status create_slope(Simulation *simulation, const NewtonSettings *settings);
 
 /* A ceiling comes down on the square and goes up again. */
 void squeeze_defaults(Options *options);
+Obstacle squeeze_ceiling(const Options *options);
 Status create_squeeze(Simulation *simulation, const NewtonSettings *settings);
 
 /* Springs that flow: a ball leaves its mark. */
@@ -29,6 +31,7 @@ Status create_tear(Simulation *simulation, const NewtonSettings *settings);
 
 /* A beam with a notch lies on two balls, and a heavy third falls on it. */
 void bend_defaults(Options *options);
+Obstacle bend_ball(const Options *options);
 Status create_bend(Simulation *simulation, const NewtonSettings *settings);
 
 #endif

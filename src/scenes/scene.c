@@ -108,7 +108,9 @@ const Scene scenes[] = {
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = squeeze_defaults,
-     .create = create_squeeze},
+     .create = create_squeeze,
+     .own = squeeze_ceiling,
+     .own_name = "the ceiling"},
     {.name = "dent",
      .title = "Inelasticity: a dent that stays",
      .sentence = "springs beyond their yield strain flow, and keep it",
@@ -137,7 +139,9 @@ const Scene scenes[] = {
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      .defaults = bend_defaults,
-     .create = create_bend},
+     .create = create_bend,
+     .own = bend_ball,
+     .own_name = "the falling ball"},
     {.name = "arrows",
      .title = "One mass",
      .sentence = "one mass on a spring: the arrows of three Euler steps",

@@ -302,13 +302,13 @@ Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
                                    bool *found)
 {
     int n = 2 * search->system->nodes;
-    double *d = search->d;
     ConjugateGradients state = {
         .at = at, .filter = FILTER_NONE, .enough = NO_CURVATURE * NO_CURVATURE};
     *found = false;
     Status status = create_workspaces(search);
     if (status)
         return status;
+    double *d = search->d; /* only now is it there */
     random_numbers(search->system, search->r);
     for (int k = 0; k < CURVATURE_MAX_ITERATIONS; k++) {
         status = apply_factor(search, search->r, search->z);

@@ -54,7 +54,8 @@ static void carry(const System *system, const Contact *contact, double way,
         if (!moves(obstacle))
             continue;
         for (int i = 0; i < system->nodes; i++) {
-            if (!contact_has_pair(contact, system, i, k))
+            if (!contact_has_pair(contact, system, i, k) ||
+                (system->pinned && system->pinned[i])) /* it gives no way */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};

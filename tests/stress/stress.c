@@ -180,7 +180,7 @@ int main(int argc, char **argv)
         if (strcmp(argv[i], "--quick") == 0)
             quick = true;
         else if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc)
-            seed = strtoull(argv[++i], NULL, 10);
+            stress_contact_seed = seed = strtoull(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--case") == 0 && i + 1 < argc)
             number = strtol(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--random") == 0 && i + 1 < argc)

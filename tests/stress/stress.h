@@ -132,7 +132,9 @@ typedef struct StressCase {
     bool (*run)(Tally *tally, char *reason);
 } StressCase;
 
-/* Random scenes of contact and what goes with it: 20 000, or some. */
+/* Random scenes of contact and what goes with it: 20 000, or some; other ones
+ * with another seed. */
+extern uint64_t stress_contact_seed;
 bool stress_contact(Tally *tally, char *reason);
 bool stress_contact_small(Tally *tally, char *reason);
 

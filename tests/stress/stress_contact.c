@@ -136,12 +136,14 @@ static Verdict contact_run(const char *line, Tally *tally, char *reason)
     return reported ? VERDICT_REPORTED : VERDICT_CONVERGED;
 }
 
+uint64_t stress_contact_seed = 1;
+
 /* This many scenes; the first that is wrong ends them. */
 static bool contact_scenes(long count, Tally *tally, char *reason)
 {
     char line[512];
     for (long i = 0; i < count; i++) {
-        contact_line(1, i, line, sizeof line);
+        contact_line(stress_contact_seed, i, line, sizeof line);
         if (contact_run(line, tally, reason) == VERDICT_WRONG)
             return false;
     }

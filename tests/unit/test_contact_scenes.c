@@ -1,0 +1,225 @@
+/* The scenes of contact, inelasticity and fracture from outside: rows of
+ * options, starts that are refused, what is held fast, and the forces that
+ * their pictures show.
+ */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/contact.h"
+#include "picture/square_contact.h"
+#include "scenes/scene.h"
+#include "scenes/state.h"
+
+/* A scene is a row of defaults: the square with the same options makes the
+ * same bits. */
+static void the_square_with_options_is_the_scene(void **unused)
+{
+    (void)unused;
+    static const char *const lines[][2] = {
+        {"hang", "square --segments 12 --stiffness 1e4 --stretch 1 --timestep "
+                 "0.01 --tolerance 1e-3 --gravity 9.81 --pin top-corners"},
+        {"drop",
+         "square --segments 16 --stretch 1 --timestep 0.005 --tolerance 1e-4 "
+         "--gravity 9.81 --cells on --turn 25 --at -0.3,0.75 --velocity 0.9,-1 "
+         "--friction 0.3 --ground 0,1,0,-0.5 --ground 1,0,-1.1,0 --ground "
+         "-1,0,1.1,0"},
+        {"dent",
+         "square --segments 16 --stiffness 2e5 --stretch 1 --timestep 0.004 "
+         "--tolerance 1e-4 --gravity 9.81 --cells on --at 0,0.62 --velocity "
+         "0.02,-2 --friction 0.3 --yield 0.04 --hardening 0.1 --ball "
+         "0,-0.75,0.35 --ground 0,1,0,-1.15"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Simulation run[2];
+        for (int k = 0; k < 2; k++) {
+            simulation_from_line(lines[i][k], NULL, NULL, &run[k]);
+            for (int step = 0; step < 70; step++)
+                CHECK_STATUS(simulation_step(&run[k]), STATUS_OK);
+        }
+        CHECK(state_hash(&run[0], 1) == state_hash(&run[1], 1));
+        CHECK_SAME_BITS(run[0].run[0].x, run[1].run[0].x,
+                        2 * run[0].system.nodes);
+        simulation_free(&run[0]);
+        simulation_free(&run[1]);
+    }
+}
+
+/* The words of options_parse about a line; "" where it is accepted. */
+static void message_of(const char *line, char message[512])
+{
+    char copy[256], *words[32] = {"elasto"};
+    int count = 1;
+    Options options;
+    snprintf(copy, sizeof copy, "%s", line);
+    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
+        words[count++] = word;
+    message[0] = '\0';
+    Status status = options_parse(count, words, &options, message, 512);
+    CHECK_STATUS(status, message[0] ? STATUS_INVALID_INPUT : STATUS_OK);
+}
+
+/* Who begins in an obstacle is told which node, and how deep. */
+static void starts_that_touch_are_refused(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line, *message;
+    } cases[] = {
+        {"square --stretch 1 --ground 0,1,0,-0.4",
+         "--ground 0,1,0,-0.4: node 0 would begin at a distance of -0.1 m; it "
+         "must be above 0"},
+        {"square --stretch 1 --ground 0,2,0,-0.5", /* exactly on it */
+         "--ground 0,2,0,-0.5: node 0 would begin at a distance of 0 m; it "
+         "must be above 0"},
+        {"square --stretch 1 --ground 0,1,0,-0.6 --ball 0.75,0.5,0.3",
+         "--ball 0.75,0.5,0.3: node 24 would begin at a distance of -0.05 m; "
+         "it must be above 0"},
+        {"square --stretch 1 --ball 0.125,0.125,0.05", ""}, /* in a cell */
+        {"square --stretch 1 --ground 0,0,1,0",
+         "--ground 0,0,1,0: the normal is 0,0; it must point somewhere"},
+        {"square --stretch 1 --ball 3,0,0",
+         "--ball 3,0,0: the radius must be above 0"},
+        {"square --stretch 0 --cells on",
+         "--stretch: 0 turns cell 0 over (0 of its area), and all others; "
+         "above 0, or --cells off"},
+        {"square --stretch 1 --pin bottom --ground 0,1,0,-0.4", ""},
+        {"square --stretch 1 --pin bottom --ground 0,1,0,-0.2",
+         "--ground 0,1,0,-0.2: node 1 would begin at a distance of -0.05 m; it "
+         "must be above 0"},
+        {"squeeze --at 0,1", ""},
+        {"squeeze --at 0,0.5 --turn 45 --segments 4",
+         "the ceiling: node 24 would begin at a distance of -0.197107 m; it "
+         "must be above 0"},
+        {"bend --at 0,0.3 --segments 16",
+         "the falling ball: node 33 would begin at a distance of -0.1725 m; it "
+         "must be above 0"},
+        {"bend --ball 0,0.6,0.3",
+         "--ball 0,0.6,0.3: the falling ball would begin at a distance of "
+         "-0.2975 m; it must be above 0"},
+        {"tear --ground 1,0,-0.5,0 --segments 4",
+         "--ground 1,0,-0.5,0: node 0 would begin at a distance of 0 m; it "
+         "must be above 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char message[512];
+        message_of(cases[i].line, message);
+        assert_string_equal(message, cases[i].message);
+    }
+}
+
+/* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
+ * drawn against a wall stop before it; the steps say so. */
+static void pins_and_walls_stop_each_other(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "squeeze --segments 4 --pin top",
+        "tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01"};
+    for (int i = 0; i < 2; i++) {
+        Simulation simulation;
+        double gap = INFINITY;
+        int blocked = 0;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        for (int step = 0; step < 30; step++) {
+            Status status = simulation_step(&simulation);
+            CHECK(status == STATUS_OK || status == STATUS_BLOCKED);
+            blocked += status == STATUS_BLOCKED;
+            gap = fmin(gap,
+                       smallest_gap(&simulation.system, simulation.run[0].x));
+        }
+        CHECK(gap > 0 && gap < 1e-3);
+        CHECK(blocked > 15 && blocked < 30);
+        simulation_free(&simulation);
+    }
+}
+
+/* Negative curvature is looked for in the first minimisation, before any other
+ * work has asked for its arrays. */
+static void a_saddle_may_be_the_first_thing(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("tear --stiffness 1e8 --minimum", NULL, NULL,
+                         &simulation);
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK(simulation_counters(&simulation).iterations > 0);
+    simulation_free(&simulation);
+}
+
+/* What falls on the middle of a ball without a turn stays symmetric: 150 steps,
+ * tolerance 1e-8; the two halves are added in different orders. */
+static void what_is_symmetric_stays_so(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("dent --segments 8 --velocity 0,-2 --tolerance 1e-8",
+                         NULL, NULL, &simulation);
+    for (int step = 0; step < 150; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    const double *x = simulation.run[0].x;
+    for (int node = 0; node < 81; node++) {
+        int image = (8 - node / 9) * 9 + node % 9;
+        CHECK_NEAR(x[2 * node], -x[2 * image], 1e-10);
+        CHECK_NEAR(x[2 * node + 1], x[2 * image + 1], 1e-10);
+    }
+    CHECK(simulation_energies(&simulation, 0).plastic > 1000);
+    simulation_free(&simulation);
+}
+
+/* The arrows on the blocks of the slope: on the one that holds they add up to
+ * its weight, straight up, and all sticks; on those that slide they take the
+ * same part of it normal to the slope, and mu times that along it. */
+static void arrows_are_the_forces(void **unused)
+{
+    (void)unused;
+    static const double part[3] = {0.5, 0.9, 1.1};
+    const double angle = 20 * 0.017453292519943295, weight = 250 * 9.81;
+    Simulation simulation;
+    simulation_from_line("slope", NULL, NULL, &simulation);
+    for (int step = 0; step < 150; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    for (int r = 0; r < 3; r++) {
+        const ContactView view = {.run = &simulation.run[r],
+                                  .x = simulation.run[r].x,
+                                  .h = simulation.options.timestep};
+        double sum[2] = {0, 0};
+        int slides = 0, touches = 0;
+        for (int i = 0; i < view.run->system->nodes; i++) {
+            Touch touch;
+            if (!square_contact_touch(&view, i, 0, &touch))
+                continue;
+            touches++;
+            slides += touch.slides;
+            CHECK(touch.rough);
+            sum[0] += touch.force[0];
+            sum[1] += touch.force[1];
+        }
+        double normal = -sin(angle) * sum[0] + cos(angle) * sum[1];
+        double along = cos(angle) * sum[0] + sin(angle) * sum[1];
+        CHECK(touches == 7 && slides == (r < 2 ? 7 : 0));
+        /* it still shakes a little: 1e-3 */
+        CHECK_NEAR(normal, weight * cos(angle), 1e-3 * weight);
+        CHECK_NEAR(along, fmin(part[r], 1) * weight * sin(angle),
+                   1e-3 * weight);
+        CHECK_NEAR(square_contact_most(&view), hypot(sum[0], sum[1]) / 7,
+                   0.5 * weight);
+    }
+    simulation_free(&simulation);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_square_with_options_is_the_scene),
+        cmocka_unit_test(starts_that_touch_are_refused),
+        cmocka_unit_test(pins_and_walls_stop_each_other),
+        cmocka_unit_test(a_saddle_may_be_the_first_thing),
+        cmocka_unit_test(what_is_symmetric_stays_so),
+        cmocka_unit_test(arrows_are_the_forces),
+    };
+    return cmocka_run_group_tests_name("contact scenes", tests, NULL, NULL);
+}
