@@ -95,7 +95,7 @@ static void starts_that_touch_are_refused(void **unused)
          "the ceiling: node 24 would begin at a distance of -0.197107 m; it "
          "must be above 0"},
         {"bend --at 0,0.3 --segments 16",
-         "the falling ball: node 33 would begin at a distance of -0.1725 m; it "
+         "the falling ball: node 34 would begin at a distance of -0.125 m; it "
          "must be above 0"},
         {"bend --ball 0,0.6,0.3",
          "--ball 0,0.6,0.3: the falling ball would begin at a distance of "
