@@ -38,6 +38,7 @@ typedef struct NewtonRecord {
     double shift;    /* kg, what the diagonal needed to be factored */
     double seconds;  /* this iteration took */
     Status status;   /* RUNNING, or how the minimisation ended here */
+    Solver solver;   /* who made it: NEWTON or MULTIGRID */
     double from[2];  /* where it started and where it led, in scenes with a */
     double to[2];    /* single unknown point; 0 elsewhere */
 } NewtonRecord;

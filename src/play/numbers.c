@@ -15,7 +15,7 @@ static const Number numbers[] = {
     {"integrator", "method", NULL, 16, NUMBER_NAME, 0},
     {"filter", "projection", NULL, 9, NUMBER_NAME, 0},
     {"line-search", "line search", NULL, 9, NUMBER_NAME, 0},
-    {"solver", "solver", NULL, 9, NUMBER_NAME, 0},
+    {"solver", "solver", NULL, 15, NUMBER_NAME, 0},
 };
 
 enum { NUMBERS = sizeof numbers / sizeof *numbers };

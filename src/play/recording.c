@@ -53,7 +53,8 @@ static Status write_headers(Recording *recording)
                               recording->log.name);
     if (recording->points)
         fputs(",from_x,from_y,to_x,to_y", recording->log.file);
-    fputs(recording->panes > 1 ? ",pane\n" : "\n", recording->log.file);
+    fputs(recording->panes > 1 ? ",solver,pane\n" : ",solver\n",
+          recording->log.file);
     return recording_note(recording, output_check(&recording->log),
                           recording->log.name);
 }
@@ -252,6 +253,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
     if (recording->points)
         fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
                 record->from[1], record->to[0], record->to[1]);
+    fprintf(log->file, ",%s", solver_name(record->solver));
     if (recording->panes > 1)
         fprintf(log->file, ",%d", pane);
     putc('\n', log->file);

@@ -97,6 +97,11 @@ static void value_text(const Number *number, const Options *options,
                      ? "three Eulers"
                  : options->integrator ? options->integrator->label
                                        : integrator_methods[0].label);
+    else if (strcmp(number->option, "solver") == 0 && simulation->steps > 0 &&
+             simulation->run[0].newton &&
+             simulation->run[0].newton->working != options->solver)
+        snprintf(text, size, "%.12s: %s", value, /* who has made the step */
+                 solver_name(simulation->run[0].newton->working));
     else
         snprintf(text, size, "%.20s%s%s", value, unit ? " " : "",
                  unit ? unit : "");

@@ -32,25 +32,33 @@ static void print_tolerance(FILE *file, const Simulation *simulation)
                 simulation->options.tolerance, needed);
 }
 
-/* What Newton did; all 0 with explicit methods, which have no matrix. */
+/* A count, where there is something to count. */
+static void print_count(FILE *file, const char *name, long long count)
+{
+    if (count > 0)
+        fprintf(file, "%-20s%lld\n", name, count);
+}
+
+/* What the minimisations took; nothing with explicit methods, which have
+ * none. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     NewtonCounters sum = simulation_counters(simulation);
-    long iterations = sum.iterations;
-    if (!(simulation->scene->needs & NEEDS_TIME))
-        iterations = simulation->descent.count;
+    bool in_time = simulation->scene->needs & NEEDS_TIME, minimises = !in_time;
+    long iterations = in_time ? sum.iterations : simulation->descent.count;
+    for (int i = 0; i < simulation->runs; i++)
+        minimises = minimises || simulation->run[i].newton;
     print_solver(file, simulation);
     print_tolerance(file, simulation);
+    if (!minimises)
+        return;
     fprintf(file, "Newton iterations   %ld\n", iterations);
-    fprintf(file, "factorisations      %ld\n", sum.factorisations);
-    fprintf(file, "solves              %ld\n", sum.solves);
-    fprintf(file, "springs projected   %ld\n", sum.projected);
-    fprintf(file, "matrix entries      %lld\n",
-            simulation_matrix_entries(simulation));
-    if (sum.cycles > 0)
-        fprintf(file, "V-cycles            %ld\n", sum.cycles);
-    if (sum.saddles > 0)
-        fprintf(file, "saddles left        %ld\n", sum.saddles);
+    print_count(file, "factorisations", sum.factorisations);
+    print_count(file, "solves", sum.solves);
+    print_count(file, "springs projected", sum.projected);
+    print_count(file, "matrix entries", simulation_matrix_entries(simulation));
+    print_count(file, "V-cycles", sum.cycles);
+    print_count(file, "saddles left", sum.saddles);
 }
 
 /* A number with its unit, where it is one. */

@@ -155,40 +155,45 @@ static double kept_difference(const void *function, double alpha)
                            part * (round->value[i + 1] - round->value[i]);
 }
 
-/* Whether one line along p is what the solver searched. */
-static bool goes_along_p(const Newton *newton)
-{
-    return newton->working == SOLVER_NEWTON ||
-           newton->settings.search == LINE_SEARCH_NONE;
-}
-
-/* x and p of the first round: x is x_n, and p what led from there to the next
- * iterate.  x_tilde too. */
-static void begin_rounds(Tape *tape, const Newton *newton,
-                         const NewtonRecord *record)
+/* x and p of a round where p is known by what it led to, the present iterate:
+ * the first one, where x is x_n, and those of multigrid. */
+static void keep_way(Tape *tape, const Newton *newton,
+                     const NewtonRecord *record)
 {
     const IncrementalPotential *E = &newton->at.E;
     TapeRound *round = &tape->round[tape->count];
     double *u = tape->scratch, *p = tape->scratch + tape->size;
-    double alpha = goes_along_p(newton) ? record->alpha : 1;
+    bool first = record->iteration == 0;
+    if (!first && !round->x)
+        return;
     for (int i = 0; i < tape->size; i++) {
-        u[i] = 0;
-        p[i] = record->alpha == 0 ? newton->at.p[i] : newton->at.u[i] / alpha;
-        if (!tape->tilde)
-            tape->x_tilde[i] = E->x_n[i] + newton->u_tilde[i];
+        u[i] = first ? 0 : round->x[i] - E->x_n[i];
+        p[i] = record->alpha == 0 ? newton->at.p[i]
+                                  : (newton->at.u[i] - u[i]) / record->alpha;
     }
-    tape->tilde = true;
-    free_round(round);
-    keep_arrays(tape, round, E->x_n, p);
-    if (!round->x)
-        return;
+    if (first) {
+        free_round(round);
+        keep_arrays(tape, round, E->x_n, p);
+    }
     double *g = calloc((size_t)tape->size, sizeof *g);
-    if (!g)
+    if (!round->x || !g) {
+        free(g);
         return;
+    }
+    memcpy(round->p, p, array_bytes(tape));
     Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
     incremental_potential_gradient(E, u, round->x, g);
     keep_line(tape, round, &at);
     free(g);
+}
+
+/* Multigrid goes no line that p alone gives; what it made is shown as one. */
+static NewtonRecord as_line(const NewtonRecord *record)
+{
+    NewtonRecord line = *record;
+    if (record->solver == SOLVER_MULTIGRID && record->alpha != 0)
+        line.alpha = line.trials = 1;
+    return line;
 }
 
 /* The round that comes next: where the solver is now.  A test that a bound or
@@ -203,19 +208,24 @@ static void keep_next(Tape *tape, const Newton *newton)
     round->projected = newton->record.projected;
 }
 
-void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *record)
+void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *made)
 {
-    bool at_rest = record->iteration < 0 && tape->count == 0;
-    if (at_rest || record->status == STATUS_OK)
+    bool at_rest = made->iteration < 0 && tape->count == 0;
+    if (at_rest || made->status == STATUS_OK)
         tape->passed =
-            newton->working == SOLVER_NEWTON && !newton->record.factorised;
-    if (record->iteration < 0 || tape->size == 0 || !make_room(tape))
+            newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
+    if (made->iteration < 0 || tape->size == 0 || !make_room(tape))
         return;
-    if (record->iteration == 0)
-        begin_rounds(tape, newton, record);
+    const NewtonRecord line = as_line(made), *record = &line;
+    for (int i = 0; i < tape->size && !tape->tilde; i++)
+        tape->x_tilde[i] = newton->at.E.x_n[i] + newton->u_tilde[i];
+    tape->tilde = true;
+    if (record->iteration == 0 || record->solver == SOLVER_MULTIGRID)
+        keep_way(tape, newton, record);
     TapeRound *round = &tape->round[tape->count];
     round->residual = record->residual;
-    round->slope = record->slope;
+    if (record->solver == SOLVER_NEWTON)
+        round->slope = record->slope;
     round->projected = record->projected;
     tape->record[tape->count++] = *record;
     tape->ended = record->alpha != 0 && (record->status == STATUS_RUNNING ||
@@ -237,12 +247,8 @@ static void add_round(Tape *tape, const Options *options, int i)
 {
     const NewtonRecord *record = &tape->record[i];
     bool searches = options->line_search != LINE_SEARCH_NONE;
-    bool newton = options->solver == SOLVER_NEWTON ||
-                  (options->solver == SOLVER_AUTO &&
-                   options->segments <= AUTO_NEWTON_SEGMENTS);
-    int trials = searches && newton && record->trials < TRIALS_WALKED
-                     ? record->trials
-                     : 1;
+    int trials =
+        searches && record->trials < TRIALS_WALKED ? record->trials : 1;
     add_place(tape, i, LINE_DO, 0);
     if (options->filter != FILTER_NONE)
         add_place(tape, i, LINE_PROJECT, 0);

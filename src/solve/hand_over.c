@@ -88,7 +88,7 @@ static void fetch(Newton *newton)
 /* Newton goes on from the iterate that multigrid has reached. */
 static Status take_back(Newton *newton)
 {
-    newton->working = SOLVER_NEWTON;
+    newton->working = newton->record.solver = SOLVER_NEWTON;
     newton->counters.taken_back++;
     return direction_first(newton);
 }
@@ -155,6 +155,7 @@ Status hand_over_iterate(Newton *newton)
     record->alpha = did->alpha;
     record->change = did->change;
     record->trials = did->trials;
+    record->solver = SOLVER_MULTIGRID;
     count(newton, &before);
     newton->counters.trials += record->trials;
     fetch(newton);

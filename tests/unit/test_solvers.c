@@ -299,6 +299,11 @@ static void what_does_not_fit_is_left_to_newton(void **unused)
         {"--segments 33 --stiffness 1e17", SOLVER_NEWTON, "outweigh"},
         {"--segments 8 --solver multigrid", SOLVER_MULTIGRID, NULL},
         {"--segments 8 --solver newton", SOLVER_NEWTON, NULL},
+        {"--segments 33 --ground 0,1,0,-1", SOLVER_NEWTON, "energies"},
+        {"--segments 33 --ball 0,-1,0.2", SOLVER_NEWTON, "energies"},
+        {"drop --solver multigrid", SOLVER_NEWTON, "energies"},
+        {"tear --solver multigrid", SOLVER_NEWTON, "energies"},
+        {"bend --solver multigrid", SOLVER_NEWTON, "no square grid"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Simulation simulation;
