@@ -10,10 +10,6 @@
 
 #include "base/status.h"
 
-/* Which triangle of the symmetric matrix is stored (never both: CHOLMOD would
- * add the mirrored entries). */
-typedef enum Triangle { TRIANGLE_LOWER, TRIANGLE_UPPER } Triangle;
-
 typedef struct Triplets {
     int size;     /* rows = columns of the matrix */
     int count;    /* triplets so far */
@@ -23,12 +19,11 @@ typedef struct Triplets {
 } Triplets;
 
 typedef struct Sparse {
-    int size;          /* rows = columns */
-    int entries;       /* stored entries */
-    Triangle triangle; /* the one that is stored */
-    int *start;        /* [size+1] column c is start[c] ... start[c+1]-1 */
-    int *row;          /* [entries] ascending in each column */
-    double *value;     /* [entries+1] the last one takes what is dropped */
+    int size;      /* rows = columns */
+    int entries;   /* stored entries */
+    int *start;    /* [size+1] column c is start[c] ... start[c+1]-1 */
+    int *row;      /* [entries] ascending in each column */
+    double *value; /* [entries+1] the last one takes what is dropped */
 } Sparse;
 
 /* Room for `capacity` triplets.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
@@ -38,18 +33,14 @@ void triplets_free(Triplets *triplets);
 /* Appends entry (row, column); there must be room. */
 void triplets_add(Triplets *triplets, int row, int column);
 
-/* Sums triplets with equal place; entries of the other triangle are mirrored.
+/* Sums triplets with equal place.  Only the lower triangle is stored, and what
+ * belongs to the upper one is mirrored: CHOLMOD would add mirrored entries.
  *   triplets  in
- *   triangle  which one to store
  *   A         out; free it with sparse_free, also after a failure
  *   slot      [count] out, place of each triplet in A->value
  * Time O(size + count): two counting sorts.  Returns OK, OUT_OF_MEMORY. */
-Status sparse_create(const Triplets *triplets, Triangle triangle, Sparse *A,
-                     int *slot);
+Status sparse_create(const Triplets *triplets, Sparse *A, int *slot);
 void sparse_free(Sparse *A);
-
-/* A->value = 0. */
-void sparse_clear(Sparse *A);
 
 /* y = A x with the whole symmetric matrix.  x [size] in, y [size] out. */
 void sparse_multiply(const Sparse *A, const double *x, double *y);

@@ -15,10 +15,7 @@ typedef enum CholeskyKind {
     CHOLESKY_INDEFINITE, /* L D L^T without pivoting: allows D < 0 */
 } CholeskyKind;
 
-/* The triangle that this kind reads without a copy. */
-Triangle cholesky_triangle(CholeskyKind kind);
-
-/* Symbolic analysis of the pattern of A (its triangle must be the one above).
+/* Symbolic analysis of the pattern of A.
  *   ordered  true: rows are in elimination order already; false: CHOLMOD
  *            looks for an order (AMD)
  *   A        in; must live as long as the handle, which reads its values

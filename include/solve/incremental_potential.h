@@ -47,14 +47,13 @@ double incremental_potential_scale(const IncrementalPotential *E,
 /* The Hessian's pattern: triplets, 2n diagonal entries of the mass matrix
  * first, then those of each term; rows in elimination order if the system has
  * one.
- *   triangle  which one A stores
- *   A         out; free it with sparse_free, also after a failure
- *   slot      out, [count] place of each triplet in A; those of pinned nodes go
+ *   A     out; free it with sparse_free, also after a failure
+ *   slot  out, [count] place of each triplet in A; those of pinned nodes go
  *             to the last value of A, which nobody reads, and only their mass
  *             stays, on the diagonal.  To be freed by the caller
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status incremental_potential_pattern(const System *system, Triangle triangle,
-                                     Sparse *A, int **slot);
+Status incremental_potential_pattern(const System *system, Sparse *A,
+                                     int **slot);
 
 /* A = Hessian of E at u, x, filtered.  slot as above.
  * Returns how many blocks of terms the filter changed. */

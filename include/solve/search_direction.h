@@ -91,13 +91,14 @@ typedef bool (*GoodEnough)(const void *user, const double *p, double error);
  * H - M is positive semi-definite, so the error is bounded by what can be
  * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
  *   filter  CLAMP or ABS
- *   enough  ends the iteration; some iterations without it end it too
+ *   most    solves, which end it
+ *   enough  ends it before; NULL: nothing does
  *   at      p is in/out
  *   error   out, kg^(1/2) m
  *   solves  out
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, GoodEnough enough,
+                               Filter filter, int most, GoodEnough enough,
                                const void *user, double *error, int *solves);
 
 #endif

@@ -85,7 +85,4 @@ void time_integrator_forget(TimeIntegrator *integrator, bool rebuild);
 Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
                               const double *new_v);
 
-/* Simulated time, s. */
-double time_integrator_time(const TimeIntegrator *integrator);
-
 #endif

@@ -50,16 +50,6 @@ static void counting_sort(int count, int size, const int *key, const int *in,
     }
 }
 
-/* Row and column of triplet t, mirrored into the stored triangle. */
-static void stored_place(const Triplets *triplets, Triangle triangle, int t,
-                         int *row, int *column)
-{
-    int r = triplets->row[t], c = triplets->column[t];
-    bool mirror = triangle == TRIANGLE_LOWER ? r < c : r > c;
-    row[t] = mirror ? c : r;
-    column[t] = mirror ? r : c;
-}
-
 /* Walks the sorted triplets; each new place opens a new slot. */
 static void number_slots(int count, const int *sorted, const int *row,
                          const int *column, Sparse *A, int *slot)
@@ -82,12 +72,11 @@ static void number_slots(int count, const int *sorted, const int *row,
             A->start[c + 1] = A->start[c];
 }
 
-Status sparse_create(const Triplets *triplets, Triangle triangle, Sparse *A,
-                     int *slot)
+Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
 {
     int count = triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
-    *A = (Sparse){.size = size, .triangle = triangle};
+    *A = (Sparse){.size = size};
     A->start = calloc((size_t)size + 1, sizeof *A->start);
     int *start = malloc(((size_t)size + 1) * sizeof *start);
     int *row = calloc(1, bytes), *column = calloc(1, bytes);
@@ -96,8 +85,11 @@ Status sparse_create(const Triplets *triplets, Triangle triangle, Sparse *A,
     Status status = STATUS_OUT_OF_MEMORY;
     if (!A->start || !start || !row || !column || !by_row || !sorted || !A->row)
         goto done;
-    for (int t = 0; t < count; t++)
-        stored_place(triplets, triangle, t, row, column);
+    for (int t = 0; t < count; t++) {
+        int r = triplets->row[t], c = triplets->column[t];
+        row[t] = r < c ? c : r;
+        column[t] = r < c ? r : c;
+    }
     counting_sort(count, size, row, NULL, start, by_row);
     counting_sort(count, size, column, by_row, start, sorted);
     number_slots(count, sorted, row, column, A, slot);
@@ -121,11 +113,6 @@ void sparse_free(Sparse *A)
     free(A->row);
     free(A->value);
     *A = (Sparse){0};
-}
-
-void sparse_clear(Sparse *A)
-{
-    memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
 }
 
 /* Each stored entry off the diagonal counts twice: at (r, c) and (c, r). */

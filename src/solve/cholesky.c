@@ -19,11 +19,6 @@ struct Cholesky {
     double *b, *r;        /* [n] right-hand side; residual or workspace */
 };
 
-Triangle cholesky_triangle(CholeskyKind kind)
-{
-    return kind == CHOLESKY_DEFINITE ? TRIANGLE_LOWER : TRIANGLE_UPPER;
-}
-
 /* Supernodes are merged if that adds few zeros; these limits were measured on
  * square meshes. */
 static void set_parameters(cholmod_common *common, CholeskyKind kind,
@@ -64,7 +59,7 @@ static cholmod_sparse sparse_view(const Sparse *A)
         .p = A->start,
         .i = A->row,
         .x = A->value,
-        .stype = A->triangle == TRIANGLE_LOWER ? -1 : 1,
+        .stype = -1, /* the lower triangle */
         .itype = CHOLMOD_INT,
         .xtype = CHOLMOD_REAL,
         .dtype = CHOLMOD_DOUBLE,

@@ -94,22 +94,23 @@ static bool factor_may_serve(const Newton *newton)
                : search->residual <= 10 * newton->settings.tolerance;
 }
 
-/* The test of Algorithm 3. */
-static Status newton_test(const Newton *newton)
+/* The test of Algorithm 3 for a direction that is at most error away, in the
+ * norm of the masses, from what it should be. */
+static Status newton_test(const Newton *newton, double error)
 {
-    return newton->residual <= newton->settings.tolerance ? STATUS_OK
-                                                          : STATUS_RUNNING;
+    double residual = newton->residual;
+    if (error > 0)
+        residual += residual_per_norm(newton) * error;
+    return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
 /* Where springs outweigh the masses so much that a factor is not exact, the
- * test is passed only by a direction that is known well enough: its residual
- * and the bound of what H p = -g lacks, together.  (What rounding has done to g
- * itself is not in this: no direction knows it.) */
+ * test is passed only by a direction that is known well enough: with the bound
+ * of what H p = -g lacks.  (What rounding has done to g itself is not in this:
+ * no direction knows it.) */
 static Status newton_certify(Newton *newton)
 {
     double error;
-    if (!newton->rounding.blurred && newton->search.shift == 0)
-        return STATUS_OK;
     Status status =
         search_direction_judge(&newton->search, &newton->at, &error);
     if (!status && newton->search.filter == FILTER_NONE) {
@@ -118,10 +119,7 @@ static Status newton_certify(Newton *newton)
         error = 2 * newton_residual(newton, newton->search.z) /
                 residual_per_norm(newton);
     }
-    if (status)
-        return status;
-    double residual = newton->residual + residual_per_norm(newton) * error;
-    return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
+    return status ? status : newton_test(newton, error);
 }
 
 /* p and its residual with the present factor.  Returns RUNNING, OK (the test
@@ -134,8 +132,9 @@ static Status newton_solve_and_test(Newton *newton)
     newton->residual = newton_residual(newton, newton->at.p);
     if (!isfinite(newton->residual))
         return STATUS_NOT_FINITE;
-    status = newton_test(newton);
-    return status ? status : newton_certify(newton);
+    status = newton_test(newton, 0);
+    bool exact = !newton->rounding.blurred && newton->search.shift == 0;
+    return status || exact ? status : newton_certify(newton);
 }
 
 /* Whether a direction with at most this error passes the test or does not,
@@ -147,30 +146,31 @@ static bool test_is_decided(const void *user, const double *p, double error)
     return fabs(away) >= residual_per_norm(newton) * error;
 }
 
-/* The direction with the factor of an earlier iterate.  One that passes the
- * test is refined until the test can be decided for the Hessian at x, with the
- * error's bound on both sides.
- * Returns OK (passed), RUNNING (p can be used), or a failure; *decided is false
- * where only a new factor can tell. */
-static Status direction_from_old_factor(Newton *newton, bool *decided)
+/* More solves than this to refine a direction, and a new factor is cheaper. */
+enum { REFINE_MAX_SOLVES = 6 };
+
+/* Whether the test is passed by the direction with the factor of an earlier
+ * iterate: it is refined until the test can be decided for the Hessian at x,
+ * with the error's bound on both sides. */
+static bool old_factor_passes(Newton *newton)
 {
-    Status status = newton_solve_and_test(newton);
-    *decided = status != STATUS_OK;
-    if (status)
-        return status;
-    double error, start = clock_now();
+    double error;
     int solves;
     Filter filter =
         newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
-    status = search_direction_refine(&newton->search, &newton->at, filter,
-                                     test_is_decided, newton, &error, &solves);
+    if (newton_solve_and_test(newton) != STATUS_OK)
+        return false;
+    double start = clock_now();
+    Status status = search_direction_refine(
+        &newton->search, &newton->at, filter, REFINE_MAX_SOLVES,
+        test_is_decided, newton, &error, &solves);
     newton->counters.solves += solves;
     newton->counters.seconds_solve += clock_now() - start;
     if (status)
-        return status;
+        return false;
     newton->residual = newton_residual(newton, newton->at.p);
-    *decided = test_is_decided(newton, newton->at.p, error);
-    return newton_test(newton);
+    return test_is_decided(newton, newton->at.p, error) &&
+           newton_test(newton, 0) == STATUS_OK;
 }
 
 /* Gradient and direction at x, and the test of Algorithm 3.
@@ -195,21 +195,16 @@ static Status direction_at(Newton *newton, bool *alone)
         newton->residual =
             residual_per_norm(newton) *
             system_inverse_mass_norm(newton->system, newton->at.g);
-        if (newton->residual <= newton->settings.tolerance) {
-            newton->counters.skipped++;
-            *alone = true;
+        *alone = newton_test(newton, 0) == STATUS_OK;
+        newton->counters.skipped += *alone;
+        if (*alone)
             return STATUS_OK;
-        }
     }
-    bool decided = false;
-    Status status = STATUS_OK;
-    if (factor_may_serve(newton))
-        status = direction_from_old_factor(newton, &decided);
-    if (decided && !status) {
+    if (factor_may_serve(newton) && old_factor_passes(newton)) {
         newton->counters.certified++;
         return STATUS_OK;
     }
-    status = newton_factor(newton);
+    Status status = newton_factor(newton);
     return status ? status : newton_solve_and_test(newton);
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "model/inertia_energy.h"
 
@@ -23,16 +24,25 @@ static Place place_of(const IncrementalPotential *E, const double *u,
     return (Place){E->system, E->x_n, u, x, E->averaged};
 }
 
-double incremental_potential_value(const IncrementalPotential *E,
-                                   const double *u, const double *x)
+/* Inertia plus w times the sum of the terms' energies, or of their sizes. */
+static double sum_of(const IncrementalPotential *E, const double *u,
+                     const double *x, bool sizes)
 {
     Place at = place_of(E, u, x);
     const TermKind *kind;
     double sum = 0;
-    for (const Term *term = NULL; (kind = next_term(E, &term));)
-        sum += kind->value(term, &at);
+    for (const Term *term = NULL; (kind = next_term(E, &term));) {
+        double P = kind->value(term, &at);
+        sum += sizes ? fabs(P) : P;
+    }
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * sum;
+}
+
+double incremental_potential_value(const IncrementalPotential *E,
+                                   const double *u, const double *x)
+{
+    return sum_of(E, u, x, false);
 }
 
 /* Terms as they are, not averaged: an averaged energy is 0 for u = 0. */
@@ -41,13 +51,7 @@ double incremental_potential_scale(const IncrementalPotential *E,
 {
     IncrementalPotential plain = *E;
     plain.averaged = false;
-    Place at = place_of(&plain, u, x);
-    const TermKind *kind;
-    double sum = 0;
-    for (const Term *term = NULL; (kind = next_term(&plain, &term));)
-        sum += fabs(kind->value(term, &at));
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * sum;
+    return sum_of(&plain, u, x, true);
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,
@@ -98,8 +102,8 @@ static Status drop_pinned(const System *system, const Triplets *triplets,
     return STATUS_OK;
 }
 
-Status incremental_potential_pattern(const System *system, Triangle triangle,
-                                     Sparse *A, int **slot)
+Status incremental_potential_pattern(const System *system, Sparse *A,
+                                     int **slot)
 {
     Triplets triplets;
     *A = (Sparse){0};
@@ -107,8 +111,8 @@ Status incremental_potential_pattern(const System *system, Triangle triangle,
     Status status = create_triplets(system, &triplets);
     if (!status) {
         *slot = malloc((size_t)triplets.count * sizeof **slot);
-        status = *slot ? sparse_create(&triplets, triangle, A, *slot)
-                       : STATUS_OUT_OF_MEMORY;
+        status =
+            *slot ? sparse_create(&triplets, A, *slot) : STATUS_OUT_OF_MEMORY;
     }
     if (!status)
         status = drop_pinned(system, &triplets, A, *slot);
@@ -124,7 +128,7 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     Place place = place_of(E, at->u, at->x);
     const TermKind *kind;
     int projected = 0;
-    sparse_clear(A);
+    memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
     slot += 2 * system->nodes;
     for (const Term *term = NULL; (kind = next_term(E, &term));) {

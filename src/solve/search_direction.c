@@ -17,10 +17,7 @@ static const double ALL_DIGITS = 1e-28;
 enum { SHIFT_TRIES = 6 };
 
 /* A shift leaves a handful of directions to correct. */
-enum { CONJUGATE_MAX_ITERATIONS = 60 };
-
-/* More solves than this to refine a direction, and a new factor is cheaper. */
-enum { REFINE_MAX_SOLVES = 6 };
+enum { CONJUGATE_MAX_SOLVES = 59 };
 
 Status search_direction_create(const System *system, SearchDirection *search)
 {
@@ -64,8 +61,8 @@ static Status analyse(SearchDirection *search, bool definite)
         return STATUS_OK;
     search_direction_rebuild(search);
     search->kind = kind;
-    Status status = incremental_potential_pattern(
-        search->system, cholesky_triangle(kind), &search->A, &search->slot);
+    Status status = incremental_potential_pattern(search->system, &search->A,
+                                                  &search->slot);
     if (!status)
         status = cholesky_create(
             &search->A, kind, search->system->order != NULL, &search->cholesky);
@@ -180,15 +177,6 @@ typedef struct ConjugateGradients {
     double curvature; /* d.H d of the last direction */
 } ConjugateGradients;
 
-/* p = 0, r = -g */
-static void conjugate_start(SearchDirection *search, const Iterate *at)
-{
-    for (int i = 0; i < 2 * search->system->nodes; i++) {
-        at->p[i] = search->d[i] = 0;
-        search->r[i] = -at->g[i];
-    }
-}
-
 /* One step along the next direction, z being known.  Returns false where there
  * is nothing left to gain, or E bends down along d. */
 static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
@@ -217,21 +205,6 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
     return true;
 }
 
-/* With the factor of H + shift I. */
-static Status solve_shifted(SearchDirection *search, const Iterate *at)
-{
-    ConjugateGradients state = {at, search->filter, .enough = ALL_DIGITS};
-    conjugate_start(search, at);
-    for (int k = 0; k < CONJUGATE_MAX_ITERATIONS; k++) {
-        Status status = apply_factor(search, search->r, search->z);
-        if (status)
-            return status;
-        if (!conjugate_step(search, &state))
-            break;
-    }
-    return STATUS_OK;
-}
-
 Status search_direction_judge(SearchDirection *search, const Iterate *at,
                               double *error)
 {
@@ -251,7 +224,7 @@ Status search_direction_correct(SearchDirection *search)
 }
 
 Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, GoodEnough enough,
+                               Filter filter, int most, GoodEnough enough,
                                const void *user, double *error, int *solves)
 {
     ConjugateGradients state = {at, filter, .enough = ALL_DIGITS};
@@ -259,12 +232,14 @@ Status search_direction_refine(SearchDirection *search, const Iterate *at,
     Status status = create_workspaces(search);
     if (status)
         return status;
-    for (int i = 0; i < 2 * search->system->nodes; i++)
+    for (int i = 0; i < 2 * search->system->nodes; i++) {
         search->z[i] = at->p[i]; /* factor^-1 (-g) already */
-    conjugate_start(search, at);
+        at->p[i] = search->d[i] = 0;
+        search->r[i] = -at->g[i];
+    }
     while (conjugate_step(search, &state)) {
         *error = system_inverse_mass_norm(search->system, search->r);
-        if (*solves == REFINE_MAX_SOLVES || enough(user, at->p, *error))
+        if (*solves == most || (enough && enough(user, at->p, *error)))
             return STATUS_OK;
         ++*solves;
         status = apply_factor(search, search->r, search->z);
@@ -277,14 +252,16 @@ Status search_direction_refine(SearchDirection *search, const Iterate *at,
 
 Status search_direction_solve(SearchDirection *search, const Iterate *at)
 {
-    if (search->shift > 0) {
-        Status status = create_workspaces(search);
-        return status ? status : solve_shifted(search, at);
-    }
     Status status = apply_factor(search, at->g, at->p);
     for (int i = 0; i < 2 * search->system->nodes; i++)
         at->p[i] = -at->p[i];
-    return status;
+    if (status || search->shift == 0)
+        return status;
+    double error;
+    int solves;
+    return search_direction_refine(search, at, search->filter,
+                                   CONJUGATE_MAX_SOLVES, NULL, NULL, &error,
+                                   &solves);
 }
 
 /* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */

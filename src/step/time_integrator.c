@@ -164,7 +164,3 @@ Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
     return STATUS_OK;
 }
 
-double time_integrator_time(const TimeIntegrator *integrator)
-{
-    return (double)integrator->steps * integrator->h;
-}

@@ -109,9 +109,8 @@ static void assemble(const Way *way, Filter filter, double *dense)
     Sparse A;
     int *slot;
     Iterate at = {.E = way->E, .u = (double *)way->u, .x = (double *)way->x};
-    CHECK_STATUS(
-        incremental_potential_pattern(&way->system, TRIANGLE_UPPER, &A, &slot),
-        STATUS_OK);
+    CHECK_STATUS(incremental_potential_pattern(&way->system, &A, &slot),
+                 STATUS_OK);
     incremental_potential_hessian(&at, filter, slot, &A);
     dense_from_sparse(&A, dense);
     sparse_free(&A);

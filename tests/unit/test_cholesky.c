@@ -30,8 +30,7 @@ static void problem_create(CholeskyKind kind, bool ordered, Problem *problem)
         if (i >= GRID)
             triplets_add(&problem->triplets, i, i - GRID);
     }
-    CHECK_STATUS(sparse_create(&problem->triplets, cholesky_triangle(kind),
-                               &problem->A, problem->slot),
+    CHECK_STATUS(sparse_create(&problem->triplets, &problem->A, problem->slot),
                  STATUS_OK);
     CHECK_STATUS(
         cholesky_create(&problem->A, kind, ordered, &problem->cholesky),
@@ -50,7 +49,8 @@ static void problem_fill(Random *random, double margin, Problem *problem)
 {
     const Triplets *triplets = &problem->triplets;
     double sum[SIZE] = {0};
-    sparse_clear(&problem->A);
+    memset(problem->A.value, 0,
+           ((size_t)problem->A.entries + 1) * sizeof(double));
     for (int t = 0; t < triplets->count; t++) {
         int r = triplets->row[t], c = triplets->column[t];
         if (r == c)
@@ -174,7 +174,8 @@ static void singular_matrices_are_reported(void **unused)
     make_singular(&problem);
     CHECK_STATUS(cholesky_factor(problem.cholesky),
                  STATUS_NOT_POSITIVE_DEFINITE);
-    sparse_clear(&problem.A);
+    memset(problem.A.value, 0,
+           ((size_t)problem.A.entries + 1) * sizeof(double));
     CHECK_STATUS(cholesky_factor(problem.cholesky),
                  STATUS_NOT_POSITIVE_DEFINITE);
     problem_fill(&random, 1, &problem);
@@ -261,7 +262,8 @@ static void overflowing_solutions_are_reported(void **unused)
         Problem problem;
         double b[SIZE] = {0}, x[SIZE];
         problem_create((CholeskyKind)kind, false, &problem);
-        sparse_clear(&problem.A);
+        memset(problem.A.value, 0,
+           ((size_t)problem.A.entries + 1) * sizeof(double));
         for (int i = 0; i < SIZE; i++)
             *diagonal(&problem, i) = 1e-300;
         CHECK_STATUS(cholesky_factor(problem.cholesky), STATUS_OK);

@@ -128,9 +128,7 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
     int *slot;
     Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
     Place place = {&fewer, energy->x_n, x, x, false};
-    CHECK_STATUS(
-        incremental_potential_pattern(&fewer, TRIANGLE_UPPER, &A, &slot),
-        STATUS_OK);
+    CHECK_STATUS(incremental_potential_pattern(&fewer, &A, &slot), STATUS_OK);
     if (energy->part == TERM_SPRINGS)
         mass_spring_energy.hessian(NULL, &place, E.weight, FILTER_NONE,
                                    slot + 2 * fewer.nodes, NULL, A.value);

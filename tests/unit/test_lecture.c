@@ -223,8 +223,7 @@ static void ip_hess_is_the_product_s(void **unused)
         int *slot;
         make_pair(seed, seed % SPRING_STATES, &pair);
         int size = 2 * pair.system.nodes;
-        CHECK_STATUS(incremental_potential_pattern(&pair.system, TRIANGLE_UPPER,
-                                                   &A, &slot),
+        CHECK_STATUS(incremental_potential_pattern(&pair.system, &A, &slot),
                      STATUS_OK);
         incremental_potential_hessian(&pair.at, FILTER_CLAMP, slot, &A);
         dense_from_sparse(&A, expected);

@@ -194,7 +194,7 @@ static void refining_with_the_right_factor_is_one_step(void **unused)
     memcpy(p, newton->at.p, sizeof p);
     Iterate at = newton->at;
     at.p = p;
-    CHECK_STATUS(search_direction_refine(&newton->search, &at, FILTER_CLAMP,
+    CHECK_STATUS(search_direction_refine(&newton->search, &at, FILTER_CLAMP, 6,
                                          error_is_small, &accuracy, &error,
                                          &solves),
                  STATUS_OK);
