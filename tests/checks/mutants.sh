@@ -14,74 +14,120 @@ if [ "$word" = --check ]; then
 fi
 perl tests/checks/mutate.pl check "$list" || exit 1
 
-# What runs for a fault in this file, until something fails: the suite of the
-# module's own name, then those that know most about its room.
-numeric='newton derivatives line_search solvers averaged integrators cholesky
-    supernodes sparse explicit reference orders scenes stress'
+# Everything that may notice a fault, what does so most likely and soonest first:
+# the suite of the module's own name, those that know most about its room, the
+# other suites, then the checks of the program from outside.
+numeric='newton derivatives line_search cholesky supernodes sparse averaged
+    integrators explicit reference orders scenes'
+slow='contact multigrid solvers pages picture show track stress command'
+checks='check_log.sh check_scenes.sh check_files.sh check_scripts.sh
+    check_faults.sh check_pages.sh check_window.sh'
 killers_for() { # file
     module=$(basename "${1%.*}")
     own=
-    for name in "$module" "${module%_energy}" "${module#square_}"; do
+    for name in "$module" "${module%_energy}" "${module%%_*}"; do
         [ ! -f "tests/unit/test_$name.c" ] || own="$own $name"
     done
     case $1 in
+    */model/barrier* | */model/contact* | */model/friction* | */model/cell* | \
+        */model/plast* | */model/fract* | */step/prescribed*)
+        own="$own barrier contact" ;;
     */model/*psd.[ch] | */model/*_energy.[ch])
-        own="$own psd derivatives averaged body hand" ;;
+        own="$own psd derivatives averaged body" ;;
     */model/*) own="$own derivatives body barrier mesh" ;;
     */solve/hand_over.c) own="$own solvers" ;;
-    */solve/grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
+    */solve/*grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
         own="$own multigrid solvers" ;;
     */base/quartic.[ch]) own="$own line_search solvers" ;;
     */step/*) own="$own integrators averaged explicit orders" ;;
     esac
     case $1 in
-    */base/one_line.[ch]) echo options ;;
-    */base/* | */model/* | */solve/* | */step/*) echo "$own $numeric" ;;
-    */scenes/*option* | */scenes/nearest.[ch])
-        echo "options command check_faults.sh" ;;
-    */scenes/*) echo "$own scenes exhibits options command picture" \
-        "check_scenes.sh check_window.sh stress" ;;
-    */picture/*) echo "$own picture layout exhibits scenes check_window.sh" ;;
+    */base/one_line.[ch] | */scenes/*option* | */scenes/nearest.[ch])
+        near='options command check_files.sh check_faults.sh' ;;
+    */base/* | */model/* | */solve/* | */step/*) near=$numeric ;;
+    */scenes/*) near='scenes exhibits options pages body lecture hand' ;;
+    */picture/*) near='layout picture show exhibits' ;;
     */play/output.[ch] | */play/recording.[ch])
-        echo "$own picture check_files.sh command check_faults.sh" \
-            "check_window.sh" ;;
-    */play/*) echo "$own picture layout command check_window.sh check_files.sh" \
-        "check_scenes.sh check_faults.sh" ;;
-    *) echo "command check_files.sh check_faults.sh check_window.sh" ;;
+        near='picture check_files.sh command check_log.sh check_faults.sh' ;;
+    */play/film.[ch] | */play/png*) near='film picture' ;;
+    */play/*) near='track picture layout hand command check_scripts.sh' ;;
+    *) near='command check_files.sh check_faults.sh check_window.sh' ;;
     esac
+    rest=
+    for test in tests/unit/test_*.c; do
+        name=$(basename "${test%.c}")
+        case " $slow " in
+        *" ${name#test_} "*) ;;
+        *) rest="$rest ${name#test_}" ;;
+        esac
+    done
+    # shellcheck disable=SC2086
+    echo $own $near $rest $slow $checks | tr ' ' '\n' | awk '!seen[$0]++'
 }
 
+build() { # targets...
+    env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "$make" -s "$@" CC="${CC:-cc}" \
+        CFLAGS="$flags" >log 2>&1 </dev/null
+}
+flags='-O1 -fno-strict-aliasing'
+
 # run_killer NAME: in the tree where it is called; 0: it passes, 1: it fails,
-# 2: it does not compile, 9: there is no such suite.
+# 2: it does not compile, 9: there is no such suite.  Processor time is limited,
+# so that a busy machine kills no fault.
 run_killer() {
     case $1 in
     *.sh)
         [ -f "tests/checks/$1" ] || return 9
-        $make -s build/elasto CC="${CC:-cc}" CFLAGS="$flags" >log 2>&1 ||
-            return 2
-        ELASTO=build/elasto timeout 300 sh "tests/checks/$1" >log 2>&1 ||
-            return 1
+        build build/elasto || return 2
+        check_passes "$1" || check_passes "$1" || return 1 # not by chance
         ;;
     *)
         [ -f "tests/unit/test_$1.c" ] || return 9
-        rm -f "build/release/tests/unit/test_$1"
-        $make -s suites build/elasto \
-            SUITES="build/release/tests/unit/test_$1" CC="${CC:-cc}" \
-            CFLAGS="$flags" >log 2>&1 || return 2
-        ELASTO=build/elasto timeout 120 "build/release/tests/unit/test_$1" \
-            >log 2>&1 || return 1
+        suite=build/release/tests/unit/test_$1
+        if grep -q '"ELASTO"' "tests/unit/test_$1.c"; then
+            build "$suite" build/elasto || return 2
+        else
+            build "$suite" || return 2
+        fi
+        (
+            # shellcheck disable=SC3045
+            ulimit -t 60
+            ELASTO=build/elasto timeout 900 "$suite" >log 2>&1 </dev/null
+        ) 2>/dev/null || return 1
         ;;
     esac
 }
-flags='-O1 -fno-strict-aliasing'
+check_passes() { # name
+    ELASTO=build/elasto timeout 900 sh "tests/checks/$1" >log 2>&1 </dev/null
+}
+
+# The fault of this line of the list is put in and taken out again; a compiled
+# original comes back as it was.
+put_in() { # line; into $file
+    file=$(perl tests/checks/mutate.pl put "$list" "$1")
+    object=build/release/$(echo "$file" | sed 's/^src\///; s/\.c$/.o/')
+    case $file in
+    *.c) mv "$object" object ;;
+    *) : >object ;;
+    esac
+}
+take_out() {
+    cp -p "../original/$file" "$file"
+    case $file in
+    *.c) mv object "$object" ;;
+    *) touch "$file" ;;
+    esac
+    rm -f build/release/libelasto.a
+}
 
 # try_fault LINE: one line about what became of it.
 try_fault() {
     text=$(sed -n "${1}p" "$list")
     reason=$(printf '%s\n' "$text" | awk -F ' @@ ?' '{ print $5 }')
-    file=$(perl tests/checks/mutate.pl put "$list" "$1")
+    put_in "$1"
     by=
-    for killer in $(killers_for "$file"); do
+    build build/release/libelasto.a || by='the compiler'
+    for killer in $([ "$by" ] || killers_for "$file"); do
         run_killer "$killer"
         case $? in
         1) by=$killer ;;
@@ -90,8 +136,7 @@ try_fault() {
         esac
         break
     done
-    cp -p "../original/$file" "$file"
-    touch "$file"
+    take_out
     if [ "$by" = 'the compiler' ]; then
         echo "does not compile: $text"
     elif [ -n "$by" ]; then
@@ -104,7 +149,7 @@ try_fault() {
 }
 
 rm -rf build/mutants
-mkdir -p build/mutants/original
+mkdir -p build/mutants/original build/mutants/taken
 cp -pR Makefile README.md include src tests build/mutants/original || exit 1
 grep -nE '^[^#]' "$list" | grep -F -e "$word" | cut -d: -f1 \
     >build/mutants/chosen
@@ -113,42 +158,33 @@ grep -nE '^[^#]' "$list" | grep -F -e "$word" | cut -d: -f1 \
     exit 1
 }
 cd build/mutants || exit 1
-for job in $(seq "$jobs"); do
-    cp -pR original "$job"
-done
+: >results
 
-# Without any fault everything passes that will be asked.
-: >asked
-while read -r line; do
-    place=$(sed -n "${line}s/ @@.*//p" "original/$list")
-    for file in $(ls "original/$place" "original/src/$place"/*.c \
-        "original/include/$place"/*.h 2>/dev/null); do
-        killers_for "${file#original/}"
-    done
-done <chosen | tr ' ' '\n' | sed '/^$/d' | sort -u >asked
+# Without any fault everything passes that may be asked.
+cp -pR original 1
 (
     cd 1 || exit 1
-    for killer in $(cat ../asked); do
-        run_killer "$killer"
-        case $? in
-        0 | 9) ;;
-        *)
+    build suites build/elasto || exit 2
+    for killer in $(killers_for src/main.c); do
+        run_killer "$killer" || {
             tail -n 20 log
             echo "$killer fails without any fault"
             exit 1
-            ;;
-        esac
+        }
     done
 ) || exit 1
+for job in $(seq 2 "$jobs"); do
+    cp -pR 1 "$job"
+done
 
-# Each job takes every JOBS-th line.
+# Each job takes the next line that nobody has.
 for job in $(seq "$jobs"); do
     (
         cd "$job" || exit 1
-        awk -v job="$job" -v jobs="$jobs" 'NR % jobs == job % jobs' ../chosen |
-            while read -r line; do
-                try_fault "$line" | tee -a ../results
-            done
+        while read -r line; do
+            mkdir "../taken/$line" 2>/dev/null || continue
+            try_fault "$line" | tee -a ../results
+        done <../chosen
     ) &
 done
 wait
