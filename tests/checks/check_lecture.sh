@@ -12,20 +12,8 @@ tests=$(realpath "$(dirname "$0")")
 lecture=$(realpath "${LECTURE:-build/lecture}")
 elasto=$(realpath "${ELASTO:-build/elasto}")
 folder=$(mktemp -d) || exit 1
-screen=
-pid=
-finish() {
-    [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
-    [ -z "$screen" ] || kill "$screen" 2>/dev/null
-    wait 2>/dev/null
-    rm -rf "$folder"
-}
-trap finish EXIT
-trap 'exit 1' INT TERM HUP
 cd "$folder" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
-# The program ends without giving back what it still uses.
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+. "$tests/screen.sh"
 
 verdict lecture_is_under_600_lines "$(
     lines=$(wc -l <"$source")
@@ -52,8 +40,8 @@ ends() {
     "$lecture" "$@" >out 2>err
     got=$?
     [ "$got" = "$code" ] || echo "lecture $*: exit code $got, not $code"
-    [ "$(wc -l <err)" = 1 ] && grep -q '^lecture: .' err ||
-        echo "lecture $*: $(wc -l <err) lines on standard error"
+    { read -r said && ! read -r more && [ "${said#lecture: }" != "$said" ]; } \
+        <err || echo "lecture $*: $(wc -l <err) lines on standard error"
 }
 verdict bad_arguments_end_with_2 "$(
     for argument in --help -h foo k k= =1 k=x k=1x 'k= ' k=nan k=inf k=0 k=-1 \
@@ -155,25 +143,14 @@ verdict pictures_that_cannot_be_written_fail "$(
     [ $? = 1 ] && grep -q '^lecture: cannot write' err || cat err
 )"
 
-for program in Xvfb xdotool; do
-    if ! command -v $program >/dev/null 2>&1; then
-        echo "skipped the_window_closes: no $program"
-        exit $failed
-    fi
-done
-until_true() {
-    end=$(($(date +%s) + 20))
-    until "$@" >/dev/null 2>&1; do
-        [ "$(date +%s)" -lt $end ] || return 1
-        sleep 0.05
-    done
-}
+missing=$(missing_program Xvfb xdotool)
+if [ "$missing" ]; then
+    echo "skipped the_window_closes: no $missing"
+    exit $failed
+fi
 find_window() {
     window=$(xdotool search --name '^lecture$' 2>/dev/null | tail -n 1)
     [ -n "$window" ]
-}
-ended() {
-    ! kill -0 "$pid" || grep -q '^State:.Z' "/proc/$pid/status"
 }
 # closes COMMAND...: the window that comes up closes by this; states are whole.
 closes() {
@@ -184,7 +161,7 @@ closes() {
     sleep 1.3
     window=$(xdotool search --name '^lecture$' | tail -n 1)
     "$@" "$window" || echo "$1 failed"
-    until_true ended || {
+    until_true has_ended "$pid" || {
         echo 'it does not close'
         kill -KILL "$pid"
     }
@@ -197,16 +174,9 @@ closes() {
 escape() {
     timeout 20 xdotool windowfocus --sync "$1" key Escape
 }
-Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
-    3>display >screen.log 2>&1 &
-screen=$!
-until_true test -s display || verdict the_screen_starts 'it does not'
-DISPLAY=:$(cat display)
-export DISPLAY
+start_screen 1000x1000
 verdict escape_closes_the_window "$(closes escape)"
-x11=$(ls /usr/lib/*/libX11.so.6 /usr/lib*/libX11.so.6 2>/dev/null | head -n 1)
-if [ "$x11" ] && ${CC:-cc} "$tests/close_window.c" "$x11" -o close_window \
-    2>log; then
+if compile_close_window "$tests"; then
     verdict the_cross_closes_the_window "$(closes ./close_window)"
 else
     echo "skipped the_cross_closes_the_window: no libX11"

@@ -8,18 +8,10 @@ failed=0
 
 elasto=$(realpath "${ELASTO:-build/elasto}")
 table=$(realpath "$(dirname "$0")/../../src/play/commands.c")
+here=$(realpath "$(dirname "$0")")
 folder=$(mktemp -d) || exit 1
-screen=
-finish() {
-    [ -z "$screen" ] || kill "$screen" 2>/dev/null
-    wait 2>/dev/null
-    rm -rf "$folder"
-}
-trap finish EXIT
-trap 'exit 1' INT TERM HUP
 cd "$folder" || exit 1
-# Drivers and libraries below SDL leak; the suites look for leaks of ours.
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+. "$here/screen.sh"
 
 # Each command of the table, on the way through a scene and back.
 cat >commands <<'END'
@@ -125,16 +117,8 @@ run() {
     rm -f elasto_*
 }
 
-if command -v Xvfb >/dev/null 2>&1; then
-    Xvfb -displayfd 3 -screen 0 1300x900x24 -nolisten tcp -noreset \
-        3>display >screen.log 2>&1 &
-    screen=$!
-    for wait in 1 2 3 4 5 6 7 8 9 10; do
-        [ -s display ] || sleep 0.$wait
-    done
-    DISPLAY=:$(cat display)
-    export DISPLAY
-    unset WAYLAND_DISPLAY SDL_VIDEODRIVER
+if [ -z "$(missing_program Xvfb)" ]; then
+    start_screen 1300x900
 else
     echo 'skipped scripts_in_a_window: no Xvfb'
 fi

@@ -54,9 +54,14 @@ verdict lines_have_at_most_80_columns "$(LC_ALL=C awk '
 verdict no_tabs_nor_trailing_blanks \
     "$(grep -nE "$(printf '\t')|[[:space:]]\$" $files | cut -c 1-60)"
 
-# Each header, compiled with nothing before it.
+# Each header, compiled with nothing before it.  One that a source includes first
+# has been compiled so already.
 headers_alone() {
+    for file in src/*.c src/*/*.c; do
+        sed -n '/^#include/{s/^#include "\(.*\)"/\1/p;q;}' "$file"
+    done >"$temporary/first"
     for header in $headers; do
+        ! grep -qxF "${header#*/}" "$temporary/first" || continue
         printf '#include "%s"\n#include "%s"\n' "${header#*/}" "${header#*/}" \
             >"$temporary/alone.c"
         # shellcheck disable=SC2086
@@ -68,34 +73,44 @@ headers_alone() {
 verdict headers_compile_alone "$(headers_alone)"
 
 guards() {
-    for header in $headers; do
-        name=$(basename "$header" .h | tr 'a-z' 'A-Z')
-        grep -q "^#ifndef ELASTO_${name}_H\$" "$header" || echo "$header"
-    done
+    awk 'FNR == 1 {
+            name = FILENAME
+            gsub(/.*\/|\.h$/, "", name)
+            guarded[FILENAME] = 0
+        }
+        $0 == "#ifndef ELASTO_" toupper(name) "_H" { guarded[FILENAME] = 1 }
+        END { for (file in guarded) if (!guarded[file]) print file }' "$@"
 }
-verdict headers_have_guards "$(guards)"
+# shellcheck disable=SC2086
+verdict headers_have_guards "$(guards $headers)"
 
-# The floor of a file: the number of its room, or of the programs above them.
+# The floor of a file goes to $number: the number of its room, or of the programs
+# above them.
 floor() { # room/file, or file
     number=0
     for room in $rooms; do
         number=$((number + 1))
         case $1 in
-        "$room"/*) break ;;
+        "$room"/*) return ;;
         esac
     done
     case $1 in
-    */*) [ "${1%%/*}" = "$room" ] || number=0 ;;
+    */*) number=0 ;;
     *) number=9 ;;
     esac
-    echo "$number"
 }
 
 includes_looking_up() {
     for file in $headers src/*.c src/*/*.c; do
-        own=$(floor "${file#*/}")
-        [ "$own" != 0 ] || echo "$file stands in no room"
-        for used in $(sed -n 's/^#include "\(.*\)"/\1/p' "$file"); do
+        floor "${file#*/}"
+        [ "$number" != 0 ] || echo "$file stands in no room"
+    done
+    grep '^#include "' $headers src/*.c src/*/*.c |
+        while IFS=: read -r file used; do
+            used=${used#*\"}
+            used=${used%\"*}
+            floor "${file#*/}"
+            own=$number
             case $used in
             */*) ;;
             lecture.c) # compiled into the benchmark, with a clock
@@ -103,9 +118,9 @@ includes_looking_up() {
                 echo "$file includes $used" ;;
             *) echo "$file includes $used without its room" ;;
             esac
-            [ "$(floor "$used")" -le "$own" ] || echo "$file includes $used"
+            floor "$used"
+            [ "$number" -le "$own" ] || echo "$file includes $used"
         done
-    done
 }
 verdict no_room_looks_up "$(includes_looking_up)"
 

@@ -6,57 +6,21 @@
 # a time-out.
 set -u
 failed=0
-timeout=20 # s, that anything may take
 
 . "$(dirname "$0")/verdict.sh"
-
-for program in Xvfb xdotool; do
-    if ! command -v $program >/dev/null 2>&1; then
-        echo "skipped window_keys: no $program"
-        exit 0
-    fi
-done
 
 elasto=$(realpath "${ELASTO:-build/elasto}")
 sources=$(realpath "$(dirname "$0")")
 folder=$(mktemp -d) || exit 1
-screen=
-pid=
-finish() {
-    [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
-    [ -z "$screen" ] || kill "$screen" 2>/dev/null
-    wait 2>/dev/null
-    rm -rf "$folder"
-}
-trap finish EXIT
-trap 'exit 1' INT TERM HUP
 cd "$folder" || exit 1
+. "$sources/screen.sh"
 
-# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
-# later ones in the same test sooner.
-until_true() {
-    end=$(($(date +%s) + timeout))
-    until "$@" >/dev/null 2>&1; do
-        [ "$(date +%s)" -lt $end ] || {
-            timeout=2
-            return 1
-        }
-        sleep 0.02
-    done
-}
-
-Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
-    3>display >screen.log 2>&1 &
-screen=$!
-until_true test -s display || {
-    verdict the_screen_starts "$(tail -n 1 screen.log)"
-    exit 1
-}
-DISPLAY=:$(cat display)
-export DISPLAY
-unset WAYLAND_DISPLAY SDL_VIDEODRIVER
-# Drivers and libraries below SDL leak; the other suites look for leaks of ours.
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+missing=$(missing_program Xvfb xdotool)
+if [ "$missing" ]; then
+    echo "skipped window_keys: no $missing"
+    exit 0
+fi
+start_screen 1000x1000
 
 has_title() {
     xdotool search --name "^elasto: $1 " 2>/dev/null
@@ -97,10 +61,6 @@ end() {
     ls ./*.part 2>/dev/null
     [ -s states ] && [ -s log ] || echo 'no tables'
 }
-has_ended() {
-    ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
-}
-
 key() {
     xdotool key --delay 5 "$@"
 }
@@ -433,8 +393,7 @@ ends() {
 }
 verdict signals_and_steps_end_the_window "$(ends)"
 
-if ${CC:-cc} -std=c11 "$sources/close_window.c" -o close_window \
-    -l:libX11.so.6 >/dev/null 2>&1; then
+if compile_close_window "$sources"; then
     verdict closing_the_window_ends_it "$(
         begin square
         ./close_window "$window"
@@ -476,11 +435,11 @@ newest() {
 }
 verdict a_window_may_have_any_size "$(any_size)"
 
-# A step of this square takes many seconds; keys and signals end it between Newton
+# A step of this square takes seconds; keys and signals end it between Newton
 # iterations.
 in_a_step() {
     for way in q TERM; do
-        begin square --segments 256 --solver newton
+        begin square --segments 180 --solver newton
         if [ $way = q ]; then key q; else kill -$way $pid; fi
         end 0
         [ "$(newest)" -lt 2 ] || echo "$way: after frame $(newest)"
@@ -501,10 +460,8 @@ verdict a_renderer_that_is_missing_is_replaced "$(no_renderer)"
 
 # Xlib ends the program; what was recorded is whole.
 screen_dies() {
-    Xvfb -displayfd 3 -screen 0 1000x1000x24 -nolisten tcp -noreset \
-        3>mortal >mortal.log 2>&1 &
-    mortal=$!
-    until_true test -s mortal || echo 'no second screen'
+    new_screen mortal 1000x1000 || echo 'no second screen'
+    mortal=$server
     DISPLAY=:$(cat mortal)
     begin square --segments 16
     frame 10

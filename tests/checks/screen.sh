@@ -1,0 +1,77 @@
+# What the checks with windows share: a virtual screen, and waiting for what
+# shall happen.  Sourced in a folder of their own, after verdict.sh; `pid` is
+# the program whose window is open.
+screen=
+pid=
+timeout=20 # s, that anything may take
+# Drivers and libraries below SDL leak; the suites look for leaks of ours.
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
+unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+
+# Ends what was started and removes $folder.
+finish() {
+    [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
+    [ -z "$screen" ] || kill "$screen" 2>/dev/null
+    wait 2>/dev/null
+    cd / && rm -rf "$folder"
+}
+trap finish EXIT
+trap 'exit 1' INT TERM HUP
+
+# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
+# later ones in the same test sooner.
+until_true() {
+    end=$(($(date +%s) + timeout))
+    until "$@" >/dev/null 2>&1; do
+        [ "$(date +%s)" -lt $end ] || {
+            timeout=2
+            return 1
+        }
+        sleep 0.02
+    done
+}
+
+# missing_program: the first of these that is not there, or nothing
+missing_program() {
+    for program in "$@"; do
+        command -v "$program" >/dev/null 2>&1 || {
+            echo "$program"
+            return
+        }
+    done
+}
+
+# new_screen FILE SIZE: a server in the background, its number comes into FILE.
+new_screen() {
+    rm -f "$1"
+    Xvfb -displayfd 3 -screen 0 "$2x24" -nolisten tcp -noreset \
+        3>"$1" >"$1.log" 2>&1 &
+    server=$!
+    until_true test -s "$1"
+}
+
+# start_screen SIZE: the one that all windows of a check are on.
+start_screen() {
+    new_screen display "$1" || {
+        verdict the_screen_starts "no: $(tail -n 1 display.log)"
+        screen=$server
+        exit 1
+    }
+    screen=$server
+    DISPLAY=:$(cat display)
+    export DISPLAY
+}
+
+# Whether this process is over.
+has_ended() {
+    ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
+}
+
+# compile_close_window FOLDER: the program that asks a window to close, as its
+# cross does; fails where there is no Xlib to link with.
+compile_close_window() {
+    x11=$(ls /usr/lib/*/libX11.so.6 /usr/lib*/libX11.so.6 2>/dev/null |
+        head -n 1)
+    [ "$x11" ] && ${CC:-cc} -std=c11 "$1/close_window.c" "$x11" \
+        -o close_window >close_window.log 2>&1
+}
