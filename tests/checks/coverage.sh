@@ -2,6 +2,7 @@
 # Which lines of our own code the suites run: `make coverage`.  Builds apart,
 # in build/coverage, without optimisation.
 set -u
+unset MAKEFLAGS MFLAGS MAKELEVEL # what is made below counts its own jobs
 make=${MAKE:-make}
 limit=95
 $make suites build/coverage/elasto VARIANT=coverage CC=gcc \

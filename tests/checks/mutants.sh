@@ -5,6 +5,7 @@
 # ARGS=--check only looks whether each fault stands where the list says.
 # JOBS faults are tried at once, each job in a copy of its own.
 set -u
+unset MAKEFLAGS MFLAGS MAKELEVEL # what is made below counts its own jobs
 make=${MAKE:-make}
 jobs=${JOBS:-2}
 list=tests/data/mutants.txt
@@ -66,8 +67,7 @@ killers_for() { # file
 }
 
 build() { # targets...
-    env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL "$make" -s "$@" CC="${CC:-cc}" \
-        CFLAGS="$flags" >log 2>&1 </dev/null
+    "$make" -s "$@" CC="${CC:-cc}" CFLAGS="$flags" >log 2>&1 </dev/null
 }
 flags='-O1 -fno-strict-aliasing'
 

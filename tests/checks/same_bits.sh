@@ -5,6 +5,7 @@
 # for BLAS to use threads and for sums to be taken in pieces.  `make same-bits`
 # runs it; what is not installed is counted as skipped.
 set -u
+unset MAKEFLAGS MFLAGS MAKELEVEL # what is made below counts its own jobs
 elasto=$(realpath "${ELASTO:-build/elasto}")
 sources=$PWD
 work=$(mktemp -d) || exit 1
@@ -43,7 +44,7 @@ cp -p "$sources"/build/config.mk tree/build
 # build COMPILER LEVEL: tree/build/elasto
 build() {
     rm -f tree/build/elasto
-    "${MAKE:-make}" -s -j2 -C tree build/elasto CC="$1" CFLAGS="$2 -w" \
+    "${MAKE:-make}" -s -C tree build/elasto CC="$1" CFLAGS="$2 -w" \
         >log 2>&1 || tail -n 3 log
 }
 
