@@ -209,7 +209,7 @@ static Status best_method(const Bench *bench, const Problem *problem,
 static Status claim_precision(Bench *bench, int segments)
 {
     const Motion motion = {"claims", 1e5, 1.1, 0, 0.05};
-    double longest = bench->quick ? 0.1 : 10, steps = 0, plain = 0;
+    double longest = bench->quick ? 0.1 : 1.5, steps = 0, plain = 0;
     double with = 0, without = 0;
     Problem problem;
     bench_progress(bench, "claims: %d segments, reference", segments);

@@ -127,7 +127,7 @@ Status bench_solver(Bench *bench)
 {
     SolverHistory history[COST_SOLVERS] = {0};
     long steps = bench->quick ? 3 : 10;
-    double longest = bench->quick ? 1 : 120;
+    double longest = bench->quick ? 1 : 20;
     int largest = bench->quick ? 32 : 256;
     Status status = bench_csv_open(
         bench, "solver",

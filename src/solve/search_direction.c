@@ -296,8 +296,8 @@ Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
         *found = state.curvature < 0;
         break;
     }
-    double sign = dot(n, d, at->g) > 0 ? -1 : 1;
+    double sign = dot(n, search->d, at->g) > 0 ? -1 : 1;
     for (int i = 0; i < n && *found; i++)
-        at->p[i] = sign * d[i];
+        at->p[i] = sign * search->d[i];
     return STATUS_OK;
 }

@@ -277,6 +277,22 @@ static void only_hard_steps_get_windows(void **unused)
     }
 }
 
+/* Asked for a minimum, Newton does not end where the Hessian bends down: the
+ * default square of 16 segments comes to such a place when it buckles. */
+static void newton_leaves_a_saddle_when_asked(void **unused)
+{
+    (void)unused;
+    for (int minimum = 0; minimum < 2; minimum++) {
+        Simulation simulation;
+        create_run(minimum ? "--segments 16 --minimum" : "--segments 16",
+                   "backward-euler", SOLVER_NEWTON, NULL, NULL, &simulation);
+        for (int step = 0; step < 14; step++)
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        CHECK((simulation_counters(&simulation).saddles > 0) == minimum);
+        simulation_free(&simulation);
+    }
+}
+
 /* Who works, and why it is not multigrid. */
 static void what_does_not_fit_is_left_to_newton(void **unused)
 {
@@ -488,6 +504,7 @@ int main(void)
         cmocka_unit_test(stretched_springs_are_not_projected),
         cmocka_unit_test(only_newton_has_factors),
         cmocka_unit_test(only_hard_steps_get_windows),
+        cmocka_unit_test(newton_leaves_a_saddle_when_asked),
         cmocka_unit_test(what_does_not_fit_is_left_to_newton),
         cmocka_unit_test(newton_takes_back_what_multigrid_cannot_end),
         cmocka_unit_test(explicit_methods_have_no_matrix),
