@@ -10,8 +10,8 @@ enum { DRAWING_PIXELS = 900, DRAWING_FRAMES = 31 };
 
 static const int drawing_full[2] = {1280, 800};
 
-/* Median processor time of a frame of this size, from an empty paper until it is shown,
- * in ms. */
+/* Median processor time of a frame of this size, from an empty paper until it
+ * is shown, in ms. */
 static Status time_frames(const Show *show, int width, int height, int frames,
                           double *ms, SpringCount *springs)
 {

@@ -16,7 +16,7 @@ machine(name) = said(name, "s/; flags.*//")."\n" \
     .said(name, "s/.*; processor/processor/; s/, of which.*;/;/")
 is_quick(name) = machine(name)[strlen(machine(name)) - 8:] eq "quick run"
 
-# ---- error against run time --------------------------------------------------
+# ---- error against processor time --------------------------------------------------
 # Columns: 1 case, 2 segments, 3 integrator, 4 solver, 9 run time, 10 error,
 # 15 failed.
 work = data."/work_precision.csv"
@@ -45,7 +45,7 @@ work_legend = "plot for [i=1:9] NaN with linespoints lw 1.5 ps 0.7 " \
     ."title 'failed: not finite, not converged, or gone'"
 
 set_axes = "set logscale xy; set format xy '10^{%L}'; set xrange [*:*]; " \
-    ."set xlabel 'run time, s'; unset key"
+    ."set xlabel 'processor time, s'; unset key"
 set_error = set_axes."; set yrange [1e-9:1]; " \
     ."set ylabel 'position error at the end, m'"
 set_drift = set_axes."; set yrange [1e-16:10]; " \
@@ -67,14 +67,18 @@ if (has("work_precision")) {
     if (!is_quick("work_precision")) {
         files = files." '".pictures."/work_precision.svg'"
     }
-    sizes = is_quick("work_precision") ? "4" : "16"
+    shown = is_quick("work_precision") ? "soft:4 stiff:4 spinning:4" \
+        : "soft:16 soft:64 soft:128 stiff:16 spinning:16"
+    set terminal svg size 1300,760 font "sans,13" background "white"
     do for [file in files] {
         set output file
-        set multiplot layout 2,2 title machine("work_precision") font ",9"
-        do for [kind in "soft stiff spinning"] {
+        set multiplot layout 2,3 title machine("work_precision") font ",9"
+        do for [panel in shown] {
+            kind = panel[:strstrt(panel, ":") - 1]
+            size = panel[strstrt(panel, ":") + 1:]
             eval(set_error)
-            set title work_title(kind, sizes)
-            eval(work_panel(kind, sizes, "10", "0.6"))
+            set title work_title(kind, size)
+            eval(work_panel(kind, size, "10", "0.6"))
         }
         eval(set_legend)
         eval(work_legend)
