@@ -216,8 +216,10 @@ Status create_tear(Simulation *simulation, const NewtonSettings *settings)
     system->pin_v = calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
     if (!system->pin_v)
         return STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < mesh->nodes; i++)
-        system->pin_v[2 * i] = copysign(0.2 * options->side, mesh->x[2 * i]);
+    for (int i = 0; i < mesh->nodes; i++) /* a pin set later stays */
+        if (system->pinned && system->pinned[i])
+            system->pin_v[2 * i] =
+                copysign(0.2 * options->side, mesh->x[2 * i]);
     double a = options->side / options->segments;
     if (system->breaks)
         cut(mesh, 0.5 * a, -0.12 * options->side, 0.12 * options->side, system);

@@ -217,6 +217,16 @@ static void drop_empty_pins(System *system)
     system->pinned = NULL;
 }
 
+/* What another stiffness or a pin has done to the energy is the work of whoever
+ * set it: nothing else in the ledger jumps.  had [runs] J, dissipated before.
+ */
+static void book_change(Simulation *simulation, const double *had)
+{
+    for (int r = 0; r < simulation->runs; r++)
+        simulation->work[r] +=
+            had[r] - simulation_energies(simulation, r).dissipated;
+}
+
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
     System *system = &simulation->system;
@@ -226,12 +236,18 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
         return STATUS_OUT_OF_MEMORY;
     system->pinned[node] = pinned;
     drop_empty_pins(system);
+    double had[SIMULATION_MAX_RUNS];
+    for (int i = 0; i < simulation->runs; i++)
+        had[i] = simulation_energies(simulation, i).dissipated;
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];
+        if (run->system != system)
+            continue;
         run->v[2 * node] = run->v[2 * node + 1] = 0;
         run->remembers = false;
         time_integrator_forget(run, true);
     }
+    book_change(simulation, had);
     return STATUS_OK;
 }
 
@@ -286,15 +302,6 @@ void simulation_release(Simulation *simulation)
     hand_energy_remove(&simulation->system);
     for (int r = 0; r < simulation->runs; r++)
         time_integrator_forget(&simulation->run[r], true);
-}
-
-/* What another stiffness has done to the energy is the work of whoever changed
- * it: nothing else in the ledger jumps.  had [runs] J, dissipated before. */
-static void book_change(Simulation *simulation, const double *had)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        simulation->work[r] +=
-            had[r] - simulation_energies(simulation, r).dissipated;
 }
 
 Status simulation_change(Simulation *simulation, const Options *options)

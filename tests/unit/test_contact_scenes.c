@@ -211,6 +211,84 @@ static void arrows_are_the_forces(void **unused)
     simulation_free(&simulation);
 }
 
+/* ---- the ledger while hands are on -------------------------------------- */
+
+/* What one does to a run between two steps. */
+static void meddle(Simulation *simulation, int deed)
+{
+    const double *x = simulation->run[0].x + 2 * 7;
+    Options options = simulation->options;
+    options.stiffness *= deed % 2 ? 0.5 : 3;
+    switch (deed % 8) {
+    case 0:
+        CHECK_STATUS(simulation_grab(simulation, 7, x[0], x[1]), STATUS_OK);
+        break;
+    case 1:
+        CHECK_STATUS(simulation_grab(simulation, 7, x[0] + 0.1, x[1] - 0.07),
+                     STATUS_OK);
+        break;
+    case 2:
+        simulation_release(simulation);
+        break;
+    case 3:
+        CHECK_STATUS(simulation_pin(simulation, 9, true), STATUS_OK);
+        break;
+    case 4:
+        simulation_set_timestep(simulation, 0.4 * options.timestep);
+        break;
+    case 5:
+        CHECK_STATUS(simulation_pin(simulation, 9, false), STATUS_OK);
+        break;
+    default:
+        CHECK_STATUS(simulation_change(simulation, &options), STATUS_OK);
+    }
+}
+
+/* A hand, a pin, another time step or stiffness is booked as work: nothing that
+ * is lost changes with it, and in the steps after it all that is lost grows. */
+static void what_hands_do_is_work(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
+                                        "slope --segments 3",
+                                        "squeeze --segments 4",
+                                        "dent --segments 4 --at 0,0.2",
+                                        "tear --segments 6 --timestep 0.01",
+                                        "bend --segments 16"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Simulation simulation;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        simulation_set_tolerance(&simulation, 1e-8);
+        int blocked = 0; /* the ceiling, by the node that is pinned */
+        for (int deed = 0; deed < 24; deed++) {
+            Energies before = simulation_energies(&simulation, 0);
+            double size = fabs(before.kinetic) + fabs(before.elastic) +
+                          fabs(before.gravity) + fabs(before.plastic) +
+                          fabs(before.work) + fabs(before.dissipated) + 1;
+            meddle(&simulation, deed);
+            Energies after = simulation_energies(&simulation, 0);
+            size += fabs(after.elastic) + fabs(after.hand);
+            CHECK_NEAR(after.dissipated, before.dissipated, 1e-12 * size);
+            CHECK(after.plastic == before.plastic &&
+                  after.fracture == before.fracture &&
+                  after.friction == before.friction);
+            for (int step = 0; step < 4; step++) {
+                before = simulation_energies(&simulation, 0);
+                Status status = simulation_step(&simulation);
+                CHECK(status == STATUS_OK || status == STATUS_BLOCKED);
+                blocked += status == STATUS_BLOCKED;
+                after = simulation_energies(&simulation, 0);
+                CHECK(after.plastic >= before.plastic &&
+                      after.fracture >= before.fracture &&
+                      after.friction >= before.friction);
+            }
+        }
+        CHECK(i == 2 || blocked == 0);
+        CHECK(fabs(simulation_energies(&simulation, 0).work) > 1e-3);
+        simulation_free(&simulation);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -220,6 +298,7 @@ int main(void)
         cmocka_unit_test(a_saddle_may_be_the_first_thing),
         cmocka_unit_test(what_is_symmetric_stays_so),
         cmocka_unit_test(arrows_are_the_forces),
+        cmocka_unit_test(what_hands_do_is_work),
     };
     return cmocka_run_group_tests_name("contact scenes", tests, NULL, NULL);
 }
