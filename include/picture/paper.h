@@ -56,6 +56,10 @@ int paper_width(Paper *paper, Face face, double size, const char *markup);
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 
+/* The lines that the paragraph takes if it may. */
+int paper_lines(Paper *paper, Face face, double size, int width,
+                const char *markup);
+
 /* The picture that is kept for this purpose, if it has this size and was drawn
  * for this key; else a white one of this size, to be drawn now, with *drawn
  * false.  NULL: not enough memory. */

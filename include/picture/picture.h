@@ -30,9 +30,13 @@ typedef struct Card {
     const char *(*titled)(const Show *show); /* one that follows the state, or
                                                 NULL */
     double least;                            /* ems, the height it needs */
-    double weight; /* share of the height that is left */
-    bool half;     /* half the width of a wide column is enough */
-    bool closed;   /* at the start */
+    /* The same for a card that is so many ems wide inside; NULL: least. */
+    double (*needs)(const Show *show, double wide);
+    double weight;     /* share of the height that is left */
+    bool half;         /* half the width of a wide column is enough */
+    bool half_on_page; /* the same, but only on a page of the lecture: its words
+                          need the room */
+    bool closed;       /* at the start */
     /* Draws what is inside, below the title. */
     void (*draw)(Paper *paper, Box inside, const Show *show);
 } Card;

@@ -9,6 +9,8 @@ enum { LINE_POINTS = 161 };
 
 static const double BEYOND = 1.42; /* the axis ends, in first trials */
 static const double ABOVE = 2.2;   /* the least range above 0, in depths */
+static const double WORD_SIZE = 0.88, WORD_LINE = 1.25; /* ems */
+static const double WORDS_WIDE = 28; /* ems that all words need in one row */
 
 /* What is drawn: the two functions on one grid of alpha. */
 typedef struct Curves {
@@ -69,40 +71,54 @@ static void draw_trial(Paper *paper, const Plot *plot, double alpha,
                      1.6 * unit, 7 * unit, colour);
 }
 
-/* The last trial in words, at a place that does not move: where a curve that
- * falls at first is not. */
-static void draw_verdict(Paper *paper, const Plot *plot, const Trace *trace,
-                         double alpha, double value)
+/* Words in a row from the left, in a second row if there is no room; what has
+ * no room there either is left out.  row: where the next word goes, in/out */
+static void draw_word(Paper *paper, Box inside, Face face, Colour colour,
+                      const char *words, Box *row)
 {
-    char number[48], length[32];
-    double y = plot->box.y + plot->box.height - 1.25 * paper->em;
-    if (trace->slope > 0) /* other words stand there */
-        y -= 1.2 * paper->em;
-    plot_number(number, sizeof number, value);
-    alpha_text(length, sizeof length, alpha);
-    paper_write(
-        paper, FACE_BOLD, 0.9, trace->accepted ? COLOUR_ALPHA : COLOUR_WARNING,
-        plot->box.x + 0.5 * paper->em, y, ALIGN_LEFT, "{alpha} = %s %s: %s%s",
-        length, trace->accepted ? "taken" : "refused", value > 0 ? "+" : "",
-        number);
+    int width = paper_width(paper, face, WORD_SIZE, words);
+    int end = inside.x + inside.width, line = paper_pixels(paper, WORD_LINE);
+    if (row->x > inside.x && row->x + width > end) {
+        row->x = inside.x;
+        row->y += line;
+    }
+    if (row->y + line > row->height + inside.y)
+        return;
+    paper_write(paper, face, WORD_SIZE, colour, row->x, row->y, ALIGN_LEFT,
+                "%s", words);
+    row->x += width + paper_pixels(paper, 1);
 }
 
-/* Where the curves are not: above 0 at the left; below it where they rise. */
-static void draw_words(Paper *paper, const Plot *plot, const Trace *trace)
+/* What the curves are, and the last trial, above the plot: nothing of it lies
+ * on a curve.  Returns the room for the plot, which does not depend on what
+ * there is to say. */
+static Box draw_words(Paper *paper, Box inside, const Trace *trace)
 {
-    double x = plot->box.x + 0.5 * paper->em, y = plot->box.y;
-    bool uphill = trace->slope > 0;
-    if (uphill)
-        y += plot->box.height - 1.3 * paper->em;
-    x += paper_write(paper, FACE_REGULAR, 0.85, COLOUR_X, x, y, ALIGN_LEFT,
-                     "exact") +
-         paper->em;
-    x += paper_write(paper, FACE_REGULAR, 0.85, COLOUR_P, x, y, ALIGN_LEFT,
-                     "quadratic model") +
-         paper->em;
-    if (uphill)
-        paper_write(paper, FACE_BOLD, 0.85, COLOUR_WARNING, x, y, ALIGN_LEFT,
-                    "{p} points uphill");
+    double wide = inside.width / paper->em;
+    int rows = wide < WORDS_WIDE ? 2 : 1;
+    int high = paper_pixels(paper, rows * WORD_LINE);
+    Box row = {inside.x, inside.y, 0, high};
+    draw_word(paper, inside, FACE_REGULAR, COLOUR_X, "exact", &row);
+    draw_word(paper, inside, FACE_REGULAR, COLOUR_P, "quadratic model", &row);
+    if (trace->trials > 0) {
+        char number[48], length[32], words[128];
+        double first = trace->first > 0 ? trace->first : 1;
+        double alpha = ldexp(first, 1 - trace->trials);
+        double value = exact_value(trace, alpha);
+        plot_number(number, sizeof number, value);
+        alpha_text(length, sizeof length, alpha);
+        snprintf(words, sizeof words, "{alpha} = %s %s: %s%s", length,
+                 trace->accepted ? "taken" : "refused", value > 0 ? "+" : "",
+                 number);
+        draw_word(paper, inside, FACE_BOLD,
+                  trace->accepted ? COLOUR_ALPHA : COLOUR_WARNING, words, &row);
+    }
+    if (trace->slope > 0)
+        draw_word(paper, inside, FACE_BOLD, COLOUR_WARNING, "{p} points uphill",
+                  &row);
+    inside.y += high;
+    inside.height -= high;
+    return inside;
 }
 
 static void draw_curves(Paper *paper, Box inside, const Trace *trace)
@@ -112,7 +128,7 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     fill_curves(trace, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
     Axis y = {curves.low, curves.high, false, false, NULL};
-    Plot plot = plot_create(paper, inside, x, y);
+    Plot plot = plot_create(paper, draw_words(paper, inside, trace), x, y);
     double first = trace->first > 0 ? trace->first : 1;
     const double origin[2] = {0, 0};
     plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.model, 1.3,
@@ -120,7 +136,6 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.exact, 2,
                COLOUR_X);
     plot_disc(paper, &plot, origin, 3.5, COLOUR_TEXT);
-    draw_words(paper, &plot, trace);
     for (int t = 0; t < trace->trials; t++) {
         double end = ldexp(first, -t), at = end;
         bool last = t == trace->trials - 1;
@@ -129,8 +144,6 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
             at += trace->rest * (t > 0 ? end : -end);
         draw_trial(paper, &plot, at, exact_value(trace, at),
                    last && trace->accepted);
-        if (last)
-            draw_verdict(paper, &plot, trace, end, exact_value(trace, end));
     }
 }
 
@@ -143,13 +156,11 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
         draw_curves(paper, inside, trace);
         return;
     }
-    paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
-                inside.x + 0.5 * inside.width,
-                inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
-                trace && trace->passed && trace->line ? "no {p} was needed"
-                : trace && trace->line ? "from line 4 on, where {p} is known"
-                : show->step == 0      ? "N makes a step"
-                                       : "no update was needed");
+    cards_hint(paper, inside,
+               trace && trace->passed && trace->line ? "no {p} was needed"
+               : trace && trace->line ? "from line 4 on, where {p} is known"
+               : show->step == 0      ? "N makes a step"
+                                      : "no update was needed");
 }
 
 static const char *line_title(const Show *show)
@@ -166,5 +177,6 @@ const Card card_line = {
     .titled = line_title,
     .least = 8,
     .weight = 1.2,
+    .half_on_page = true,
     .draw = draw_line,
 };

@@ -83,8 +83,7 @@ static const Listing listings[] = {
     {NULL, "Algorithm 3 inside another method", newton_end_rows},
 };
 
-static const Listing scalar_listing = {
-    NULL, "Algorithms 1 and 2: Newton, line search", scalar_rows};
+static const Listing scalar_listing = {NULL, "Algorithm 1", scalar_rows};
 
 static const Listing *find_listing(const Simulation *simulation)
 {
@@ -221,17 +220,32 @@ static void draw_row(Paper *paper, Box box, const Simulation *simulation,
                     right, y + 0.08 * paper->em, ALIGN_RIGHT, "%s", value);
 }
 
+/* Without time the line that ends a step is not there. */
+static int count_rows(const Simulation *simulation, const Listing *listing)
+{
+    bool time = simulation->scene->needs & NEEDS_TIME;
+    int rows = 0;
+    while (listing->rows[rows].markup &&
+           (time || listing->rows[rows].line != LINE_END))
+        rows++;
+    return rows;
+}
+
+/* Ems, with title and margin. */
+static double listing_needs(const Show *show, double wide)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    (void)wide;
+    return 1.5 * count_rows(simulation, find_listing(simulation)) + 2.6;
+}
+
 static void draw_listing(Paper *paper, Box inside, const Show *show)
 {
     DescentTrace space;
     const Simulation *simulation = show->pane[show->active].simulation;
     const Listing *listing = find_listing(simulation);
     const Trace *trace = cards_trace(show, &space);
-    bool time = simulation->scene->needs & NEEDS_TIME;
-    int rows = 0;
-    while (listing->rows[rows].markup &&
-           (time || listing->rows[rows].line != LINE_END))
-        rows++;
+    int rows = count_rows(simulation, listing);
     int pitch = paper_pixels(paper, 1.75);
     if (pitch * rows > inside.height)
         pitch = inside.height / rows;
@@ -241,9 +255,21 @@ static void draw_listing(Paper *paper, Box inside, const Show *show)
     }
 }
 
+/* Algorithm 3 with lines struck through goes by another name. */
 static const char *listing_title(const Show *show)
 {
-    return find_listing(show->pane[show->active].simulation)->title;
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const Listing *listing = find_listing(simulation);
+    bool project = !line_is_off(simulation, LINE_PROJECT);
+    bool search = !line_is_off(simulation, LINE_SEARCH);
+    if (listing->rows == scalar_rows)
+        return search ? "Algorithm 1; line 4 is Algorithm 2"
+                      : "Algorithm 1: Newton's method";
+    if (listing->rows != newton_rows || (project && search))
+        return listing->title;
+    return project  ? "Algorithm 3, line 5 is off"
+           : search ? "Algorithm 3, line 3 is off"
+                    : "Algorithm 1: lines 3 and 5 are off";
 }
 
 const Card card_listing = {
@@ -251,6 +277,7 @@ const Card card_listing = {
     .title = "Algorithm 3",
     .titled = listing_title,
     .least = 14.6,
+    .needs = listing_needs,
     .weight = 0.3,
     .draw = draw_listing,
 };

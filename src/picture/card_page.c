@@ -5,7 +5,7 @@
 #include "picture/exhibits.h"
 #include "scenes/pages.h"
 
-enum { WORDS = 4 };
+enum { WORDS = 3 };
 
 /* What a page says, one below the other: a head and a text each. */
 typedef struct Words {
@@ -14,73 +14,104 @@ typedef struct Words {
     Colour colour;
 } Words;
 
-static const double HEAD_ROOM = 3.4; /* ems, of a head */
-static const double LARGEST = 1.35;  /* of the letters, in ems */
-static const double SMALLEST = 0.9;
+static const double HEAD_ROOM = 3.2; /* ems of the letters, of a head */
+static const double GAP = 0.35;      /* lines, between two texts */
+static const double LETTERS = 1.2;   /* ems, on every page */
+static const double LETTER = 0.52;   /* ems of the letters, one on average */
+static const double SMALLEST = 0.9;  /* where the window is too small */
 
-/* The lines that a text takes, with a tenth more for broken ends. */
-static int count_lines(Paper *paper, double size, int width, const char *text)
-{
-    int whole = paper_width(paper, FACE_REGULAR, size, text);
-    return width < 1 ? 1 : (int)ceil(1.06 * whole / width + 0.05);
-}
-
-/* Pixels that the first `count` texts take in letters of this size. */
-static double words_height(Paper *paper, Box inside, const Words *words,
-                           int count, double size)
-{
-    double lines = 1.1 * count; /* and gaps, and the place of the code */
-    for (int i = 0; i < count; i++) {
-        int room = words[i].head ? paper_pixels(paper, HEAD_ROOM * size) : 0;
-        lines += count_lines(paper, size, inside.width - room, words[i].text);
-    }
-    return lines * text_line(size * paper->em);
-}
-
-/* One text with its head in bold.  Returns where the next one begins. */
-static int draw_words(Paper *paper, Box inside, int y, double size,
-                      const Words *words)
+/* One text with its head in bold, or with `draw` false only measured.  Returns
+ * where the next one begins. */
+static int put_words(Paper *paper, Box inside, int y, double size,
+                     const Words *words, bool draw)
 {
     double line = text_line(size * paper->em);
-    Box box = {inside.x, y, inside.width, inside.y + inside.height - y};
-    int room = (int)(box.height / line);
-    if (room < 1)
-        return y;
+    Box box = {inside.x, y, inside.width, 0};
     if (words->head) {
         int width = paper_pixels(paper, HEAD_ROOM * size);
-        paper_write(paper, FACE_BOLD, size, words->colour, box.x, y, ALIGN_LEFT,
-                    "%s", words->head);
+        if (draw)
+            paper_write(paper, FACE_BOLD, size, words->colour, box.x, y,
+                        ALIGN_LEFT, "%s", words->head);
         box.x += width;
         box.width -= width;
     }
-    int lines = paper_paragraph(paper, FACE_REGULAR, size, COLOUR_TEXT, box,
-                                room, words->text);
-    return y + (int)((lines + 0.35) * line);
+    int lines = 0, most = (int)((inside.y + inside.height - y) / line);
+    if (!draw)
+        lines = paper_lines(paper, FACE_REGULAR, size, box.width, words->text);
+    else if (most > 0)
+        lines = paper_paragraph(paper, FACE_REGULAR, size, COLOUR_TEXT, box,
+                                most, words->text);
+    return y + (int)((lines + GAP) * line);
 }
 
-/* As large as fits; the claim only where there is room for it. */
+static int put_page(Paper *paper, Box inside, double size,
+                    const LecturePage *page, bool draw)
+{
+    const Words words[WORDS] = {{NULL, page->text, COLOUR_TEXT},
+                                {"Look", page->look, COLOUR_X},
+                                {"Try", page->touch, COLOUR_HAND}};
+    int y = inside.y;
+    for (int i = 0; i < WORDS; i++)
+        y = put_words(paper, inside, y, size, &words[i], draw);
+    return y - (int)(GAP * text_line(size * paper->em));
+}
+
+double page_letters(Paper *paper, Box inside, const LecturePage *page)
+{
+    double size = LETTERS;
+    while (size > SMALLEST && put_page(paper, inside, size, page, false) >
+                                  inside.y + inside.height)
+        size -= 0.05;
+    return size;
+}
+
+/* The same letters on every page; smaller ones where they do not fit. */
 static void draw_lecture(Paper *paper, Box inside, const Show *show)
 {
     const LecturePage *page = show->lecture;
-    int y = inside.y, count = WORDS;
-    double size = LARGEST;
+    if (page)
+        put_page(paper, inside, page_letters(paper, inside, page), page, true);
+}
+
+Box page_draw_claim(Paper *paper, Box inside, const Show *show)
+{
+    if (!show->lecture)
+        return inside;
+    const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT};
+    int y = put_words(paper, inside, inside.y, 1, &words, true);
+    return (Box){inside.x, y, inside.width, inside.y + inside.height - y};
+}
+
+/* How many lines a text takes, a little more rather than less. */
+static int guess_lines(const char *text, double wide)
+{
+    int lines = 1;
+    double used = 0;
+    while (*text) {
+        double word = LETTER; /* the blank after it */
+        for (; *text && *text != ' '; text++)
+            word += (*text & 0xc0) != 0x80 ? LETTER : 0;
+        text += *text == ' ';
+        if (used + word - LETTER > wide) {
+            lines++;
+            used = 0;
+        }
+        used += word;
+    }
+    return lines;
+}
+
+/* As much as its words take: ems. */
+static double page_needs(const Show *show, double wide)
+{
+    const LecturePage *page = show->lecture;
+    double letters = wide / LETTERS, narrow = letters - HEAD_ROOM;
     if (!page)
-        return;
-    const Words words[WORDS] = {{NULL, page->text, COLOUR_TEXT},
-                                {"Look", page->look, COLOUR_X},
-                                {"Try", page->touch, COLOUR_HAND},
-                                {"True", page->claim, COLOUR_FAINT}};
-    if (words_height(paper, inside, words, WORDS, 1) > inside.height)
-        count = WORDS - 1;
-    while (size > SMALLEST &&
-           words_height(paper, inside, words, count, size) > inside.height)
-        size -= 0.05;
-    for (int i = 0; i < count; i++)
-        y = draw_words(paper, inside, y, size, &words[i]);
-    if (y + text_line(0.88 * paper->em) <= inside.y + inside.height)
-        paper_write(paper, FACE_REGULAR, 0.88, COLOUR_FAINT, inside.x, y,
-                    ALIGN_LEFT, "code (key K): %s in %s", page->function,
-                    page->file);
+        return card_page.least;
+    double lines = guess_lines(page->text, letters) +
+                   guess_lines(page->look, narrow) +
+                   guess_lines(page->touch, narrow) + (WORDS - 1) * GAP;
+    return text_line(lines * LETTERS) + 2.8; /* title and margin */
 }
 
 static const char *page_title(const Show *show)
@@ -93,6 +124,7 @@ const Card card_page = {
     .title = "the page",
     .titled = page_title,
     .least = 12,
-    .weight = 1.15,
+    .needs = page_needs,
+    .weight = 0.3,
     .draw = draw_lecture,
 };

@@ -59,10 +59,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     double low = 0.3 * tolerance, high = 30 * tolerance;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
-        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
-                    inside.x + 0.5 * inside.width,
-                    inside.y + 0.5 * inside.height - 0.7 * paper->em,
-                    ALIGN_CENTRE, "a point for each Newton update");
+        cards_hint(paper, inside, "a point for each Newton update");
         return;
     }
     int last = trace->updates - 1; /* it may be the present one already */

@@ -163,11 +163,8 @@ static void draw_spy(Paper *paper, Box inside, const Show *show)
     int line = paper_pixels(paper, 1.3);
     bool drawn = false;
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
-        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_GREY,
-                    inside.x + 0.5 * inside.width,
-                    inside.y + 0.5 * inside.height - 0.7 * paper->em,
-                    ALIGN_CENTRE,
-                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
+        cards_hint(paper, inside,
+                   side < 4 * line ? "enlarge it" : "too many nodes to draw");
         return;
     }
     Box square = {inside.x, inside.y, side, side};

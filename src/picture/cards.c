@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "scenes/landscape_scene.h"
 #include "scenes/scene.h"
 
@@ -71,6 +72,30 @@ const Trace *cards_trace(const Show *show, DescentTrace *space)
     return descent_trace(pane->simulation, space);
 }
 
+Box cards_inside(Box card, double em)
+{
+    int margin = (int)lround(0.8 * em), bar = (int)lround(TITLE * em);
+    return (Box){card.x + margin, card.y + bar, card.width - 2 * margin,
+                 card.height - bar - margin / 2};
+}
+
+/* A size for letters with which the text fits, not below a part of it. */
+static double fitting_size(Paper *paper, Face face, double size, int room,
+                           const char *text)
+{
+    int width = paper_width(paper, face, size, text);
+    return width > room ? size * fmax(0.7, (double)room / width) : size;
+}
+
+void cards_hint(Paper *paper, Box inside, const char *text)
+{
+    double size = fitting_size(paper, FACE_REGULAR, 0.92, inside.width, text);
+    paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
+                inside.x + 0.5 * inside.width,
+                inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
+                "%s", text);
+}
+
 /* Frame, title and cross; returns what is inside. */
 static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                       bool closed)
@@ -83,8 +108,11 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                 COLOUR_BORDER);
     Box before =
         canvas_clip(&paper->canvas, (Box){box.x, box.y, box.width - bar, bar});
-    paper_write(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
-                box.x + margin, y - 0.62 * paper->em, ALIGN_LEFT, "%s", title);
+    double size =
+        fitting_size(paper, FACE_BOLD, 0.96, box.width - bar - margin, title);
+    paper_write(paper, FACE_BOLD, size, closed ? COLOUR_FAINT : COLOUR_TEXT,
+                box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
+                title);
     canvas_clip(&paper->canvas, before);
     if (closed) { /* a plus */
         canvas_line(&paper->canvas, x - arm, y, x + arm, y, 1.4 * unit,
@@ -97,9 +125,7 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
         canvas_line(&paper->canvas, x - arm, y + arm, x + arm, y - arm,
                     1.4 * unit, COLOUR_GREY);
     }
-    Box inside = {box.x + margin, box.y + bar, box.width - 2 * margin,
-                  box.height - bar - margin / 2};
-    return inside;
+    return cards_inside(box, paper->em);
 }
 
 /* Rows of help: one below the other, and in as many columns as it takes. */
@@ -227,7 +253,7 @@ static void draw_page(Paper *paper, Box column, const Show *show)
                 page->title ? page->title : "Keys and mouse");
     Box before = canvas_clip(&paper->canvas, inside);
     if (page->kind == PAGE_CODE)
-        draw_code(paper, inside, page);
+        draw_code(paper, page_draw_claim(paper, inside, show), page);
     else
         draw_help(paper, inside, show);
     canvas_clip(&paper->canvas, before);

@@ -25,6 +25,12 @@ extern const Card card_methods;
 /* The pattern of the Hessian and of its factor. */
 extern const Card card_spy;
 
+/* What is inside the frame of a card, below its title; em in pixels. */
+Box cards_inside(Box card, double em);
+
+/* One line in the middle of a card that has nothing to show yet. */
+void cards_hint(Paper *paper, Box inside, const char *text);
+
 /* All cards of the layout, or the page in their place. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
 

@@ -72,7 +72,7 @@ static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
 static const Card card_dial_numbers = {
     .name = "numbers",
     .title = "the minimiser in numbers",
-    .least = 7,
+    .least = 11.5,
     .weight = 1,
     .draw = dial_draw_numbers,
 };

@@ -183,7 +183,7 @@ static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
 static const Card card_envelope_numbers = {
     .name = "numbers",
     .title = "this cell",
-    .least = 7,
+    .least = 9.5,
     .weight = 0.8,
     .draw = envelope_draw_numbers,
 };

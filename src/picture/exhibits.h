@@ -36,4 +36,11 @@ extern const Picture envelope_picture;
 /* What the lecture's page says; nothing outside of the lecture. */
 extern const Card card_page;
 
+/* The size of its letters in ems: the same for all pages that fit. */
+double page_letters(Paper *paper, Box inside, const LecturePage *page);
+
+/* What a test holds of the page, above its code.  Returns the box below it; the
+ * same box outside of the lecture. */
+Box page_draw_claim(Paper *paper, Box inside, const Show *show);
+
 #endif

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "picture/colour_map.h"
+#include "picture/plot.h"
 
 enum {
     LEAST_SPAN = 60,  /* steps that the time line shows room for */
@@ -97,9 +98,12 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     x += paper_write(paper, FACE_REGULAR, size, COLOUR_FAINT, x, y, ALIGN_LEFT,
                      "%s", setting->name) +
          0.5 * em;
+    char value[2 * SHOW_VALUE];
+    snprintf(value, sizeof value, "%s", setting->value);
+    plot_numbers(value, sizeof value);
     int width = paper_write(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
                             size, setting->off ? COLOUR_GREY : COLOUR_VALUE, x,
-                            y, ALIGN_LEFT, "%s", setting->value);
+                            y, ALIGN_LEFT, "%s", value);
     double below = floor(y + 1.3 * size * em) + 0.5, unit = paper->unit;
     canvas_dashes(&paper->canvas, x, below, x + width, below, fmax(1, unit),
                   3 * unit, 2 * unit, NULL,

@@ -143,6 +143,7 @@ void lines_add(Lines *lines, Colour colour, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(lines->text[lines->count], LINE_TEXT, format, arguments);
     va_end(arguments);
+    plot_numbers(lines->text[lines->count], LINE_TEXT);
     lines->colour[lines->count++] = colour;
 }
 

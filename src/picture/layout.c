@@ -12,7 +12,7 @@ static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
 static const double CHIP_PADDING_LEAST = 1.2;
 static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
-static const double PAIR_LEAST = 32; /* a column for two cards in a row */
+static const double PAIR_LEAST = 28; /* a column for two cards in a row */
 
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;

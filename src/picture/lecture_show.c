@@ -93,8 +93,9 @@ void show_lecture(LectureColumn column, Show *show)
     show->lecture_count = lecture_count();
     show->topic = page->topic;
     show->numbers = page->numbers;
-    snprintf(show->lecture_title, sizeof show->lecture_title, "page %d of %d",
-             show->lecture_number, show->lecture_count);
+    snprintf(show->lecture_title, sizeof show->lecture_title,
+             "page %d of %d \u00b7 K: its code and test", show->lecture_number,
+             show->lecture_count);
     show->hidden = 0;
     for (int c = 0; picture->cards[c]; c++) {
         bool open = has_word(page->cards, picture->cards[c]->name);

@@ -248,7 +248,7 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
 static const Card card_mass_numbers = {
     .name = "numbers",
     .title = "the step with its numbers",
-    .least = 7,
+    .least = 10.5,
     .weight = 1.1,
     .draw = draw_mass_numbers,
 };

@@ -82,6 +82,21 @@ static size_t fitting_bytes(Paper *paper, Face face, double size, int width,
     return fits;
 }
 
+int paper_lines(Paper *paper, Face face, double size, int width,
+                const char *markup)
+{
+    int lines = 0;
+    while (*markup) {
+        size_t count = fitting_bytes(paper, face, size, width, markup);
+        if (count == 0)
+            break;
+        markup += count;
+        markup += strspn(markup, " ");
+        lines++;
+    }
+    return lines;
+}
+
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup)
 {
@@ -96,8 +111,7 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
         memcpy(part, markup, count);
         part[count] = '\0';
         markup += count;
-        while (*markup == ' ')
-            markup++;
+        markup += strspn(markup, " ");
         line++;
         if (*markup && line == lines && count + 4 < sizeof part)
             strcat(part, "\u2026");

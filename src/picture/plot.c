@@ -1,5 +1,6 @@
 #include "picture/plot.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 #include "picture/colour_map.h"
 
 enum {
+    PLOT_TEXT = 512,     /* bytes of a text with numbers */
     PLOT_INTERVALS = 4,  /* between numbers, upwards */
     PLOT_MOST_LINES = 40 /* of any axis */
 };
@@ -74,6 +76,51 @@ void plot_number(char *text, size_t size, double value)
     bool one = strcmp(plain, "1") == 0;
     snprintf(text, size, "%s%s%s10^{%s%d}", sign, one ? "" : plain,
              one ? "" : "\u00b7", exponent < 0 ? "\u2212" : "", abs(exponent));
+}
+
+/* The part from e on of "1e-06" as markup; returns where it ends. */
+static const char *power_text(const char *power, bool one, char *text,
+                              size_t size)
+{
+    char *end;
+    long exponent = strtol(power + 1, &end, 10);
+    snprintf(text, size, "%s10^{%s%ld}", one ? "" : "\u00b7",
+             exponent < 0 ? "\u2212" : "", labs(exponent));
+    return end;
+}
+
+void plot_numbers(char *text, size_t size)
+{
+    char out[PLOT_TEXT] = "";
+    size_t used = 0;
+    const char *from = text;
+    bool word = false; /* within a word, digits are no number */
+    while (*from && used + 32 < sizeof out) {
+        bool minus = *from == '-' && !word && isdigit((unsigned char)from[1]);
+        const char *digits = from + minus;
+        size_t length = strspn(digits, "0123456789.");
+        if (word || length == 0) {
+            word = isalpha((unsigned char)*from) || (*from & 0x80) ||
+                   (word && isdigit((unsigned char)*from));
+            out[used++] = *from++;
+            continue;
+        }
+        const char *after = digits + length;
+        bool power = *after == 'e' && (after[1] == '-' || after[1] == '+') &&
+                     isdigit((unsigned char)after[2]);
+        bool one = power && length == 1 && *digits == '1';
+        if (length > 24)
+            break;
+        used += (size_t)snprintf(out + used, sizeof out - used, "%s%.*s",
+                                 minus ? "\u2212" : "", one ? 0 : (int)length,
+                                 digits);
+        if (power)
+            after = power_text(after, one, out + used, sizeof out - used);
+        used += strlen(out + used);
+        from = after;
+    }
+    out[used] = '\0';
+    snprintf(text, size, "%s", out);
 }
 
 /* A number of an axis; rounding must not show as 1e-17. */

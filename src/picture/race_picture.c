@@ -122,7 +122,7 @@ static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
 static const Card card_race_numbers = {
     .name = "numbers",
     .title = "the quickest runs",
-    .least = 7,
+    .least = 17.5,
     .weight = 1.4,
     .draw = race_draw_numbers,
 };

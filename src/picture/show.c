@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "picture/cards.h"
 #include "picture/exhibits.h"
 #include "picture/frame.h"
 #include "picture/handles.h"
@@ -30,6 +31,19 @@ static int count_letters(const char *text)
     return letters;
 }
 
+/* The cards that say themselves how high they have to be, where they are this
+ * wide. */
+static void ask_cards(const Show *show, const Layout *layout, LayoutWish *wish)
+{
+    const Picture *picture =
+        picture_of(show->pane[show->active].simulation->scene);
+    for (int c = 0; c < wish->cards; c++)
+        if (picture->cards[c]->needs)
+            wish->least[c] = picture->cards[c]->needs(
+                show,
+                cards_inside(layout->card[c], layout->em).width / layout->em);
+}
+
 Layout show_layout(const Show *show, int width, int height)
 {
     const Picture *picture =
@@ -46,7 +60,8 @@ Layout show_layout(const Show *show, int width, int height)
         const Card *card = picture->cards[wish.cards];
         wish.least[wish.cards] = card->least;
         wish.weight[wish.cards] = card->weight;
-        wish.half |= (unsigned)card->half << wish.cards;
+        bool half = card->half || (card->half_on_page && show->lecture);
+        wish.half |= (unsigned)half << wish.cards;
     }
     for (int i = 0; i < wish.settings; i++) {
         const Setting *setting = &show->setting[i];
@@ -57,6 +72,8 @@ Layout show_layout(const Show *show, int width, int height)
     for (int i = 0; i < wish.chips; i++)
         wish.chip_letters[i] = count_letters(show->chip[i].key) +
                                count_letters(show->chip[i].label) + 1;
+    Layout layout = layout_create(width, height, &wish);
+    ask_cards(show, &layout, &wish);
     return layout_create(width, height, &wish);
 }
 

@@ -267,7 +267,7 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
 static const Card card_tangent_numbers = {
     .name = "numbers",
     .title = "the update with its numbers",
-    .least = 7,
+    .least = 10,
     .weight = 0.9,
     .draw = tangent_draw_numbers,
 };

@@ -217,7 +217,7 @@ static Status write_page(FILE *file, int number,
             page->name, page->line);
     write_paragraph(file, "look", "Look:", page->look);
     write_paragraph(file, "try", "Try:", page->touch);
-    write_paragraph(file, "claim", "Claim:", page->claim);
+    write_paragraph(file, "claim", "Tested:", page->claim);
     write_code(file, page);
     fputs("</section>\n", file);
     return STATUS_OK;

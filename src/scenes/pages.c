@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* In the texts \u00a0 is a blank at which no line is broken. */
+
 #define LECTURE "src/lecture.c"
 
 /* Cards of the square while Algorithm 3 is the topic. */
@@ -13,31 +15,32 @@ const LecturePage lecture_pages[] = {
     /* ---- what is simulated ---------------------------------------------- */
     {.name = "solid",
      .topic = "Spatial discretisation",
-     .text = "A solid is cut into cells. Its mass sits in the corners, and "
-             "springs along the edges and diagonals hold it together.",
+     .text = "A solid is cut into cells. Its mass sits in the corners of the "
+             "cells; springs along their edges and diagonals hold it together.",
      .line = "square --stretch 1 --segments 4",
      .numbers = true,
      .cards = "page",
-     .look = "25 masses and 72 springs: rows, columns, and two diagonals in "
-             "each of the 16 cells.",
+     .look = "25 masses and 72 springs: in rows, in columns, and two diagonals "
+             "in each of the 16 cells.",
      .touch = "Drag the number of segments: more masses and springs, the same "
               "1000 kg.",
      .file = LECTURE,
      .function = "square",
      .lit = "add_spring",
      .claim = "4 segments give 25 masses and 72 springs; with any number of "
-              "segments all masses together weigh 1000 kg."},
+              "segments all masses together have 1000 kg."},
     {.name = "mesh",
      .topic = "The mesh and its numbers",
-     .text = "Node i (n + 1) + j stands in column i and row j, counted from "
-             "the lower left. A spring is a pair of such numbers.",
+     .text = "With n segments on a side, node i (n + 1) + j stands in column i "
+             "and row j, counted from the lower left. A spring is a pair of "
+             "such numbers.",
      .line = "square --stretch 1 --segments 2",
      .numbers = true,
-     .cards = "page spy",
-     .look = "9 nodes, numbered upwards column by column: 0 lower left, 8 "
-             "upper right. Springs: 6 along, 6 up, 8 diagonal.",
-     .touch = "Point at a spring or a node: its numbers, and its entries in "
-              "the Hessian, are shown.",
+     .cards = "page",
+     .look = "9 nodes, numbered upwards, column by column: 0 lower left, 8 "
+             "upper right. 6 springs are horizontal, 6 vertical, 8 diagonal.",
+     .touch = "Point at a spring: the numbers of its two nodes are shown. "
+              "Point at a node, too.",
      .file = LECTURE,
      .function = "square",
      .lit = "add_spring",
@@ -46,13 +49,13 @@ const LecturePage lecture_pages[] = {
               "rest length is 1/4 or 1/2."},
     {.name = "equation",
      .topic = "Equation of motion and mass matrix",
-     .text = "Mass times acceleration is force, and the force is minus the "
-             "slope of the energy: M dv/dt = −∇P(x). M is diagonal: each "
-             "coordinate has the mass of its node.",
+     .text = "M dv/dt = −∇P(x): mass times acceleration is force, and force is "
+             "minus the gradient of the energy. M is diagonal: the masses of "
+             "the nodes.",
      .line = "square --stretch 1.4",
      .cards = "page energies",
-     .look = "The stretched square is let go. Inner forces cancel in pairs: "
-             "it swings, but its middle stays where it is.",
+     .look = "Press Space: the stretched square swings. Its inner forces "
+             "cancel in pairs, so its middle stays where it is.",
      .touch = "Drag the stretch, or pull at a node.",
      .file = LECTURE,
      .function = "spring_grad",
@@ -64,14 +67,15 @@ const LecturePage lecture_pages[] = {
     /* ---- stepping through time ------------------------------------------ */
     {.name = "forward",
      .topic = "Forward Euler",
-     .text = "Velocity and force of now carry the mass over the whole step: "
-             "x′ = x + h v, v′ = v + h a(x).",
+     .text = "Velocity and force at the start of the step carry the mass "
+             "through all of it: x′\u00a0=\u00a0x\u00a0+\u00a0h\u00a0v, "
+             "v′\u00a0=\u00a0v\u00a0+\u00a0h\u00a0a(x).",
      .line = "arrows --integrator forward-euler",
      .cards = "page numbers energies",
-     .look = "The step leaves the circle along its tangent: each one gains "
+     .look = "The step leaves the circle along its tangent. Each step gains "
              "energy.",
-     .touch = "Drag the mass, the tip of v, or h. Click where you think the "
-              "next step leads, then press N.",
+     .touch = "Drag the mass, the tip of v, or h. Click where the next step "
+              "will end, then press N.",
      .file = LECTURE,
      .function = "forward_euler",
      .lit = "x[i] = add",
@@ -81,14 +85,15 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "symplectic",
      .topic = "Symplectic Euler",
-     .text = "First the velocity, then the place with the new velocity: "
-             "v′ = v + h a(x), x′ = x + h v′.",
+     .text = "First the velocity, then the position with the new velocity: "
+             "v′\u00a0=\u00a0v\u00a0+\u00a0h\u00a0a(x), "
+             "x′\u00a0=\u00a0x\u00a0+\u00a0h\u00a0v′.",
      .line = "arrows --integrator symplectic-euler",
      .cards = "page numbers energies",
-     .look = "One exchange of two lines, and the energy only wavers: the path "
-             "closes to an ellipse.",
-     .touch = "Drag h up to 2 s: there the ellipse becomes a line, and beyond "
-              "it the step explodes too.",
+     .look = "Only v in the second line is another one, but now the energy "
+             "stays bounded: the path is an ellipse.",
+     .touch = "Drag h: the ellipse gets longer. From h = 2 s on the mass flies "
+              "away.",
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "x[i] = add",
@@ -98,16 +103,16 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "backward",
      .topic = "Backward Euler",
-     .text = "The force is asked where the step ends: v′ = v + h a(x′), "
-             "x′ = x + h v′. The unknown x′ stands on both sides: an "
-             "equation "
-             "has to be solved.",
+     .text = "The force is taken at the end of the step: "
+             "v′\u00a0=\u00a0v\u00a0+\u00a0h\u00a0a(x′), "
+             "x′\u00a0=\u00a0x\u00a0+\u00a0h\u00a0v′. The unknown x′ is on "
+             "both sides: an equation must be solved.",
      .line = "arrows --integrator backward-euler",
      .cards = "page numbers energies",
-     .look = "The arrow of the force starts at the end of the step. Each step "
-             "loses energy, however long it is.",
-     .touch = "Drag h as far as you like: the mass is drawn to the middle, "
-              "never away.",
+     .look = "The arrow of the force starts where the step ends. Each step "
+             "loses energy.",
+     .touch = "Drag h as far as you like: the mass is drawn to the middle, it "
+              "never flies away.",
      .file = LECTURE,
      .function = "step_forward",
      .lit = "v[i] = mul(1 / h",
@@ -117,50 +122,51 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "stability",
      .topic = "Stability on the circle",
-     .text = "The same circle with all three: one spirals outwards, one stays, "
-             "one spirals inwards.",
+     .text = "All three methods on the same circle: one spirals outwards, one "
+             "stays, one spirals inwards.",
      .line = "circle",
      .cards = "page radius",
-     .look = "The radius over time: forward grows by √(1 + h²ω²) in each "
-             "step, backward shrinks by as much.",
-     .touch = "Drag h while it runs: the factor follows, the order of the "
+     .look = "The radius over time: in each step forward Euler multiplies it "
+             "by √(1 + h²ω²), backward Euler divides it by that.",
+     .touch = "Drag h while it runs: the factor changes, the order of the "
               "three does not.",
      .file = "src/scenes/circle_scene.c",
      .function = "create_circle",
      .lit = "names[i]",
-     .claim = "With h = 0.02 s the radius of forward Euler grows by the factor "
-              "1.00786 a step, that of backward Euler shrinks by it, and the "
-              "symplectic one stays within 4 percent.",
+     .claim = "With h = 0.02 s each step of forward Euler multiplies the "
+              "radius by 1.00786, each step of backward Euler divides it by "
+              "that, and the symplectic one stays within 4 percent.",
      .film = 32,
      .plays = true},
     {.name = "explicit",
      .topic = "Why not explicit steps",
-     .text = "Springs are stiff: an explicit step must be shorter than the "
-             "fastest of them swings. A little longer, and it explodes.",
+     .text =
+         "An explicit step must be short compared to the fastest oscillation "
+         "of the square. A little too long, and the square explodes.",
      .line = "square --integrator symplectic-euler --timestep 0.008",
      .cards = "page energies",
-     .look = "The square tears itself apart within a few steps.",
-     .touch = "Drag h down to 0.003 s: it holds. Choose backward Euler: "
-              "any h does.",
+     .look = "Press Space: the square tears itself apart within a few steps.",
+     .touch = "Drag h down to 0.003 s and press R: it holds. With backward "
+              "Euler any h does.",
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "v[i] = sub",
-     .claim = "With h = 0.008 s symplectic Euler leaves all numbers behind "
-              "within 20 steps, with 0.003 s it swings on for 1000; backward "
-              "Euler ends every step with 0.008 s and with 1 s.",
+     .claim = "With h = 0.008 s symplectic Euler overflows within 20 steps, "
+              "with 0.003 s it swings on for 1000; backward Euler ends every "
+              "step with 0.008 s and with 1 s.",
      .film = 11},
     /* ---- Newton's method ------------------------------------------------ */
     {.name = "tangent",
      .topic = "Newton's method in one dimension",
-     .text = "To find where g is zero, follow its tangent to zero, and again "
-             "from there. Below, the same step in E, whose slope g is: the "
-             "lowest point of the parabola that touches E.",
+     .text = "Follow the tangent of g to where it is zero, then repeat. Below, "
+             "the same step for E, with E′ = g: to the lowest point of the "
+             "parabola that fits E.",
      .line = "tangent",
      .cards = "page numbers residual",
-     .look = "Tangent above and parabola below end at the same x. Near the "
-             "root the number of right digits doubles.",
-     .touch = "Drag the start or x̃. Click where the next iterate will "
-              "be, then press N.",
+     .look = "Tangent and parabola lead to the same x. Near the root each "
+             "update doubles the number of correct digits.",
+     .touch = "Drag the start or x̃. Click where the next iterate will be, then "
+              "press N.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_start",
      .lit = "newton->p =",
@@ -171,14 +177,15 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "newton",
      .topic = "Newton in n dimensions: Algorithm 1",
-     .text = "Slope and curvature become a vector and a matrix: solve "
-             "H p = −g, go on by p, until p is short.",
+     .text =
+         "In n dimensions the slope is a vector g, the curvature a matrix H. "
+         "Solve H\u00a0p\u00a0=\u00a0−g, move by p, repeat until p is short.",
      .line = "landscape --filter none --line-search none --start 0.6,0.9",
      .cards = "page listing residual",
-     .look = "The path jumps from the slope to the bottom of the valley; the "
-             "residual falls faster and faster.",
-     .touch = "Drag the start into the shaded region, where E bends down: "
-              "Algorithm 1 is lost there.",
+     .look = "A few updates lead to the bottom of the valley; the residual "
+             "falls faster and faster.",
+     .touch = "Drag the start into the shaded region, where E is not convex: p "
+              "can point uphill.",
      .file = LECTURE,
      .function = "search_dir",
      .lit = "cholmod_solve",
@@ -188,15 +195,14 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "overshoot",
      .topic = "Overshooting",
-     .text = "Where the curvature fades away, Newton's step is too long: it "
-             "lands farther out than it began, and the next one is longer "
-             "still.",
+     .text = "Where the curvature is small, Newton's step is too long: it ends "
+             "farther out than it began, and the next one is longer still.",
      .line = "overshoot",
      .cards = "page line residual",
-     .look = "f has a single valley, and yet from 2 the step leads to −11.6 "
-             "and then beyond all bounds.",
-     .touch = "Drag the start: below 1.0886 it comes home, above it flies. L "
-              "turns the line search on.",
+     .look = "f has a single valley, but from 2 the first step leads to −11.6 "
+             "and the next one beyond all bounds.",
+     .touch = "Drag the start: below 1.0886 it converges, above it flies away. "
+              "L turns the line search on.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_iterate",
      .lit = "newton->x +=",
@@ -207,37 +213,34 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "explodes",
      .topic = "Overshooting: the square explodes",
-     .text = "The same on the square, with Algorithm 1 alone: neither "
-             "projection nor line search watches over the step.",
+     .text = "The same on the square, with Algorithm 1 alone: no projection, "
+             "no line search.",
      .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
              "none --line-search none",
      .open = "finer; finer; next; next; next",
      .lines = 12,
      .cards = CARDS_NEWTON,
-     .look = "Go through it line by line: E rises to 2e16 and nodes fly "
-             "more than a kilometre, within a single step.",
-     .touch = "P turns the projection on, L the line search: either one "
-              "keeps E from rising.",
+     .look = "N, line by line: within one step E rises to 2·10¹⁶ and nodes fly "
+             "more than a kilometre.",
+     .touch = "P turns on the projection, L the line search. With either of "
+              "them E never rises.",
      .file = LECTURE,
      .function = "step_forward",
      .lit = "line_search(",
-     .claim =
-         "Within the first step E rises above 1e16 and a node is more "
-         "than a kilometre away; with projection it converges in 5 updates, "
-         "and with projection or line search E never rises."},
+     .claim = "Within the first step E rises above 10¹⁶ and a node is more "
+              "than a kilometre away; with projection it converges in 5 "
+              "updates, and with projection or line search E never rises."},
     /* ---- a step as a minimisation --------------------------------------- */
     {.name = "minimise",
      .topic = "A time step is a minimisation",
-     .text = "Backward Euler's equation says that a slope is zero: that of "
-             "E(x) = |x − x̃|² / 2 + h² P(x), masses as weights. So its "
-             "solution is "
-             "found by walking downhill, and there always is one.",
+     .text = "Backward Euler's equation is ∇E(x) = 0 with E(x) = ½ (x − x̃)ᵀ M "
+             "(x − x̃) + h² P(x). It has a minimum: walk downhill.",
      .line = "square",
      .open = "finer; finer; next; next; next; next",
      .lines = 4,
      .cards = CARDS_NEWTON,
-     .look = "x̃, the dashed ghost, is where the masses would fly by "
-             "themselves; the springs pull them off it.",
+     .look = "The dashed ghost is x̃, where the masses would fly without "
+             "springs. Springs pull them off it.",
      .touch = "Drag h: the longer the step, the farther from the ghost.",
      .file = LECTURE,
      .function = "ip_val",
@@ -247,29 +250,29 @@ const LecturePage lecture_pages[] = {
      .film = 10},
     {.name = "parts",
      .topic = "Inertia against elasticity",
-     .text = "E has two parts. Inertia wants x̃, elasticity wants the "
-             "springs at rest; the step ends where both agree.",
+     .text = "E has two parts. Inertia wants x = x̃, elasticity wants the "
+             "springs at rest length. The step ends where the two balance.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page residual",
-     .look = "Inertia alone is one round bowl; elasticity alone has two "
+     .look = "Inertia alone is one round bowl. Elasticity alone has two "
              "valleys and a ridge between them.",
-     .touch = "Switch the parts off and on. Drag x̃: the bowl moves, the "
+     .touch = "Switch each part off and on. Drag x̃: the bowl moves, the "
               "valleys stay.",
      .file = LECTURE,
      .function = "ip_grad",
      .lit = "spring_grad",
-     .claim = "Inertia is lowest in x̃, elasticity where the springs "
-              "have their rest length, and the minimiser of the sum lies "
-              "higher than both on either."},
+     .claim = "Inertia is lowest at x̃, elasticity where the springs have their "
+              "rest length; at the minimum of the sum each part is above its "
+              "own minimum."},
     {.name = "dial",
      .topic = "What the time step h does",
-     .text = "h weighs elasticity against inertia. Turn it up, and the "
-             "minimiser walks from x̃ to the rest shape.",
+     .text = "h weighs elasticity against inertia: the longer the step, the "
+             "nearer its end is to the rest shape, and the farther from x̃.",
      .line = "dial",
      .cards = "page numbers",
-     .look = "The path of the minimiser: every point of it is the end of a "
-             "step with another h.",
-     .touch = "Drag h, or x̃; Space turns the dial by itself.",
+     .look = "The path of the minimiser: each point of it is the end of a step "
+             "with another h.",
+     .touch = "Drag h or x̃. Space turns h by itself.",
      .file = "src/scenes/dial_scene.c",
      .function = "dial_minimise",
      .lit = "const double p[2]",
@@ -280,12 +283,12 @@ const LecturePage lecture_pages[] = {
      .film = 20},
     {.name = "inertia",
      .topic = "Inertia energy",
-     .text = "Σ m |x − x̃|² / 2 is a bowl around x̃, with "
-             "gradient M (x − x̃) and Hessian M, which never changes.",
+     .text = "½ Σ m |x − x̃|² is a bowl around x̃ with the gradient M (x − x̃). "
+             "Its Hessian is M and never changes.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page numbers",
-     .look = "Round contours: the Hessian is M, the same in every place, and "
-             "positive definite.",
+     .look = "Round contours: the Hessian is the same everywhere, and positive "
+             "definite.",
      .touch = "Drag x̃, or switch elasticity on.",
      .file = LECTURE,
      .function = "inertia_val",
@@ -296,17 +299,15 @@ const LecturePage lecture_pages[] = {
     /* ---- line search ---------------------------------------------------- */
     {.name = "alpha",
      .topic = "Line search on E(α)",
-     .text = "Along p energy is a curve over α. It begins downhill, but "
-             "may have turned upwards again at α = 1: then halve it.",
+     .text = "Along p, E is a curve over α. It begins downhill, but at α = 1 "
+             "it may be higher than at the start: then halve α.",
      .line = "square --stretch 0.2 --timestep 0.1",
      .open = "finer; finer; next; next; next; next; next",
      .lines = 8,
      .cards = "page line residual",
-     .look = "The curve of E, the parabola that Newton believes in, and the "
-             "points that were tried.",
-     .touch =
-         "Go through the step line by line: I three times, then N. L turns "
-         "the search off.",
+     .look = "The curve of E, the parabola that Newton's method assumes, and "
+             "the values of α that were tried.",
+     .touch = "N goes to the next line. L turns the line search off.",
      .file = LECTURE,
      .function = "line_search",
      .lit = "alpha /= 2",
@@ -314,14 +315,14 @@ const LecturePage lecture_pages[] = {
               "updates is made with α = 1/8."},
     {.name = "algorithm2",
      .topic = "Algorithm 2: backtracking line search",
-     .text = "α = 1; while E is higher than before, halve it. With p "
-             "downhill this always ends.",
+     .text = "Begin with α = 1. While E is higher than before, halve α. If p "
+             "points downhill, this always ends.",
      .line = "overshoot --line-search backtrack",
      .cards = "page line residual",
-     .look = "From 2 the first step is taken with α = 1/4, the second "
-             "with 1/2, then whole ones: the run converges.",
+     .look = "From 2 the first step takes α = 1/4, the second 1/2, all others "
+             "1: now it converges.",
      .touch = "Drag the start anywhere: f falls in every update. Click where "
-              "the next one leads.",
+              "the next one ends, then press N.",
      .file = LECTURE,
      .function = "line_search",
      .lit = "alpha /= 2",
@@ -332,15 +333,15 @@ const LecturePage lecture_pages[] = {
     /* ---- projection ----------------------------------------------------- */
     {.name = "descent",
      .topic = "Descent directions and projection",
-     .text = "Where E bends downwards −H⁻¹ g may point uphill: no step "
-             "length helps then. With negative eigenvalues set to 0 it points "
-             "downhill, everywhere.",
+     .text = "Where E is not convex, −H⁻¹ g may point uphill: no step length "
+             "helps. With negative eigenvalues set to 0, p points downhill "
+             "everywhere.",
      .line = "landscape --filter none",
      .cards = "page line",
-     .look = "Two arrows from one place: Newton's climbs, the projected one "
-             "falls. E bends down in the shaded part.",
-     .touch = "Drag the start over the map and look at both arrows. P "
-              "switches the projection on.",
+     .look = "Two arrows from one place: Newton's direction climbs, the "
+             "projected one falls. In the shaded region E is not convex.",
+     .touch = "Drag the start over the map and watch both arrows. P turns the "
+              "projection on.",
      .file = LECTURE,
      .function = "spring_hess",
      .lit = "make_psd",
@@ -350,30 +351,29 @@ const LecturePage lecture_pages[] = {
     {.name = "psd",
      .topic = "make_PSD: eigenvalues set to 0",
      .text = "Each spring's 4 × 4 block is made positive semi-definite by "
-             "itself: find its eigenvalues, replace the negative ones by 0.",
+             "itself: its negative eigenvalues are replaced by 0.",
      .line = "spring --start 0.6,0.3",
      .cards = "page eigenvalues",
-     .look = "A short spring has one negative eigenvalue, a very short one "
-             "two. They are those across and along it.",
-     .touch = "Drag the end: longer than 1 m nothing is changed, below "
-              "0.577 m nothing is left.",
+     .look = "A short spring has a negative eigenvalue across it, a very short "
+             "one also along it.",
+     .touch = "Drag the end: above 1 m nothing is changed, below 0.577 m "
+              "nothing is left.",
      .file = LECTURE,
      .function = "make_psd",
      .lit = "fmax",
-     .claim = "The block has the eigenvalues 0, 0, and twice those along and "
-              "across; below |d| = l/√3 all that projection leaves is "
-              "0."},
+     .claim = "The block has the eigenvalues 0, 0, and twice the curvatures "
+              "along and across; below |d| = l/√3 projection leaves only 0."},
     {.name = "energy",
      .topic = "Spring energy, with and without the square root",
-     .text = "P = l² k/2 (|d|²/l² − 1)² needs no square root: a "
-             "polynomial, smooth even at length 0. 2k (|d| − l)² is as "
-             "stiff "
-             "at rest, but has a kink there.",
+     .text =
+         "P = ½ l² k (|d|²/l² − 1)² needs no square root: it is a polynomial, "
+         "smooth even at length 0. 2k\u00a0(|d|\u00a0−\u00a0l)² is as stiff at "
+         "rest, but has a kink at length 0.",
      .line = "spring --start 1.3,0",
      .cards = "page numbers profile",
-     .look = "The two curves touch at rest. At length 0 one is smooth; the "
-             "other comes to a point.",
-     .touch = "Drag the end through the held one, and look at the numbers.",
+     .look = "The two curves touch at rest. At length 0 one is smooth, the "
+             "other has a sharp tip.",
+     .touch = "Drag the end through the held one and watch the numbers.",
      .file = LECTURE,
      .function = "spring_val",
      .lit = "sum +=",
@@ -384,15 +384,14 @@ const LecturePage lecture_pages[] = {
      .flips = 1},
     {.name = "force",
      .topic = "Its gradient and its Hessian",
-     .text = "With s = |d|²/l² − 1 the force is −2 k s d: along the "
-             "spring, "
-             "and zero at rest. The Hessian is 2k/l² (2 d dᵀ + (|d|² − "
-             "l²) I).",
+     .text = "With s = |d|²/l² − 1 the force is −2\u00a0k\u00a0s\u00a0d: along "
+             "the spring, zero at rest. The Hessian is "
+             "2k/l²\u00a0(2\u00a0d\u00a0dᵀ + (|d|²\u00a0−\u00a0l²)\u00a0I).",
      .line = "spring --start 1.2,0.5",
      .cards = "page numbers eigenvalues profile",
-     .look = "The arrow of the force turns round at the circle of the rest "
-             "length.",
-     .touch = "Drag the end: all numbers follow. Space lets go.",
+     .look =
+         "At the circle of the rest length the force changes its direction.",
+     .touch = "Drag the end: all numbers follow. Space lets it go.",
      .file = LECTURE,
      .function = "spring_grad",
      .lit = "g_diff",
@@ -401,15 +400,15 @@ const LecturePage lecture_pages[] = {
      .film = 24},
     {.name = "potential",
      .topic = "The incremental potential and its Hessian",
-     .text = "Energies add up, and so do gradients and Hessians. Each block "
-             "is written as triplets (row, column, value); equal places are "
-             "summed.",
+     .text = "Energies add up, and so do gradients and Hessians. Each spring "
+             "writes triplets (row, column, value); values for the same place "
+             "are summed.",
      .line = "square --segments 4",
      .open = "next",
      .cards = "page spy",
-     .look = "A dot for every entry. Nodes that share no spring have none: "
-             "the matrix is mostly empty.",
-     .touch = "Point at a spring: its 16 entries light up. Drag the number of "
+     .look = "Each square is a 2 × 2 block. Two nodes without a common spring "
+             "have none. Orange: filled in by Cholesky.",
+     .touch = "Point at a spring: its four blocks light up. Drag the number of "
               "segments.",
      .file = LECTURE,
      .function = "ip_hess",
@@ -419,16 +418,15 @@ const LecturePage lecture_pages[] = {
     /* ---- the whole ------------------------------------------------------ */
     {.name = "algorithm3",
      .topic = "Algorithm 3: projected Newton",
-     .text = "Project, solve, search, update, test. Every line of it is one "
-             "press of a key.",
+     .text = "Project, solve, search, update, test: each line of it is one "
+             "press of N.",
      .line = "square --timestep 0.02 --stretch 0.5",
      .open = "finer; finer; next; next; next",
      .lines = 12,
      .cards = CARDS_NEWTON,
-     .look = "The lit line, and on the square what it does: red springs were "
+     .look = "The lit line, and what it does to the square: red springs were "
              "projected, arrows are p.",
-     .touch = "I goes into the step, N to the next line, Left goes back. P "
-              "and L strike a line through.",
+     .touch = "N: next line, Left: back. P and L strike a line through.",
      .file = LECTURE,
      .function = "step_forward",
      .lit = "search_dir",
@@ -437,30 +435,30 @@ const LecturePage lecture_pages[] = {
      .film = 30},
     {.name = "step",
      .topic = "step_forward and its residuals",
-     .text = "The loop ends when no node would move faster than the "
-             "tolerance: the longest |p| of a node, divided by h, a velocity.",
+     .text =
+         "The loop ends when ‖p‖∞ / h ≤ ε. Here ‖p‖∞ is the largest |p_x| + "
+         "|p_y| of a node, as in numpy for an n × 2 array. So ε is a velocity.",
      .line = "square",
      .open = "next",
      .cards = "page residual energies",
-     .look = "The residual of each update on a logarithmic axis: it falls "
-             "by a factor of 30, then of 300.",
-     .touch = "Drag the tolerance: even ten thousand times tighter costs "
-              "only two updates more.",
+     .look = "The residual of each update on a logarithmic axis: it falls by a "
+             "factor of 30, then of 300.",
+     .touch = "Drag ε: ten thousand times tighter costs only two updates more.",
      .file = LECTURE,
      .function = "residual",
      .lit = "fmax",
-     .claim = "In the first step a tolerance of 1e-6 m/s costs 2 updates "
-              "more than 1e-2 m/s, and E falls in all of them.",
+     .claim = "In the first step a tolerance of 10⁻⁶ m/s costs 2 updates more "
+              "than 10⁻² m/s, and E falls in all of them.",
      .film = 10},
     {.name = "simulator",
      .topic = "The simulator",
-     .text = "Build the square, stretch it, and take a step for each frame: "
-             "that is all.",
+     .text = "Build the square, stretch it, and take a step for each frame. "
+             "That is all.",
      .line = "square",
      .cards = "page energies residual",
-     .look = "The square swings and comes to rest; what backward Euler takes "
-             "from the energy shows in the total.",
-     .touch = "Pull at a node. Drag k, h, the stretch.",
+     .look = "The square swings and comes to rest. Backward Euler takes energy "
+             "from it: the total falls.",
+     .touch = "Pull at a node. Drag k, h or the stretch.",
      .file = LECTURE,
      .function = "main",
      .lit = "step_forward",
@@ -471,14 +469,13 @@ const LecturePage lecture_pages[] = {
     /* ---- beyond --------------------------------------------------------- */
     {.name = "contact",
      .topic = "Contact: a barrier in E",
-     .text = "Near a wall E grows without bound: one more term, smooth, zero "
-             "farther away. A step is still a minimisation, and no update may "
-             "pass through.",
+     .text = "Near a wall a barrier makes E grow without bound: one more term, "
+             "smooth, zero farther away. A step is still a minimisation, and "
+             "no update passes through a wall.",
      .line = "drop",
      .cards = "page energies residual",
-     .look = "The square tumbles between floor and walls and never touches "
-             "them: a gap always stays.",
-     .touch = "Drag h or k; pull at a node. The gap shrinks and stays.",
+     .look = "The square tumbles between floor and walls. A gap always stays.",
+     .touch = "Drag h or k, or pull at a node. The gap shrinks, but it stays.",
      .file = "src/model/contact.c",
      .function = "contact_value",
      .lit = "barrier_value",
@@ -489,15 +486,15 @@ const LecturePage lecture_pages[] = {
      .plays = true},
     {.name = "friction",
      .topic = "Friction",
-     .text = "Friction resists sliding in proportion to the force of the "
-             "contact. Its energy is smooth too: below a slip speed the force "
+     .text = "Friction acts against sliding, in proportion to the contact "
+             "force. Its energy is smooth, too: below a slip speed the force "
              "fades to zero.",
      .line = "slope",
      .cards = "page energies",
-     .look = "Three blocks on one slope: one slides off, one slowly, one "
-             "holds. Only the friction differs: half, 0.9 and 1.1 of what "
-             "holds.",
-     .touch = "Drag h: who slides and who holds stays the same.",
+     .look =
+         "Three blocks on one slope. Only the friction differs: half of what "
+         "is needed to hold, 0.9 and 1.1 times. The third block holds.",
+     .touch = "Drag h: which blocks slide and which one holds stays the same.",
      .file = "src/model/friction.c",
      .function = "friction_value",
      .lit = "return",
@@ -509,47 +506,49 @@ const LecturePage lecture_pages[] = {
     {.name = "inelastic",
      .topic = "Inelasticity",
      .text = "Beyond its yield strain a spring flows: its rest length changes "
-             "for good. The flow is found by the same minimisation.",
+             "for good. The same minimisation finds the flow.",
      .line = "dent",
      .cards = "page energies residual",
-     .look = "The square falls on a ball and keeps the dent; what the flow "
-             "took from the energy stands in the ledger.",
-     .touch = "Drag k, or pull at a node until it stays bent.",
+     .look = "The square falls on a ball and keeps the dent. The energy that "
+             "the flow took is \"plastic\" in the card below.",
+     .touch = "Drag k, or pull at a node until the square stays bent.",
      .file = "src/model/plasticity.c",
      .function = "spring_law_value",
      .lit = "return",
-     .claim = "After 300 steps a spring has a plastic strain above 0.05, "
-              "the ledger balances, and the ball was not entered.",
+     .claim = "After 300 steps a spring has a plastic strain above 0.05, all "
+              "energies add up to those at the start, and no node is inside "
+              "the ball.",
      .film = 192,
      .every = 16,
      .plays = true},
     {.name = "fracture",
      .topic = "Fracture",
      .text = "A spring that is stretched too far breaks at the end of a step, "
-             "the most stretched first: a crack opens and runs.",
+             "the most stretched one first: a crack opens and runs.",
      .line = "tear",
      .cards = "page energies",
-     .look = "The slit in the middle opens, and at once a crack runs through "
-             "the square.",
+     .look = "The sides are pulled apart. The slit opens slowly; then a crack "
+             "runs through the square.",
      .touch = "Drag k or the number of segments.",
      .file = "src/model/fracture.c",
      .function = "find_candidates",
      .lit = "load",
-     .claim = "In the first 20 steps no spring breaks, after 100 steps more "
-              "than 100 have, and the energy that went with them is booked.",
+     .claim =
+         "In the first 20 steps no spring breaks, after 100 steps more than "
+         "100 have, and their energy is \"fracture\": all energies add up.",
      .film = 98,
      .every = 7,
      .plays = true},
     {.name = "race",
      .topic = "Run time against error",
-     .text = "Many methods, many time steps, one question: how much time for "
-             "how many digits? Each point is a run, measured now.",
+     .text = "Many methods, many time steps, one question: how much run time "
+             "for how many digits? Each point is a run, measured now.",
      .line = "race",
      .cards = "page numbers",
-     .look = "Steeper lines are methods of higher order. On a soft square "
-             "the explicit ones win by far.",
+     .look = "Steeper lines are methods of higher order. On a soft square the "
+             "explicit ones win by far.",
      .touch = "Drag k up: the stiffer the square, the shorter the steps that "
-              "explicit methods can take.",
+              "explicit methods need.",
      .file = "src/scenes/race_scene.c",
      .function = "run_to_end",
      .lit = "time_integrator_step",
@@ -560,14 +559,14 @@ const LecturePage lecture_pages[] = {
      .plays = true},
     {.name = "trust",
      .topic = "How far it can be trusted",
-     .text = "Every time step from a nanosecond to a quarter of an hour, "
-             "every stiffness over 21 powers of ten, three steps each.",
+     .text = "Time steps from a nanosecond to a quarter of an hour, stiffness "
+             "over 21 powers of ten: three steps each.",
      .line = "envelope",
      .cards = "page numbers cell",
-     .look = "A cell is a run; it is darker the more updates it took, and "
-             "orange where a step did not converge and said so.",
-     .touch = "Point at a cell for its run in small; click to load it. Drag "
-              "the stretch for another map.",
+     .look = "Each cell is a run. Darker: more updates. Orange: a step did not "
+             "converge, and the program said so.",
+     .touch = "Point at a cell to see its run, click to load it. Drag the "
+              "stretch for another map.",
      .file = "src/scenes/envelope_scene.c",
      .function = "envelope_visit",
      .lit = "time_integrator_step",

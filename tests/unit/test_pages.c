@@ -8,6 +8,8 @@
 
 #include "model/fracture.h"
 #include "model/plasticity.h"
+#include "picture/cards.h"
+#include "picture/exhibits.h"
 #include "scenes/dial_scene.h"
 #include "scenes/envelope_scene.h"
 #include "scenes/listing.h"
@@ -913,7 +915,7 @@ static void pages_are_complete(void **unused)
         CHECK(strlen(page->topic) > 3 && strlen(page->topic) <= 48);
         CHECK(strlen(page->text) > 20 && strlen(page->text) <= 220);
         CHECK(strlen(page->look) > 20 && strlen(page->look) <= 160);
-        CHECK(strlen(page->touch) > 20 && strlen(page->touch) <= 160);
+        CHECK(strlen(page->touch) > 20 && strlen(page->touch) <= 100);
         CHECK(strlen(page->claim) > 20 && strlen(page->claim) <= 240);
         CHECK(page->cards && strncmp(page->cards, "page", 4) == 0);
         CHECK(page->film >= 0 && page->every >= 0 && page->lines >= 0);
@@ -922,6 +924,44 @@ static void pages_are_complete(void **unused)
             CHECK(strcmp(other->name, page->name) != 0);
     }
     CHECK(lecture_count() >= 26);
+}
+
+/* The card of words is high enough for letters of one size on all pages. */
+static void words_of_all_pages_have_one_size(void **unused)
+{
+    (void)unused;
+    int small = 0;
+    static const int sizes[][2] = {{1280, 800}, {1120, 700}, {1920, 1080},
+                                   {900, 900},  {1024, 768}, {1400, 1050}};
+    for (const LecturePage *page = lecture_pages; page->name; page++)
+        for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+            int width = sizes[s][0], height = sizes[s][1];
+            Simulation simulation;
+            Show show;
+            Paper paper;
+            Options options;
+            char message[512];
+            assert_int_equal(
+                lecture_options(page, &options, message, sizeof message), 0);
+            assert_int_equal(
+                simulation_create(&options, NULL, NULL, &simulation), 0);
+            show_create(&simulation, &show);
+            show_lecture(LECTURE_CARDS, &show);
+            assert_int_equal(paper_create(width, height, &paper), 0);
+            show.settings = 9;
+            Layout layout = show_layout(&show, width, height);
+            paper.em = layout.em;
+            Box inside = cards_inside(layout.card[0], layout.em);
+            double size = page_letters(&paper, inside, page);
+            if (!(size >= 1.2)) {
+                print_message("page %s at %d x %d: letters of %.2f\n",
+                              page->name, width, height, size);
+                small++;
+            }
+            paper_free(&paper);
+            simulation_free(&simulation);
+        }
+    CHECK(small == 0);
 }
 
 static void pages_are_found(void **unused)
@@ -941,6 +981,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pages_are_complete),
+        cmocka_unit_test(words_of_all_pages_have_one_size),
         cmocka_unit_test(pages_are_found),
         cmocka_unit_test(every_claim_has_its_test),
         cmocka_unit_test(claims_hold),
