@@ -195,7 +195,7 @@ signals() {
             "$elasto" --headless --segments 128 --solver multigrid --quiet \
                 --steps 100000 --log l.csv 2>error &
             child=$!
-            random_pause 1500
+            random_pause "$pause"
             used=$(running_milliseconds "$child")
             ended_milliseconds
             before=$spent
@@ -214,8 +214,8 @@ signals() {
         END { if (t[int((NR + 1) / 2)] > limit)
                   print "half of all ends take " t[int((NR + 1) / 2)] " ms" }'
 }
-rounds=1 limit=300
-[ -z "$long" ] || rounds=2
+rounds=1 limit=300 pause=300
+[ -z "$long" ] || rounds=2 pause=1500
 [ -z "$all" ] || rounds=25
 [ -z "${SANITIZE:-}" ] || limit=3000
 if [ -r /proc/self/stat ]; then

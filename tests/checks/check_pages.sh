@@ -78,6 +78,37 @@ verdict a_page_is_the_same_when_it_is_entered_again "$(
 
 # ---- the handout ---------------------------------------------------------
 
+verdict a_folder_that_is_missing_is_named "$(
+    "$elasto" --handout missing/handout.html 2>error
+    code=$?
+    [ $code = 1 ] || echo "exit $code"
+    grep -q missing/handout.html error || cat error
+)"
+
+# Ends while it writes: what stood there before still does.
+verdict an_interrupted_handout_leaves_nothing "$(
+    echo before >other.html
+    "$elasto" --handout other.html 2>error &
+    pid=$!
+    for i in $(seq 200); do
+        [ -e other.html.part ] && break
+        sleep 0.02
+    done
+    kill -TERM $pid
+    wait $pid
+    code=$?
+    [ $code = 1 ] || echo "exit $code"
+    [ "$(cat other.html)" = before ] || echo 'it was overwritten'
+    for rest in other.html.*; do
+        [ ! -e "$rest" ] || echo "$rest is left"
+    done
+)"
+
+# All of it takes as long as everything else here: make long-test.
+if [ -z "${LONG:-}" ]; then
+    exit $failed
+fi
+
 timeout 300 "$elasto" --handout handout.html >output 2>error
 code=$?
 verdict the_handout_is_written "$(
@@ -119,32 +150,6 @@ verdict films_move "$(
     for i in $(seq "$pages"); do
         base64 -d "picture_$i" | grep -a -c fcTL
     done | awk '$1 > 1 { films++ } END { if (films < 15) print films " films" }'
-)"
-
-verdict a_folder_that_is_missing_is_named "$(
-    "$elasto" --handout missing/handout.html 2>error
-    code=$?
-    [ $code = 1 ] || echo "exit $code"
-    grep -q missing/handout.html error || cat error
-)"
-
-# Ends while it writes: what stood there before still does.
-verdict an_interrupted_handout_leaves_nothing "$(
-    echo before >other.html
-    "$elasto" --handout other.html 2>error &
-    pid=$!
-    for i in $(seq 200); do
-        [ -e other.html.part ] && break
-        sleep 0.02
-    done
-    kill -TERM $pid
-    wait $pid
-    code=$?
-    [ $code = 1 ] || echo "exit $code"
-    [ "$(cat other.html)" = before ] || echo 'it was overwritten'
-    for rest in other.html.*; do
-        [ ! -e "$rest" ] || echo "$rest is left"
-    done
 )"
 
 exit $failed
