@@ -322,10 +322,15 @@ infinities() {
 verdict no_number_is_infinite "$(infinities)"
 
 # ---- signals ---------------------------------------------------------------------
+# A run under nohup ignores SIGHUP, and so would the program that it starts.
+reset_hup=
+! env --default-signal=HUP true 2>/dev/null || reset_hup='env --default-signal=HUP'
+
 # signalled NAME: sent when rows have arrived; the code goes to $code.
 signalled() {
     rm -f s.csv s.csv.part
-    "$elasto" --headless --quiet --segments 2 --steps 100000000 \
+    # shellcheck disable=SC2086
+    $reset_hup "$elasto" --headless --quiet --segments 2 --steps 100000000 \
         --states s.csv 2>error &
     child=$!
     tries=0
