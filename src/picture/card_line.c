@@ -157,10 +157,11 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
         return;
     }
     cards_hint(paper, inside,
-               trace && trace->passed && trace->line ? "no {p} was needed"
-               : trace && trace->line ? "from line 4 on, where {p} is known"
-               : show->step == 0      ? "N makes a step"
-                                      : "no update was needed");
+               !trace                         ? "N makes a step"
+               : trace->passed && trace->line ? "no {p} was needed"
+               : trace->line        ? "from line 4 on, where {p} is known"
+               : trace->updates > 0 ? "it was not kept"
+                                    : "no update was needed");
 }
 
 static const char *line_title(const Show *show)

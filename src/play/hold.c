@@ -49,12 +49,21 @@ static Status pull(Player *player, const Command *command)
     return player_change_all(player, command);
 }
 
+/* A point of the scene moves; a minimisation begins anew with it, at step 0. */
+static Status move_handle(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    Status status = STATUS_OK;
+    unsigned needs = simulation->scene->needs;
+    if ((needs & NEEDS_START) && !(needs & NEEDS_TIME) &&
+        simulation->scene->handles)
+        status = player_show(player, 0);
+    return status ? status : player_change_all(player, command);
+}
+
 const Deed hold_deeds[] = {
-    {COMMAND_PIN, switch_pin},
-    {COMMAND_GRAB, grab},
-    {COMMAND_DRAG, pull},
-    {COMMAND_RELEASE, pull},
-    {COMMAND_HANDLE, player_change_all},
-    {COMMAND_FLIP, player_change_all},
+    {COMMAND_PIN, switch_pin},     {COMMAND_GRAB, grab},
+    {COMMAND_DRAG, pull},          {COMMAND_RELEASE, pull},
+    {COMMAND_HANDLE, move_handle}, {COMMAND_FLIP, player_change_all},
     {COMMAND_NONE, NULL},
 };

@@ -131,6 +131,7 @@ static void keep_line(Tape *tape, TapeRound *round, const Iterate *at)
     round->slope = along.smooth.q[0];
     if (along.rough == 0 || !round->x)
         return;
+    free(round->value);
     round->value = malloc(TAPE_VALUES * sizeof *round->value);
     if (!round->value) {
         free_round(round);
@@ -153,6 +154,16 @@ static double kept_difference(const void *function, double alpha)
     return part == 0 ? round->value[i]
                      : round->value[i] +
                            part * (round->value[i + 1] - round->value[i]);
+}
+
+/* E along p of a round, if it was kept. */
+static void show_line(const TapeRound *round, Trace *trace)
+{
+    trace->first = round->first;
+    if (!round->p)
+        return;
+    trace->difference = round->value ? kept_difference : quartic_difference;
+    trace->function = round->value ? (const void *)round : &round->along;
 }
 
 /* x and p of a round where p is known by what it led to, the present iterate:
@@ -185,6 +196,17 @@ static void keep_way(Tape *tape, const Newton *newton,
     incremental_potential_gradient(E, u, round->x, g);
     keep_line(tape, round, &at);
     free(g);
+    /* Where walls or pins were moved first, the way of the update is another
+     * one, which nobody knows any more. */
+    Trace trace = {0};
+    show_line(round, &trace);
+    double limit = 1e-6 * (fabs(record->slope) + fabs(record->change));
+    if (record->alpha > 0 && trace.difference &&
+        !(fabs(trace.difference(trace.function, record->alpha) -
+               record->change) <= limit)) {
+        free(round->p);
+        round->p = NULL;
+    }
 }
 
 /* Multigrid goes no line that p alone gives; what it made is shown as one. */
@@ -308,16 +330,6 @@ int tape_back(const Tape *tape, int fine, int place)
     while (fine < 2 && place >= 0 && !is_milestone(tape, place))
         place--;
     return place;
-}
-
-/* E along p of a round, if it was kept. */
-static void show_line(const TapeRound *round, Trace *trace)
-{
-    trace->first = round->first;
-    if (!round->x)
-        return;
-    trace->difference = round->value ? kept_difference : quartic_difference;
-    trace->function = round->value ? (const void *)round : &round->along;
 }
 
 /* The whole step is over: its last update, and the test that ended it. */

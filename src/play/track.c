@@ -192,6 +192,8 @@ static Status settings_change(Settings *settings, const Command *change,
                               char *message, size_t size)
 {
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
+    if (change->kind == COMMAND_HANDLE || change->kind == COMMAND_FLIP)
+        return STATUS_OK; /* the simulation alone knows of these */
     if (change->kind == COMMAND_PIN)
         return settings_pin(settings, (int)change->number, change->x != 0);
     if (change->kind != COMMAND_SET) {
@@ -346,11 +348,8 @@ static Status repeat_changes(Track *track, size_t *next)
     Status status = STATUS_OK;
     while (*next < changes->count && !status &&
            changes->line[*next].step == track_step_shown(track)) {
-        status =
-            settings_change(&track->settings, &changes->line[*next].command,
-                            message, sizeof message);
-        if (!status)
-            status = use_settings(track);
+        status = apply_change(track, &changes->line[*next].command, message,
+                              sizeof message);
         (*next)++;
     }
     return status;

@@ -1,0 +1,429 @@
+/* What the window promises, without a window: the same commands, scene by
+ * scene.
+ */
+#include "testing.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+static Player player;
+static volatile sig_atomic_t stop;
+
+/* A player of this line whom a script attends: it may go back. */
+static void begin(const char *line)
+{
+    static Options options[OPTIONS_MAX_PANES];
+    static char name[] = "/tmp/elasto-test-XXXXXX";
+    char copy[256], message[256] = "";
+    char *argv[32] = {(char[]){"elasto"}, (char[]){"--script"}, name,
+                      (char[]){"--headless"}, (char[]){"--quiet"}};
+    int argc = 5;
+    memcpy(name + strlen(name) - 6, "XXXXXX", 6);
+    int file = mkstemp(name);
+    assert_true(file >= 0 && write(file, "0 play\n", 7) == 7);
+    close(file);
+    snprintf(copy, sizeof copy, "%s", line);
+    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
+        argv[argc++] = word;
+    CHECK_STATUS(options_parse(argc, argv, options, message, sizeof message),
+                 STATUS_OK);
+    CHECK_STATUS(player_create(options, 1, "elasto", &stop, &player),
+                 STATUS_OK);
+    unlink(name);
+}
+
+static void end(void)
+{
+    CHECK_STATUS(player_finish(&player), STATUS_OK);
+    player_free(&player);
+}
+
+static Status obey(const char *line)
+{
+    Command command;
+    char message[128];
+    CHECK_STATUS(command_parse(line, &command, message, sizeof message),
+                 STATUS_OK);
+    return player_obey(&player, &command);
+}
+
+/* All of these, one after the other. */
+static void obey_all(const char *const *lines)
+{
+    for (; *lines; lines++)
+        CHECK_STATUS(obey(*lines), STATUS_OK);
+}
+
+static Lane *lane(int i)
+{
+    return &player.lane[i];
+}
+
+/* The sum of E over the updates so far, where it was highest, and at its end,
+ * J s^2. */
+static double highest(const Lane *lane, double *last)
+{
+    double most = 0;
+    *last = 0;
+    for (int i = 0; i < lane->tape.count; i++) {
+        *last += lane->tape.record[i].change;
+        most = fmax(most, *last);
+    }
+    return most;
+}
+
+/* Each command has one deed, and nothing else has one. */
+static void every_command_has_one_deed(void **unused)
+{
+    (void)unused;
+    const Deed *const lists[] = {walk_deeds,   change_deeds, pane_deeds,
+                                 hold_deeds,   begin_deeds,  keep_deeds,
+                                 lesson_deeds, screen_deeds};
+    int count[COMMAND_KINDS] = {0};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        for (const Deed *deed = lists[i]; deed->act; deed++)
+            count[deed->kind]++;
+    for (int kind = 0; kind < COMMAND_KINDS; kind++) {
+        bool resolved = kind == COMMAND_NONE || kind == COMMAND_TOGGLE_PAUSE;
+        CHECK(count[kind] == !resolved);
+        CHECK((player_deed((CommandKind)kind) == NULL) == resolved);
+    }
+}
+
+/* The scene opens at step 0; one key shows E rising to 1e16 J s^2 and nodes a
+ * kilometre away; one more shows either ingredient taming it, beside it. */
+static void the_explosion_is_seen_and_tamed(void **unused)
+{
+    (void)unused;
+    static const char *const keys[] = {"projection", "line-search"};
+    for (int i = 0; i < 2; i++) {
+        double last, rise, tamed;
+        begin("explosion");
+        CHECK(player.step == 0 && player_simulation(&player)->scene->explains);
+        CHECK_STATUS(obey("next"), STATUS_OK);
+        CHECK(highest(lane(0), &last) > 1e16);
+        CHECK(lane(0)->place >= 0 && lane_peak(lane(0), &rise) >= 0);
+        CHECK(rise > 1e16 && lane_extent(lane(0)) > 1000);
+        player_fill(&player);
+        const double *x = pane_x(&player.show.pane[0]);
+        double far = 0;
+        for (int k = 0; k < 2 * player_simulation(&player)->system.nodes; k++)
+            far = fmax(far, fabs(x[k]));
+        CHECK(far > 500); /* m, of a square of one metre */
+        CHECK(strstr(player.show.message, "E has risen") != NULL);
+        CHECK_STATUS(obey(keys[i]), STATUS_OK);
+        CHECK(player.lanes == 2 && player.step == 1);
+        tamed = highest(lane(0), &last);
+        CHECK(tamed <= 1e-9 && last <= 0 && lane_peak(lane(0), &rise) < 0);
+        CHECK(lane_extent(lane(0)) < 2);
+        CHECK(highest(lane(1), &last) > 1e16 && lane(1)->place >= 0);
+        player_fill(&player);
+        CHECK(player.show.panes == 2);
+        CHECK(pane_x(&player.show.pane[0]) != pane_x(&player.show.pane[1]));
+        CHECK(strcmp(lane(0)->label, lane(1)->label) != 0);
+        end();
+    }
+}
+
+/* "no projection: E +206 in 12 updates; projection clamp: E -5.1 in 4": what
+ * the step did before and after the key, with the ghost of before. */
+static void a_toggle_tells_both_outcomes(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line, *key, *was, *is;
+    } rows[] = {
+        {"square --stretch 0.6 --filter none --line-search none", "projection",
+         "no projection: E ", "; projection clamp: E "},
+        {"square --stretch 0.6", "line-search", "line search backtrack: E ",
+         "; full step: E "},
+    };
+    for (int i = 0; i < 2; i++) {
+        char had[32], has[32];
+        begin(rows[i].line);
+        obey_all((const char *const[]){"next", "next", NULL});
+        const StepRow *row = track_row(&lane(0)->track, 2);
+        snprintf(had, sizeof had, "%s%+.3g in %d", rows[i].was, row->change,
+                 row->updates);
+        CHECK_STATUS(obey(rows[i].key), STATUS_OK);
+        CHECK(player.step == 2);
+        row = track_row(&lane(0)->track, 2);
+        snprintf(has, sizeof has, "%s%+.3g in %d", rows[i].is, row->change,
+                 row->updates);
+        CHECK(strstr(player.note, had) == player.note);
+        CHECK(strstr(player.note, has) != NULL);
+        CHECK(lane(0)->ghost != NULL || player.lanes == 2);
+        end();
+    }
+}
+
+/* Runs until it pauses by itself, as it must within some hundred steps. */
+static void run_until_it_pauses(void)
+{
+    for (int i = 0; i < 3000 && !player.paused; i++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+    }
+    CHECK(player.paused);
+}
+
+/* At rest it says so and stops; a hand or a number lets it go on, and R begins
+ * again, running. */
+static void at_rest_it_says_so_and_stops(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --tolerance 0.1");
+    run_until_it_pauses();
+    CHECK(player.rests && player.halted && player.paused);
+    CHECK(strncmp(player.note, "at rest", 7) == 0);
+    player_fill(&player);
+    CHECK(strcmp(player.show.state, "at rest") == 0);
+    CHECK_STATUS(obey("pin 8"), STATUS_OK); /* or it would drift for ever */
+    run_until_it_pauses();
+    long step = player.step;
+    CHECK(step > 10);
+    CHECK_STATUS(obey("grab 0"), STATUS_OK);
+    CHECK(!player.paused && !player.rests);
+    CHECK_STATUS(obey("drag 2 2"), STATUS_OK);
+    CHECK_STATUS(player_step(&player), STATUS_OK);
+    player_pause_if_due(&player);
+    CHECK(!player.paused && player.step == step + 1);
+    CHECK_STATUS(obey("release"), STATUS_OK);
+    run_until_it_pauses();
+    CHECK(player.rests && player.paused);
+    CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
+    CHECK(!player.paused);
+    run_until_it_pauses();
+    CHECK(player.paused);
+    CHECK_STATUS(obey("restart"), STATUS_OK);
+    CHECK(!player.paused && player.step == 0);
+    CHECK_STATUS(obey("pause"), STATUS_OK); /* somebody's own pause stays */
+    CHECK_STATUS(obey("restart"), STATUS_OK);
+    CHECK(player.paused);
+    end();
+}
+
+/* A failure beyond all numbers shows the last state below ten times the size,
+ * and says so. */
+static void a_failure_shows_the_last_good_state(void **unused)
+{
+    (void)unused;
+    begin("square --integrator forward-euler");
+    CHECK_STATUS(player_run(&player), STATUS_OK);
+    CHECK(player.paused && player.step < player.newest);
+    const Track *track = &lane(0)->track;
+    double first = track_row(track, 1)->extent;
+    CHECK(track_row(track, player.step)->extent <= 10 * first);
+    CHECK(!(track_row(track, player.step + 1)->extent <= 10 * first));
+    CHECK(strstr(player.note, "beyond all numbers") && player.warning);
+    CHECK_STATUS(obey("home"), STATUS_OK);
+    CHECK(player.step == 0);
+    end();
+}
+
+/* Six methods side by side have one time and one past; the seventh is
+ * refused. */
+static void up_to_six_panes(void **unused)
+{
+    (void)unused;
+    begin("square --segments 3 --timestep 0.0005");
+    obey_all((const char *const[]){"next", "next", NULL});
+    for (int i = 1; i < 6; i++) {
+        CHECK_STATUS(obey("add-pane"), STATUS_OK);
+        CHECK(player.lanes == i + 1);
+        for (int k = 0; k < i; k++)
+            CHECK(lane(k)->track.settings.options.integrator !=
+                  lane(i)->track.settings.options.integrator);
+    }
+    CHECK_STATUS(obey("add-pane"), STATUS_INVALID_INPUT);
+    CHECK(player.lanes == 6 && player.message[0] != '\0');
+    uint64_t before = player_hash(&player);
+    obey_all((const char *const[]){"next", "next", NULL});
+    for (int i = 1; i < 6; i++) {
+        CHECK(lane_time(lane(i)) == lane_time(lane(0)));
+        CHECK(memcmp(lane(i)->track.simulation.run[0].x,
+                     lane(0)->track.simulation.run[0].x,
+                     sizeof(double) * 8) != 0);
+    }
+    uint64_t after = player_hash(&player);
+    obey_all((const char *const[]){"back", "back", NULL});
+    CHECK(player_hash(&player) == before);
+    obey_all((const char *const[]){"next", "next", NULL});
+    CHECK(player_hash(&player) == after && after != before);
+    player_fill(&player);
+    CHECK(player.show.panes == 6);
+    for (int i = 5; i > 0; i--)
+        CHECK_STATUS(obey("end-pane"), STATUS_OK);
+    CHECK_STATUS(obey("end-pane"), STATUS_INVALID_INPUT);
+    end();
+}
+
+/* Line by line through a whole update and back: the lines come in the order of
+ * the listing, the square moves at line 6 alone, and no bit of the state
+ * changes. */
+static void an_update_line_by_line(void **unused)
+{
+    (void)unused;
+    static const Line order[] = {LINE_START, LINE_DO,     LINE_PROJECT,
+                                 LINE_SOLVE, LINE_SEARCH, LINE_UPDATE,
+                                 LINE_TEST,  LINE_DO};
+    enum { PLACES = sizeof order / sizeof *order, SIZE = 50 };
+    begin("square");
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    uint64_t hash = player_hash(&player);
+    double x[PLACES][SIZE];
+    for (int i = 0; i < PLACES; i++) {
+        player_fill(&player);
+        const Trace *trace = player.show.pane[0].trace;
+        CHECK(trace->line == order[i]);
+        CHECK((trace->p != NULL) == (i >= 3 && i < 7));
+        CHECK((trace->difference != NULL) == (i >= 3 && i < 7));
+        memcpy(x[i], pane_x(&player.show.pane[0]), sizeof x[i]);
+        bool moved = i > 0 && memcmp(x[i], x[i - 1], sizeof x[i]) != 0;
+        CHECK(moved == (order[i] == LINE_UPDATE));
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    }
+    for (int i = PLACES - 1; i >= 0; i--) {
+        CHECK_STATUS(obey("back"), STATUS_OK);
+        player_fill(&player);
+        CHECK(player.show.pane[0].trace->line == order[i]);
+        CHECK_SAME_BITS(pane_x(&player.show.pane[0]), x[i], SIZE);
+    }
+    CHECK(player_hash(&player) == hash && player.step == 1);
+    end();
+}
+
+/* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
+ * with contact; what is drawn of the last test is a p that belongs there, or
+ * none. */
+static void the_curve_goes_through_the_step(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {"square", "drop --segments 6",
+                                        "dent --segments 6",
+                                        "tear --segments "
+                                        "6"};
+    for (int i = 0; i < 4; i++) {
+        int rough = 0, seen = 0;
+        begin(lines[i]);
+        for (int step = 0; step < 90; step++) {
+            CHECK_STATUS(obey("step"), STATUS_OK);
+            const Tape *tape = &lane(0)->tape;
+            for (int place = 0; place < tape->places; place++) {
+                Trace trace;
+                tape_trace(tape, place, &trace);
+                int round = tape->place[place].round;
+                if (trace.line != LINE_UPDATE)
+                    continue;
+                seen++;
+                if (!trace.p) { /* of the first one where pins move */
+                    CHECK(i == 3 && round == 0 && !trace.difference);
+                    continue;
+                }
+                const NewtonRecord *record = &tape->record[round];
+                double change = trace.difference(trace.function, record->alpha);
+                CHECK_NEAR(change, record->change,
+                           1e-7 * fabs(record->slope) * record->alpha);
+                rough += tape->round[round].value != NULL;
+            }
+        }
+        CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
+        Trace whole;
+        const Tape *tape = &lane(0)->tape;
+        tape_trace(tape, -1, &whole);
+        CHECK(whole.residual <= player.given[0].tolerance || !tape->ended);
+        end();
+    }
+}
+
+/* Digits go into the number that is lit, Enter sets it; Escape lets go of it,
+ * and only asked twice ends the program. */
+static void numbers_are_typed(void **unused)
+{
+    (void)unused;
+    static const char *const keys[] = {"0",         ".", "0",     "3",
+                                       "Backspace", "2", "Return"};
+    begin("square --segments 2");
+    player_fill(&player);
+    CHECK_STATUS(obey("select"), STATUS_OK);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        Input input = {.kind = INPUT_KEY};
+        snprintf(input.key, sizeof input.key, "%s", keys[i]);
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+    }
+    CHECK(player.lane[0].track.settings.options.timestep == 0.02);
+    CHECK(player_simulation(&player)->scene == &scenes[0]);
+    obey_all((const char *const[]){"escape", "escape", NULL});
+    CHECK(player.selected < 0 && !player.quit);
+    CHECK(player_escape_ends(&player));
+    CHECK_STATUS(obey("escape"), STATUS_OK);
+    CHECK(player.quit);
+    end();
+}
+
+/* What a hand does on every scene: it pulls, pins, changes h and k, goes back
+ * and on.  What makes no sense is refused; the rest leads to the same bits. */
+static void every_scene_is_taken_hold_of(void **unused)
+{
+    (void)unused;
+    static const char *const acts[] = {"next",         "grab 0",
+                                       "drag 0.3 0.2", "next",
+                                       "next",         "release",
+                                       "pin 1",        "next",
+                                       "next",         "set timestep 0.003",
+                                       "next",         "set stiffness 3e4",
+                                       "next",         "projection",
+                                       "next",         "line-search",
+                                       "next",         "handle 0 0.2 0.1",
+                                       "next",         "flip 0",
+                                       "next",         "add-pane",
+                                       "next",         NULL};
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        if (strcmp(scene->name, "race") == 0)
+            continue; /* it shows measured times */
+        begin(scene->name);
+        uint64_t hash[64];
+        for (const char *const *act = acts; *act; act++) {
+            Status status = obey(*act);
+            CHECK(!status || status == STATUS_INVALID_INPUT ||
+                  status_is_unconverged(status));
+            CHECK((status == STATUS_INVALID_INPUT) ==
+                  (player.message[0] != '\0'));
+            hash[player.step] = player_hash(&player);
+        }
+        long last = player.step;
+        CHECK(last >= 1 && last == player.newest);
+        for (long step = last - 1; step >= 0; step -= last > 3 ? 3 : 1) {
+            char line[32];
+            snprintf(line, sizeof line, "goto %ld", step);
+            CHECK_STATUS(obey(line), STATUS_OK);
+            CHECK(player.step == step);
+            CHECK_STATUS(obey("end"), STATUS_OK);
+            CHECK(player_hash(&player) == hash[last]);
+        }
+        end();
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_command_has_one_deed),
+        cmocka_unit_test(the_explosion_is_seen_and_tamed),
+        cmocka_unit_test(a_toggle_tells_both_outcomes),
+        cmocka_unit_test(at_rest_it_says_so_and_stops),
+        cmocka_unit_test(a_failure_shows_the_last_good_state),
+        cmocka_unit_test(up_to_six_panes),
+        cmocka_unit_test(an_update_line_by_line),
+        cmocka_unit_test(the_curve_goes_through_the_step),
+        cmocka_unit_test(numbers_are_typed),
+        cmocka_unit_test(every_scene_is_taken_hold_of),
+    };
+    return cmocka_run_group_tests_name("player", tests, NULL, NULL);
+}
