@@ -126,9 +126,8 @@ static void inertia_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
         g[i] = add(g[i], mul(solid->m[i], sub(x[i], x_tilde[i])));
 }
 
-/* A Hessian is a list of triplets, the slides' IJV.  Values at the same place
- * are added up later.  H is symmetric: CHOLMOD wants the upper triangle only.
- */
+/* A Hessian is a list of triplets, the slides' IJV; values at the same place
+ * are added later.  It is symmetric: CHOLMOD wants the upper triangle only. */
 static void add_entry(cholmod_triplet *H, int row, int column, double value)
 {
     if (row > column)
@@ -154,8 +153,9 @@ static void rotate(double *a, double *b, double cosine, double sine)
 }
 
 /* A = Q L Q^T, numpy's eigh, by Jacobi's method: a rotation in the plane of r
- * and c makes a[r][c] zero.  It spoils older zeros, but ten sweeps are plenty.
- * Eigenvalues end on the diagonal of a, eigenvectors in the columns of q. */
+ * and c, by the angle whose tangent is t, makes a[r][c] zero.  It spoils older
+ * zeros, but ten sweeps are plenty.  Eigenvalues end on the diagonal of a,
+ * eigenvectors in the columns of q. */
 static void eigh(double a[4][4], double q[4][4])
 {
     for (int i = 0; i < 16; i++)

@@ -8,6 +8,8 @@
 #ifndef ELASTO_SPARSE_H
 #define ELASTO_SPARSE_H
 
+#include <stddef.h>
+
 #include "base/status.h"
 
 typedef struct Triplets {
@@ -44,5 +46,8 @@ void sparse_free(Sparse *A);
 
 /* y = A x with the whole symmetric matrix.  x [size] in, y [size] out. */
 void sparse_multiply(const Sparse *A, const double *x, double *y);
+
+/* Whether none of these numbers is NaN or infinite. */
+bool all_finite(const double *value, size_t count);
 
 #endif

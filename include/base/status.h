@@ -10,7 +10,8 @@
 
 typedef enum Status {
     STATUS_OK = 0,
-    STATUS_RUNNING,               /* not at the end yet: iterate again */
+    STATUS_RUNNING, /* not at the end yet: iterate again */
+    /* From here to DIVERGED: see status_is_unconverged. */
     STATUS_ITERATION_LIMIT,       /* Newton used all its iterations */
     STATUS_LINE_SEARCH_LIMIT,     /* no step length lowers the energy */
     STATUS_NOT_DESCENT,           /* the direction points uphill */

@@ -71,7 +71,7 @@ typedef struct LiveCorner {
 typedef struct Cells {
     int triangles;
     int *node;   /* [3 triangles] a, b, c */
-    int *spring; /* [3 triangles] its sides; it is gone with any of them */
+    int *spring; /* [3 triangles] its sides; it breaks with any of them */
     double area; /* m^2, A0 of all */
     double c;    /* J, A0 k_c */
     int live;

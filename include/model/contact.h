@@ -123,8 +123,8 @@ Status contact_add(System *system, const Barrier *barrier, int obstacles,
 /* The system's obstacles, or NULL. */
 Contact *contact_of(const System *system);
 
-/* Whether this node and this obstacle can touch: not itself, and not what
- * neither ever moves. */
+/* Whether this node and this obstacle can touch: a ball does not touch itself,
+ * nor a pinned node an obstacle that cannot give way. */
 bool contact_has_pair(const Contact *contact, const System *system, int node,
                       int obstacle);
 

@@ -19,7 +19,7 @@ double inertia_energy_value(int n, const double *x, const double *x_tilde,
 void inertia_energy_gradient(int n, const double *x, const double *x_tilde,
                              const double *m, double *g);
 
-/* values[slot[t]] += M_tt for the 2n diagonal entries t; slot NULL: t itself.
+/* values[slot[t]] += M_tt for the 2n diagonal entries t.
  *   slot    [2n] in
  *   values  in/out, kg */
 void inertia_energy_hessian(int n, const double *m, const int *slot,

@@ -1,9 +1,8 @@
 /* newton.h - projected Newton (slides: Algorithm 3, and Algorithm 1 inside).
  *
  * A resumable object: newton_start, then newton_iterate until it returns
- * something else than RUNNING, then newton_finish.  newton_minimise does all
- * three.  Each iteration
- * leaves a record, which log, window and tests read.
+ * something else than RUNNING, then newton_finish; newton_minimise does all
+ * three.  Each iteration leaves a record, which log, window and tests read.
  */
 #ifndef ELASTO_NEWTON_H
 #define ELASTO_NEWTON_H
@@ -110,7 +109,7 @@ typedef struct Newton {
     double *r;       /* [2n] m, workspace */
     SearchDirection search; /* the Hessian and its factor */
     Rounding rounding;
-    int left;             /* saddles, in this minimisation */
+    int left;             /* saddles that this minimisation has left */
     Multigrid *multigrid; /* NULL: was not needed yet */
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */

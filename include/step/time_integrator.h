@@ -70,9 +70,8 @@ Status time_integrator_step(TimeIntegrator *integrator);
  * adds weight times gravity: completing the square,
  *   |u - u_tilde|_M^2/2 - weight m g.u
  *       = |u - (u_tilde + weight g)|_M^2/2 + constant.
- * Returns OK
- * where newton->u can be used (a step that did not converge is remembered in
- * integrator->status), or a failure. */
+ * Returns OK where newton->at.u can be used, or a failure; integrator->status
+ * tells whether it has converged. */
 Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
                                 double weight);
 

@@ -128,3 +128,17 @@ void sparse_multiply(const Sparse *A, const double *x, double *y)
                 y[c] += A->value[s] * x[r];
         }
 }
+
+/* 0 * value is 0, or NaN where the value is NaN or infinite; four sums run
+ * side by side. */
+bool all_finite(const double *value, size_t count)
+{
+    double sum[4] = {0, 0, 0, 0};
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4)
+        for (int j = 0; j < 4; j++)
+            sum[j] += 0 * value[i + j];
+    for (; i < count; i++)
+        sum[0] += 0 * value[i];
+    return sum[0] + sum[1] + sum[2] + sum[3] == 0;
+}

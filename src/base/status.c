@@ -1,11 +1,8 @@
 #include "base/status.h"
 
-typedef struct StatusRow {
-    const char *name;
-    const char *text;
-} StatusRow;
-
-static const StatusRow status_rows[STATUS_COUNT] = {
+static const struct {
+    const char *name, *text;
+} status_rows[STATUS_COUNT] = {
     [STATUS_OK] = {"ok", "converged"},
     [STATUS_RUNNING] = {"running", "not at the end yet"},
     [STATUS_ITERATION_LIMIT] = {"iteration_limit",
@@ -36,40 +33,22 @@ static const StatusRow status_rows[STATUS_COUNT] = {
     [STATUS_SCREEN_FAILED] = {"screen_failed", "drawing failed"},
 };
 
-/* Row of the table, or NULL where the status is none of ours. */
-static const StatusRow *status_row(Status status)
+static bool is_known(Status status)
 {
-    if ((int)status < 0 || status >= STATUS_COUNT)
-        return 0;
-    return &status_rows[status];
+    return (int)status >= 0 && status < STATUS_COUNT;
 }
 
 const char *status_text(Status status)
 {
-    const StatusRow *row = status_row(status);
-    return row ? row->text : "unknown status";
+    return is_known(status) ? status_rows[status].text : "unknown status";
 }
 
 const char *status_name(Status status)
 {
-    const StatusRow *row = status_row(status);
-    return row ? row->name : "unknown";
+    return is_known(status) ? status_rows[status].name : "unknown";
 }
 
 bool status_is_unconverged(Status status)
 {
-    switch (status) {
-    case STATUS_ITERATION_LIMIT:
-    case STATUS_LINE_SEARCH_LIMIT:
-    case STATUS_NOT_DESCENT:
-    case STATUS_ROUNDING_LIMIT:
-    case STATUS_NOT_A_MINIMUM:
-    case STATUS_NOT_POSITIVE_DEFINITE:
-    case STATUS_SINGULAR:
-    case STATUS_BLOCKED:
-    case STATUS_DIVERGED:
-        return true;
-    default:
-        return false;
-    }
+    return status >= STATUS_ITERATION_LIMIT && status <= STATUS_DIVERGED;
 }

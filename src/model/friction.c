@@ -40,7 +40,7 @@ static double remainder_on_side(double y, double t, double e)
         return 0;
     if (y > e) /* into the piece: the slope at y is the one at e */
         return remainder_on_piece(e, z, e);
-    /* out of it: what the first way leaves of the slope, all the way after */
+    /* out of it: from e on the slope is larger by `missing` than it was at y */
     double missing = 1 - y / e;
     return remainder_on_piece(y, e, e) + missing * missing * (z - e);
 }

@@ -28,5 +28,5 @@ void inertia_energy_hessian(int n, const double *m, const int *slot,
                             double *values)
 {
     for (int t = 0; t < 2 * n; t++)
-        values[slot ? slot[t] : t] += m[t / 2];
+        values[slot[t]] += m[t / 2];
 }

@@ -106,16 +106,9 @@ static Place place_at(const System *system, const double *x)
     return (Place){system, x, NULL, x, false};
 }
 
-static bool term_is_valid(const System *system, const Term *term,
-                          const double *x)
-{
-    Place at = place_at(system, x);
-    return (!term->kind->valid || term->kind->valid(term, system)) &&
-           (!term->kind->allowed || term->kind->allowed(term, &at));
-}
-
 Status system_check(const System *system, const double *x)
 {
+    Place at = place_at(system, x);
     if (!isfinite(system->gravity[0]) || !isfinite(system->gravity[1]))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < system->nodes; i++)
@@ -125,9 +118,12 @@ Status system_check(const System *system, const double *x)
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_valid(system, s))
             return STATUS_INVALID_INPUT;
-    for (int t = 0; t < system->terms; t++)
-        if (!term_is_valid(system, &system->term[t], x))
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        if ((kind->valid && !kind->valid(&system->term[t], system)) ||
+            (kind->allowed && !kind->allowed(&system->term[t], &at)))
             return STATUS_INVALID_INPUT;
+    }
     return STATUS_OK;
 }
 

@@ -109,20 +109,6 @@ void cholesky_free(Cholesky *cholesky)
     free(cholesky);
 }
 
-/* 0 * value is 0, or NaN where the value is NaN or infinite; four sums run
- * side by side. */
-static bool all_finite(const double *value, int count)
-{
-    double sum[4] = {0, 0, 0, 0};
-    int i = 0;
-    for (; i + 4 <= count; i += 4)
-        for (int j = 0; j < 4; j++)
-            sum[j] += 0 * value[i + j];
-    for (; i < count; i++)
-        sum[0] += 0 * value[i];
-    return sum[0] + sum[1] + sum[2] + sum[3] == 0;
-}
-
 /* max |x_i| */
 static double largest_of(const double *x, size_t n)
 {
@@ -135,7 +121,7 @@ static double largest_of(const double *x, size_t n)
 Status cholesky_factor(Cholesky *cholesky)
 {
     cholmod_common *common = &cholesky->common;
-    if (!all_finite(cholesky->A.x, ((int *)cholesky->A.p)[cholesky->A.ncol]))
+    if (!all_finite(cholesky->A.x, (size_t)cholesky->matrix->entries))
         return STATUS_NOT_FINITE;
     common->status = CHOLMOD_OK;
     if (cholesky->kind == CHOLESKY_INDEFINITE) /* pivots nearer to 0 go there */
@@ -162,7 +148,7 @@ static Status solve_by_supernodes(Cholesky *cholesky, const double *b,
     supernodes_solve(&supernodes, cholesky->b, cholesky->r);
     for (size_t i = 0; i < L->n; i++)
         x[order[i]] = cholesky->b[i];
-    return all_finite(x, (int)L->n) ? STATUS_OK : STATUS_NOT_FINITE;
+    return all_finite(x, L->n) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
 /* x = P^T L^-T D^-1 L^-1 P b */
@@ -187,7 +173,7 @@ static Status solve_by_columns(Cholesky *cholesky, const double *b, double *x)
                         NULL, &cholesky->y, &cholesky->e, &cholesky->common))
         return cholmod_failure(&cholesky->common);
     memcpy(x, cholesky->x->x, n * sizeof *x);
-    return all_finite(x, (int)n) ? STATUS_OK : STATUS_NOT_FINITE;
+    return all_finite(x, n) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
 /* r = b - A x; returns max |r_i|. */

@@ -222,9 +222,10 @@ double incremental_potential_concave(const Iterate *at, double *sum)
     for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
         if (kind->concave)
             kind->concave(term, &place, at->E.weight, sum);
-    for (int i = 0; i < system->nodes; i++)
-        if (!(sum[i] / system->m[i] <= largest))
-            largest = sum[i] / system->m[i];
+    for (int i = 0; i < system->nodes; i++) {
+        double c = sum[i] / system->m[i];
+        largest = isnan(c) ? INFINITY : fmax(largest, c);
+    }
     return largest;
 }
 
@@ -234,7 +235,6 @@ bool incremental_potential_solve(Iterate *at, Status *status)
 {
     const System *system = at->E.system;
     const TermKind *kind;
-    double sum = 0;
     for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
         if (!kind->diagonal)
             return false;
@@ -248,8 +248,8 @@ bool incremental_potential_solve(Iterate *at, Status *status)
     for (int i = 0; i < 2 * system->nodes; i++) {
         at->u[i] -= at->g[i] == 0 ? 0 : at->g[i] * (at->g[i] / at->p[i]);
         at->x[i] = at->E.x_n[i] + at->u[i];
-        sum += 0 * at->x[i];
     }
-    *status = sum == 0 ? STATUS_OK : STATUS_NOT_FINITE;
+    *status = all_finite(at->x, 2 * (size_t)system->nodes) ? STATUS_OK
+                                                           : STATUS_NOT_FINITE;
     return true;
 }

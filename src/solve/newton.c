@@ -66,8 +66,8 @@ static Status newton_update(Newton *newton)
     return STATUS_OK;
 }
 
-/* What ends the loop besides the test: rounding, patience; and where nothing
- * keeps E from rising, an end above the start is no success. */
+/* What ends the loop besides the test: rounding, and the number of iterations.
+ * Without a line search an end above the start is no success. */
 static Status newton_limits(Newton *newton, Status status)
 {
     if (status == STATUS_RUNNING)
@@ -127,11 +127,11 @@ static void move_centre(Newton *newton)
 }
 
 /* Internal forces cannot move the centre of mass: at the minimum sum m u equals
- * sum m u_tilde.  What the tolerance has left of the difference is moved, which
- * lowers E, and linear momentum is conserved to rounding; moved twice, because
- * where springs have hidden the masses the first way is long, and so are its
- * rounding errors.  Where these have cost the square its shape, it keeps the
- * one that it had. */
+ * sum m u_tilde.  The tolerance leaves a difference; to remove it moves all
+ * nodes alike, lowers E, and conserves linear momentum to rounding.  The second
+ * move removes the rounding errors of the first, which is long where springs
+ * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
+ * make the centre's way from x_n instead. */
 void newton_finish(Newton *newton)
 {
     Status before = newton->status;

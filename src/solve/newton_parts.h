@@ -14,9 +14,8 @@ Status newton_tell(Newton *newton, const NewtonRecord *record);
  * each iterate, with as few factorisations as will do. */
 
 /* At the start of a minimisation: fills g, p, residual and, of the record, what
- * concerns them.  Where the test is passed by the gradient alone, a vanishing
- * one may be that of a maximum or a saddle, such as all nodes in one point:
- * that is looked after.
+ * concerns them.  A gradient that vanishes passes the test, but may be that of
+ * a maximum or a saddle, such as all nodes in one point: this is checked.
  * Returns OK (the test is passed), RUNNING, NOT_A_MINIMUM, or a failure. */
 Status direction_first(Newton *newton);
 
@@ -64,11 +63,11 @@ bool rounding_sees_rise(const Newton *newton);
  * describes; working and refusal say so. */
 bool hand_over_wanted(Newton *newton);
 
-/* In the place of direction_first. */
+/* Instead of direction_first. */
 Status hand_over_start(Newton *newton);
 
-/* In the place of an iteration.  What multigrid cannot end, such as a search
- * among rounding errors, goes on by factors from where it is. */
+/* Instead of an iteration.  A minimisation that multigrid cannot end, for
+ * example among rounding errors, goes on by factors from where it is. */
 Status hand_over_iterate(Newton *newton);
 
 #endif

@@ -8,8 +8,9 @@
  * that is left. */
 enum { STAGNANT_ITERATIONS = 20 };
 
-/* Beyond this ratio of w k to m a direction from a factor may be off by more
- * than 1e-5 of itself, and beyond the second springs hide the masses. */
+/* Ratios of w k to m: beyond the first, a direction from a factor may be wrong
+ * by more than 1e-5 of itself; beyond the second, a sum of both is w k alone in
+ * the digits of a double. */
 static const double BLURRED_MASSES = 1e10, HIDDEN_MASSES = 1e16;
 
 /* E may seem to rise by this part of its size. */

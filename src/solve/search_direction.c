@@ -4,8 +4,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Iterations that look for negative curvature; without any, the remainder of
- * random numbers falls to this share of its norm. */
+/* The search for negative curvature ends after so many iterations, or where the
+ * remainder has this share of the norm of the random numbers it began with. */
 enum { CURVATURE_MAX_ITERATIONS = 30 };
 static const double NO_CURVATURE = 1e-3;
 
@@ -16,7 +16,7 @@ static const double ALL_DIGITS = 1e-28;
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry. */
 enum { SHIFT_TRIES = 6 };
 
-/* A shift leaves a handful of directions to correct. */
+/* A shift changes few directions, so conjugate gradients need few solves. */
 enum { CONJUGATE_MAX_SOLVES = 59 };
 
 Status search_direction_create(const System *system, SearchDirection *search)
@@ -197,7 +197,7 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
     state->curvature = dot(n, d, q);
     double alpha = state->rz / state->curvature;
     if (!(state->curvature > 0) || !(alpha > 0) || !isfinite(alpha))
-        return false; /* rounding has eaten it */
+        return false; /* E bends down, or rounding hides how it bends */
     for (int i = 0; i < n; i++) {
         p[i] += alpha * d[i];
         r[i] -= alpha * q[i];

@@ -44,29 +44,20 @@ const Term *integrator_method_refuses(const IntegratorMethod *method,
     return NULL;
 }
 
-/* Velocities and settings are numbers that a step can be made with. */
-static bool start_is_valid(const System *system, const NewtonSettings *settings,
-                           const double *v)
-{
-    for (int i = 0; i < 2 * system->nodes; i++)
-        if (!isfinite(v[i]))
-            return false;
-    return isfinite(settings->h) && settings->h > 0 && settings->tolerance > 0;
-}
-
 Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *integrator)
 {
     *integrator =
         (TimeIntegrator){.method = method, .system = system, .h = settings->h};
-    if (system_check(system, x) || !start_is_valid(system, settings, v) ||
+    size_t size = 2 * (size_t)system->nodes;
+    if (system_check(system, x) || !all_finite(v, size) ||
+        !isfinite(settings->h) || !(settings->h > 0) ||
+        !(settings->tolerance > 0) ||
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->at_end))
         return STATUS_INVALID_INPUT;
-    size_t size = 2 * (size_t)system->nodes,
-           arrays = 4 + (size_t)method->memory;
-    integrator->x = calloc(arrays * size, sizeof *x);
+    integrator->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
     integrator->newton =
         method->implicit ? calloc(1, sizeof *integrator->newton) : NULL;
     if (!integrator->x || (method->implicit && !integrator->newton))
@@ -153,14 +144,10 @@ void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
 Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
                               const double *new_v)
 {
-    int size = 2 * integrator->system->nodes;
-    double sum = 0;
-    for (int i = 0; i < size; i++)
-        sum += 0 * new_x[i] + 0 * new_v[i];
-    if (!(sum == 0))
+    size_t size = 2 * (size_t)integrator->system->nodes;
+    if (!all_finite(new_x, size) || !all_finite(new_v, size))
         return STATUS_NOT_FINITE;
-    memcpy(integrator->x, new_x, (size_t)size * sizeof *new_x);
-    memcpy(integrator->v, new_v, (size_t)size * sizeof *new_v);
+    memcpy(integrator->x, new_x, size * sizeof *new_x);
+    memcpy(integrator->v, new_v, size * sizeof *new_v);
     return STATUS_OK;
 }
-
