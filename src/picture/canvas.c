@@ -102,6 +102,20 @@ static uint32_t *canvas_row(const Canvas *canvas, int y)
     return canvas->pixels + (size_t)y * (size_t)canvas->width;
 }
 
+/* Mixes the colour into pixels left ... right - 1 of a row. */
+static void mix_span(uint32_t *row, int left, int right, Colour colour,
+                     uint32_t amount)
+{
+    if (amount == 0)
+        return;
+    if (amount == 256)
+        for (int i = left; i < right; i++)
+            row[i] = 0xff000000u | colour;
+    else
+        for (int i = left; i < right; i++)
+            row[i] = mix(row[i], colour, amount);
+}
+
 /* Mixes the colour into every pixel of the rectangle. */
 void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
                       Colour colour)
@@ -115,11 +129,8 @@ void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
     clip_range(&left, &right, clip->x, clip->x + clip->width);
     clip_range(&top, &bottom, clip->y, clip->y + clip->height);
     uint32_t amount = opacity(colour);
-    for (int j = top; j < bottom; j++) {
-        uint32_t *row = canvas_row(canvas, j);
-        for (int i = left; i < right; i++)
-            row[i] = mix(row[i], colour, amount);
-    }
+    for (int j = top; j < bottom; j++)
+        mix_span(canvas_row(canvas, j), left, right, colour, amount);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -158,6 +169,9 @@ static inline bool clip_line(const Box *clip, double margin, double line[4])
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
         return true; /* also far faster where nothing is to be cut */
+    if ((line[1] < top && line[3] < top) ||
+        (line[1] > bottom && line[3] > bottom))
+        return false; /* most lines of a band of the picture */
     double dx = line[2] - line[0], dy = line[3] - line[1];
     double t0 = 0, t1 = 1;
     if (!isfinite(dx) || !isfinite(dy) ||
@@ -374,7 +388,7 @@ static double card_distance(double x, double y, const double half[2],
     return outside + fmin(fmax(dx, dy), 0) - radius;
 }
 
-/* Corners and edges by distance, the rest at once. */
+/* Corners by distance; what is between them is the same along a row. */
 void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
                  Colour border)
 {
@@ -384,28 +398,21 @@ void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
         touched(canvas, box.x, box.y, box.x + box.width, box.y + box.height);
     if (box.width <= 0 || box.height <= 0)
         return;
+    int end = seen.x + seen.width, right = box.x + box.width - rim;
+    right = right < end ? right : end;
     radius = fmin(radius, fmin(half[0], half[1]));
     for (int j = seen.y; j < seen.y + seen.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
-        bool inner = j >= box.y + rim && j < box.y + box.height - rim;
-        for (int i = seen.x; i < seen.x + seen.width; i++) {
-            if (inner && i == box.x + rim && box.width > 2 * rim) {
-                int right = box.x + box.width - rim;
-                right =
-                    right < seen.x + seen.width ? right : seen.x + seen.width;
-                for (; i < right; i++)
-                    row[i] = mix(row[i], fill, opacity(fill));
-                if (i >= seen.x + seen.width)
-                    break;
-            }
+        for (int i = seen.x, past; i < end; i = past) {
             double d = card_distance(i + 0.5 - box.x - half[0],
                                      j + 0.5 - box.y - half[1], half, radius);
             double out = fmin(fmax(0.5 - d, 0), 1);
             double in = border ? fmin(fmax(-0.5 - d, 0), 1) : out;
-            row[i] = mix(row[i], fill, (uint32_t)(in * opacity(fill) + 0.5));
+            past = i >= box.x + rim && i < right ? right : i + 1;
+            mix_span(row, i, past, fill, (uint32_t)(in * opacity(fill) + 0.5));
             if (border)
-                row[i] = mix(row[i], border,
-                             (uint32_t)((out - in) * opacity(border) + 0.5));
+                mix_span(row, i, past, border,
+                         (uint32_t)((out - in) * opacity(border) + 0.5));
         }
     }
 }

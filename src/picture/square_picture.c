@@ -165,16 +165,57 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
 }
 
+static void draw_whole_springs(const SpringPen *pen, const System *system)
+{
+    for (int s = 0; s < system->springs; s++)
+        if (!spring_is_broken(system, s))
+            draw_spring(pen, system->e[2 * (size_t)s],
+                        system->e[2 * (size_t)s + 1], system->l2[s],
+                        pen->ep ? pen->ep[s] : 0);
+}
+
+/* More springs than this are shared by two threads, each in its band of the
+ * picture: the pixels are those of one. */
+enum { BANDED_SPRINGS = 10000, BANDS = 2, SPRING_NANOSECONDS = 70 };
+
+typedef struct BandJob {
+    const SpringPen *pen;
+    const System *system;
+} BandJob;
+
+/* What can be seen of all springs in some bands of the picture. */
+static void draw_bands(const void *job, int first, int end)
+{
+    const BandJob *all = job;
+    const Box clip = all->pen->paper->canvas.clip;
+    for (int band = first; band < end; band++) {
+        Paper paper = *all->pen->paper;
+        SpringPen pen = *all->pen;
+        int top = clip.height * band / BANDS;
+        int bottom = clip.height * (band + 1) / BANDS;
+        canvas_clip(&paper.canvas,
+                    (Box){clip.x, clip.y + top, clip.width, bottom - top});
+        pen.paper = &paper;
+        draw_whole_springs(&pen, all->system);
+    }
+}
+
 static long draw_all_springs(const SpringPen *pen, const System *system)
 {
+    Paper *paper = pen->paper;
+    const BandJob job = {pen, system};
     long drawn = 0;
-    for (int s = 0; s < system->springs; s++) {
-        if (spring_is_broken(system, s))
-            continue;
-        draw_spring(pen, system->e[2 * (size_t)s], system->e[2 * (size_t)s + 1],
-                    system->l2[s], pen->ep ? pen->ep[s] : 0);
-        drawn++;
+    for (int s = 0; s < system->springs; s++)
+        drawn += !spring_is_broken(system, s);
+    if (drawn > BANDED_SPRINGS && !paper->crew)
+        paper->crew = crew_create(0);
+    if (drawn <= BANDED_SPRINGS || !paper->crew) {
+        draw_whole_springs(pen, system);
+        return drawn;
     }
+    crew_begin(paper->crew);
+    crew_run(paper->crew, draw_bands, &job, BANDS,
+             (double)SPRING_NANOSECONDS * (double)drawn);
     return drawn;
 }
 

@@ -285,7 +285,6 @@ Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
     Status status = create_workspaces(search);
     if (status)
         return status;
-    double *d = search->d; /* only now is it there */
     random_numbers(search->system, search->r);
     for (int k = 0; k < CURVATURE_MAX_ITERATIONS; k++) {
         status = apply_factor(search, search->r, search->z);
@@ -296,8 +295,9 @@ Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
         *found = state.curvature < 0;
         break;
     }
-    double sign = dot(n, search->d, at->g) > 0 ? -1 : 1;
+    const double *d = search->d; /* there since it has workspaces */
+    double sign = dot(n, d, at->g) > 0 ? -1 : 1;
     for (int i = 0; i < n && *found; i++)
-        at->p[i] = sign * search->d[i];
+        at->p[i] = sign * d[i];
     return STATUS_OK;
 }

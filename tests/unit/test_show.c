@@ -106,6 +106,27 @@ static void a_bare_square_is_the_slide(void **unused)
     take_down(&stand);
 }
 
+/* Many springs are drawn by two threads, with the pixels of one; the square
+ * has folds, and is turned so that lines of all slopes cross the middle. */
+static void threads_do_not_change_pixels(void **unused)
+{
+    (void)unused;
+    static Stand stand[2];
+    for (int i = 0; i < 2; i++) {
+        setenv("ELASTO_THREADS", i == 0 ? "1" : "2", 1);
+        stand_up("square --segments 90 --turn 17", 9, 700, 560, &stand[i]);
+        stand[i].show.bare = true;
+        SpringCount count = show_draw(&stand[i].paper, &stand[i].show);
+        CHECK(count.drawn == stand[i].simulation.system.springs);
+        CHECK(!stand[i].paper.crew == (i == 0));
+    }
+    unsetenv("ELASTO_THREADS");
+    assert_memory_equal(stand[0].paper.canvas.pixels,
+                        stand[1].paper.canvas.pixels, 700 * 560 * 4);
+    take_down(&stand[0]);
+    take_down(&stand[1]);
+}
+
 /* Springs shorter than two pixels are drawn as a coarser mesh. */
 static void short_springs_are_skipped(void **unused)
 {
@@ -462,6 +483,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_repeatable),
         cmocka_unit_test(a_bare_square_is_the_slide),
+        cmocka_unit_test(threads_do_not_change_pixels),
         cmocka_unit_test(short_springs_are_skipped),
         cmocka_unit_test(every_size_is_drawn),
         cmocka_unit_test(the_stage_keeps_to_itself),
