@@ -294,12 +294,13 @@ numbers() {
     point 80 757
     point 110 757
     xdotool mouseup 1
-    key Tab Up
+    key Tab Up 5 0 0 0 0 Return
     key n n
     same_again square --segments 2 --stretch 1
     grep -q ' set stretch 1\.' session || echo 'the edge sets no stretch'
     grep -q ' set timestep 0.0' session || echo 'h was not dragged'
-    [ "$(grep -c ' set ' session)" -gt 2 ] || echo 'Up changes nothing'
+    grep -q ' set stiffness 50000' session || echo 'k was not typed'
+    [ "$(grep -c ' set ' session)" -gt 3 ] || echo 'Up changes nothing'
 }
 verdict edges_and_numbers_are_dragged "$(numbers)"
 
@@ -324,6 +325,63 @@ number_keys() {
     awk -F, 'NR > 1 && $3 > 8 { print "not two segments: " $0; exit }' states
 }
 verdict number_keys_switch_scenes "$(number_keys)"
+
+# Line by line through a whole update and back, Tab+M up to six panes, the time
+# line dragged, the picture moved and fitted again: all by hand in one window.
+session() {
+    side=900
+    begin square --segments 3 --paused
+    key n i i n
+    a=$(shot line0)
+    [ "$a" = 2 ] || echo "the lines belong to step $a, not 2"
+    for i in 1 2 3 4 5 6 7; do
+        key n
+        shot line$i >/dev/null
+        cmp -s line$i.png line$((i - 1)).png && echo "N: line $i is the last"
+    done
+    for i in 6 5 4 3 2 1 0; do
+        key Left
+        shot back >/dev/null
+        cmp -s back.png line$i.png || echo "Left does not lead to line $i"
+    done
+    key i n n n n n n n n
+    a=$(shot ten)
+    [ "$a" = 10 ] || echo "N leads to step $a, not 10"
+    point $((11 + 878 * 9 / 60)) 850
+    xdotool mousedown 1
+    point $((11 + 878 * 7 / 120)) 850
+    a=$(shot dragged)
+    xdotool mouseup 1
+    [ "$a" = 4 ] || echo "the time line was dragged to $a, not 4"
+    key End
+    point 450 760
+    shot plain >/dev/null
+    point 150 500
+    xdotool mousedown 2
+    point 260 560
+    point 300 600
+    xdotool mouseup 2
+    point 450 760
+    shot moved >/dev/null
+    cmp -s plain.png moved.png && echo 'the middle button does nothing'
+    point 60 660
+    xdotool click --repeat 2 --delay 60 1
+    point 450 760
+    shot fitted >/dev/null
+    cmp -s plain.png fitted.png || echo 'a double click does not fit'
+    for i in 1 2 3 4 5 6; do
+        xdotool keydown Tab
+        key m
+        xdotool keyup Tab
+    done
+    key n
+    same_again square --segments 3
+    [ "$(grep -c ' add-pane' session)" = 6 ] || echo 'Tab+M was not told'
+    awk -F, 'NR > 1 && $3 > n { n = $3 }
+        END { if (n != 6 * 16 - 1) print n + 1, "nodes, not of six panes" }' \
+        states
+}
+verdict a_session_by_hand "$(session)"
 
 # Full screen and back: Escape leaves it first, then the program.
 full_screen() {
