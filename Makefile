@@ -384,7 +384,7 @@ clean:
 help:
 	@echo 'make run        build, then watch the stretched square relax'
 	@echo '                (ARGS="--segments 16" gives it options)'
-	@echo 'make run-lecture  the same as one file, src/lecture.c (ARGS="k=1e6")'
+	@echo 'make run-lecture  src/lecture.c, the bare square (ARGS="k=1e6")'
 	@echo 'make            build build/elasto'
 	@echo 'make test       build and run all tests (SANITIZE=address,undefined);'
 	@echo '                make long-test: with all their variations'

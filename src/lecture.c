@@ -458,8 +458,7 @@ static void draw(const Screen *screen, const Solid *solid)
     SDL_RenderPresent(screen->renderer);
 }
 
-/* Opens a window.  Where SDL finds no display it fails, or goes on with a
- * driver that shows nothing; then a picture in memory takes its place. */
+/* A window; a picture in memory where SDL has no display or a dummy one. */
 static Screen open_screen(const Solid *solid)
 {
     double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
@@ -472,6 +471,8 @@ static Screen open_screen(const Solid *solid)
         SDL_CreateWindowAndRenderer(PIXELS, PIXELS, SDL_WINDOW_RESIZABLE,
                                     &window, &screen.renderer);
     SDL_SetWindowTitle(window, "lecture");
+    if (window)
+        printf("Esc closes the window\n");
     if (!window) {
         printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
         mkdir(FOLDER, 0777); /* if that fails, saving a picture will say so */
@@ -486,8 +487,7 @@ static Screen open_screen(const Solid *solid)
     return screen;
 }
 
-/* Shows the solid for a while, or saves a picture.  Returns false at the end:
- * the window was closed, or it was the last picture. */
+/* Shows the solid for a while, or saves a picture.  False: that was the end. */
 static bool show(const Screen *screen, const Solid *solid, int step)
 {
     draw(screen, solid);

@@ -33,14 +33,7 @@ static void draw_exact_circle(Paper *paper, const Stage *stage)
 
 Colour circle_colour(const Simulation *simulation, int run)
 {
-    int number = 0;
-    const IntegratorMethod *method = simulation->run[run].method;
-    if (simulation->runs > 1)
-        return colour_of_run(run);
-    for (; integrator_methods[number].name; number++)
-        if (&integrator_methods[number] == method)
-            break;
-    return colour_of_run(number);
+    return colour_of_method(simulation->run[run].method->name);
 }
 
 /* Trails, and a disc where each run is now. */

@@ -1,5 +1,8 @@
 #include "picture/colour_map.h"
 
+#include <stddef.h>
+#include <string.h>
+
 /* One byte of from + (to - from) part / 256. */
 static uint32_t blend_byte(Colour from, Colour to, int shift, uint32_t part)
 {
@@ -37,6 +40,26 @@ Colour colour_of_run(int run)
     static const Colour colours[] = {0xffd55e00u, 0xff009e73u, 0xff0072b2u,
                                      0xffb0559au, 0xff7a5c2eu, 0xff56b4e9u};
     return colours[run < 0 ? 0 : run % 6];
+}
+
+Colour colour_of_method(const char *name)
+{
+    static const struct {
+        const char *name;
+        Colour colour;
+    } rows[] = {{"forward-euler", 0xffd55e00u},
+                {"symplectic-euler", 0xff009e73u},
+                {"backward-euler", 0xff0072b2u},
+                {"verlet", 0xffb0559au},
+                {"midpoint", 0xff7a5c2eu},
+                {"avf4", 0xff56b4e9u},
+                {"bdf2", 0xff8a7a00u},
+                {"sdirk2", 0xff5a4fa2u},
+                {"avf", 0xff444444u}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return rows[i].colour;
+    return COLOUR_X;
 }
 
 /* The total is black; the others follow in the order of the ledger. */

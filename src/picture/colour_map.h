@@ -48,6 +48,9 @@
 Colour colour_of_run(int run);
 Colour colour_of_energy(int energy);
 
+/* An integrator, by its name: the same colour alone and among others. */
+Colour colour_of_method(const char *name);
+
 /* From COLOUR_COMPRESS at -range over COLOUR_REST at 0 to COLOUR_STRETCH at
  * range > 0; strains outside get the colour of the end, NaN that of rest. */
 Colour colour_map_strain(double strain, double range);

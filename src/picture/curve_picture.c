@@ -121,7 +121,7 @@ static void label_iterate(Paper *paper, const double at[2], int number,
         return;
     used[above] = at[0];
     paper_write(paper, FACE_BOLD, 1, colour, at[0],
-                above ? at[1] - 1.25 * gap : at[1] + 0.35 * gap, ALIGN_CENTRE,
+                above ? at[1] - 1.25 * gap : at[1] + 0.6 * gap, ALIGN_CENTRE,
                 "x^{%d}", number);
 }
 

@@ -5,22 +5,36 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
+#include "picture/labels.h"
 #include "scenes/dial_scene.h"
 
 /* The path of the minimiser, a disc for every power of ten of h. */
 static void dial_path(Paper *paper, const Plot *plot, const Walk *walk,
-                      bool text)
+                      Labels *labels)
 {
-    for (int i = 1; i < WALK_POINTS; i++)
+    for (int i = 1; i < WALK_POINTS; i++) {
+        double a[2], b[2];
         plot_line(paper, plot, walk->point[i - 1], walk->point[i], 3, COLOUR_X);
-    for (int i = 10; i < WALK_POINTS; i += 10) {
-        double at[2];
+        plot_place(plot, walk->point[i - 1][0], walk->point[i - 1][1], a);
+        plot_place(plot, walk->point[i][0], walk->point[i][1], b);
+        labels_line(labels, a, b);
+    }
+    for (int i = 10; i < WALK_POINTS; i += 10)
         plot_disc(paper, plot, walk->point[i], 4.5, COLOUR_X);
+}
+
+/* h at each of the discs; the words of two that are one disc stand apart. */
+static void dial_steps(Paper *paper, const Plot *plot, const Walk *walk,
+                       Labels *labels)
+{
+    for (int i = WALK_POINTS - 1; i > 0; i -= 10) {
+        double at[2];
+        char words[32];
         plot_place(plot, walk->point[i][0], walk->point[i][1], at);
-        if (text)
-            paper_write(paper, FACE_REGULAR, 0.9, COLOUR_X,
-                        at[0] + 0.7 * paper->em, at[1] - 0.6 * paper->em,
-                        ALIGN_LEFT, "h = %g s", round(walk->h[i] * 1e6) / 1e6);
+        snprintf(words, sizeof words, "h = %g s",
+                 round(walk->h[i] * 1e6) / 1e6);
+        labels_put(paper, labels, FACE_REGULAR, 0.95, COLOUR_X,
+                   (const double(*)[2])at, 1, 0.8 * paper->em, words);
     }
 }
 
@@ -30,10 +44,19 @@ static SpringCount dial_draw(Paper *paper, const Stage *stage, const Show *show)
     bool text = stage->text && !show->bare;
     Legend legend = {0, 0};
     Plot plot = landscape_ground(paper, stage, show);
-    dial_path(paper, &plot, &simulation->exhibit.walk, text);
+    Labels labels = {.stage = plot.box};
+    double now[2], target[2];
+    dial_path(paper, &plot, &simulation->exhibit.walk, &labels);
     plot_disc(paper, &plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!text)
         return (SpringCount){0, 0};
+    stage_pixel(stage, simulation->run[0].x, now);
+    stage_pixel(stage, simulation->exhibit.target, target);
+    labels_disc(&labels, now, 9 * paper->unit);
+    labels_disc(&labels, target, 11 * paper->unit); /* the handle's ring */
+    labels_put(paper, &labels, FACE_BOLD, 1.1, COLOUR_X_TILDE,
+               (const double(*)[2])target, 1, 0.9 * paper->em, "{xt}");
+    dial_steps(paper, &plot, &simulation->exhibit.walk, &labels);
     stage_legend(paper, stage, &legend, COLOUR_X_TILDE,
                  "{xt}: inertia is lowest");
     stage_legend(paper, stage, &legend, COLOUR_X, "minimiser of E for every h");

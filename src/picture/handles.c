@@ -7,7 +7,7 @@
 #include "picture/colour_map.h"
 
 static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
-static const double SWITCH_WIDE = 11;  /* ems */
+static const double SWITCH_WIDE = 13;  /* ems */
 static const double SWITCH_HIGH = 1.8;
 
 void stage_handles(Paper *paper, const Stage *stage, const Show *show)
@@ -25,8 +25,7 @@ void stage_handles(Paper *paper, const Stage *stage, const Show *show)
     }
 }
 
-/* Where switch i is; pixels. */
-static Box switch_box(const Stage *stage, int i)
+Box stage_switch_box(const Stage *stage, int i)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDE * stage->em);
@@ -43,7 +42,7 @@ void stage_switches(Paper *paper, const Stage *stage, const Show *show)
         return;
     int count = simulation->scene->switches(simulation, out);
     for (int i = 0; i < count; i++) {
-        Box box = switch_box(stage, i);
+        Box box = stage_switch_box(stage, i);
         double x = box.x + 0.5 * paper->em, size = 0.8 * paper->em;
         double y = box.y + 0.5 * (box.height - size);
         canvas_card(&paper->canvas, box, 0.4 * paper->em,
@@ -68,7 +67,7 @@ bool handles_pick(const Show *show, const Stage *stage, double x, double y,
     int switches = scene->switches ? scene->switches(simulation, out) : 0;
     int handles = scene->handles ? scene->handles(simulation, at) : 0;
     for (int i = 0; i < switches && stage->text; i++)
-        if (box_contains(switch_box(stage, i), x, y)) {
+        if (box_contains(stage_switch_box(stage, i), x, y)) {
             pick->kind = PICK_SWITCH;
             pick->index = i;
             return true;

@@ -13,6 +13,9 @@ void stage_handles(Paper *paper, const Stage *stage, const Show *show);
 /* The scene's switches as chips in the upper right corner. */
 void stage_switches(Paper *paper, const Stage *stage, const Show *show);
 
+/* Where switch i is; pixels. */
+Box stage_switch_box(const Stage *stage, int i);
+
 /* A switch or a handle under pixel (x, y): fills kind and index. */
 bool handles_pick(const Show *show, const Stage *stage, double x, double y,
                   Pick *pick);

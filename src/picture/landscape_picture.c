@@ -6,6 +6,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/kinds.h"
+#include "picture/labels.h"
 #include "picture/marks.h"
 #include "scenes/landscape_scene.h"
 
@@ -264,28 +265,29 @@ static void draw_updates(Paper *paper, const Plot *plot, const Descent *descent)
 }
 
 /* A direction with words at its tip. */
-static void draw_named_direction(Paper *paper, const Plot *plot,
+static void draw_named_direction(Paper *paper, const Plot *plot, Labels *labels,
                                  const double from[2], const double p[2],
                                  Colour colour, const char *name, double slope)
 {
     const double tip[2] = {from[0] + p[0], from[1] + p[1]};
     double at[2], start[2];
+    char words[80];
     draw_arrow(paper, plot, from, p, 2.2, colour);
     plot_place(plot, tip[0], tip[1], at);
     plot_place(plot, from[0], from[1], start);
     if (!box_contains(plot->box, at[0], at[1]))
         return;
-    bool left = at[0] < start[0];
-    paper_write(paper, FACE_BOLD, 0.95, colour,
-                at[0] + (left ? -0.5 : 0.5) * paper->em, at[1] - paper->em,
-                left ? ALIGN_RIGHT : ALIGN_LEFT, "%s (slope %.2g)", name,
-                slope);
+    labels_line(labels, start, at);
+    snprintf(words, sizeof words, "%s (slope %.2g)", name, slope);
+    plot_numbers(words, sizeof words);
+    labels_put(paper, labels, FACE_BOLD, 1, colour, (const double(*)[2])at, 1,
+               0.8 * paper->em, words);
 }
 
 /* The direction that the run does not take: projected where its own is not, as
  * it is where its own is projected.  With a single part on the map: the
  * direction in that part. */
-static void draw_other_direction(Paper *paper, const Plot *plot,
+static void draw_other_direction(Paper *paper, const Plot *plot, Labels *labels,
                                  const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
@@ -294,7 +296,7 @@ static void draw_other_direction(Paper *paper, const Plot *plot,
     double p[2], slope;
     if (parts != PART_BOTH) {
         slope = landscape_direction(simulation, FILTER_CLAMP, p);
-        draw_named_direction(paper, plot, descent->point, p, COLOUR_P,
+        draw_named_direction(paper, plot, labels, descent->point, p, COLOUR_P,
                              parts == PART_INERTIA ? "inertia alone"
                                                    : "elasticity alone",
                              slope);
@@ -306,7 +308,7 @@ static void draw_other_direction(Paper *paper, const Plot *plot,
         landscape_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
     if (hypot(p[0] - descent->direction[0], p[1] - descent->direction[1]) >
         1e-9)
-        draw_named_direction(paper, plot, descent->point, p,
+        draw_named_direction(paper, plot, labels, descent->point, p,
                              slope > 0 ? COLOUR_WARNING : COLOUR_GHOST,
                              raw ? "with projection" : "without", slope);
 }
@@ -346,16 +348,30 @@ Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show)
     for (int i = 1; i < system->nodes; i++)
         stage_pin(paper, stage, simulation->run[0].x + 2 * i, 5 * paper->unit);
     canvas_clip(&paper->canvas, before);
-    if (plot_disc(paper, &plot, simulation->exhibit.target, 6,
-                  COLOUR_X_TILDE) &&
-        stage->text && !show->bare) {
-        double at[2];
-        stage_pixel(stage, simulation->exhibit.target, at);
-        paper_write(paper, FACE_BOLD, 1.1, COLOUR_X_TILDE,
-                    at[0] + 0.9 * paper->em, at[1] - 1.2 * paper->em,
-                    ALIGN_LEFT, "{xt}");
-    }
+    plot_disc(paper, &plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
     return plot;
+}
+
+/* Words keep off the iterate, its direction and x_tilde, which gets its own. */
+static void keep_places(Paper *paper, const Stage *stage, const Show *show,
+                        Labels *labels)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Descent *descent = &simulation->descent;
+    const double tip[2] = {descent->point[0] + descent->direction[0],
+                           descent->point[1] + descent->direction[1]};
+    double at[2], to[2], target[2];
+    stage_pixel(stage, descent->point, at);
+    stage_pixel(stage, tip, to);
+    stage_pixel(stage, simulation->exhibit.target, target);
+    for (int i = 0; i < 2; i++)
+        labels_box(labels, stage_switch_box(stage, i));
+    labels_line(labels, at, to);
+    labels_disc(labels, at, 11 * paper->unit);
+    labels_disc(labels, target, 11 * paper->unit);
+    if (stage->text)
+        labels_put(paper, labels, FACE_BOLD, 1.1, COLOUR_X_TILDE,
+                   (const double(*)[2])target, 1, 0.9 * paper->em, "{xt}");
 }
 
 /* From the ground up. */
@@ -365,8 +381,11 @@ static SpringCount landscape_draw(Paper *paper, const Stage *stage,
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Plot plot = landscape_ground(paper, stage, show);
     draw_updates(paper, &plot, &simulation->descent);
-    if (!show->bare)
-        draw_other_direction(paper, &plot, simulation);
+    if (!show->bare) {
+        Labels labels = {.stage = plot.box};
+        keep_places(paper, stage, show, &labels);
+        draw_other_direction(paper, &plot, &labels, simulation);
+    }
     draw_direction(paper, &plot, &simulation->descent,
                    simulation->exhibit.parts == PART_BOTH);
     if (!show->bare && stage->text)

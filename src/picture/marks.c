@@ -209,6 +209,9 @@ static void legend_word(Paper *paper, const Stage *stage, Legend *legend,
     }
     double x = stage->box.x + margin + legend->x;
     double y = stage->box.y + 0.6 * paper->em + legend->y;
+    int air = paper_pixels(paper, 0.3); /* the picture may reach up to here */
+    canvas_rectangle(&paper->canvas, (int)x - air, (int)y, width + 2 * air,
+                     paper_pixels(paper, 1.25), COLOUR_PANEL);
     if (before > 0) {
         double middle = y + 0.65 * LEGEND_SIZE * paper->em;
         double length = before - 0.6 * paper->em;

@@ -5,6 +5,7 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
+#include "picture/labels.h"
 #include "scenes/mass_scene.h"
 
 enum { MASS_CORNERS = 120 };
@@ -41,36 +42,53 @@ static void draw_mass_circle(Paper *paper, const Stage *stage)
     }
 }
 
-/* A word beside the middle of an arrow from a along d. */
-static void label_mass_arrow(Paper *paper, const Stage *stage, const double *a,
-                             const double *d, Colour colour, const char *word)
+/* An arrow from a along d, which words keep off. */
+static void draw_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
+                            const double *a, const double *d, double width,
+                            Colour colour)
 {
-    const double middle[2] = {a[0] + 0.55 * d[0], a[1] + 0.55 * d[1]};
-    double at[2], length = hypot(d[0], d[1]);
+    const double b[2] = {a[0] + d[0], a[1] + d[1]};
+    double p[2], q[2];
+    stage_arrow(paper, stage, a, d, 1, width, colour);
+    stage_pixel(stage, a, p);
+    stage_pixel(stage, b, q);
+    labels_line(labels, p, q);
+}
+
+/* A word beside an arrow from a along d, unless it is short. */
+static void label_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
+                             const double *a, const double *d, Colour colour,
+                             const char *word)
+{
+    static const double part[] = {0.55, 0.8, 0.35, 0.7};
+    double at[4][2], length = hypot(d[0], d[1]);
     if (!stage->text || !(length * stage->camera.scale[0] > 2 * stage->em))
         return;
-    stage_pixel(stage, middle, at);
-    paper_write(paper, FACE_BOLD, 1.1, colour,
-                at[0] + 0.9 * paper->em * d[1] / length,
-                at[1] - 0.7 * paper->em + 0.9 * paper->em * d[0] / length,
-                ALIGN_CENTRE, "%s", word);
+    for (int i = 0; i < 4; i++) {
+        const double point[2] = {a[0] + part[i] * d[0], a[1] + part[i] * d[1]};
+        stage_pixel(stage, point, at[i]);
+    }
+    labels_put(paper, labels, FACE_BOLD, 1.15, colour, at, 4, 0.35 * paper->em,
+               word);
 }
 
-/* An arrow with its word. */
-static void draw_mass_arrow(Paper *paper, const Stage *stage, const double *a,
-                            const double *d, double width, Colour colour,
-                            const char *word)
+/* Keeps words off a disc of this many units. */
+static void keep_mass_disc(const Paper *paper, const Stage *stage,
+                           Labels *labels, const double *a, double radius)
 {
-    stage_arrow(paper, stage, a, d, 1, width, colour);
-    label_mass_arrow(paper, stage, a, d, colour, word);
+    double at[2];
+    stage_pixel(stage, a, at);
+    labels_disc(labels, at, radius * paper->unit);
 }
 
-/* The arrows of one method in the order in which it makes them. */
+/* The arrows of one method in the order in which it makes them; then their
+ * words. */
 static void draw_mass_step(Paper *paper, const Stage *stage,
                            const Simulation *simulation)
 {
     MassStep step;
-    double h = simulation->run[0].h, tip[2], way[2], push[2], dv[2];
+    Labels labels = {.stage = stage->box};
+    double h = simulation->run[0].h, tip[2], way[2], push[2], dv[2], at[2];
     if (!mass_next_step(simulation, 0, &step))
         return;
     bool backward = simulation->run[0].method->implicit;
@@ -80,25 +98,32 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
         dv[i] = step.new_v[i] - step.v[i];
         push[i] = h * (backward ? step.new_a[i] : step.a[i]);
     }
-    draw_mass_arrow(paper, stage, step.x, step.v, 2.6, COLOUR_VELOCITY, "v");
-    draw_mass_arrow(paper, stage, tip, push, 2.6, COLOUR_FORCE,
-                    backward ? "h a(x\u2032)" : "h a(x)");
-    stage_arrow(paper, stage, step.x, step.new_v, 1, 1.4, COLOUR_VELOCITY);
-    label_mass_arrow(paper, stage, step.x, step.new_v, COLOUR_VELOCITY,
-                     "v\u2032");
-    draw_mass_arrow(paper, stage, step.x, way, 4, COLOUR_X,
-                    way[0] == h * step.v[0] && dv[0] != 0 ? "h v"
-                                                          : "h v\u2032");
+    bool old = way[0] == h * step.v[0] && dv[0] != 0; /* h v, not h v' */
+    const Colour v = COLOUR_VELOCITY, f = COLOUR_FORCE;
+    draw_mass_arrow(paper, stage, &labels, step.x, step.v, 2.6, v);
+    draw_mass_arrow(paper, stage, &labels, tip, push, 2.6, f);
+    draw_mass_arrow(paper, stage, &labels, step.x, step.new_v, 1.4, v);
+    draw_mass_arrow(paper, stage, &labels, step.x, way, 4, COLOUR_X);
     if (backward)
-        draw_mass_arrow(paper, stage, step.new_x, step.new_a, 1.6, COLOUR_FORCE,
-                        "a(x\u2032)");
+        draw_mass_arrow(paper, stage, &labels, step.new_x, step.new_a, 1.6, f);
     stage_ring(paper, stage, step.new_x, 9 * paper->unit, 2.4, COLOUR_X);
-    if (stage->text) {
-        double at[2];
-        stage_pixel(stage, step.new_x, at);
-        paper_write(paper, FACE_BOLD, 1.1, COLOUR_X, at[0] + 0.9 * paper->em,
-                    at[1] + 0.2 * paper->em, ALIGN_LEFT, "x\u2032");
-    }
+    keep_mass_disc(paper, stage, &labels, step.new_x, 10);
+    keep_mass_disc(paper, stage, &labels, step.x, 11);
+    keep_mass_disc(paper, stage, &labels, tip, 11);
+    if (!stage->text)
+        return;
+    stage_pixel(stage, step.new_x, at);
+    labels_put(paper, &labels, FACE_BOLD, 1.15, COLOUR_X,
+               (const double(*)[2])at, 1, 0.9 * paper->em, "x\u2032");
+    label_mass_arrow(paper, stage, &labels, step.x, step.v, v, "v");
+    label_mass_arrow(paper, stage, &labels, tip, push, f,
+                     backward ? "h a(x\u2032)" : "h a(x)");
+    label_mass_arrow(paper, stage, &labels, step.x, way, COLOUR_X,
+                     old ? "h v" : "h v\u2032");
+    label_mass_arrow(paper, stage, &labels, step.x, step.new_v, v, "v\u2032");
+    if (backward)
+        label_mass_arrow(paper, stage, &labels, step.new_x, step.new_a, f,
+                         "a(x\u2032)");
 }
 
 /* All three: the way that each goes next. */

@@ -5,6 +5,7 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
+#include "picture/labels.h"
 #include "scenes/race_scene.h"
 
 /* Powers of ten: run time in s, error in m. */
@@ -18,29 +19,55 @@ static void race_bounds(const Show *show, int pane, double bounds[4])
         bounds[i] = RACE_BOUNDS[i];
 }
 
-/* The points of a method joined; its name at the last one. */
-static void race_method_curve(Paper *paper, const Plot *plot, const Race *race,
-                              int method, bool text)
+/* The last point of a method; NULL: there is none. */
+static const RacePoint *race_last(const Race *race, int method)
 {
-    Colour colour = colour_of_run(method);
-    double before[2] = {NAN, NAN}, at[2];
+    const RacePoint *last = NULL;
+    for (int i = method; i < race->count; i += RACE_METHODS)
+        if (race->point[i].error > 0)
+            last = &race->point[i];
+    return last;
+}
+
+/* The points of a method joined; words keep off the lines. */
+static void race_method_curve(Paper *paper, const Plot *plot, const Race *race,
+                              int method, Labels *labels)
+{
+    Colour colour = colour_of_method(race_method(method)->name);
+    double before[2] = {NAN, NAN};
     for (int i = method; i < race->count; i += RACE_METHODS) {
         const RacePoint *point = &race->point[i];
         const double now[2] = {point->seconds, point->error};
+        double from[2], to[2];
         if (!(point->error > 0))
             continue;
-        if (isfinite(before[0]))
+        if (isfinite(before[0])) {
             plot_line(paper, plot, before, now, 2.2, colour);
+            plot_place(plot, before[0], before[1], from);
+            plot_place(plot, now[0], now[1], to);
+            labels_line(labels, from, to);
+        }
         plot_disc(paper, plot, now, 5, colour);
         before[0] = now[0];
         before[1] = now[1];
     }
-    if (!text || !isfinite(before[0]))
-        return;
-    plot_place(plot, before[0], before[1], at);
-    paper_write(paper, FACE_BOLD, 0.95, colour, at[0] + 0.6 * paper->em,
-                at[1] - 0.6 * paper->em, ALIGN_LEFT, "%s",
-                race_method(method)->label);
+}
+
+/* The names of the methods, each at its last point. */
+static void race_names(Paper *paper, const Plot *plot, const Race *race,
+                       Labels *labels)
+{
+    for (int i = 0; i < RACE_METHODS; i++) {
+        const RacePoint *last = race_last(race, i);
+        double at[2];
+        if (!last)
+            continue;
+        plot_place(plot, last->seconds, last->error, at);
+        labels_put(paper, labels, FACE_BOLD, 0.95,
+                   colour_of_method(race_method(i)->name),
+                   (const double(*)[2])at, 1, 0.6 * paper->em,
+                   race_method(i)->label);
+    }
 }
 
 static SpringCount race_draw(Paper *paper, const Stage *stage, const Show *show)
@@ -64,9 +91,11 @@ static SpringCount race_draw(Paper *paper, const Stage *stage, const Show *show)
     plot.y.high = pow(10, high[1]);
     if (stage->text)
         plot_axes(paper, &plot);
+    Labels labels = {.stage = stage->box};
     for (int i = 0; i < RACE_METHODS; i++)
-        race_method_curve(paper, &plot, &simulation->exhibit.race, i,
-                          stage->text && !show->bare);
+        race_method_curve(paper, &plot, &simulation->exhibit.race, i, &labels);
+    if (stage->text && !show->bare)
+        race_names(paper, &plot, &simulation->exhibit.race, &labels);
     return (SpringCount){0, 0};
 }
 

@@ -194,7 +194,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double high = plot_round_axis(fmax(0.6 * system->k[0], 1.1 * now.energy));
     Axis x = {-reach, reach, false, false, "d in m"};
-    Axis y = {0, high, false, false, "J"};
+    Axis y = {0, high, false, false, NULL};
     Plot plot = plot_create(paper, inside, x, y);
     double from[2][2] = {{0, 0}, {0, 0}};
     for (int i = 0; i <= PROFILE_POINTS; i++) {
@@ -233,7 +233,7 @@ static const Card card_eigenvalues = {
 };
 static const Card card_profile = {
     .name = "profile",
-    .title = "energy over its length",
+    .title = "energy over its length, J",
     .least = 7,
     .weight = 1,
     .draw = spring_draw_profile,

@@ -72,8 +72,8 @@ static Plot tangent_plot(Paper *paper, const Stage *stage,
     if (stage->text) {
         box.x += paper_pixels(paper, 3.2);
         box.width -= paper_pixels(paper, 4);
-        box.y += paper_pixels(paper, half ? 0.8 : 2.2);
-        box.height -= paper_pixels(paper, half ? 2.6 : 3.2);
+        box.y += paper_pixels(paper, half ? 2.0 : 2.2);
+        box.height -= paper_pixels(paper, half ? 3.8 : 3.6);
     }
     if (box.width < 1 || box.height < 1)
         box = stage->box;
@@ -218,7 +218,7 @@ static SpringCount tangent_draw(Paper *paper, const Stage *stage,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,
                 "g(x) = m (x \u2212 {xt}) + h\u00b2 P\u2032(x)");
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[1].box.x + paper->em,
-                plot[1].box.y + 0.2 * paper->em, ALIGN_LEFT,
+                plot[1].box.y - 1.7 * paper->em, ALIGN_LEFT,
                 "E(x) = m/2 (x \u2212 {xt})\u00b2 + h\u00b2 P(x)");
     return (SpringCount){0, 0};
 }

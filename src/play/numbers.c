@@ -12,6 +12,7 @@ static const Number numbers[] = {
     {"stretch", "stretch", NULL, 5, NUMBER_STEP, 0.05},
     {"segments", "segments", NULL, 4, NUMBER_STEP, 1},
     {"tolerance", "\u03b5", "m/s", 9, NUMBER_FACTOR, 0},
+    {"friction", "\u03bc", NULL, 7, NUMBER_STEP, 0.01},
     {"integrator", "method", NULL, 16, NUMBER_NAME, 0},
     {"filter", "projection", NULL, 9, NUMBER_NAME, 0},
     {"line-search", "line search", NULL, 9, NUMBER_NAME, 0},
@@ -42,6 +43,8 @@ void number_value(const Number *number, const Options *options, char *text)
         snprintf(text, size, "%d", options->segments);
     else if (strcmp(option, "tolerance") == 0)
         snprintf(text, size, "%g", options->tolerance);
+    else if (strcmp(option, "friction") == 0)
+        snprintf(text, size, "%g", options->friction);
     else if (strcmp(option, "integrator") == 0)
         snprintf(text, size, "%s",
                  options->integrator ? options->integrator->name
@@ -54,6 +57,13 @@ void number_value(const Number *number, const Options *options, char *text)
         snprintf(text, size, "%s", solver_name(options->solver));
 }
 
+/* Whether there is something that the number is about. */
+static bool has_meaning(const Number *number, const Options *options)
+{
+    return strcmp(number->option, "friction") != 0 ||
+           options->grounds + options->balls > 0;
+}
+
 int numbers_of(const Options *options, const Number *found[NUMBERS_MOST])
 {
     int count = 0;
@@ -61,7 +71,8 @@ int numbers_of(const Options *options, const Number *found[NUMBERS_MOST])
         char text[COMMAND_TEXT_SIZE], unread[2];
         Options trial = *options;
         number_value(&numbers[i], options, text);
-        if (!options_set(&trial, numbers[i].option, text, unread,
+        if (has_meaning(&numbers[i], options) &&
+            !options_set(&trial, numbers[i].option, text, unread,
                          sizeof unread))
             found[count++] = &numbers[i];
     }
@@ -136,8 +147,10 @@ void number_paced(const Number *number, const Options *options, double paces,
         value = factor_paced(value, paces);
     } else {
         value = (rint(value / number->step) + rint(paces)) * number->step;
-        value =
-            strcmp(number->option, "segments") == 0 ? fmax(value, 1) : value;
+        if (strcmp(number->option, "segments") == 0)
+            value = fmax(value, 1);
+        if (strcmp(number->option, "friction") == 0)
+            value = fmax(value, 0);
     }
     snprintf(text, COMMAND_TEXT_SIZE, "%.3g", value);
     if (strcmp(number->option, "segments") == 0)

@@ -491,15 +491,16 @@ const LecturePage lecture_pages[] = {
              "fades to zero.",
      .line = "slope",
      .cards = "page energies",
-     .look =
-         "Three blocks on one slope. Only the friction differs: half of what "
-         "is needed to hold, 0.9 and 1.1 times. The third block holds.",
-     .touch = "Drag h: which blocks slide and which one holds stays the same.",
+     .look = "Three blocks on a slope of 20°. Their friction is 0.5, 0.9 and "
+             "1.1 times μ, and μ = tan 20° just holds: two slide, one holds.",
+     .touch = "Drag μ: above 0.41 the second block stops, too; below 0.33 the "
+              "third one slides.",
      .file = "src/model/friction.c",
      .function = "friction_value",
      .lit = "return",
-     .claim = "In 3 s the first block slides more than 7 m along, the last "
-              "one less than 2 cm.",
+     .claim = "In 3 s the first block slides more than 7 m along, the last one "
+              "less than 2 cm. With μ = 0.42 the second one slides less than 3 "
+              "cm, with μ = 0.32 the third one more than 50 cm.",
      .film = 300,
      .every = 15,
      .plays = true},
