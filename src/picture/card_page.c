@@ -15,6 +15,7 @@ typedef struct Words {
 } Words;
 
 static const double HEAD_ROOM = 3.2; /* ems of the letters, of a head */
+static const double TEST_ROOM = 4.4; /* of the head of a test */
 static const double GAP = 0.35;      /* lines, between two texts */
 static const double LETTERS = 1.2;   /* ems, on every page */
 static const double LETTER = 0.52;   /* ems of the letters, one on average */
@@ -22,13 +23,13 @@ static const double SMALLEST = 0.9;  /* where the window is too small */
 
 /* One text with its head in bold, or with `draw` false only measured.  Returns
  * where the next one begins. */
-static int put_words(Paper *paper, Box inside, int y, double size,
+static int put_words(Paper *paper, Box inside, int y, double size, double head,
                      const Words *words, bool draw)
 {
     double line = text_line(size * paper->em);
     Box box = {inside.x, y, inside.width, 0};
     if (words->head) {
-        int width = paper_pixels(paper, HEAD_ROOM * size);
+        int width = paper_pixels(paper, head * size);
         if (draw)
             paper_write(paper, FACE_BOLD, size, words->colour, box.x, y,
                         ALIGN_LEFT, "%s", words->head);
@@ -52,7 +53,7 @@ static int put_page(Paper *paper, Box inside, double size,
                                 {"Try", page->touch, COLOUR_HAND}};
     int y = inside.y;
     for (int i = 0; i < WORDS; i++)
-        y = put_words(paper, inside, y, size, &words[i], draw);
+        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], draw);
     return y - (int)(GAP * text_line(size * paper->em));
 }
 
@@ -78,7 +79,7 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     if (!show->lecture)
         return inside;
     const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT};
-    int y = put_words(paper, inside, inside.y, 1, &words, true);
+    int y = put_words(paper, inside, inside.y, 1, TEST_ROOM, &words, true);
     return (Box){inside.x, y, inside.width, inside.y + inside.height - y};
 }
 

@@ -132,9 +132,9 @@ static void draw_contours(Paper *paper, const Plot *plot,
 static void draw_level_number(Paper *paper, const Plot *plot, double x,
                               double y, double level)
 {
-    char text[16];
+    char text[48];
     double at[2];
-    snprintf(text, sizeof text, "%.3g", level);
+    plot_number(text, sizeof text, level);
     plot_place(plot, x, y, at);
     int width = paper_width(paper, FACE_REGULAR, 0.82, text);
     int height = paper_pixels(paper, 1.05);

@@ -187,6 +187,10 @@ void stage_scale(Paper *paper, const Stage *stage)
     }
     char number[48];
     plot_number(number, sizeof number, shown);
+    canvas_rectangle(&paper->canvas, (int)(x - 0.4 * paper->em),
+                     (int)(y - 1.4 * paper->em),
+                     (int)(length + 0.8 * paper->em), paper_pixels(paper, 1.8),
+                     COLOUR_PANEL);
     canvas_line(&paper->canvas, x, y, x + length, y, fmax(1, 1.5 * paper->unit),
                 COLOUR_GREY);
     for (int k = 0; k < 2; k++)

@@ -220,14 +220,14 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 static const Card card_spring_numbers = {
     .name = "numbers",
     .title = "the spring in numbers",
-    .least = 10,
+    .least = 9.6,
     .weight = 1.1,
     .draw = spring_draw_numbers,
 };
 static const Card card_eigenvalues = {
     .name = "eigenvalues",
     .title = "eigenvalues of its 4 \u00d7 4 block",
-    .least = 8,
+    .least = 7,
     .weight = 0.9,
     .draw = spring_draw_eigenvalues,
 };

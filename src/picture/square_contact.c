@@ -146,7 +146,7 @@ void square_contact_label(const ContactView *view)
     const double foot[2] = {left[0],
                             wall->o[1] + slope * (left[0] - wall->o[0])};
     stage_pixel(stage, foot, at);
-    double low = at[1] + 3 * em - (stage->box.y + stage->box.height);
+    double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     if (low > 0) { /* further up along the wall */
         at[0] += low / fabs(slope);
         at[1] -= low;

@@ -1,6 +1,7 @@
 #include "picture/square_picture.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -543,10 +544,17 @@ static void draw_numbers(const SpringPen *pen, const System *system)
 {
     for (int i = 0; i < system->nodes; i++) {
         double at[2];
+        char number[16];
+        Paper *paper = pen->paper;
         stage_pixel(pen->stage, pane_x(pen->pane) + 2 * i, at);
-        paper_write(pen->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
-                    at[0] + 0.7 * pen->paper->em, at[1] + 0.4 * pen->paper->em,
-                    ALIGN_LEFT, "%d", i);
+        at[0] += 0.7 * paper->em;
+        at[1] += 0.4 * paper->em;
+        snprintf(number, sizeof number, "%d", i);
+        canvas_rectangle(&paper->canvas, (int)at[0], (int)at[1],
+                         paper_width(paper, FACE_BOLD, 1.3, number),
+                         paper_pixels(paper, 1.5), COLOUR_PANEL);
+        paper_write(paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0], at[1],
+                    ALIGN_LEFT, "%s", number);
     }
 }
 

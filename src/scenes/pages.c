@@ -50,8 +50,8 @@ const LecturePage lecture_pages[] = {
     {.name = "equation",
      .topic = "Equation of motion and mass matrix",
      .text = "M dv/dt = −∇P(x): mass times acceleration is force, and force is "
-             "minus the gradient of the energy. M is diagonal: the masses of "
-             "the nodes.",
+             "minus the gradient of the energy. M is diagonal and holds the "
+             "masses of the nodes.",
      .line = "square --stretch 1.4",
      .cards = "page energies",
      .look = "Press Space: the stretched square swings. Its inner forces "
@@ -90,10 +90,10 @@ const LecturePage lecture_pages[] = {
              "x′\u00a0=\u00a0x\u00a0+\u00a0h\u00a0v′.",
      .line = "arrows --integrator symplectic-euler",
      .cards = "page numbers energies",
-     .look = "Only v in the second line is another one, but now the energy "
-             "stays bounded: the path is an ellipse.",
-     .touch = "Drag h: the ellipse gets longer. From h = 2 s on the mass flies "
-              "away.",
+     .look = "One v differs from forward Euler, and now the energy stays "
+             "bounded: the path is an ellipse.",
+     .touch = "Drag h: the ellipse gets longer. From h\u00a0=\u00a02\u00a0s on "
+              "the mass flies away.",
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "x[i] = add",
@@ -146,8 +146,8 @@ const LecturePage lecture_pages[] = {
      .line = "square --integrator symplectic-euler --timestep 0.008",
      .cards = "page energies",
      .look = "Press Space: the square tears itself apart within a few steps.",
-     .touch = "Drag h down to 0.003 s and press R: it holds. With backward "
-              "Euler any h does.",
+     .touch = "Drag h down to 0.003 s and press R: it swings on. Backward "
+              "Euler can take any h.",
      .file = LECTURE,
      .function = "symplectic_euler",
      .lit = "v[i] = sub",
@@ -158,14 +158,15 @@ const LecturePage lecture_pages[] = {
     /* ---- Newton's method ------------------------------------------------ */
     {.name = "tangent",
      .topic = "Newton's method in one dimension",
-     .text = "Follow the tangent of g to where it is zero, then repeat. Below, "
-             "the same step for E, with E′ = g: to the lowest point of the "
+     .text = "Follow the tangent of g to its zero, then repeat. Below is the "
+             "same step for E, with E′ = g: to the lowest point of the "
              "parabola that fits E.",
      .line = "tangent",
      .cards = "page numbers residual",
      .look = "Tangent and parabola lead to the same x. Near the root each "
              "update doubles the number of correct digits.",
-     .touch = "Drag the start or x̃. Click where the next iterate will be, then "
+     .touch = "Drag the start or x̃. Click where the next iterate will be, "
+              "then "
               "press N.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_start",
@@ -236,7 +237,7 @@ const LecturePage lecture_pages[] = {
      .text = "Backward Euler's equation is ∇E(x) = 0 with E(x) = ½ (x − x̃)ᵀ M "
              "(x − x̃) + h² P(x). It has a minimum: walk downhill.",
      .line = "square",
-     .open = "finer; finer; next; next; next; next",
+     .open = "next; next; next; finer; finer; next; next; next; next",
      .lines = 4,
      .cards = CARDS_NEWTON,
      .look = "The dashed ghost is x̃, where the masses would fly without "
@@ -261,7 +262,8 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "ip_grad",
      .lit = "spring_grad",
-     .claim = "Inertia is lowest at x̃, elasticity where the springs have their "
+     .claim = "Inertia is lowest at x̃, elasticity where the springs have "
+              "their "
               "rest length; at the minimum of the sum each part is above its "
               "own minimum."},
     {.name = "dial",
@@ -272,7 +274,7 @@ const LecturePage lecture_pages[] = {
      .cards = "page numbers",
      .look = "The path of the minimiser: each point of it is the end of a step "
              "with another h.",
-     .touch = "Drag h or x̃. Space turns h by itself.",
+     .touch = "Drag h or x̃. Space turns h up by itself.",
      .file = "src/scenes/dial_scene.c",
      .function = "dial_minimise",
      .lit = "const double p[2]",
@@ -283,7 +285,8 @@ const LecturePage lecture_pages[] = {
      .film = 20},
     {.name = "inertia",
      .topic = "Inertia energy",
-     .text = "½ Σ m |x − x̃|² is a bowl around x̃ with the gradient M (x − x̃). "
+     .text = "½ Σ m |x − x̃|² is a bowl around x̃ with the gradient M (x − "
+             "x̃). "
              "Its Hessian is M and never changes.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page numbers",
@@ -438,12 +441,13 @@ const LecturePage lecture_pages[] = {
      .text =
          "The loop ends when ‖p‖∞ / h ≤ ε. Here ‖p‖∞ is the largest |p_x| + "
          "|p_y| of a node, as in numpy for an n × 2 array. So ε is a velocity.",
-     .line = "square",
+     .line = "square --tolerance 1e-6",
      .open = "next",
      .cards = "page residual energies",
      .look = "The residual of each update on a logarithmic axis: it falls by a "
-             "factor of 30, then of 300.",
-     .touch = "Drag ε: ten thousand times tighter costs only two updates more.",
+             "factor of 36, then of 330. A ring is an upper bound.",
+     .touch = "Drag ε up to 0.01 m/s, as on the slides: that saves only two "
+              "updates.",
      .file = LECTURE,
      .function = "residual",
      .lit = "fmax",
@@ -491,10 +495,11 @@ const LecturePage lecture_pages[] = {
              "fades to zero.",
      .line = "slope",
      .cards = "page energies",
-     .look = "Three blocks on a slope of 20°. Their friction is 0.5, 0.9 and "
-             "1.1 times μ, and μ = tan 20° just holds: two slide, one holds.",
-     .touch = "Drag μ: above 0.41 the second block stops, too; below 0.33 the "
-              "third one slides.",
+     .look = "Three blocks on a slope of 20°. A block holds if its friction "
+             "coefficient is above tan\u00a020°\u00a0=\u00a00.364: two slide, "
+             "one holds.",
+     .touch = "Drag μ; the blocks have 0.5, 0.9 and 1.1 times it. From 0.42 on "
+              "the second one holds, too.",
      .file = "src/model/friction.c",
      .function = "friction_value",
      .lit = "return",

@@ -603,11 +603,18 @@ static void claim_step(void)
     for (int i = 0; i < 2; i++) {
         Log log = {0};
         Simulation simulation;
-        open_page("step", i == 0 ? "" : "--tolerance 1e-6", keep_record, &log,
-                  &simulation);
+        if (i == 0)
+            simulation_from_line("square", keep_record, &log, &simulation);
+        else
+            open_page("step", "", keep_record, &log, &simulation);
+        CHECK_NEAR(simulation.options.tolerance, i == 0 ? 1e-2 : 1e-6, 0);
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         check_falls(&log);
         count[i] = log.count;
+        /* what is to be looked at, in two digits */
+        CHECK_NEAR(log.record[0].residual / log.record[1].residual, 36, 0.5);
+        if (i == 1)
+            CHECK_NEAR(log.record[1].residual / log.record[2].residual, 330, 5);
         simulation_free(&simulation);
     }
     CHECK(count[1] == count[0] + 2);
@@ -959,7 +966,9 @@ static void words_of_all_pages_have_one_size(void **unused)
             show_create(&simulation, &show);
             show_lecture(LECTURE_CARDS, &show);
             assert_int_equal(paper_create(width, height, &paper), 0);
-            show.settings = 9;
+            show.settings = 9; /* as many as fill two rows */
+            for (int i = 0; i < show.settings; i++)
+                show.setting[i] = (Setting){.name = "name", .letters = 12};
             Layout layout = show_layout(&show, width, height);
             paper.em = layout.em;
             Box inside = cards_inside(layout.card[0], layout.em);
