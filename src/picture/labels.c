@@ -101,7 +101,7 @@ void labels_put(Paper *paper, Labels *labels, Face face, double size,
             continue;
         double apart = i % 8 < 4 ? gap : 0.7 * gap;
         Box place = {(int)(at[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
-                     (int)(at[1] + to[1] * (apart + 0.4 * high) - 0.5 * high),
+                     (int)(at[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
         double cost = place_cost(labels, place) + COST_LATER * i;
         if (cost < least) {

@@ -166,8 +166,7 @@ const LecturePage lecture_pages[] = {
      .look = "Tangent and parabola lead to the same x. Near the root each "
              "update doubles the number of correct digits.",
      .touch = "Drag the start or x̃. Click where the next iterate will be, "
-              "then "
-              "press N.",
+              "then press N.",
      .file = "src/solve/scalar_newton.c",
      .function = "scalar_newton_start",
      .lit = "newton->p =",
@@ -262,10 +261,10 @@ const LecturePage lecture_pages[] = {
      .file = LECTURE,
      .function = "ip_grad",
      .lit = "spring_grad",
-     .claim = "Inertia is lowest at x̃, elasticity where the springs have "
-              "their "
-              "rest length; at the minimum of the sum each part is above its "
-              "own minimum."},
+     .claim =
+         "Inertia is lowest at x̃, elasticity where the springs have "
+         "their rest length; at the minimum of the sum each part is above its "
+         "own minimum."},
     {.name = "dial",
      .topic = "What the time step h does",
      .text = "h weighs elasticity against inertia: the longer the step, the "
@@ -286,8 +285,7 @@ const LecturePage lecture_pages[] = {
     {.name = "inertia",
      .topic = "Inertia energy",
      .text = "½ Σ m |x − x̃|² is a bowl around x̃ with the gradient M (x − "
-             "x̃). "
-             "Its Hessian is M and never changes.",
+             "x̃). Its Hessian is M and never changes.",
      .line = "landscape --start 0.6,0.9",
      .cards = "page numbers",
      .look = "Round contours: the Hessian is the same everywhere, and positive "

@@ -984,6 +984,30 @@ static void words_of_all_pages_have_one_size(void **unused)
     CHECK(small == 0);
 }
 
+/* An algorithm with lines off goes by another name. */
+static void listings_are_called_by_what_is_on(void **unused)
+{
+    (void)unused;
+    static const char *const rows[][2] = {
+        {"square", "Algorithm 3: projected Newton"},
+        {"square --filter none", "Algorithm 3, line 3 is off"},
+        {"square --line-search none", "Algorithm 3, line 5 is off"},
+        {"landscape --filter none --line-search none",
+         "Algorithm 1: lines 3 and 5 are off"},
+        {"overshoot", "Algorithm 1: Newton's method"},
+        {"overshoot --line-search backtrack",
+         "Algorithm 1; line 4 is Algorithm 2"},
+        {"square --integrator forward-euler", "Forward Euler"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation simulation;
+        Show show;
+        simulation_from_line(rows[i][0], NULL, NULL, &simulation);
+        show_create(&simulation, &show);
+        assert_string_equal(card_listing.titled(&show), rows[i][1]);
+        simulation_free(&simulation);
+    }
+}
+
 static void pages_are_found(void **unused)
 {
     (void)unused;
@@ -1002,6 +1026,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pages_are_complete),
         cmocka_unit_test(words_of_all_pages_have_one_size),
+        cmocka_unit_test(listings_are_called_by_what_is_on),
         cmocka_unit_test(pages_are_found),
         cmocka_unit_test(every_claim_has_its_test),
         cmocka_unit_test(claims_hold),

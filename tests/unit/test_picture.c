@@ -11,8 +11,10 @@
 #include "testing.h"
 
 #include "picture/colour_map.h"
+#include "picture/labels.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
+#include "play/numbers.h"
 #include "play/player.h"
 #include "play/png_file.h"
 #include "play/recording.h"
@@ -298,6 +300,84 @@ static void numbers_are_read(void **unused)
     plot_number(text, sizeof text, INFINITY); /* cut, but ended */
     plot_number(text, sizeof text, 1.2345e-300);
     CHECK(strlen(text) < sizeof text);
+}
+
+/* As printf writes them, then as people do. */
+static void printed_numbers_become_markup(void **unused)
+{
+    (void)unused;
+    static const char *const rows[][2] = {
+        {"1e-06 m/s", "10^{\u22126} m/s"},
+        {"k = 2.5e+15 J/m\u00b2", "k = 2.5\u00b710^{15} J/m\u00b2"},
+        {"(-0.5, 1)", "(\u22120.5, 1)"},
+        {"-1.25e-07", "\u22121.25\u00b710^{\u22127}"},
+        {"on-demand", "on-demand"},
+        {"avf4 1e5x 0.01", "avf4 1e5x 0.01"},
+        {"x^{0} = 2.5", "x^{0} = 2.5"},
+        {"", ""}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "%s", rows[i][0]);
+        plot_numbers(text, sizeof text);
+        assert_string_equal(text, rows[i][1]);
+    }
+    char small[8] = "1e-300";
+    plot_numbers(small, sizeof small); /* cut, but ended */
+    CHECK(strlen(small) < sizeof small);
+}
+
+/* Where words were put: the boxes after those that were there. */
+static void words_keep_off_lines_and_words(void **unused)
+{
+    (void)unused;
+    const double middle[1][2] = {{200, 150}}, far[1][2] = {{INFINITY, 0}};
+    const double up[2] = {200, 20}, right[2] = {390, 150};
+    Labels labels = {.stage = {0, 0, 400, 300}};
+    Paper paper;
+    assert_int_equal(paper_create(400, 300, &paper), 0);
+    labels_line(&labels, middle[0], up);
+    labels_line(&labels, middle[0], right);
+    labels_line(&labels, far[0], right); /* left out */
+    CHECK(labels.lines == 2);
+    labels_disc(&labels, middle[0], 8);
+    labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, far, 1, 10, "no");
+    CHECK(labels.boxes == 1); /* nothing can be beside it */
+    for (int i = 0; i < 4; i++)
+        labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, middle, 1, 20,
+                   "words");
+    CHECK(labels.boxes == 5);
+    for (int i = 1; i < labels.boxes; i++) {
+        Box a = labels.box[i];
+        bool over = a.x < 200 && a.x + a.width > 200 && a.y < 150;
+        bool beside = a.y < 150 && a.y + a.height > 150 && a.x + a.width > 200;
+        CHECK(!over && !beside);
+        CHECK(a.x >= 0 && a.x + a.width <= 400);
+        for (int j = 0; j < i; j++) {
+            Box b = labels.box[j];
+            CHECK(a.x >= b.x + b.width || b.x >= a.x + a.width ||
+                  a.y >= b.y + b.height || b.y >= a.y + a.height);
+        }
+    }
+    paper_free(&paper);
+}
+
+/* Where there is nothing to rub on, there is no coefficient to change. */
+static void friction_is_a_number_of_contact(void **unused)
+{
+    (void)unused;
+    static const char *const scenes_with[] = {"slope", "drop", "dent"};
+    const Number *found[NUMBERS_MOST];
+    for (int i = 0; i < 4; i++) {
+        Simulation simulation;
+        bool there = false;
+        simulation_from_line(i < 3 ? scenes_with[i] : "square", NULL, NULL,
+                             &simulation);
+        int count = numbers_of(&simulation.options, found);
+        for (int k = 0; k < count; k++)
+            there = there || strcmp(found[k]->option, "friction") == 0;
+        CHECK(there == (i < 3));
+        simulation_free(&simulation);
+    }
 }
 
 /* ---- frames ------------------------------------------------------------- */
@@ -730,6 +810,9 @@ int main(void)
         cmocka_unit_test(history_spans_the_run),
         cmocka_unit_test(axes_end_at_round_numbers),
         cmocka_unit_test(numbers_are_read),
+        cmocka_unit_test(printed_numbers_become_markup),
+        cmocka_unit_test(words_keep_off_lines_and_words),
+        cmocka_unit_test(friction_is_a_number_of_contact),
         cmocka_unit_test(readme_shows_what_is_drawn),
         cmocka_unit_test(readme_shows_films_of_all_scenes),
         cmocka_unit_test(surface_shows_the_paper),
