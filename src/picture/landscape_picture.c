@@ -176,7 +176,7 @@ static void draw_map(Paper *paper, const Plot *plot,
     draw_contours(paper, plot, simulation);
     if (!text)
         return;
-    draw_level_numbers(paper, plot, simulation, 0, -right, 1.07);
+    draw_level_numbers(paper, plot, simulation, 0, plot->x.low, 1.07);
     draw_level_numbers(paper, plot, simulation, 0, right, -1.03);
     draw_level_numbers(paper, plot, simulation, 0.6, right, 0.25);
 }
