@@ -36,8 +36,9 @@ sub read_file {
 sub definition {
     my ($text, $name) = @_;
     return (0, length $text) if $name eq '-';
+    # A function may be EACH(name), or KERNEL(name, 1).
     my $head = qr/^(?![\s#\/*}])[^;{}=]*?(?<![\w.>])\Q$name\E\b/m;
-    if ($text =~ /$head\)?\s*\([^;{]*\)\s*\{.*?\n\}/ms) { # or EACH(name)
+    if ($text =~ /$head(?:\)?\s*\([^;{]*|, \d+)\)\s*\{.*?\n\}/ms) {
         return ($-[0], $+[0]); # a function
     }
     if ($text =~ /$head[^;(){}=]*=\s*\{.*?\n\};/ms) {
