@@ -72,6 +72,9 @@ endif
 endif
 
 # $(call try,FLAGS,HEADER,CALL): does this compile and link?
+# A symbol is looked for in one library after the other when a program starts:
+# so those with most symbols come first, BLAS and LAPACK, which CHOLMOD uses
+# (28 instead of 52 million instructions).
 define deps_functions
 try() { { printf '#include <%b>\n' stddef.h stdio.h "$$2"; \
     echo "int main(void) { return (int)(size_t)($$3); }"; } | \
@@ -95,6 +98,8 @@ cholmod_flags() { \
     "-I/opt/homebrew/include/suitesparse -L/opt/homebrew/lib -lcholmod"; do \
   if try "$$f" cholmod.h '&cholmod_solve2'; then \
     echo "$$f"; return 0; fi; done; return 1; }; \
+blas() { all="-Wl,--no-as-needed -lblas -llapack -Wl,--as-needed"; \
+  try "$$all" stddef.h 0 && echo "$$all"; }; \
 install_packages() { \
   echo "elasto needs these packages: $$1"; \
   if ! command -v apt-get >/dev/null 2>&1; then \
@@ -132,9 +137,8 @@ $(CONFIG): Makefile
 	if [ "$$missing" ]; then install_packages "$$missing" || exit 1; fi; \
 	sdl && ttf && png && cholmod=$$(cholmod_flags) || \
 	  { cat build/try.log; exit 1; }; \
-	flags="$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
+	flags="$$(blas) $$cholmod $$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
 	flags="$$flags $$(pc SDL2_ttf -lSDL2_ttf) $$(pc libpng -lpng)"; \
-	flags="$$flags $$cholmod"; \
 	c=; l=; for f in $$flags; do \
 	  case "$$c $$l " in *" $$f "*) continue;; esac; \
 	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \
