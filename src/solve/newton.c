@@ -37,8 +37,9 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
         newton->residual = 0;
         return newton->status;
     }
-    return newton->status = hand_over_wanted(newton) ? hand_over_start(newton)
-                                                     : direction_first(newton);
+    return newton->status = newton_takes_multigrid(newton)
+                                ? newton_multigrid_start(newton)
+                                : direction_first(newton);
 }
 
 /* u += alpha p, x = x_n + u.  Changes neither where the result would not be
@@ -92,7 +93,7 @@ Status newton_iterate(Newton *newton)
     if (newton->status != STATUS_RUNNING)
         return newton->status;
     if (newton->working == SOLVER_MULTIGRID)
-        return hand_over_iterate(newton);
+        return newton_multigrid_iterate(newton);
     double start = clock_now();
     newton->record.iteration++;
     newton->record.residual = newton->residual;

@@ -36,7 +36,7 @@ killers_for() { # file
     */model/*psd.[ch] | */model/*_energy.[ch])
         own="$own psd derivatives averaged body" ;;
     */model/*) own="$own derivatives body barrier mesh" ;;
-    */solve/hand_over.c) own="$own solvers" ;;
+    */solve/newton_multigrid.c) own="$own solvers" ;;
     */solve/*grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
         own="$own multigrid solvers" ;;
     */base/quartic.[ch]) own="$own line_search solvers" ;;

@@ -46,7 +46,7 @@ static const char *refusal(const Newton *newton)
     return NULL;
 }
 
-bool hand_over_wanted(Newton *newton)
+bool newton_takes_multigrid(Newton *newton)
 {
     Solver solver = newton->settings.solver;
     int segments = newton->system->segments;
@@ -93,7 +93,7 @@ static Status take_back(Newton *newton)
     return direction_first(newton);
 }
 
-Status hand_over_start(Newton *newton)
+Status newton_multigrid_start(Newton *newton)
 {
     const System *system = newton->system;
     const NewtonSettings *settings = &newton->settings;
@@ -142,7 +142,7 @@ static bool is_stuck(Newton *newton, Status status)
             rounding_hides(newton, record->change));
 }
 
-Status hand_over_iterate(Newton *newton)
+Status newton_multigrid_iterate(Newton *newton)
 {
     double start = clock_now();
     NewtonRecord *record = &newton->record;
