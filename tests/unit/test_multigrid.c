@@ -12,6 +12,7 @@
 #include "solve/grid.h"
 #include "solve/multigrid.h"
 #include "solve/plane_search.h"
+#include "solve/tips.h"
 #include "solve/v_cycle.h"
 
 /* A square's step problem with everything that may differ from node to node
@@ -396,6 +397,42 @@ static void kernels_agree_with_the_formulas(void **state)
 /* ---- the V-cycle ---- */
 
 /* B is symmetric and positive definite, to the rounding of its precision. */
+/* Two nodes are pulled out of a square at rest: windows around them lower E by
+ * what they say, leave all else where it was, and g is that of the end. */
+static void windows_lower_what_they_say(void **state)
+{
+    enum { SEGMENTS = 60, SIDE = SEGMENTS + 1, FIRST = 20 * SIDE + 31 };
+    (void)state;
+    Problem problem;
+    Grid grid;
+    Tips tips;
+    problem_create(SEGMENTS, 1, &problem);
+    problem.u[2 * FIRST] = problem.u[2 * FIRST + 41] = 0.6 / SEGMENTS;
+    assert_int_equal(grid_create(SEGMENTS, 0, &grid), 0);
+    set_grid(&problem, &grid);
+    assert_int_equal(tips_create(&grid, &tips), 0);
+    double *g = grid_planes(&grid, 2), *at_end = grid_planes(&grid, 2);
+    double *u = new_array(2 * problem.mesh.nodes);
+    assert_true(g && at_end);
+    long double before = reference_energy(&problem, problem.u);
+    double change = tips_minimise(&tips, -1e-9 * (double)before, g);
+    CHECK(tips.phases > 2 && tips.iterations > 20);
+    grid_unpack(&grid, grid.u, u);
+    long double after = reference_energy(&problem, u);
+    CHECK(after < 0.1L * before);
+    CHECK_NEAR(change, (double)(after - before), 1e-13 * (double)before);
+    grid_gradient(&grid, NULL, at_end);
+    assert_memory_equal(g, at_end, 2 * (size_t)grid.layout.plane * sizeof *g);
+    for (int i = 0; i < 2 * problem.mesh.nodes; i++)
+        CHECK(i / 2 / SIDE < 50 || u[i] == 0);
+    free(g);
+    free(at_end);
+    free(u);
+    tips_free(&tips);
+    grid_free(&grid);
+    problem_free(&problem);
+}
+
 static void the_cycle_is_symmetric_and_positive(void **state)
 {
     (void)state;
@@ -569,6 +606,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kernels_agree_with_the_formulas),
+        cmocka_unit_test(windows_lower_what_they_say),
         cmocka_unit_test(the_cycle_is_symmetric_and_positive),
         cmocka_unit_test(steps_pass_the_test_of_algorithm_3),
         cmocka_unit_test(a_saddle_is_left),
