@@ -271,9 +271,9 @@ static Status show_failure(Player *player, Status status)
  * is a frame. */
 static Status step_frame(Player *player)
 {
-    double begin = clock_now();
     Status status = STATUS_OK;
     int count = player->window && player->speed > 0 ? 1 << player->speed : 1;
+    double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status && !player->paused; i++) {
         if (i > 0 &&
             (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
@@ -305,14 +305,16 @@ static Status run_frame(Player *player, double *next)
     Status status = obey_inputs(player);
     if (!status)
         status = obey_script(player);
+    double now = player->window ? clock_now() : 0; /* else nobody waits */
     if (player->sampled < 0) /* a new run: step 0 is a frame too */
-        *next = clock_now() + period;
-    bool due = !player->window || clock_now() >= *next - EARLY;
+        *next = now + period;
+    bool due = !player->window || now >= *next - EARLY;
     bool first = player->sampled < 0 && player->view;
     if (!status && !player_ended(player) && !player->paused && due && !first) {
-        *next = fmax(*next + period, clock_now());
+        *next = fmax(*next + period, now);
         status = step_frame(player);
-        measure_speed(player);
+        if (player->window)
+            measure_speed(player);
     }
     if (!status && !player->quit && (player->changed || player->glide > 0))
         status = player_draw(player);
@@ -325,14 +327,15 @@ Status player_run(Player *player)
     Status status = player_draw(player);
     while (!status && !player_ended(player)) {
         status = run_frame(player, &next);
-        double wait = player->glide > 0 ? 1e3 / FRAME_RATE
-                      : player->paused  ? IDLE_WAIT
-                                        : 1e3 * (next - clock_now());
         bool busy = !script_is_over(&player->script) && player->paused;
-        if (!player->window)
+        if (!player->window) {
             show_progress(player);
-        else if (!status && !busy && !player_ended(player))
+        } else if (!status && !busy && !player_ended(player)) {
+            double wait = player->glide > 0 ? 1e3 / FRAME_RATE
+                          : player->paused  ? IDLE_WAIT
+                                            : 1e3 * (next - clock_now());
             view_wait(player->view, (int)fmin(ceil(wait), IDLE_WAIT));
+        }
     }
     return status;
 }
