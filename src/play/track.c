@@ -11,7 +11,7 @@
 
 /* Options that may change from one step to the next. */
 static const char *const live_names[] = {
-    "timestep", "stiffness", "friction",    "tolerance", "integrator",
+    "timestep", "stiffness", "tolerance",   "integrator",
     "solver",   "filter",    "line-search", NULL,
 };
 
