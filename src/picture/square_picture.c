@@ -520,6 +520,10 @@ static void draw_colour_bar(Paper *paper, const Stage *stage, double range,
     int x = stage->box.x + stage->box.width - width - paper_pixels(paper, 1);
     int y = stage->box.y + stage->box.height - paper_pixels(paper, 1.2);
     double above = y - 1.4 * paper->em;
+    int rim = paper_pixels(paper, 0.4); /* walls may be behind it */
+    canvas_rectangle(&paper->canvas, x - rim, (int)above - rim / 2,
+                     width + 2 * rim, height + paper_pixels(paper, 1.9),
+                     COLOUR_PANEL);
     for (int i = 0; i < width; i++) {
         double part = (i + 0.5) / width;
         canvas_rectangle(&paper->canvas, x + i, y, 1, height,

@@ -32,7 +32,7 @@ killers_for() { # file
     case $1 in
     */model/barrier* | */model/contact* | */model/friction* | */model/cell* | \
         */model/plast* | */model/fract* | */step/prescribed*)
-        own="$own barrier contact" ;;
+        own="$own barrier contact contact_scenes" ;;
     */model/*psd.[ch] | */model/*_energy.[ch])
         own="$own psd derivatives averaged body" ;;
     */model/*) own="$own derivatives body barrier mesh" ;;

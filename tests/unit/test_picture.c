@@ -486,6 +486,24 @@ static void readme_shows_what_is_drawn(void **unused)
     CHECK(count == 11);
 }
 
+/* A tolerance at which bodies could hang in the air is named on the stage; the
+ * scene's own one is not. */
+static void a_loose_tolerance_is_named(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {"drop --segments 4",
+                                        "drop --segments 4 --tolerance 0.01"};
+    int red[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        Canvas frame = program_frame(lines[k], 0, true);
+        for (int i = 0; i < frame.width * frame.height; i++)
+            red[k] += pixel_distance(frame.pixels[i], 0xffd00000u) < 60;
+        canvas_free(&frame);
+    }
+    CHECK(red[0] == 0);
+    CHECK(red[1] > 50);
+}
+
 /* Little-endian numbers of a file. */
 static unsigned number_at(const unsigned char *at, int bytes)
 {
@@ -814,6 +832,7 @@ int main(void)
         cmocka_unit_test(words_keep_off_lines_and_words),
         cmocka_unit_test(friction_is_a_number_of_contact),
         cmocka_unit_test(readme_shows_what_is_drawn),
+        cmocka_unit_test(a_loose_tolerance_is_named),
         cmocka_unit_test(readme_shows_films_of_all_scenes),
         cmocka_unit_test(surface_shows_the_paper),
         cmocka_unit_test(png_files_are_whole),
