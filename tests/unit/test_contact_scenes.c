@@ -137,6 +137,22 @@ static void pins_and_walls_stop_each_other(void **unused)
     }
 }
 
+/* The sides of the sheet are drawn apart; a node that a hand pins stays. */
+static void a_pin_set_by_hand_stays(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("tear --segments 6", NULL, NULL, &simulation);
+    double left = simulation.run[0].x[0];
+    double at[2] = {simulation.run[0].x[2 * 17], simulation.run[0].x[35]};
+    CHECK_STATUS(simulation_pin(&simulation, 17, true), STATUS_OK);
+    for (int step = 0; step < 10; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    CHECK_SAME_BITS(simulation.run[0].x + 2 * 17, at, 2);
+    CHECK_NEAR(simulation.run[0].x[0], left - 0.2 * 10 * 0.002, 1e-14);
+    simulation_free(&simulation);
+}
+
 /* Negative curvature is looked for in the first minimisation, before any other
  * work has asked for its arrays. */
 static void a_saddle_may_be_the_first_thing(void **unused)
@@ -295,6 +311,7 @@ int main(void)
         cmocka_unit_test(the_square_with_options_is_the_scene),
         cmocka_unit_test(starts_that_touch_are_refused),
         cmocka_unit_test(pins_and_walls_stop_each_other),
+        cmocka_unit_test(a_pin_set_by_hand_stays),
         cmocka_unit_test(a_saddle_may_be_the_first_thing),
         cmocka_unit_test(what_is_symmetric_stays_so),
         cmocka_unit_test(arrows_are_the_forces),
