@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "model/contact.h"
+#include "model/friction.h"
+#include "picture/show.h"
 #include "picture/square_contact.h"
 #include "scenes/scene.h"
 #include "scenes/state.h"
@@ -227,6 +229,85 @@ static void arrows_are_the_forces(void **unused)
     simulation_free(&simulation);
 }
 
+/* Coulomb's cone in a tumbling square: friction is never more than mu times the
+ * normal force that it was given, never pushes on, and both happens: contacts
+ * that stick, with less, and contacts that slide, with all of it. */
+static void friction_stays_in_its_cone(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    int sticks = 0, slides = 0;
+    simulation_from_line("drop --segments 6", NULL, NULL, &simulation);
+    const System *system = &simulation.system;
+    const Contact *contact = contact_of(system);
+    const Friction *friction = system_find_term(system, &friction_energy)->data;
+    double *x = malloc(2 * (size_t)system->nodes * sizeof *x);
+    CHECK(x != NULL);
+    for (int step = 0; step < 250; step++) {
+        memcpy(x, simulation.run[0].x, 2 * (size_t)system->nodes * sizeof *x);
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        for (int s = 0; s < friction->slides; s++) {
+            const Slide *slide = &friction->slide[s];
+            double T = slide->weight * friction_slope(slide->y, friction->e);
+            Gap gap = contact_pair_gap(contact, x, slide->pair.node,
+                                       slide->pair.obstacle);
+            double cone = 0.3 * contact_force(&contact->barrier, &gap);
+            CHECK_AT_MOST(fabs(T), cone * (1 + 1e-14));
+            CHECK(T * slide->y >= 0);
+            sticks += fabs(T) < 0.999 * cone;
+            slides += fabs(slide->y) > friction->e;
+            if (fabs(slide->y) > friction->e)
+                CHECK_NEAR(fabs(T), cone, 1e-14 * cone);
+        }
+    }
+    CHECK(sticks > 100 && slides > 100);
+    free(x);
+    simulation_free(&simulation);
+}
+
+/* The curves of the card add up: what was there at the start and the work that
+ * was done is what is there now and what was lost. */
+static void the_curves_are_the_ledger(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {"drop --segments 6", "squeeze",
+                                        "dent --segments 6",
+                                        "tear --segments 8", "bend"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        static History history;
+        Simulation simulation;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        memset(&history, 0, sizeof history);
+        show_sample(&simulation, &history, NULL);
+        for (int step = 0; step < 120; step++) {
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            show_sample(&simulation, &history, NULL);
+        }
+        CHECK(history.count == 121);
+        double lost = 0;
+        for (int p = 0; p < history.count; p++) {
+            double now = 0, gone = 0, work = 0, size = 0;
+            for (int s = 1; s < history.series; s++) {
+                double value = history.value[s][p];
+                const char *name = history.name[s];
+                size += fabs(value);
+                if (strcmp(name, "work") == 0)
+                    work = value;
+                else if (strstr("plastic fracture friction dissipated", name))
+                    gone += value;
+                else
+                    now += value;
+            }
+            CHECK_NEAR(now, history.value[0][p], 1e-13 * size);
+            CHECK_NEAR(history.value[0][0] + work, now + gone, 1e-12 * size);
+            CHECK(p == 0 || gone > lost - 1e-3 * size);
+            lost = gone;
+        }
+        CHECK(lost > 1);
+        simulation_free(&simulation);
+    }
+}
+
 /* ---- the ledger while hands are on -------------------------------------- */
 
 /* What one does to a run between two steps. */
@@ -315,6 +396,8 @@ int main(void)
         cmocka_unit_test(a_saddle_may_be_the_first_thing),
         cmocka_unit_test(what_is_symmetric_stays_so),
         cmocka_unit_test(arrows_are_the_forces),
+        cmocka_unit_test(friction_stays_in_its_cone),
+        cmocka_unit_test(the_curves_are_the_ledger),
         cmocka_unit_test(what_hands_do_is_work),
     };
     return cmocka_run_group_tests_name("contact scenes", tests, NULL, NULL);
