@@ -47,6 +47,7 @@ verdict a_function_of_61_lines_may_have_61 \
     "$(functions_longer_than 61 "$temporary/long.c")"
 
 verdict lines_have_at_most_80_columns "$(LC_ALL=C awk '
+    { gsub(/\314[\200-\277]|\315[\200-\257]/, "") } # marks above letters
     { gsub(/[\200-\277]/, "") } # letters of several bytes count once
     length($0) > 80 { print FILENAME ":" FNR ": " length($0) " columns" }
     ' $files)"
