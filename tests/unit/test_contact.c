@@ -556,6 +556,40 @@ static void directions_do_not_matter(void **unused)
 
 /* ---- fracture ---------------------------------------------------------- */
 
+/* Strain of a spring over its strength, which is the scene's times 1 +- 10 %
+ * by the next number of SplitMix64. */
+static double fracture_load(const System *system, const double *x, int s)
+{
+    int i = system->e[2 * s], j = system->e[2 * s + 1];
+    double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
+    Random random = {(uint64_t)s * 0x9e3779b97f4a7c15u};
+    double strength = 0.12 * (1 + 0.1 * random_uniform(&random, -1, 1));
+    CHECK_NEAR(fracture_strength(fracture_of(system), s), strength, 1e-16);
+    return ((dx * dx + dy * dy) / system->l2[s] - 1) / strength;
+}
+
+/* What was stretched beyond its strength has broken, or one that was stretched
+ * more has, at one of its nodes.
+ *   k  [springs] of the springs before the step */
+static void check_all_that_must_break(const System *system, const double *k,
+                                      const double *x)
+{
+    double *most = calloc((size_t)system->nodes, sizeof *most);
+    CHECK(most != NULL);
+    for (int s = 0; s < system->springs; s++)
+        for (int end = 0; k[s] > 0 && system->k[s] == 0 && end < 2; end++) {
+            int i = system->e[2 * s + end];
+            most[i] = fmax(most[i], fracture_load(system, x, s));
+        }
+    for (int s = 0; s < system->springs; s++) {
+        double load = fracture_load(system, x, s);
+        if (system->k[s] > 0 && load > 1)
+            CHECK(fmax(most[system->e[2 * s]], most[system->e[2 * s + 1]]) >=
+                  load * (1 - 1e-12));
+    }
+    free(most);
+}
+
 /* What a step breaks was overstretched, shares no node, and the energy booked
  * is that of the springs and of the cells that end with them. */
 static void breaking_books_its_energy(void **unused)
@@ -575,6 +609,7 @@ static void breaking_books_its_energy(void **unused)
         memset(seen, 0, (size_t)system->nodes * sizeof *seen);
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         const double *x = simulation.run[0].x;
+        check_all_that_must_break(system, k, x);
         for (int s = 0; s < system->springs; s++) {
             if (k[s] == 0 || system->k[s] != 0)
                 continue;
