@@ -165,6 +165,37 @@ refusals() {
 }
 verdict nonsense_is_told "$(refusals)"
 
+# Each pane counts: for the hash, and for the exit code.
+each_pane() {
+    hashes=$(for pair in 1e-2,1e-6 1e-2,1e-9 1e-9,1e-6; do
+        "$elasto" --headless --steps 5 --tolerance $pair |
+            sed -n 's/^state hash *//p'
+    done | sort -u | wc -l)
+    [ "$hashes" = 3 ] || echo "$hashes hashes of 3 pairs"
+    for pair in none,clamp clamp,none; do
+        "$elasto" unprojected --headless --quiet --steps 5 --filter $pair
+        code=$?
+        [ $code = 3 ] || echo "$pair ends with $code"
+    done
+}
+verdict every_pane_counts "$(each_pane)"
+
+# A run with a script that fails ends where steps were given; slow films are
+# slow.
+failures_and_films() {
+    echo '0 play' >play.script
+    "$elasto" --headless --quiet --integrator forward-euler --timestep 0.1 \
+        --steps 30 --script play.script 2>error
+    code=$?
+    [ $code = 1 ] || echo "a failing run ends with $code"
+    for speed in 1 0.25; do
+        "$elasto" circle --headless --quiet --steps 2 --speed $speed \
+            --size 200x150 --film $speed.apng
+    done
+    ! cmp -s 1.apng 0.25.apng || echo 'the film is as fast'
+}
+verdict runs_fail_and_films_are_slow "$(failures_and_films)"
+
 # Three integrators side by side have one time; files know all of them.
 panes() {
     "$elasto" --headless --quiet --steps 4 --states states.csv \

@@ -444,6 +444,9 @@ ends() {
     begin circle --steps 5
     end 0
     frame 5
+    begin circle --steps 5 --speed 8
+    end 0
+    [ "$(tail -n 1 states | cut -d, -f1)" = 5 ] || echo 'it ends beyond step 5'
     begin overshoot --steps 50
     end 3
     begin unprojected --steps 3

@@ -184,6 +184,81 @@ static void a_plastic_spring_keeps_what_has_flowed(void **unused)
     CHECK_AT_MOST(error[1], 0.3 * error[0]); /* O(h) */
 }
 
+/* One plastic spring along x, at rest from -0.5 to 0.5. */
+static void make_plastic_spring(System *system)
+{
+    CHECK_STATUS(system_create(2, 1, system), STATUS_OK);
+    system->m[0] = system->m[1] = 1;
+    system->e[1] = 1;
+    system->l2[0] = 1;
+    system->k[0] = 3;
+    CHECK_STATUS(plasticity_set(system, 0.05, 0.4), STATUS_OK);
+}
+
+/* What flows turns stored energy into lost energy, and nothing else: hardening
+ * is stored.  Twice, so that the second flow finds a hardened spring. */
+static void flow_is_booked(void **unused)
+{
+    (void)unused;
+    System system;
+    make_plastic_spring(&system);
+    Term *term = &system.term[0];
+    for (int i = 0; i < 2; i++) {
+        double x[4] = {-0.5, 0, 0.6 + 0.1 * i, 0};
+        Place at = {.system = &system, .x = x};
+        double before = term->kind->value(term, &at) + term->lost;
+        CHECK(term->kind->end(term, &system, x, x, 1));
+        CHECK_NEAR(term->kind->value(term, &at) + term->lost, before, 1e-15);
+    }
+    CHECK(plasticity_of(&system)->kappa[0] > 0.1);
+    system_free(&system);
+}
+
+/* Differences of the energy along a line are those of its values, wherever it
+ * begins: elastic, just beyond the yield strain, far beyond. */
+static void flow_is_exact_along_lines(void **unused)
+{
+    (void)unused;
+    System system;
+    make_plastic_spring(&system);
+    Term *term = &system.term[0];
+    for (int i = 0; i < 12; i++) {
+        double x[4] = {-0.5, 0, 0.5 + 0.006 * i, 0}, p[4] = {0, 0, 0.01, 0.02};
+        double to[4] = {x[0], x[1], x[2] + p[2], x[3] + p[3]};
+        double q[3] = {0}, g[4] = {0};
+        Place at = {.system = &system, .x = x};
+        Place end = {.system = &system, .x = to};
+        term->kind->gradient(term, &at, 1, g);
+        term->kind->along(term, &at, p, 1, 1, q);
+        double change = g[2] * p[2] + g[3] * p[3] + q[0] + q[1] + q[2] +
+                        term->kind->remainder(term, &at, p, 1, 1);
+        CHECK_NEAR(change,
+                   term->kind->value(term, &end) - term->kind->value(term, &at),
+                   1e-15);
+    }
+    system_free(&system);
+}
+
+/* Where a spring is compressed, what is said to make up for its negative
+ * curvature does exactly that across it; else nothing is. */
+static void concavity_is_made_up_for(void **unused)
+{
+    (void)unused;
+    System system;
+    make_plastic_spring(&system);
+    Term *term = &system.term[0];
+    for (int i = 0; i < 2; i++) {
+        double x[4] = {-0.5, 0, i ? 0.49 : 0.51, 0}, sum[2] = {0};
+        double g[4] = {0};
+        Place at = {.system = &system, .x = x};
+        term->kind->concave(term, &at, 1, sum);
+        term->kind->gradient(term, &at, 1, g);    /* 2 k tau d */
+        double across = 4 * g[2] / (x[2] - x[0]); /* of (0, 1, 0, -1) */
+        CHECK_NEAR(sum[0] + sum[1], i ? -across : 0, 1e-15);
+    }
+    system_free(&system);
+}
+
 /* Three steps of 1000 s bring a chain of springs to rest: each holds what hangs
  * on it, 2 k s l sqrt(1 + s) = m g (nodes below). */
 static void a_chain_hangs_at_rest(void **unused)
@@ -714,6 +789,9 @@ int main(void)
         cmocka_unit_test(bounce_comes_back_with_small_steps),
         cmocka_unit_test(slopes_hold_and_let_go),
         cmocka_unit_test(a_plastic_spring_keeps_what_has_flowed),
+        cmocka_unit_test(flow_is_booked),
+        cmocka_unit_test(flow_is_exact_along_lines),
+        cmocka_unit_test(concavity_is_made_up_for),
         cmocka_unit_test(a_chain_hangs_at_rest),
         cmocka_unit_test(nothing_penetrates_or_turns_over),
         cmocka_unit_test(the_ledger_adds_up),
