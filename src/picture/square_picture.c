@@ -12,34 +12,14 @@
 #include "model/plasticity.h"
 #include "picture/marks.h"
 #include "picture/square_contact.h"
+#include "picture/square_pen.h"
 #include "scenes/scene.h"
 
-enum {
-    GHOST_SPRINGS = 700, /* of more only the outline is drawn as a ghost */
-    ARROW_SPACING = 16   /* pixels between nodes that have arrows, at least */
-};
-
-enum { NUMBERED = 121 }; /* nodes, at most, whose numbers are shown */
+enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
+enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double ROOM = 1.14;      /* of the stage around the square */
 static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
-static const double NODE = 0.1;       /* of the distance of two nodes */
-
-/* What does not change from spring to spring. */
-typedef struct SpringPen {
-    Paper *paper;
-    const Stage *stage;
-    const Pane *pane;
-    const double *x;        /* [2n] m */
-    double *at;             /* [2n] pixels; NULL: not enough memory */
-    double spacing;         /* pixels, of two nodes at rest */
-    double width;           /* pixels */
-    double range;           /* of the strains; 0: all blue */
-    bool plastic;           /* the colour is the plastic strain ... */
-    const double *ep;       /* [springs] of each; NULL: springs do not flow */
-    const Contact *contact; /* NULL: there is nothing to touch */
-    bool projected;         /* springs whose block was changed are lit */
-} SpringPen;
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -95,288 +75,6 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
     bounds[1] = -bounds[3];
 }
 
-/* ---- springs and nodes -------------------------------------------------- */
-
-/* Half of the largest plastic strain, or 5 %. */
-static double plastic_range(const System *system, const double *ep)
-{
-    double largest = 0.1;
-    for (int s = 0; s < system->springs; s++)
-        largest = fmax(largest, fabs(ep[s]));
-    return plot_round_up(0.5 * largest);
-}
-
-static SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
-                            int run)
-{
-    const Pane *pane = &show->pane[stage->pane];
-    const Simulation *simulation = pane->simulation;
-    const SquareMesh *mesh = &simulation->mesh;
-    const Trace *trace = pane->trace;
-    SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
-    const System *system = simulation->run[run].system;
-    pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
-    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
-    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
-    pen.width = fmax(1, pen.width * paper->unit);
-    pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
-    for (int i = 0; pen.at && i < simulation->system.nodes; i++)
-        stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
-    const Plasticity *plasticity = plasticity_of(system);
-    pen.contact = contact_of(system);
-    pen.ep = plasticity ? plasticity->ep : NULL;
-    pen.plastic = !show->strain && !show->bare && pen.ep;
-    pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
-    if (pen.plastic)
-        pen.range = plastic_range(system, pen.ep);
-    if (pen.range > 0)
-        pen.width *= 1.4;
-    pen.projected = trace && trace->line >= LINE_PROJECT &&
-                    trace->line <= LINE_SEARCH && !show->strain &&
-                    simulation->options.filter != FILTER_NONE &&
-                    trace->projected != 0;
-    return pen;
-}
-
-/* Whether the block of this spring has a negative eigenvalue: it is shorter
- * than at rest. */
-static bool spring_projected(const double *a, const double *b, double l2)
-{
-    double dx = a[0] - b[0], dy = a[1] - b[1];
-    return dx * dx + dy * dy < l2;
-}
-
-/* The line from node i to node j, l2 their squared distance at rest. */
-static void draw_spring(const SpringPen *pen, int i, int j, double l2,
-                        double plastic)
-{
-    const double *a = pen->x + 2 * (size_t)i, *b = pen->x + 2 * (size_t)j;
-    Colour colour = COLOUR_X;
-    double width = pen->width;
-    if (pen->plastic) {
-        colour = colour_map_plastic(plastic, pen->range);
-    } else if (pen->range > 0) {
-        double strain = hypot(a[0] - b[0], a[1] - b[1]) / sqrt(l2) - 1;
-        colour = colour_map_strain(strain, pen->range);
-    } else if (pen->projected && spring_projected(a, b, l2)) {
-        colour = COLOUR_PROJECT;
-        width *= 1.15;
-    }
-    const double *p = pen->at + 2 * (size_t)i, *q = pen->at + 2 * (size_t)j;
-    canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
-}
-
-static void draw_whole_springs(const SpringPen *pen, const System *system)
-{
-    for (int s = 0; s < system->springs; s++)
-        if (!spring_is_broken(system, s))
-            draw_spring(pen, system->e[2 * (size_t)s],
-                        system->e[2 * (size_t)s + 1], system->l2[s],
-                        pen->ep ? pen->ep[s] : 0);
-}
-
-/* More springs than this are shared by two threads, each in its band of the
- * picture: the pixels are those of one. */
-enum { BANDED_SPRINGS = 10000, BANDS = 2, SPRING_NANOSECONDS = 70 };
-
-typedef struct BandJob {
-    const SpringPen *pen;
-    const System *system;
-} BandJob;
-
-/* What can be seen of all springs in some bands of the picture. */
-static void draw_bands(const void *job, int first, int end)
-{
-    const BandJob *all = job;
-    const Box clip = all->pen->paper->canvas.clip;
-    for (int band = first; band < end; band++) {
-        Paper paper = *all->pen->paper;
-        SpringPen pen = *all->pen;
-        int top = clip.height * band / BANDS;
-        int bottom = clip.height * (band + 1) / BANDS;
-        canvas_clip(&paper.canvas,
-                    (Box){clip.x, clip.y + top, clip.width, bottom - top});
-        pen.paper = &paper;
-        draw_whole_springs(&pen, all->system);
-    }
-}
-
-static long draw_all_springs(const SpringPen *pen, const System *system)
-{
-    Paper *paper = pen->paper;
-    const BandJob job = {pen, system};
-    long drawn = 0;
-    for (int s = 0; s < system->springs; s++)
-        drawn += !spring_is_broken(system, s);
-    if (drawn > BANDED_SPRINGS && !paper->crew)
-        paper->crew = crew_create(0);
-    if (drawn <= BANDED_SPRINGS || !paper->crew) {
-        draw_whole_springs(pen, system);
-        return drawn;
-    }
-    crew_begin(paper->crew);
-    crew_run(paper->crew, draw_bands, &job, BANDS,
-             (double)SPRING_NANOSECONDS * (double)drawn);
-    return drawn;
-}
-
-/* The springs of a mesh of every stride-th node, the last one included. */
-static long draw_coarse_springs(const SpringPen *pen, const SquareMesh *mesh,
-                                int stride)
-{
-    int n = mesh->segments, rows = mesh->rows, row = rows + 1;
-    double l2 = mesh->side / n * (mesh->side / n);
-    long drawn = 0;
-    for (int i = 0; i <= n; i += stride)
-        for (int j = 0; j <= rows; j += stride) {
-            int di = i + stride <= n ? stride : n - i;
-            int dj = j + stride <= rows ? stride : rows - j;
-            int node = i * row + j, right = node + di * row;
-            double diagonal = l2 * (di * di + dj * dj);
-            if (di > 0)
-                draw_spring(pen, node, right, l2 * di * di, 0);
-            if (dj > 0)
-                draw_spring(pen, node, node + dj, l2 * dj * dj, 0);
-            if (di > 0 && dj > 0) {
-                draw_spring(pen, node, right + dj, diagonal, 0);
-                draw_spring(pen, node + dj, right, diagonal, 0);
-            }
-            drawn += (di > 0) + (dj > 0) + 2 * (di > 0 && dj > 0);
-        }
-    return drawn;
-}
-
-/* Radius of the nodes' discs, pixels. */
-static double node_radius(const SpringPen *pen, bool bare)
-{
-    double radius = NODE * pen->spacing;
-    return bare ? radius : fmin(radius, 6.5 * pen->paper->unit);
-}
-
-/* Discs at all nodes; those that the springs hide are left out. */
-static void draw_nodes(const SpringPen *pen, const System *system, bool bare)
-{
-    double radius = node_radius(pen, bare);
-    Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
-    if (pen->range > 0) /* they would hide the colours of a fine mesh */
-        radius *= 0.75;
-    if (radius >= 0.5 * pen->width)
-        for (int i = 0; i < system->nodes; i++)
-            canvas_disc(&pen->paper->canvas, pen->at[2 * (size_t)i],
-                        pen->at[2 * (size_t)i + 1], radius, colour);
-    for (int i = 0; system->pinned && i < system->nodes; i++)
-        if (system->pinned[i])
-            stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
-}
-
-/* ---- outlines, ghosts, cells -------------------------------------------- */
-
-/* Node k of the outline, anticlockwise from the lower left. */
-static int outline_node(const SquareMesh *mesh, int k)
-{
-    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
-    k %= 2 * (columns + rows);
-    if (k < columns)
-        return k * row;
-    if (k < columns + rows)
-        return columns * row + (k - columns);
-    if (k < 2 * columns + rows)
-        return (2 * columns + rows - k) * row + rows;
-    return 2 * (columns + rows) - k;
-}
-
-/* The outline of the square at x. */
-static void draw_outline(Paper *paper, const Stage *stage,
-                         const SquareMesh *mesh, const double *x, bool dashed,
-                         Colour colour)
-{
-    double phase = 0, unit = paper->unit;
-    for (int k = 0; k < 2 * (mesh->segments + mesh->rows); k++) {
-        const double *a = x + 2 * (size_t)outline_node(mesh, k);
-        const double *b = x + 2 * (size_t)outline_node(mesh, k + 1);
-        double p[2], q[2];
-        stage_pixel(stage, a, p);
-        stage_pixel(stage, b, q);
-        if (dashed)
-            canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
-                          fmax(1, 1.4 * unit), 6 * unit, 4 * unit, &phase,
-                          colour);
-        else
-            canvas_line(&paper->canvas, p[0], p[1], q[0], q[1],
-                        fmax(1, 1.4 * unit), colour);
-    }
-}
-
-/* All springs of a small square, faintly, and its outline in dashes. */
-static void draw_ghost(Paper *paper, const Stage *stage,
-                       const Simulation *simulation, const double *x,
-                       Colour colour)
-{
-    const System *system = &simulation->system;
-    Colour faint = (colour & 0xffffff) | 0x50000000u;
-    for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
-         s++)
-        stage_line(paper, stage, x + 2 * (size_t)system->e[2 * s],
-                   x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
-    draw_outline(paper, stage, &simulation->mesh, x, true, colour);
-}
-
-/* Twice the area of the triangle a b c, > 0 if it was not turned over. */
-static double turn(const double *x, int a, int b, int c)
-{
-    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
-                 *r = x + 2 * (size_t)c;
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-}
-
-bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
-{
-    int columns = mesh->segments, rows = mesh->rows;
-    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
-    int low = i * (rows + 1) + j, left = upright + i * rows + j;
-    int diagonal = upright + (columns + 1) * rows + 2 * cell;
-    const int spring[6] = {low,         low + 1,  left,
-                           left + rows, diagonal, diagonal + 1};
-    for (int k = 0; system->breaks && k < 6; k++)
-        if (spring_is_broken(system, spring[k]))
-            return true;
-    return false;
-}
-
-bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
-{
-    int row = mesh->rows + 1;
-    int a = cell / mesh->rows * row + cell % mesh->rows;
-    int b = a + row, c = b + 1, d = a + 1;
-    return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
-}
-
-/* Cells whose four sides are whole are filled lightly; those that have turned
- * over in another colour. */
-static void draw_cells(const SpringPen *pen, const Simulation *simulation,
-                       bool all)
-{
-    const SquareMesh *mesh = &simulation->mesh;
-    int rows = mesh->rows, row = rows + 1;
-    for (int cell = 0; cell < mesh->segments * rows; cell++) {
-        int a = cell / rows * row + cell % rows;
-        const int node[4] = {a, a + row, a + row + 1, a + 1};
-        bool folded = square_picture_folded(mesh, pen->x, cell);
-        double p[4][2];
-        if ((!folded && !all) ||
-            square_picture_torn(&simulation->system, mesh, cell))
-            continue;
-        for (int k = 0; k < 4; k++)
-            stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
-        for (int k = 0; k < 2; k++) {
-            const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
-                                       p[1 + k][1], p[2 + k][0], p[2 + k][1]};
-            canvas_triangle(&pen->paper->canvas, corners, false,
-                            folded ? 0x38d00000u : 0x180000ffu);
-        }
-    }
-}
-
 /* ---- what Newton does --------------------------------------------------- */
 
 static int arrow_stride(const SpringPen *pen)
@@ -415,7 +113,7 @@ static ContactView contact_view(const SpringPen *pen, int run)
                          .run = &simulation->run[run],
                          .x = pen->x,
                          .h = simulation->options.timestep,
-                         .node = node_radius(pen, false)};
+                         .node = square_pen_radius(pen, false)};
 }
 
 /* The start of the hand's spring, the spring, and its force. */
@@ -428,8 +126,8 @@ static void draw_hand(const SpringPen *pen, const Show *show)
         return;
     const double *node = pen->x + 2 * (size_t)hand->node;
     stage_dashes(pen->paper, stage, node, hand->target, 2, COLOUR_HAND);
-    stage_ring(pen->paper, stage, node, node_radius(pen, false) + 4 * unit, 2,
-               COLOUR_HAND);
+    stage_ring(pen->paper, stage, node,
+               square_pen_radius(pen, false) + 4 * unit, 2, COLOUR_HAND);
     stage_disc(pen->paper, stage, hand->target, 4 * unit, COLOUR_HAND);
     stage_pixel(stage, hand->target, at);
     if (hand->force > 0 && stage->text)
@@ -448,7 +146,7 @@ static void draw_hover(const SpringPen *pen, const Show *show)
         return;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         stage_ring(pen->paper, pen->stage, pen->x + 2 * (size_t)hover->index,
-                   node_radius(pen, false) + 4 * unit, 2, COLOUR_TEXT);
+                   square_pen_radius(pen, false) + 4 * unit, 2, COLOUR_TEXT);
     if (hover->kind == PICK_SPRING && hover->index < system->springs)
         stage_line(pen->paper, pen->stage,
                    pen->x + 2 * (size_t)system->e[2 * hover->index],
@@ -467,25 +165,25 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     Paper *paper = pen->paper;
     const Stage *stage = pen->stage;
     if (!pane->frame && !has_frame(simulation) && !pen->contact) {
-        draw_outline(paper, stage, &simulation->mesh, simulation->mesh.x, false,
-                     COLOUR_RULE);
+        square_outline(paper, stage, &simulation->mesh, simulation->mesh.x,
+                       false, COLOUR_RULE);
         if (stage->text && stage->pane == 0)
             stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
     }
-    draw_cells(pen, simulation,
-               pen->contact || fracture_of(&simulation->system));
+    square_pen_cells(pen, simulation,
+                     pen->contact || fracture_of(&simulation->system));
     for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
         if (simulation->run[r].system == &simulation->system)
-            draw_ghost(paper, stage, simulation, simulation->run[r].x,
-                       colour_of_run(r));
+            square_ghost(paper, stage, simulation, simulation->run[r].x,
+                         colour_of_run(r));
     if (pane->ghost) {
-        draw_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
+        square_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
         if (stage->text)
             stage_legend(paper, stage, legend, COLOUR_GHOST, "%s",
                          pane->ghost_label ? pane->ghost_label : "before");
     }
     if (trace && trace->x_tilde && (trace->line || show->arrows)) {
-        draw_ghost(paper, stage, simulation, trace->x_tilde, COLOUR_X_TILDE);
+        square_ghost(paper, stage, simulation, trace->x_tilde, COLOUR_X_TILDE);
         if (stage->text)
             stage_legend(paper, stage, legend, COLOUR_X_TILDE,
                          "{xt}, inertia alone");
@@ -586,9 +284,9 @@ static void draw_other_runs(Paper *paper, const Stage *stage, const Show *show)
         if (!pen.at)
             return;
         if (!show->bare)
-            draw_cells(&pen, simulation, true);
-        draw_all_springs(&pen, simulation->run[r].system);
-        draw_nodes(&pen, simulation->run[r].system, show->bare);
+            square_pen_cells(&pen, simulation, true);
+        square_pen_springs(&pen, simulation->run[r].system);
+        square_pen_nodes(&pen, simulation->run[r].system, show->bare);
     }
 }
 
@@ -644,11 +342,11 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     if (!show->bare)
         draw_ground(&pen, show, &legend);
     if (stride <= 1 || fracture_of(system))
-        count.drawn = draw_all_springs(&pen, system);
+        count.drawn = square_pen_springs(&pen, system);
     else
-        count.drawn = draw_coarse_springs(&pen, &simulation->mesh, stride);
+        count.drawn = square_pen_coarse(&pen, &simulation->mesh, stride);
     count.skipped = system->springs - count.drawn;
-    draw_nodes(&pen, system, show->bare);
+    square_pen_nodes(&pen, system, show->bare);
     if (show->bare)
         return count;
     if (pen.contact)
@@ -663,75 +361,6 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
             draw_colour_bar(paper, stage, pen.range, pen.plastic);
     }
     return count;
-}
-
-/* ---- the mouse ---------------------------------------------------------- */
-
-/* Squared distance of a pixel to a line between two pixels. */
-static double distance2(const double p[2], const double q[2], double x,
-                        double y)
-{
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    double length2 = dx * dx + dy * dy, t = 0;
-    if (length2 > 0)
-        t = fmin(fmax(((x - p[0]) * dx + (y - p[1]) * dy) / length2, 0), 1);
-    double ex = p[0] + t * dx - x, ey = p[1] + t * dy - y;
-    return ex * ex + ey * ey;
-}
-
-/* Before the first step a spring of the left or right edge is that edge. */
-static void pick_edge(const Show *show, const Simulation *simulation,
-                      Pick *pick)
-{
-    const SquareMesh *mesh = &simulation->mesh;
-    const int *e = simulation->system.e + 2 * (size_t)pick->index;
-    int row = mesh->rows + 1, column = e[0] / row;
-    if (!show->paused || simulation->steps > 0 || e[1] / row != column ||
-        (column != 0 && column != mesh->segments))
-        return;
-    pick->kind = PICK_EDGE;
-    pick->index = column != 0;
-}
-
-/* The nearest node, else the nearest spring, within reach of the mouse. */
-static Pick square_pick(const Show *show, const Stage *stage, double x,
-                        double y)
-{
-    const Pane *pane = &show->pane[stage->pane];
-    const System *system = &pane->simulation->system;
-    const SquareMesh *mesh = &pane->simulation->mesh;
-    const double *at = pane_x(pane);
-    double spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
-    double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach;
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    camera_world(&stage->camera, x, y, pick.point);
-    for (int i = 0; i < system->nodes; i++) {
-        double p[2];
-        stage_pixel(stage, at + 2 * (size_t)i, p);
-        double d2 = (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y);
-        if (d2 < best) {
-            best = d2;
-            pick.kind = PICK_NODE;
-            pick.index = i;
-        }
-    }
-    best = reach * reach / 4;
-    for (int s = 0; pick.kind == PICK_NONE && s < system->springs; s++) {
-        double p[2], q[2];
-        if (spring_is_broken(system, s))
-            continue;
-        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s], p);
-        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
-        double d2 = distance2(p, q, x, y);
-        if (d2 < best) {
-            best = d2;
-            pick.kind = PICK_SPRING;
-            pick.index = s;
-        }
-    }
-    if (pick.kind == PICK_SPRING)
-        pick_edge(show, pane->simulation, &pick);
-    return pick;
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */

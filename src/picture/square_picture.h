@@ -12,6 +12,9 @@
 
 extern const Picture square_picture;
 
+/* The node, spring or edge of the paused square under a pixel. */
+Pick square_pick(const Show *show, const Stage *stage, double x, double y);
+
 /* A range for the colours: half the strain of the start, at least 5 %. */
 double square_picture_strain_range(const Simulation *simulation);
 

@@ -129,6 +129,7 @@ static void thinned_states_come_back(void **unused)
                       4 * state_size(&track.simulation);
         run(&track, STEPS, hash);
         CHECK(track_bytes(&track) <= track.limit && track.stride >= STEPS / 8);
+        CHECK(track_bytes(&track) >= track.used + STEPS * TRACK_STEP_BYTES);
         CHECK(track.kept_count >= 2);
         check_all_steps(&track, STEPS, hash);
         check_going_on(&track, 33, STEPS, hash);

@@ -1,0 +1,284 @@
+#include "picture/square_pen.h"
+
+#include <math.h>
+
+#include "model/fracture.h"
+#include "model/plasticity.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+#include "picture/square_picture.h"
+#include "scenes/scene.h"
+
+enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
+
+static const double NODE = 0.1; /* of the distance of two nodes */
+
+/* Half of the largest plastic strain, or 5 %. */
+static double plastic_range(const System *system, const double *ep)
+{
+    double largest = 0.1;
+    for (int s = 0; s < system->springs; s++)
+        largest = fmax(largest, fabs(ep[s]));
+    return plot_round_up(0.5 * largest);
+}
+
+SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
+                     int run)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = pane->simulation;
+    const SquareMesh *mesh = &simulation->mesh;
+    const Trace *trace = pane->trace;
+    SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
+    const System *system = simulation->run[run].system;
+    pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
+    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
+    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
+    pen.width = fmax(1, pen.width * paper->unit);
+    pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
+    for (int i = 0; pen.at && i < simulation->system.nodes; i++)
+        stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
+    const Plasticity *plasticity = plasticity_of(system);
+    pen.contact = contact_of(system);
+    pen.ep = plasticity ? plasticity->ep : NULL;
+    pen.plastic = !show->strain && !show->bare && pen.ep;
+    pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
+    if (pen.plastic)
+        pen.range = plastic_range(system, pen.ep);
+    if (pen.range > 0)
+        pen.width *= 1.4;
+    pen.projected = trace && trace->line >= LINE_PROJECT &&
+                    trace->line <= LINE_SEARCH && !show->strain &&
+                    simulation->options.filter != FILTER_NONE &&
+                    trace->projected != 0;
+    return pen;
+}
+
+/* Whether the block of this spring has a negative eigenvalue: it is shorter
+ * than at rest. */
+static bool spring_projected(const double *a, const double *b, double l2)
+{
+    double dx = a[0] - b[0], dy = a[1] - b[1];
+    return dx * dx + dy * dy < l2;
+}
+
+/* The line from node i to node j, l2 their squared distance at rest. */
+static void draw_spring(const SpringPen *pen, int i, int j, double l2,
+                        double plastic)
+{
+    const double *a = pen->x + 2 * (size_t)i, *b = pen->x + 2 * (size_t)j;
+    Colour colour = COLOUR_X;
+    double width = pen->width;
+    if (pen->plastic) {
+        colour = colour_map_plastic(plastic, pen->range);
+    } else if (pen->range > 0) {
+        double strain = hypot(a[0] - b[0], a[1] - b[1]) / sqrt(l2) - 1;
+        colour = colour_map_strain(strain, pen->range);
+    } else if (pen->projected && spring_projected(a, b, l2)) {
+        colour = COLOUR_PROJECT;
+        width *= 1.15;
+    }
+    const double *p = pen->at + 2 * (size_t)i, *q = pen->at + 2 * (size_t)j;
+    canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
+}
+
+static void draw_whole_springs(const SpringPen *pen, const System *system)
+{
+    for (int s = 0; s < system->springs; s++)
+        if (!spring_is_broken(system, s))
+            draw_spring(pen, system->e[2 * (size_t)s],
+                        system->e[2 * (size_t)s + 1], system->l2[s],
+                        pen->ep ? pen->ep[s] : 0);
+}
+
+/* More springs than this are shared by two threads, each in its band of the
+ * picture: the pixels are those of one. */
+enum { BANDED_SPRINGS = 10000, BANDS = 2, SPRING_NANOSECONDS = 70 };
+
+typedef struct BandJob {
+    const SpringPen *pen;
+    const System *system;
+} BandJob;
+
+/* What can be seen of all springs in some bands of the picture. */
+static void draw_bands(const void *job, int first, int end)
+{
+    const BandJob *all = job;
+    const Box clip = all->pen->paper->canvas.clip;
+    for (int band = first; band < end; band++) {
+        Paper paper = *all->pen->paper;
+        SpringPen pen = *all->pen;
+        int top = clip.height * band / BANDS;
+        int bottom = clip.height * (band + 1) / BANDS;
+        canvas_clip(&paper.canvas,
+                    (Box){clip.x, clip.y + top, clip.width, bottom - top});
+        pen.paper = &paper;
+        draw_whole_springs(&pen, all->system);
+    }
+}
+
+long square_pen_springs(const SpringPen *pen, const System *system)
+{
+    Paper *paper = pen->paper;
+    const BandJob job = {pen, system};
+    long drawn = 0;
+    for (int s = 0; s < system->springs; s++)
+        drawn += !spring_is_broken(system, s);
+    if (drawn > BANDED_SPRINGS && !paper->crew)
+        paper->crew = crew_create(0);
+    if (drawn <= BANDED_SPRINGS || !paper->crew) {
+        draw_whole_springs(pen, system);
+        return drawn;
+    }
+    crew_begin(paper->crew);
+    crew_run(paper->crew, draw_bands, &job, BANDS,
+             (double)SPRING_NANOSECONDS * (double)drawn);
+    return drawn;
+}
+
+long square_pen_coarse(const SpringPen *pen, const SquareMesh *mesh, int stride)
+{
+    int n = mesh->segments, rows = mesh->rows, row = rows + 1;
+    double l2 = mesh->side / n * (mesh->side / n);
+    long drawn = 0;
+    for (int i = 0; i <= n; i += stride)
+        for (int j = 0; j <= rows; j += stride) {
+            int di = i + stride <= n ? stride : n - i;
+            int dj = j + stride <= rows ? stride : rows - j;
+            int node = i * row + j, right = node + di * row;
+            double diagonal = l2 * (di * di + dj * dj);
+            if (di > 0)
+                draw_spring(pen, node, right, l2 * di * di, 0);
+            if (dj > 0)
+                draw_spring(pen, node, node + dj, l2 * dj * dj, 0);
+            if (di > 0 && dj > 0) {
+                draw_spring(pen, node, right + dj, diagonal, 0);
+                draw_spring(pen, node + dj, right, diagonal, 0);
+            }
+            drawn += (di > 0) + (dj > 0) + 2 * (di > 0 && dj > 0);
+        }
+    return drawn;
+}
+
+double square_pen_radius(const SpringPen *pen, bool bare)
+{
+    double radius = NODE * pen->spacing;
+    return bare ? radius : fmin(radius, 6.5 * pen->paper->unit);
+}
+
+void square_pen_nodes(const SpringPen *pen, const System *system, bool bare)
+{
+    double radius = square_pen_radius(pen, bare);
+    Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
+    if (pen->range > 0) /* they would hide the colours of a fine mesh */
+        radius *= 0.75;
+    if (radius >= 0.5 * pen->width)
+        for (int i = 0; i < system->nodes; i++)
+            canvas_disc(&pen->paper->canvas, pen->at[2 * (size_t)i],
+                        pen->at[2 * (size_t)i + 1], radius, colour);
+    for (int i = 0; system->pinned && i < system->nodes; i++)
+        if (system->pinned[i])
+            stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
+}
+
+/* ---- outlines, ghosts, cells -------------------------------------------- */
+
+/* Node k of the outline, anticlockwise from the lower left. */
+static int outline_node(const SquareMesh *mesh, int k)
+{
+    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
+    k %= 2 * (columns + rows);
+    if (k < columns)
+        return k * row;
+    if (k < columns + rows)
+        return columns * row + (k - columns);
+    if (k < 2 * columns + rows)
+        return (2 * columns + rows - k) * row + rows;
+    return 2 * (columns + rows) - k;
+}
+
+void square_outline(Paper *paper, const Stage *stage, const SquareMesh *mesh,
+                    const double *x, bool dashed, Colour colour)
+{
+    double phase = 0, unit = paper->unit;
+    for (int k = 0; k < 2 * (mesh->segments + mesh->rows); k++) {
+        const double *a = x + 2 * (size_t)outline_node(mesh, k);
+        const double *b = x + 2 * (size_t)outline_node(mesh, k + 1);
+        double p[2], q[2];
+        stage_pixel(stage, a, p);
+        stage_pixel(stage, b, q);
+        if (dashed)
+            canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
+                          fmax(1, 1.4 * unit), 6 * unit, 4 * unit, &phase,
+                          colour);
+        else
+            canvas_line(&paper->canvas, p[0], p[1], q[0], q[1],
+                        fmax(1, 1.4 * unit), colour);
+    }
+}
+
+void square_ghost(Paper *paper, const Stage *stage,
+                  const Simulation *simulation, const double *x, Colour colour)
+{
+    const System *system = &simulation->system;
+    Colour faint = (colour & 0xffffff) | 0x50000000u;
+    for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
+         s++)
+        stage_line(paper, stage, x + 2 * (size_t)system->e[2 * s],
+                   x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
+    square_outline(paper, stage, &simulation->mesh, x, true, colour);
+}
+
+/* Twice the area of the triangle a b c, > 0 if it was not turned over. */
+static double turn(const double *x, int a, int b, int c)
+{
+    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
+                 *r = x + 2 * (size_t)c;
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
+{
+    int columns = mesh->segments, rows = mesh->rows;
+    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
+    int low = i * (rows + 1) + j, left = upright + i * rows + j;
+    int diagonal = upright + (columns + 1) * rows + 2 * cell;
+    const int spring[6] = {low,         low + 1,  left,
+                           left + rows, diagonal, diagonal + 1};
+    for (int k = 0; system->breaks && k < 6; k++)
+        if (spring_is_broken(system, spring[k]))
+            return true;
+    return false;
+}
+
+bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
+{
+    int row = mesh->rows + 1;
+    int a = cell / mesh->rows * row + cell % mesh->rows;
+    int b = a + row, c = b + 1, d = a + 1;
+    return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
+}
+
+void square_pen_cells(const SpringPen *pen, const Simulation *simulation,
+                      bool all)
+{
+    const SquareMesh *mesh = &simulation->mesh;
+    int rows = mesh->rows, row = rows + 1;
+    for (int cell = 0; cell < mesh->segments * rows; cell++) {
+        int a = cell / rows * row + cell % rows;
+        const int node[4] = {a, a + row, a + row + 1, a + 1};
+        bool folded = square_picture_folded(mesh, pen->x, cell);
+        double p[4][2];
+        if ((!folded && !all) ||
+            square_picture_torn(&simulation->system, mesh, cell))
+            continue;
+        for (int k = 0; k < 4; k++)
+            stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
+        for (int k = 0; k < 2; k++) {
+            const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
+                                       p[1 + k][1], p[2 + k][0], p[2 + k][1]};
+            canvas_triangle(&pen->paper->canvas, corners, false,
+                            folded ? 0x38d00000u : 0x180000ffu);
+        }
+    }
+}
