@@ -192,8 +192,6 @@ static Status settings_change(Settings *settings, const Command *change,
                               char *message, size_t size)
 {
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
-    if (change->kind == COMMAND_HANDLE || change->kind == COMMAND_FLIP)
-        return STATUS_OK; /* the simulation alone knows of these */
     if (change->kind == COMMAND_PIN)
         return settings_pin(settings, (int)change->number, change->x != 0);
     if (change->kind != COMMAND_SET) {

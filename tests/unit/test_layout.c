@@ -111,6 +111,10 @@ static void sizes_fold(void **unused)
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
+    for (int i = 0; i < wish.chips; i++)
+        wish.chip_letters[i] = 7 + i;
+    Layout close = layout_create(900, 900, &wish); /* they move together */
+    CHECK(close.chips_left_out == 0);
     Layout small = layout_create(400, 300, &wish);
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
