@@ -93,7 +93,7 @@ void player_show_peaks(Player *player)
         lane->place = peak;
         player_note(player,
                     "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
-                    "are %.3g m away; N goes on",
+                    "are %.4g m away; N goes on",
                     lane->tape.place[peak].round + 1, lane->tape.count, rise,
                     lane_extent(lane));
         player->warning = true;
