@@ -165,6 +165,17 @@ refusals() {
 }
 verdict nonsense_is_told "$(refusals)"
 
+# Beyond the newest step there is none; and nobody waits for ever.
+ends_of_runs() {
+    for beyond in '2 hash' '2 goto 50'; do
+        printf '0 pause\n0 step\n1 step\n%s\n2 quit\n' "$beyond" >end.script
+        "$elasto" --headless --script end.script | sed -n 's/^state hash *//p'
+    done | sort -u | wc -l | grep -qx 1 || echo 'a step beyond the newest'
+    "$elasto" --headless --segments 2 | grep -q '^steps  *100$' ||
+        echo 'not 100 steps without a window'
+}
+verdict runs_have_ends "$(ends_of_runs)"
+
 # Each pane counts: for the hash, and for the exit code.
 each_pane() {
     hashes=$(for pair in 1e-2,1e-6 1e-2,1e-9 1e-9,1e-6; do
