@@ -37,7 +37,7 @@ typedef struct Simulation {
     SquareMesh mesh;                  /* zeroed in scenes without a square */
     System system;                    /* of run 0, and of all others but */
     System more[SIMULATION_MAX_RUNS]; /* where runs differ: run 1, 2 */
-    int runs;
+    int runs, stepping; /* the run whose step is made, while it is made */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     double start[SIMULATION_MAX_RUNS]; /* J, total energy when it began */
     Descent descent;       /* zeroed in scenes that move through time */

@@ -119,12 +119,13 @@ Status text_create(Text **text)
     Text *made = calloc(1, sizeof *made);
     if (!made)
         return STATUS_OUT_OF_MEMORY;
-    made->began = find_fonts(made) && TTF_Init() == 0;
+    bool found = find_fonts(made);
+    made->began = found && TTF_Init() == 0;
     if (made->began)
         *text = made;
     else
         free(made);
-    return STATUS_OK;
+    return found && !*text ? STATUS_OUT_OF_MEMORY : STATUS_OK;
 }
 
 static void forget_glyphs(Text *text)

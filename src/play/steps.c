@@ -6,12 +6,13 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* The Newton object that an observer hears of. */
+/* The Newton object whose iterations are kept for the cards: that of the first
+ * run that has one, while it is this run's turn; else NULL. */
 static const Newton *listened_to(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs; r++)
         if (simulation->run[r].newton)
-            return simulation->run[r].newton;
+            return r == simulation->stepping ? simulation->run[r].newton : NULL;
     return NULL;
 }
 

@@ -74,6 +74,7 @@ static Status step_runs(Simulation *simulation)
 {
     Status worst = STATUS_OK;
     for (int i = 0; i < simulation->runs; i++) {
+        simulation->stepping = i;
         Status status = time_integrator_step(&simulation->run[i]);
         if (status)
             worst = status;

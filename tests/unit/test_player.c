@@ -307,9 +307,8 @@ static void the_curve_goes_through_the_step(void **unused)
     (void)unused;
     static const char *const lines[] = {"square", "drop --segments 6",
                                         "dent --segments 6",
-                                        "tear --segments "
-                                        "6"};
-    for (int i = 0; i < 4; i++) {
+                                        "tear --segments 6", "slope"};
+    for (int i = 0; i < 5; i++) { /* slope: three runs, one is shown */
         int rough = 0, seen = 0;
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
