@@ -239,6 +239,32 @@ static void flow_is_exact_along_lines(void **unused)
     system_free(&system);
 }
 
+/* The same for cells that the way leads below J_hat: a body at rest pressed to
+ * 0.3 of its height, J = 1 - 0.7 alpha.  1e-12: rounding of J, of 1e-16, in
+ * the barriers of 8 cells. */
+static void cells_are_exact_along_lines(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 2 --stretch 1 --cells on", NULL, NULL,
+                         &simulation);
+    System *system = &simulation.system;
+    Term *term = system_find_term(system, &cell_energy);
+    double *x = simulation.run[0].x, p[18] = {0}, to[18], q[3] = {0};
+    CHECK(system->nodes == 9);
+    for (int i = 0; i < 18; i++) {
+        p[i] = i % 2 ? -0.7 * x[i] : 0;
+        to[i] = x[i] + p[i];
+    }
+    Place at = {.system = system, .x = x}, end = {.system = system, .x = to};
+    double pressed = term->kind->value(term, &end);
+    CHECK(pressed > 0 && term->kind->value(term, &at) == 0);
+    term->kind->along(term, &at, p, 1, 1, q);
+    CHECK_NEAR(term->kind->remainder(term, &at, p, 1, 1), pressed,
+               1e-12 * pressed);
+    simulation_free(&simulation);
+}
+
 /* Where a spring is compressed, what is said to make up for its negative
  * curvature does exactly that across it; else nothing is. */
 static void concavity_is_made_up_for(void **unused)
@@ -791,6 +817,7 @@ int main(void)
         cmocka_unit_test(a_plastic_spring_keeps_what_has_flowed),
         cmocka_unit_test(flow_is_booked),
         cmocka_unit_test(flow_is_exact_along_lines),
+        cmocka_unit_test(cells_are_exact_along_lines),
         cmocka_unit_test(concavity_is_made_up_for),
         cmocka_unit_test(a_chain_hangs_at_rest),
         cmocka_unit_test(nothing_penetrates_or_turns_over),

@@ -464,6 +464,37 @@ static void plane_search_ends_in_a_minimum(void **unused)
     }
 }
 
+/* (a + b)^4/4 - 27 (a + b) + (a - 2 b)^2/2 has its minimum in (2, 1).  1e-5:
+ * the search ends after an update that gains less than 1e-6 of the value. */
+static void plane_search_finds_a_known_minimum(void **unused)
+{
+    (void)unused;
+    const PlaneQuartic plane = {
+        {-27, -27, 0.5, -2, 2, 0, 0, 0, 0, 0.25, 1, 1.5, 1, 0.25}};
+    double at[2];
+    int trials;
+    CHECK_STATUS(plane_minimise(&plane, at, &trials), STATUS_OK);
+    CHECK_NEAR(at[0], 2, 1e-5);
+    CHECK_NEAR(at[1], 1, 1e-5);
+}
+
+/* K (a^2 - b^2)^2 + (a - 1)^2 + (b - 1)^2 - 2 is -2 in (1, 1), where terms of
+ * size K cancel: that counts only where rounding leaves something of it. */
+static void plane_search_distrusts_rounding(void **unused)
+{
+    (void)unused;
+    for (int large = 0; large < 2; large++) {
+        const double K = ldexp(1, large ? 50 : 40);
+        const PlaneQuartic plane = {
+            {-2, -2, 1, 0, 1, 0, 0, 0, 0, K, 0, -2 * K, 0, K}};
+        double at[2];
+        int trials;
+        CHECK_STATUS(plane_minimise(&plane, at, &trials),
+                     large ? STATUS_LINE_SEARCH_LIMIT : STATUS_OK);
+        CHECK(at[0] == 1 && at[1] == 1);
+    }
+}
+
 /* Against a walk in small steps: the first place where a random quartic, which
  * falls at 0 and rises in the end, begins to rise. */
 static void the_first_minimum_is_the_first(void **unused)
@@ -510,6 +541,8 @@ int main(void)
         cmocka_unit_test(explicit_methods_have_no_matrix),
         cmocka_unit_test(averaged_force_does_the_work),
         cmocka_unit_test(plane_search_ends_in_a_minimum),
+        cmocka_unit_test(plane_search_finds_a_known_minimum),
+        cmocka_unit_test(plane_search_distrusts_rounding),
         cmocka_unit_test(the_first_minimum_is_the_first),
     };
     return cmocka_run_group_tests_name("solvers", tests, NULL, NULL);
