@@ -26,7 +26,7 @@ Status player_try_restart(Player *player, const Options *options)
 }
 
 /* The options of a scene: those of the command line if it was called for
- * there, else its defaults; files and ends are those of the command line. */
+ * there, else its defaults. */
 static Status find_options(Player *player, const char *name, Options *options,
                            int *count)
 {
@@ -43,7 +43,6 @@ static Status find_options(Player *player, const char *name, Options *options,
         memcpy(options, given, (size_t)*count * sizeof *given);
         return STATUS_OK;
     }
-    player_keep_files(player, options);
     options->speed = given->speed;
     return STATUS_OK;
 }

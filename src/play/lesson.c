@@ -34,7 +34,6 @@ static Status lesson_open(Player *player, const LecturePage *page)
                                     sizeof player->message);
     if (status)
         return status;
-    player_keep_files(player, &options);
     status = player_restart(player, &options, 1);
     player->speed = player_first_speed(&options);
     player_reset_speed(player);
@@ -134,7 +133,6 @@ Status lesson_load(Player *player, long cell)
     options.stretch = map->stretch;
     options.timestep = envelope_timestep((int)(cell % ENVELOPE_COLUMNS));
     options.stiffness = envelope_stiffness((int)(cell / ENVELOPE_COLUMNS));
-    player_keep_files(player, &options);
     status = player_restart(player, &options, 1);
     player->paused = true;
     player_set_title(player);

@@ -406,17 +406,6 @@ static Status read_script(Player *player)
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 
-void player_keep_files(const Player *player, Options *options)
-{
-    const Options *given = &player->given[0];
-    options->steps = given->steps;
-    options->quiet = given->quiet;
-    options->frames = given->frames;
-    options->film = given->film;
-    options->states = given->states;
-    options->log = given->log;
-}
-
 bool player_explains(const Options *options)
 {
     return options->page ? !options->page->plays : options->scene->explains;

@@ -116,9 +116,6 @@ void player_note(Player *player, const char *format, ...);
 void player_title(const Player *player, char *title, size_t size);
 void player_set_title(Player *player);
 
-/* Steps, files and the like are those of the command line. */
-void player_keep_files(const Player *player, Options *options);
-
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a
  * frame through time, and iterations one at a time. */
 int player_first_speed(const Options *options);

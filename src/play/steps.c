@@ -70,7 +70,7 @@ Status player_begin(Player *player, const Options *options, int count)
             return status;
     }
     player_reset_speed(player);
-    if (!options[0].quiet)
+    if (!player->given[0].quiet)
         player->start = simulation_energies(player_simulation(player), 0);
     return record_states(player);
 }

@@ -101,6 +101,8 @@ pipes_and_devices() {
     wait $!
     whole copy
     run 0 --states /dev/null --log /dev/null
+    "$elasto" --headless --steps 2 --states /dev/null --log /dev/null \
+        >/dev/null || echo 'standard output is the null device, too'
     [ -c /dev/null ] || echo '/dev/null is gone'
     run 1 --states .
     run 1 --states far/

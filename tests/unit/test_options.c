@@ -205,6 +205,10 @@ static const BadLine bad_words[] = {
     {"''", {"''", "--list", ""}},
     {"square square", {"'square'", "one scene", ""}},
     {"square 7", {"'7'", "one scene", ""}},
+    {"--ground 0,1,0,-1 --ground 0,1,0,-2 --ground 0,1,0,-3 --ground 0,1,0,-4 "
+     "--ground 0,1,0,-5 --ground 0,1,0,-6 --ground 0,1,0,-7 --ground 0,1,0,-8 "
+     "--ground 0,1,0,-9",
+     {"--ground", "'0,1,0,-9'", "at most 8"}},
     {"-- --segments", {"'--segments'", "--list", ""}},
     {"--segments 4 nothing --side 2", {"'nothing'", "--list", ""}},
 };
@@ -226,6 +230,7 @@ static const BadLine hopeful_lines[] = {
     {"--segment5", {"--segment5;", "did you mean --segments?", ""}},
     {"--SEGMENTS 8", {"--SEGMENTS;", "did you mean --segments?", ""}},
     {"-segments 8", {"no option -segments;", "did you mean --segments?", ""}},
+    {"--sdie 2", {"--sdie;", "did you mean --side?", ""}},
     {"--side_len 2", {"--side_len;", "did you mean --side?", ""}},
     {"--length 2", {"--length;", "did you mean --side?", ""}},
     {"--rho 500", {"no option --rho;", "did you mean --density?", ""}},

@@ -651,6 +651,21 @@ static void discarded_outputs_leave_nothing(void **unused)
     CHECK(!exists(in_folder("never.txt.part")));
 }
 
+/* What cannot get its name is thrown away, unless it shall be kept. */
+static void outputs_without_their_name_are_kept_if_asked(void **unused)
+{
+    (void)unused;
+    for (int keep = 0; keep < 2; keep++) {
+        Output output;
+        const char *name = in_folder("taken"), *part = in_folder("taken.part");
+        CHECK_STATUS(output_open(name, &output), STATUS_OK);
+        CHECK(mkdir(name, 0700) == 0);
+        CHECK_STATUS(output_close(&output, keep), STATUS_FILE_FAILED);
+        CHECK(exists(part) == keep);
+        CHECK(rmdir(name) == 0 && (!keep || unlink(part) == 0));
+    }
+}
+
 static void full_devices_are_noticed(void **unused)
 {
     (void)unused;
@@ -839,6 +854,7 @@ int main(void)
         cmocka_unit_test(png_failures_have_reasons),
         cmocka_unit_test(outputs_replace_at_the_end),
         cmocka_unit_test(discarded_outputs_leave_nothing),
+        cmocka_unit_test(outputs_without_their_name_are_kept_if_asked),
         cmocka_unit_test(full_devices_are_noticed),
         cmocka_unit_test(states_are_exact),
         cmocka_unit_test(log_has_every_update),

@@ -4,6 +4,7 @@
 #include "testing.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,27 +16,38 @@
 static Player player;
 static volatile sig_atomic_t stop;
 
-/* A player of this line whom a script attends: it may go back. */
-static void begin(const char *line)
+/* A player of this line whom this script attends: it may go back. */
+static void begin_script(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];
     static char name[] = "/tmp/elasto-test-XXXXXX";
     char copy[256], message[256] = "";
     char *argv[32] = {(char[]){"elasto"}, (char[]){"--script"}, name,
                       (char[]){"--headless"}, (char[]){"--quiet"}};
-    int argc = 5;
+    int argc = 5, count = 1;
+    stop = 0;
     memcpy(name + strlen(name) - 6, "XXXXXX", 6);
     int file = mkstemp(name);
-    assert_true(file >= 0 && write(file, "0 play\n", 7) == 7);
+    ssize_t size = (ssize_t)strlen(script);
+    assert_true(file >= 0 && write(file, script, (size_t)size) == size);
     close(file);
     snprintf(copy, sizeof copy, "%s", line);
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         argv[argc++] = word;
-    CHECK_STATUS(options_parse(argc, argv, options, message, sizeof message),
-                 STATUS_OK);
-    CHECK_STATUS(player_create(options, 1, "elasto", &stop, &player),
+    for (int i = 0; i < count; i++) {
+        CHECK_STATUS(options_parse_pane(argc, argv, i, &options[i], message,
+                                        sizeof message),
+                     STATUS_OK);
+        count = options[0].panes;
+    }
+    CHECK_STATUS(player_create(options, count, "elasto", &stop, &player),
                  STATUS_OK);
     unlink(name);
+}
+
+static void begin(const char *line)
+{
+    begin_script("0 play\n", line);
 }
 
 static void end(void)
@@ -181,6 +193,7 @@ static void at_rest_it_says_so_and_stops(void **unused)
     begin("square --segments 2 --tolerance 0.1");
     run_until_it_pauses();
     CHECK(player.rests && player.halted && player.paused);
+    CHECK(lane(0)->track.now.updates == 0); /* slow steps came before */
     CHECK(strncmp(player.note, "at rest", 7) == 0);
     player_fill(&player);
     CHECK(strcmp(player.show.state, "at rest") == 0);
@@ -410,6 +423,112 @@ static void every_scene_is_taken_hold_of(void **unused)
     }
 }
 
+/* Lanes with different timesteps meet where the longest of them ends. */
+static void panes_meet_at_the_longest_timestep(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --timestep 0.01,0.005");
+    for (int step = 1; step <= 3; step++) {
+        CHECK_STATUS(obey("step"), STATUS_OK);
+        CHECK(track_step_shown(&lane(0)->track) == step);
+        CHECK(track_step_shown(&lane(1)->track) == 2 * step);
+    }
+    end();
+}
+
+/* A pane that fails is not made good by the one after it. */
+static void every_pane_may_fail(void **unused)
+{
+    (void)unused;
+    begin("square --integrator forward-euler,backward-euler --steps 1000");
+    CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
+    CHECK(lane(0)->failed && !lane(1)->failed);
+    end();
+    begin("square --tolerance 1e-30,0.01");
+    CHECK(!player_unconverged(&player));
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    CHECK(lane(0)->track.simulation.unconverged == 1);
+    CHECK(lane(1)->track.simulation.unconverged == 0);
+    CHECK(player_unconverged(&player));
+    end();
+}
+
+/* The hash is one of all panes. */
+static void every_pane_is_in_the_hash(void **unused)
+{
+    (void)unused;
+    static const char *const timesteps[] = {"0.004,0.002", "0.004,0.001",
+                                            "0.002,0.004", "0.001,0.004"};
+    uint64_t hash[4];
+    for (int i = 0; i < 4; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "square --timestep %s", timesteps[i]);
+        begin(line);
+        CHECK_STATUS(obey("step"), STATUS_OK);
+        hash[i] = player_hash(&player);
+        for (int k = 0; k < i; k++)
+            CHECK(hash[k] != hash[i]);
+        end();
+    }
+}
+
+/* A run of a given number of steps ends at its failure. */
+static void a_counted_run_ends_at_its_failure(void **unused)
+{
+    (void)unused;
+    begin("square --integrator forward-euler --steps 1000");
+    CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
+    CHECK(!player.paused && player.step == player.newest);
+    end();
+}
+
+/* Curves get each step once, however often it is drawn; a change at an old step
+ * ends the time line there. */
+static void old_steps_are_neither_kept_twice_nor_for_ever(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    obey_all((const char *const[]){"step", "step", "step", "back", NULL});
+    long count = lane(0)->history.calls;
+    player_sample(&player);
+    CHECK(count > 0 && lane(0)->history.calls == count);
+    CHECK(player.step == 2 && player.newest == 3);
+    CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
+    CHECK(player.step == 2 && player.newest == 2);
+    end();
+}
+
+static void give_up(int number)
+{
+    stop = number;
+}
+
+/* A line of the script waits for its step only while steps are made. */
+static void scripts_wait_while_it_runs(void **unused)
+{
+    (void)unused;
+    begin_script("0 pause\n9 step\n", "square --segments 2");
+    signal(SIGALRM, give_up);
+    alarm(20); /* s; it takes milliseconds */
+    CHECK_STATUS(player_run(&player), STATUS_OK);
+    alarm(0);
+    CHECK(!stop && player.step == 1 && player.paused);
+    end();
+}
+
+/* Where a window shows sixteen steps a frame, a run of ten makes ten. */
+static void many_steps_a_frame_end_in_time(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --steps 10");
+    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    player.window = true;
+    player.speed = 4;
+    CHECK_STATUS(player_run(&player), STATUS_OK);
+    CHECK(player.step == 10);
+    end();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +542,13 @@ int main(void)
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
+        cmocka_unit_test(panes_meet_at_the_longest_timestep),
+        cmocka_unit_test(every_pane_may_fail),
+        cmocka_unit_test(every_pane_is_in_the_hash),
+        cmocka_unit_test(a_counted_run_ends_at_its_failure),
+        cmocka_unit_test(old_steps_are_neither_kept_twice_nor_for_ever),
+        cmocka_unit_test(scripts_wait_while_it_runs),
+        cmocka_unit_test(many_steps_a_frame_end_in_time),
     };
     return cmocka_run_group_tests_name("player", tests, NULL, NULL);
 }
