@@ -747,9 +747,12 @@ static void log_has_every_update(void **unused)
         simulation_create(&options, record_update, &recording, &simulation), 0);
     for (int i = 0; i < 5; i++)
         assert_int_equal(simulation_step(&simulation), 0);
+    const NewtonRecord last = {.step = 5, .iteration = -1};
+    CHECK(record_update(&recording, &last)); /* an end without an update */
     CHECK_STATUS(recording_close(&recording), STATUS_OK);
     char *text = read_text(name);
-    long rows = -1;
+    CHECK(strstr(text, "\n5,,0,") != NULL);
+    long rows = -2;
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
         int commas = 0;
         for (char *c = line; *c; c++)

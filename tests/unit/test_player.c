@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "play/playing.h"
+#include "play/summary.h"
 #include "scenes/scene.h"
 
 static Player player;
@@ -498,6 +499,31 @@ static void old_steps_are_neither_kept_twice_nor_for_ever(void **unused)
     end();
 }
 
+/* The summary: what was projected, and why the first step that did not converge
+ * did not, whatever came after it. */
+static void the_summary_counts(void **unused)
+{
+    (void)unused;
+    char text[2048], expected[80];
+    begin("square --tolerance 1e-30");
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    Status first = track_row(&lane(0)->track, 1)->status;
+    obey_all((const char *const[]){"set tolerance 0.01", "step", NULL});
+    CHECK(track_row(&lane(0)->track, 2)->status == STATUS_OK);
+    FILE *file = fmemopen(text, sizeof text, "w");
+    CHECK(file != NULL);
+    summary_print(file, &player);
+    fclose(file);
+    NewtonCounters sum = simulation_counters(player_simulation(&player));
+    snprintf(expected, sizeof expected, "\nsprings projected   %ld\n",
+             (long)sum.projected);
+    CHECK(sum.projected > 0 && strstr(text, expected) != NULL);
+    snprintf(expected, sizeof expected, " not converged 1, the first: %s\n",
+             status_name(first));
+    CHECK(status_is_unconverged(first) && strstr(text, expected) != NULL);
+    end();
+}
+
 static void give_up(int number)
 {
     stop = number;
@@ -547,6 +573,7 @@ int main(void)
         cmocka_unit_test(every_pane_is_in_the_hash),
         cmocka_unit_test(a_counted_run_ends_at_its_failure),
         cmocka_unit_test(old_steps_are_neither_kept_twice_nor_for_ever),
+        cmocka_unit_test(the_summary_counts),
         cmocka_unit_test(scripts_wait_while_it_runs),
         cmocka_unit_test(many_steps_a_frame_end_in_time),
     };
