@@ -174,6 +174,34 @@ static void bound_implies_the_test(void **unused)
     }
 }
 
+/* The test passes by its answer for the Hessian at x alone: a factor from a
+ * square six to nine times as large is tried, is refined as often as allowed to
+ * a residual 3e-5 too small, and must not pass a test that x misses by 1e-6. */
+static void old_factors_pass_only_what_they_decide(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --timestep 0.1 --stretch 1.1", NULL,
+                         NULL, &simulation);
+    Newton *newton = simulation.run[0].newton;
+    const double h = newton->settings.h, *x = simulation.run[0].x;
+    double large[SIZE], zero[SIZE] = {0};
+    for (int i = 0; i < SIZE; i++)
+        large[i] = (i % 2 ? 6 : 9) * x[i];
+    IncrementalPotential E = {
+        .system = &simulation.system, .weight = h * h, .u_tilde = zero};
+    for (int last = 0; last < 2; last++) {
+        E.x_n = last ? x : large;
+        newton->settings.tolerance = exact_residual(&E, zero, E.x_n, true, h) *
+                                     (last ? 1 - 1e-6 : 1 + 1e-6);
+        CHECK_STATUS(newton_start(newton, E.x_n, NULL, h * h),
+                     last ? STATUS_RUNNING : STATUS_OK);
+    }
+    CHECK(newton->counters.factorisations == 2);
+    CHECK(newton->counters.solves == 9); /* 1, then 1 + 6 old and 1 new */
+    simulation_free(&simulation);
+}
+
 /* One gradient a step, and nothing else, not even a matrix. */
 static void rest_costs_one_gradient(void **unused)
 {
@@ -723,6 +751,7 @@ int main(void)
         cmocka_unit_test(records_are_right_where_springs_are_compressed),
         cmocka_unit_test(records_are_right_without_projection),
         cmocka_unit_test(bound_implies_the_test),
+        cmocka_unit_test(old_factors_pass_only_what_they_decide),
         cmocka_unit_test(rest_costs_one_gradient),
         cmocka_unit_test(pieces_are_the_whole),
         cmocka_unit_test(settings_change_while_running),
