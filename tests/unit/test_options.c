@@ -478,6 +478,8 @@ static void texts_become_one_line(void **unused)
     assert_string_equal(line, "01234567890");
     one_line("012\303\274456789\303\274\303\274", line, sizeof line);
     assert_string_equal(line, "012...\303\274\303\274"); /* whole letters */
+    one_line("0123456789\303\274abc", line, sizeof line);
+    assert_string_equal(line, "0123...abc"); /* no half of one */
     one_line("\302\205", line, sizeof line);
     assert_string_equal(line, "??");
     one_line(NULL, line, sizeof line);
