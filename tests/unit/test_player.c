@@ -116,7 +116,7 @@ static void the_explosion_is_seen_and_tamed(void **unused)
     (void)unused;
     static const char *const keys[] = {"projection", "line-search"};
     for (int i = 0; i < 2; i++) {
-        double last, rise, tamed;
+        double last, rise = 0, tamed;
         begin("explosion");
         CHECK(player.step == 0 && player_simulation(&player)->scene->explains);
         CHECK_STATUS(obey("next"), STATUS_OK);
