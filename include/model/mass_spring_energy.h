@@ -89,10 +89,12 @@ static inline void mass_spring_add(const double H[3], const System *system,
         return;
     }
     slot += SPRING_ENTRIES * spring;
-    for (int t = 0; t < 3; t++) {
-        out[slot[t]] += H[t];
-        out[slot[3 + t]] += H[t];
-    }
+    out[slot[0]] += H[0];
+    out[slot[1]] += H[1];
+    out[slot[2]] += H[2];
+    out[slot[3]] += H[0];
+    out[slot[4]] += H[1];
+    out[slot[5]] += H[2];
     out[slot[6]] -= H[0];
     out[slot[7]] -= H[1];
     out[slot[8]] -= H[1];

@@ -137,13 +137,18 @@ static Status newton_solve_and_test(Newton *newton)
     return status || exact ? status : newton_certify(newton);
 }
 
-/* Whether a direction with at most this error passes the test or does not,
- * wherever the exact one is. */
+/* Whether a direction with this residual and at most this error passes the test
+ * or does not, wherever the exact one is. */
+static bool is_decided(const Newton *newton, double residual, double error)
+{
+    return fabs(residual - newton->settings.tolerance) >=
+           residual_per_norm(newton) * error;
+}
+
+/* The same, as search_direction_refine asks it. */
 static bool test_is_decided(const void *user, const double *p, double error)
 {
-    const Newton *newton = user;
-    double away = newton_residual(newton, p) - newton->settings.tolerance;
-    return fabs(away) >= residual_per_norm(newton) * error;
+    return is_decided(user, newton_residual(user, p), error);
 }
 
 /* More solves than this to refine a direction, and a new factor is cheaper. */
@@ -169,7 +174,7 @@ static bool old_factor_passes(Newton *newton)
     if (status)
         return false;
     newton->residual = newton_residual(newton, newton->at.p);
-    return test_is_decided(newton, newton->at.p, error) &&
+    return is_decided(newton, newton->residual, error) &&
            newton_test(newton, 0) == STATUS_OK;
 }
 

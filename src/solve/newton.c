@@ -116,14 +116,18 @@ static void move_centre(Newton *newton)
     Iterate *at = &newton->at;
     double mass = 0, missing[2] = {0, 0};
     for (int i = 0; i < system->nodes; i++) {
-        mass += system->m[i];
-        for (int c = 0; c < 2; c++)
-            missing[c] +=
-                system->m[i] * (newton->u_tilde[2 * i + c] - at->u[2 * i + c]);
+        double m = system->m[i];
+        mass += m;
+        missing[0] += m * (newton->u_tilde[2 * i] - at->u[2 * i]);
+        missing[1] += m * (newton->u_tilde[2 * i + 1] - at->u[2 * i + 1]);
     }
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        at->u[i] += missing[i % 2] / mass;
-        at->x[i] = at->E.x_n[i] + at->u[i];
+    double by[2] = {missing[0] / mass, missing[1] / mass};
+    for (int i = 0; i < 2 * system->nodes; i += 2) {
+        double u[2] = {at->u[i] + by[0], at->u[i + 1] + by[1]};
+        at->x[i] = at->E.x_n[i] + u[0];
+        at->x[i + 1] = at->E.x_n[i + 1] + u[1];
+        at->u[i] = u[0];
+        at->u[i + 1] = u[1];
     }
 }
 
