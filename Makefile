@@ -279,8 +279,10 @@ $(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
 suites: $(SUITES)
 .PHONY: suites
 
-# test: every promise once, in a minute.  long-test: also all variations.
-test long-test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture
+# test: every promise once, in a minute.  long-test: also all variations.  What
+# was tested is then in build/, ready to be used.
+test long-test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture \
+                $(if $(SANITIZE),,build/elasto build/lecture)
 	@$(CHECK_ENVIRONMENT) LONG=$(filter long-test,$@) \
 	  sh tests/checks/run.sh $(SUITES)
 

@@ -93,10 +93,12 @@ typedef struct CommandRow {
     CommandKind kind;
     const char *word; /* in scripts; NULL: not there */
     CommandArguments arguments;
-    const char *keys;  /* "Space", "Ctrl+R", several: "?|F1"; or NULL */
-    const char *label; /* what it does, for the list of keys; or NULL */
-    bool repeats;      /* while the key is held down */
-    bool kept;         /* belongs into the script of a session */
+    const char *keys; /* "Space", "Ctrl+R", several: "?|F1"; or NULL */
+    /* What it does, for the list of keys; "": told with the row before it;
+     * NULL: not in the list. */
+    const char *label;
+    bool repeats; /* while the key is held down */
+    bool kept;    /* belongs into the script of a session */
 } CommandRow;
 
 /* The row of a kind; its kind is that one. */

@@ -7,20 +7,22 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* The list of keys, filled from the table of commands. */
-static HelpRow help_rows[COMMAND_KINDS + 8];
-static char help_keys[COMMAND_KINDS][32];
+/* The list of keys, filled from the tables of commands and of scenes. */
+enum { DIGITS = 9, SCENES_IN_ROW = 3, SCENE_ROWS = DIGITS / SCENES_IN_ROW };
 
-/* "N|Right" as people read it: "N, →". */
+static HelpRow help_rows[COMMAND_KINDS + 8 + SCENE_ROWS];
+static char help_keys[COMMAND_KINDS][32];
+static char help_digits[SCENE_ROWS][8], help_scenes[SCENE_ROWS][64];
+
+/* "N|Right" as people read it, behind what the text has: "N, →". */
 static void pretty_keys(const char *keys, char *text, size_t size)
 {
     static const char *const names[][2] = {
-        {"Right", "\u2192"},         {"Left", "\u2190"}, {"Up", "\u2191"},
-        {"Down", "\u2193"},          {"Escape", "Esc"},  {"-", "\u2212"},
-        {"Backspace", "Back\u232b"},
+        {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
+        {"Down", "\u2193"},          {"Escape", "Esc"},    {"-", "\u2212"},
+        {"Backspace", "Back\u232b"}, {"PageDown", "PgDn"}, {"PageUp", "PgUp"},
     };
-    size_t used = 0;
-    text[0] = '\0';
+    size_t used = strlen(text);
     while (*keys) {
         size_t length = strcspn(keys, "|");
         char key[32];
@@ -37,6 +39,24 @@ static void pretty_keys(const char *keys, char *text, size_t size)
     }
 }
 
+/* "1 2 3", "square, circle, overshoot": the scenes that have a digit.  Returns
+ * how many rows there are now. */
+static int fill_scenes(int count)
+{
+    for (int i = 0, used = 0; i < DIGITS && scenes[i].name; i++) {
+        int row = i / SCENES_IN_ROW, k = i % SCENES_IN_ROW;
+        char *digits = help_digits[row], *names = help_scenes[row];
+        if (k == 0) {
+            used = 0;
+            help_rows[count++] = (HelpRow){digits, names};
+        }
+        snprintf(digits + (k ? 2 * k - 1 : 0), 3, "%s%d", k ? " " : "", i + 1);
+        used += snprintf(names + used, sizeof help_scenes[row] - (size_t)used,
+                         "%s%s", used > 0 ? ", " : "", scenes[i].name);
+    }
+    return count;
+}
+
 /* The page of help. */
 static void fill_help(Show *show)
 {
@@ -49,16 +69,22 @@ static void fill_help(Show *show)
         {"double click", "fits it; on a number: default"},
         {"digits", "typed into a lit number; Enter"},
     };
+    char *keys = help_keys[0];
     int count = 0;
     for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++)
         help_rows[count++] = mouse[i];
     for (int kind = 0; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = command_row((CommandKind)kind);
-        if (!row->label)
+        if (kind == COMMAND_SCENE)
+            count = fill_scenes(count);
+        if (!row->label || !row->keys)
             continue;
-        pretty_keys(row->keys ? row->keys : "1 \u2026 9", help_keys[kind],
-                    sizeof help_keys[kind]);
-        help_rows[count++] = (HelpRow){help_keys[kind], row->label};
+        if (row->label[0]) {
+            keys = help_keys[kind];
+            keys[0] = '\0';
+            help_rows[count++] = (HelpRow){keys, row->label};
+        }
+        pretty_keys(row->keys, keys, sizeof help_keys[kind]);
     }
     show->page.kind = PAGE_HELP;
     show->help = help_rows;

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/scene.h"
+
 enum { HELP_SIZE = 8192, HELP_COLUMNS = 80, HELP_INDENT = 22 };
 
 /* A text under construction. */
@@ -109,12 +111,27 @@ static void help_option(Help *help, const OptionRow *row)
     help_default(help, row);
 }
 
+/* The scenes with their numbers, a line each. */
+static void help_scenes(Help *help)
+{
+    Text start;
+    help_line(help, "scenes:");
+    for (int i = 0; scenes[i].name; i++) {
+        snprintf(start.text, sizeof start.text, "  %2d %s", i + 1,
+                 scenes[i].name);
+        help_line(help, start.text);
+        help_indent(help);
+        help_words(help, scenes[i].sentence);
+    }
+}
+
 const char *options_help(void)
 {
     static Help help;
     help.used = 0;
     help_line(&help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
-                     "number of --list");
+                     "number, else square");
+    help_scenes(&help);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->name[0])
             help_option(&help, row);

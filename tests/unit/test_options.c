@@ -537,6 +537,12 @@ static void help_fits_a_terminal(void **unused)
     }
     for (const IntegratorMethod *row = integrator_methods; row->name; row++)
         CHECK(strstr(help, row->name) != NULL);
+    for (int i = 0; scenes[i].name; i++) { /* a line each, with its number */
+        char line[128];
+        snprintf(line, sizeof line, "\n  %2d %-15s  %s\n", i + 1,
+                 scenes[i].name, scenes[i].sentence);
+        CHECK(strstr(help, line) != NULL);
+    }
     int lines = 0;
     for (const char *line = help; *line; lines++) {
         const char *end = strchr(line, '\n');
