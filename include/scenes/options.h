@@ -14,6 +14,8 @@ struct LecturePage;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
+static const double DEGREE = 0.017453292519943295; /* pi/180 */
+
 typedef struct Options {
     const struct Scene *scene;
     int segments;

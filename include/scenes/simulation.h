@@ -99,10 +99,10 @@ double simulation_time(const Simulation *simulation);
 /* Energies of one run, computed now. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* m/s: a looser tolerance may leave a body at rest hanging in the air, or let a
- * contact that creeps freeze: a tenth of h |g| and of the slip speed.  Infinite
- * where neither matters. */
-double simulation_tolerance_needed(const Simulation *simulation);
+/* Whether the tolerance may leave a body at rest hanging in the air, or let a
+ * contact that creeps freeze: above a tenth of h |g| or of the slip speed.
+ * needed: the largest that does not, m/s, infinite where neither matters. */
+bool simulation_is_loose(const Simulation *simulation, double *needed);
 
 /* Sum over the runs of what Newton did; zero where all are explicit. */
 NewtonCounters simulation_counters(const Simulation *simulation);

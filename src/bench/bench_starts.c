@@ -38,10 +38,16 @@ typedef struct StartRun {
     double energy; /* at the end over that at the start */
 } StartRun;
 
+/* Starts a billionth apart. */
+static void move_start(Options *options, int start)
+{
+    options->stretch += 1e-9 * start;
+}
+
 static Options start_options(const Variant *variant, int segments, int start)
 {
     Options options = slides_options(segments);
-    options.stretch += 1e-9 * start;
+    move_start(&options, start);
     options.solver = variant->solver;
     options.minimum = variant->minimum;
     return options;
@@ -130,7 +136,7 @@ Status starts_measure(const Options *options, int starts, int steps,
     double longest = 0, all = 0;
     while (count < starts && count < STARTS && all < all_starts) {
         Options moved = *options;
-        moved.stretch += 1e-9 * count;
+        move_start(&moved, count);
         Status status = run_start(&moved, steps, &runs[count]);
         if (status)
             return status;

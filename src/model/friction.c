@@ -21,28 +21,26 @@ double friction_curvature(double y, double e)
 }
 
 /* On one piece, [0, e] mirrored or not, f0'' is linear: the remainder of a step
- * from y to z = y + t is t^2 (2 f0''(y) + f0''(z))/6. */
-static double remainder_on_piece(double y, double z, double e)
+ * t from y to z is t^2 (2 f0''(y) + f0''(z))/6. */
+static double remainder_on_piece(double y, double t, double z, double e)
 {
-    double t = z - y;
     return t * t * (2 * friction_curvature(y, e) + friction_curvature(z, e)) /
            6;
 }
 
-/* From y >= 0 on to y + t, both >= 0 and in order; `back`: the other way. */
+/* From y >= 0 to y + t >= 0, in either direction. */
 static double remainder_on_side(double y, double t, double e)
 {
     double z = y + t;
     if (y <= e && z <= e)
-        return t * t *
-               (2 * friction_curvature(y, e) + friction_curvature(z, e)) / 6;
+        return remainder_on_piece(y, t, z, e);
     if (y > e && z > e)
         return 0;
     if (y > e) /* into the piece: the slope at y is the one at e */
-        return remainder_on_piece(e, z, e);
+        return remainder_on_piece(e, z - e, z, e);
     /* out of it: from e on the slope is larger by `missing` than it was at y */
     double missing = 1 - y / e;
-    return remainder_on_piece(y, e, e) + missing * missing * (z - e);
+    return remainder_on_piece(y, e - y, e, e) + missing * missing * (z - e);
 }
 
 /* R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c) with b = 0 where

@@ -380,15 +380,14 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         int left = box.x, right = box.x + box.width;
-        for (int k = 0; k < 3; k++)
-            narrow(edge[k][0],
-                   edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2],
-                   -most - slack, &left, &right);
+        double first[3]; /* pixels inside the edge, at the middle of pixel 0 */
+        for (int k = 0; k < 3; k++) {
+            first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
+            narrow(edge[k][0], first[k], -most - slack, &left, &right);
+        }
         int solid = left, end = right;
         for (int k = 0; k < 3; k++)
-            narrow(edge[k][0],
-                   edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2],
-                   most + slack, &solid, &end);
+            narrow(edge[k][0], first[k], most + slack, &solid, &end);
         for (int i = left; i < right; i++) {
             if (i == solid && solid < end) {
                 mix_span(row, solid, end, colour, full);
@@ -397,8 +396,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
             }
             double inside = 1e9;
             for (int k = 0; k < 3; k++)
-                inside = fmin(inside, edge[k][0] * (i + 0.5) +
-                                          edge[k][1] * (j + 0.5) + edge[k][2]);
+                inside = fmin(inside, edge[k][0] * i + first[k]);
             double part =
                 smooth ? fmin(fmax(inside + 0.5, 0), 1) : (inside >= 0 ? 1 : 0);
             if (part > 0)

@@ -20,9 +20,10 @@ typedef struct Listing {
     const char *method; /* of the integrator; NULL ends the table */
     const char *title;
     const Row *rows; /* the last one has no markup */
+    const char *end; /* in the place of the rows' LINE_END; NULL: theirs */
 } Listing;
 
-/* Algorithm 3; the last line of other implicit methods is their own. */
+/* Algorithm 3 */
 static const Row newton_rows[] = {
     {LINE_START, 0, "{x}^{i} \u2190 {x}^{n}"},
     {LINE_DO, 0, "do"},
@@ -34,17 +35,6 @@ static const Row newton_rows[] = {
     {LINE_END, 0,
      "{x}^{n+1} \u2190 {x}^{i};   v^{n+1} \u2190 ({x}^{n+1} \u2212 {x}^{n}) / "
      "h"},
-    {LINE_NONE, 0, NULL}};
-
-static const Row newton_end_rows[] = {
-    {LINE_START, 0, "{x}^{i} \u2190 {x}^{n}"},
-    {LINE_DO, 0, "do"},
-    {LINE_PROJECT, 1, "P \u2190 SPDProjection(\u2207\u00b2E({x}^{i}))"},
-    {LINE_SOLVE, 1, "{p} \u2190 \u2212P^{\u22121} \u2207E({x}^{i})"},
-    {LINE_SEARCH, 1, "{alpha} \u2190 BackTrackingLineSearch({x}^{i}, {p})"},
-    {LINE_UPDATE, 1, "{x}^{i} \u2190 {x}^{i} + {alpha} {p}"},
-    {LINE_TEST, 0, "while \u2016{p}\u2016_{\u221e} / h > \u03b5"},
-    {LINE_END, 0, "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it"},
     {LINE_NONE, 0, NULL}};
 
 /* Algorithm 1 with Algorithm 2 inside. */
@@ -76,14 +66,15 @@ static const Row verlet_rows[] = {
     {LINE_NONE, 0, NULL}};
 
 static const Listing listings[] = {
-    {"backward-euler", "Algorithm 3: projected Newton", newton_rows},
-    {"forward-euler", "Forward Euler", forward_rows},
-    {"symplectic-euler", "Symplectic Euler", symplectic_rows},
-    {"verlet", "Velocity Verlet", verlet_rows},
-    {NULL, "Algorithm 3 inside another method", newton_end_rows},
+    {"backward-euler", "Algorithm 3: projected Newton", newton_rows, NULL},
+    {"forward-euler", "Forward Euler", forward_rows, NULL},
+    {"symplectic-euler", "Symplectic Euler", symplectic_rows, NULL},
+    {"verlet", "Velocity Verlet", verlet_rows, NULL},
+    {NULL, "Algorithm 3 inside another method", newton_rows,
+     "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it"},
 };
 
-static const Listing scalar_listing = {NULL, "Algorithm 1", scalar_rows};
+static const Listing scalar_listing = {NULL, "Algorithm 1", scalar_rows, NULL};
 
 static const Listing *find_listing(const Simulation *simulation)
 {
@@ -251,7 +242,10 @@ static void draw_listing(Paper *paper, Box inside, const Show *show)
         pitch = inside.height / rows;
     for (int i = 0; i < rows; i++) {
         Box box = {inside.x, inside.y + i * pitch, inside.width, pitch};
-        draw_row(paper, box, simulation, trace, &listing->rows[i], i + 1);
+        Row row = listing->rows[i];
+        if (row.line == LINE_END && listing->end)
+            row.markup = listing->end;
+        draw_row(paper, box, simulation, trace, &row, i + 1);
     }
 }
 
@@ -265,7 +259,7 @@ static const char *listing_title(const Show *show)
     if (listing->rows == scalar_rows)
         return search ? "Algorithm 1; line 4 is Algorithm 2"
                       : "Algorithm 1: Newton's method";
-    if (listing->rows != newton_rows || (project && search))
+    if (listing->rows != newton_rows || listing->end || (project && search))
         return listing->title;
     return project  ? "Algorithm 3, line 5 is off"
            : search ? "Algorithm 3, line 3 is off"

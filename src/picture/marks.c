@@ -201,10 +201,13 @@ void stage_scale(Paper *paper, const Stage *stage)
                 y - 1.4 * paper->em, ALIGN_CENTRE, "%s %s", number, name);
 }
 
-/* The next word of the legend after `before` pixels for a sign. */
-static void legend_word(Paper *paper, const Stage *stage, Legend *legend,
-                        int before, Colour colour, const char *words)
+/* The next words of the legend after `before` pixels for a sign. */
+static void legend_words(Paper *paper, const Stage *stage, Legend *legend,
+                         int before, Colour colour, const char *format,
+                         va_list arguments)
 {
+    char words[128];
+    vsnprintf(words, sizeof words, format, arguments);
     int width = before + paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
     int margin = paper_pixels(paper, 0.9);
     if (legend->x > 0 && legend->x + width > stage->box.width - 2 * margin) {
@@ -230,24 +233,20 @@ static void legend_word(Paper *paper, const Stage *stage, Legend *legend,
 void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
                   Colour colour, const char *format, ...)
 {
-    char words[128];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
+    legend_words(paper, stage, legend, 0, colour, format, arguments);
     va_end(arguments);
-    legend_word(paper, stage, legend, 0, colour, words);
 }
 
 void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
                Colour colour, const char *format, ...)
 {
-    char words[128];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
+    legend_words(paper, stage, legend, paper_pixels(paper, length + 0.6),
+                 colour, format, arguments);
     va_end(arguments);
-    legend_word(paper, stage, legend, paper_pixels(paper, length + 0.6), colour,
-                words);
 }
 
 Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,

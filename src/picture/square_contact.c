@@ -8,7 +8,6 @@
 
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
-static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
 bool square_contact_apart(const Simulation *simulation)
 {
@@ -29,7 +28,6 @@ bool square_contact_touch(const ContactView *view, int node, int number,
     const System *system = view->run->system;
     const Contact *contact = contact_of(system);
     const Obstacle *obstacle = &contact->obstacle[number];
-    const Term *term = system_find_term(system, &friction_energy);
     *touch = (Touch){0};
     if (!contact_has_pair(contact, system, node, number))
         return false;
@@ -37,6 +35,7 @@ bool square_contact_touch(const ContactView *view, int node, int number,
     double push = contact_force(&contact->barrier, &gap), rub = 0;
     if (!(push > 0) || !isfinite(push))
         return false;
+    const Term *term = system_find_term(system, &friction_energy);
     const double *v = view->run->v;
     const double *u = obstacle->node < 0 ? obstacle->v : v + 2 * obstacle->node;
     double t[2] = {-gap.n[1], gap.n[0]};

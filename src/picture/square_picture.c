@@ -111,7 +111,7 @@ static ContactView contact_view(const SpringPen *pen, int run)
     return (ContactView){.paper = pen->paper,
                          .stage = pen->stage,
                          .run = &simulation->run[run],
-                         .x = pen->x,
+                         .x = run == 0 ? pen->x : simulation->run[run].x,
                          .h = simulation->options.timestep,
                          .node = square_pen_radius(pen, false)};
 }
@@ -267,7 +267,6 @@ static void draw_obstacles(const SpringPen *pen)
     bool apart = square_contact_apart(simulation);
     for (int r = 0; r < (apart ? simulation->runs : 1); r++) {
         ContactView view = contact_view(pen, r);
-        view.x = r == 0 ? pen->x : simulation->run[r].x;
         square_contact_obstacles(&view, apart);
         if (apart && pen->stage->text)
             square_contact_label(&view);
@@ -299,7 +298,6 @@ static void draw_forces(const SpringPen *pen, Legend *legend)
     double most = 0;
     for (int r = 0; r < runs; r++) {
         view[r] = contact_view(pen, r);
-        view[r].x = r == 0 ? pen->x : simulation->run[r].x;
         most = fmax(most, square_contact_most(&view[r]));
     }
     for (int r = 0; r < runs; r++)
@@ -312,9 +310,9 @@ static void draw_forces(const SpringPen *pen, Legend *legend)
 static void draw_tolerance(const SpringPen *pen, Legend *legend)
 {
     const Simulation *simulation = pen->pane->simulation;
-    double needed = simulation_tolerance_needed(simulation);
+    double needed;
     char number[48];
-    if (!(simulation->options.tolerance > needed * (1 + 1e-9)))
+    if (!simulation_is_loose(simulation, &needed))
         return;
     plot_number(number, sizeof number, needed);
     stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
@@ -334,7 +332,7 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
     if (pen.contact)
         draw_obstacles(&pen);
     draw_other_runs(paper, stage, show);
-    pen = square_pen(paper, stage, show, 0);
+    pen = square_pen(paper, stage, show, 0); /* they took its places */
     if (!pen.at)
         return count;
     int stride =

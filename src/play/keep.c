@@ -21,6 +21,11 @@ static void free_name(const Player *player, const char *end, char *name,
                  end);
 }
 
+static const char *reason_of(Status status)
+{
+    return status == STATUS_FILE_FAILED ? strerror(errno) : status_text(status);
+}
+
 /* The frame as it is, in the present folder. */
 static Status save_picture(Player *player, const Command *command)
 {
@@ -42,9 +47,7 @@ static Status save_picture(Player *player, const Command *command)
     }
     paper_free(&own);
     if (status)
-        player_note(player, "not saved: %s",
-                    status == STATUS_FILE_FAILED ? strerror(errno)
-                                                 : status_text(status));
+        player_note(player, "not saved: %s", reason_of(status));
     else
         player_note(player, "saved %s", name);
     return STATUS_OK;
@@ -93,9 +96,7 @@ static Status tell_hash(Player *player, const Command *command)
     Status status = script_write(name, &player->journal);
     if (status)
         player_note(player, "state %016llx of %s, step %ld; no script: %s",
-                    hash, scene, player->step,
-                    status == STATUS_FILE_FAILED ? strerror(errno)
-                                                 : status_text(status));
+                    hash, scene, player->step, reason_of(status));
     else
         player_note(player, "state %016llx at step %ld: %.60s --script %s",
                     hash, player->step, player->line, name);

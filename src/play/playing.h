@@ -32,6 +32,9 @@ const Settings *player_settings(const Player *player);
  * itself, that is what is shown. */
 void player_show_peaks(Player *player);
 
+/* All lanes show their steps' ends again, no updates or lines. */
+void player_leave_tapes(Player *player);
+
 /* ---- glide.c ------------------------------------------------------------ */
 
 /* From what is shown now, before another line is; only in a window. */

@@ -79,7 +79,6 @@ static Status move_camera(Player *player, const Command *command)
 static Status fit(Player *player, const Command *command)
 {
     (void)command;
-    (void)command;
     player->lens = LENS_FITS;
     return STATUS_OK;
 }

@@ -60,9 +60,9 @@ Status player_begin(Player *player, const Options *options, int count)
     player->step = player->newest = 0;
     player->active = 0;
     player->lanes = 0;
+    /* pictures show the steps behind them: residuals, the time line */
+    bool keeps = player->attended || player->view;
     for (int i = 0; i < count; i++) {
-        /* pictures show the steps behind them: residuals, the time line */
-        bool keeps = player->attended || player->view;
         Status status = lane_create(player, i, &options[i], keeps, player_watch,
                                     &player->lane[i]);
         player->lanes++;
@@ -95,15 +95,20 @@ Status player_restart(Player *player, const Options *options, int count)
     return status ? status : player_begin(player, copy, count);
 }
 
+void player_leave_tapes(Player *player)
+{
+    for (int i = 0; i < player->lanes; i++)
+        player->lane[i].place = -1;
+}
+
 /* What goes whenever another step is shown. */
 static void leave_step(Player *player)
 {
     player->changed = true;
     player->rests = false;
-    for (int i = 0; i < player->lanes; i++) {
-        player->lane[i].place = -1;
+    player_leave_tapes(player);
+    for (int i = 0; i < player->lanes; i++)
         lane_drop_ghost(&player->lane[i]);
-    }
 }
 
 static long clamp_step(const Player *player, long step)
@@ -111,33 +116,39 @@ static long clamp_step(const Player *player, long step)
     return step < 0 ? 0 : step > player->newest ? player->newest : step;
 }
 
-Status player_show(Player *player, long step)
+/* Another step is to be shown, and the run waits there. */
+static void wait_elsewhere(Player *player)
 {
-    Status status = STATUS_OK;
     leave_step(player);
     player->holds = false;
     player->paused = true;
-    if (!player->attended)
-        return STATUS_OK;
-    step = clamp_step(player, step);
+}
+
+/* All lanes at this step, as lane_show or lane_retape shows it. */
+static Status go_to_step(Player *player, long step,
+                         Status (*show)(Lane *lane, long step))
+{
+    Status status = STATUS_OK;
     for (int i = 0; i < player->lanes && !status; i++)
-        status = lane_show(&player->lane[i], step);
+        status = show(&player->lane[i], step);
     player->step = step;
     return status == STATUS_INTERRUPTED ? STATUS_OK : status;
 }
 
+Status player_show(Player *player, long step)
+{
+    wait_elsewhere(player);
+    if (!player->attended)
+        return STATUS_OK;
+    return go_to_step(player, clamp_step(player, step), lane_show);
+}
+
 Status player_retape(Player *player, long step)
 {
-    Status status = STATUS_OK;
     if (step < 1 || step > player->newest)
         return player_show(player, step);
-    leave_step(player);
-    player->holds = false;
-    player->paused = true;
-    for (int i = 0; i < player->lanes && !status; i++)
-        status = lane_retape(&player->lane[i], step);
-    player->step = step;
-    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
+    wait_elsewhere(player);
+    return go_to_step(player, step, lane_retape);
 }
 
 Status player_forget_later(Player *player)

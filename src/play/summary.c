@@ -24,8 +24,8 @@ static void print_solver(FILE *file, const Simulation *simulation)
 /* Where contact and friction need a smaller tolerance. */
 static void print_tolerance(FILE *file, const Simulation *simulation)
 {
-    double needed = simulation_tolerance_needed(simulation);
-    if (simulation->options.tolerance > needed * (1 + 1e-9))
+    double needed;
+    if (simulation_is_loose(simulation, &needed))
         fprintf(file,
                 "tolerance           %g m/s is loose: bodies may hang or "
                 "freeze; %.3g is not\n",

@@ -8,8 +8,8 @@ static Status set_paused(Player *player, bool paused)
     player->paused = paused;
     player->halted = false;
     player->rests = player->rests && paused;
-    for (int i = 0; !paused && i < player->lanes; i++)
-        player->lane[i].place = -1;
+    if (!paused)
+        player_leave_tapes(player);
     player_reset_speed(player);
     return STATUS_OK;
 }
@@ -47,35 +47,20 @@ static void enter_tapes(Player *player, bool at_end)
     }
 }
 
-/* A pace on in all lanes; false: each was at its end. */
-static bool walk_on(Player *player)
+/* A pace on or back in all lanes, as tape_next or tape_back has it; false: each
+ * was at its end. */
+static bool walk(Player *player, int (*pace)(const Tape *, int, int))
 {
     bool moved = false;
     glide_begin(player);
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
-        int last = lane->tape.places - 1;
-        if (lane->place < 0 || lane->place >= last)
+        int last = lane->tape.places - 1, place = lane->place;
+        if (place < 0)
             continue;
-        int next = tape_next(&lane->tape, player->fine, lane->place);
-        lane->place = next < last ? next : last;
-        moved = true;
-    }
-    return moved;
-}
-
-/* The same back; false: each was at its start. */
-static bool walk_back(Player *player)
-{
-    bool moved = false;
-    glide_begin(player);
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        if (lane->place <= 0)
-            continue;
-        int next = tape_back(&lane->tape, player->fine, lane->place);
-        lane->place = next > 0 ? next : 0;
-        moved = true;
+        int next = pace(&lane->tape, player->fine, place);
+        lane->place = next < 0 ? 0 : next > last ? last : next;
+        moved = moved || lane->place != place;
     }
     return moved;
 }
@@ -106,11 +91,10 @@ static Status go_on(Player *player, const Command *command)
     (void)command;
     bool peaked = player->fine == 0 && player_lane(player)->place >= 0;
     player->paused = true;
-    if (player->fine > 0 && walk_on(player))
+    if (player->fine > 0 && walk(player, tape_next))
         return STATUS_OK;
     if (peaked) { /* from the height of an explosion to its end */
-        for (int i = 0; i < player->lanes; i++)
-            player->lane[i].place = -1;
+        player_leave_tapes(player);
         return STATUS_OK;
     }
     Status status = next_step(player, player->fine > 0);
@@ -137,7 +121,7 @@ static Status go_back(Player *player, const Command *command)
             return status ? status : player_show(player, player->step - 1);
         enter_tapes(player, true);
     }
-    if (lane->place < 0 || walk_back(player))
+    if (lane->place < 0 || walk(player, tape_back))
         return STATUS_OK;
     Status status = player_retape(player, player->step - 1);
     if (!status)
@@ -155,8 +139,8 @@ static Status go_finer(Player *player, const Command *command)
         "N and \u2190 go by lines of Algorithm 3",
     };
     player->fine = (player->fine + 1) % 3;
-    for (int i = 0; player->fine == 0 && i < player->lanes; i++)
-        player->lane[i].place = -1;
+    if (player->fine == 0)
+        player_leave_tapes(player);
     player->paused = true;
     player_note(player, "%s", text[player->fine]);
     return STATUS_OK;

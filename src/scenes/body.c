@@ -81,7 +81,7 @@ Status body_create(const Options *options, int more, SquareMesh *mesh,
 static void place_node(const Options *options, const double rest[2],
                        double x[2])
 {
-    double angle = options->turn * 0.017453292519943295; /* pi/180 */
+    double angle = options->turn * DEGREE;
     double c = cos(angle), s = sin(angle);
     double x0 = options->stretch * rest[0], x1 = rest[1];
     x[0] = c * x0 - s * x1 + options->at[0];

@@ -9,8 +9,7 @@
 #include "scenes/body.h"
 #include "scenes/square_scenes.h"
 
-static const double DEGREE = 0.017453292519943295; /* pi/180 */
-static const double SLOPE = 20;                    /* degrees */
+static const double SLOPE = 20; /* degrees */
 
 /* What all of these scenes have but tear. */
 static void fall(Options *options, int segments, double stiffness,

@@ -218,6 +218,13 @@ static void drop_empty_pins(System *system)
     system->pinned = NULL;
 }
 
+/* J, of each run: out [runs]. */
+static void dissipated_so_far(const Simulation *simulation, double *out)
+{
+    for (int r = 0; r < simulation->runs; r++)
+        out[r] = simulation_energies(simulation, r).dissipated;
+}
+
 /* What another stiffness or a pin has done to the energy is the work of whoever
  * set it: nothing else in the ledger jumps.  had [runs] J, dissipated before.
  */
@@ -238,8 +245,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
     system->pinned[node] = pinned;
     drop_empty_pins(system);
     double had[SIMULATION_MAX_RUNS];
-    for (int i = 0; i < simulation->runs; i++)
-        had[i] = simulation_energies(simulation, i).dissipated;
+    dissipated_so_far(simulation, had);
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];
         if (run->system != system)
@@ -313,10 +319,8 @@ Status simulation_change(Simulation *simulation, const Options *options)
     NewtonObserver observer = simulation->observer;
     void *user = simulation->user;
     simulation_release(simulation);
-    for (int r = 0; r < simulation->runs; r++) {
-        start[r] = simulation->start[r];
-        had[r] = simulation_energies(simulation, r).dissipated;
-    }
+    memcpy(start, simulation->start, sizeof start);
+    dissipated_so_far(simulation, had);
     void *state = malloc(state_bytes(simulation, STATE_BODY));
     if (!state)
         return STATUS_OUT_OF_MEMORY;
@@ -368,18 +372,18 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
-double simulation_tolerance_needed(const Simulation *simulation)
+bool simulation_is_loose(const Simulation *simulation, double *needed)
 {
     const System *system = &simulation->system;
     const Options *options = &simulation->options;
-    double needed = INFINITY;
+    *needed = INFINITY;
     bool minimises = simulation->run[0].newton != NULL;
     if (minimises && contact_of(system) && system_has_gravity(system))
-        needed = 0.1 * options->timestep *
-                 hypot(system->gravity[0], system->gravity[1]);
+        *needed = 0.1 * options->timestep *
+                  hypot(system->gravity[0], system->gravity[1]);
     if (minimises && system_find_term(system, &friction_energy))
-        needed = fmin(needed, 0.1 * options->slip_speed);
-    return needed;
+        *needed = fmin(*needed, 0.1 * options->slip_speed);
+    return options->tolerance > *needed * (1 + 1e-9); /* rounding */
 }
 
 NewtonCounters simulation_counters(const Simulation *simulation)

@@ -6,14 +6,18 @@
 
 #include "base/clock.h"
 
-/* Algorithm 3 of the slides:
+/* Algorithm 3 of the slides.  Like the course's Python it tests p before it
+ * uses it, where the slide tests afterwards: one update less, the same
+ * accuracy.
  *
- *     do  p = -H^-1 grad E                       (direction.c)
+ *     p = -H^-1 grad E                           (direction.c)
+ *     while |p|_inf / h > tolerance
  *         alpha: backtracking line search        (step_length.c)
  *         x = x + alpha p
- *     while |p|_inf / h > tolerance
+ *         p = -H^-1 grad E
  *
- * The loop stands at the end of this file; above it are its three parts. */
+ * newton_minimise is the loop; above it are its parts: newton_start,
+ * newton_iterate, newton_finish. */
 
 /* From u = 0 or another displacement; then p there, and the test. */
 Status newton_start(Newton *newton, const double *x_n, const double *u,
