@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "solve/residual_test.h"
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
@@ -19,11 +20,10 @@ static double newton_residual(const Newton *newton, const double *p)
     return largest / newton->settings.h;
 }
 
-/* The largest residual that a direction with |p|_M = 1 can have: each node has
- * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double residual_per_norm(const Newton *newton)
+/* m/s, of a direction with |p|_M = 1, at most. */
+static double largest_residual(const Newton *newton)
 {
-    return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
+    return residual_per_norm(newton->rounding.lightest, newton->settings.h);
 }
 
 /* Assembles and factors the Hessian at x, once. */
@@ -100,7 +100,7 @@ static Status newton_test(const Newton *newton, double error)
 {
     double residual = newton->residual;
     if (error > 0)
-        residual += residual_per_norm(newton) * error;
+        residual += largest_residual(newton) * error;
     return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
@@ -117,7 +117,7 @@ static Status newton_certify(Newton *newton)
         /* H - M may be indefinite: the factor tells what is lacking */
         status = search_direction_correct(&newton->search);
         error = 2 * newton_residual(newton, newton->search.z) /
-                residual_per_norm(newton);
+                largest_residual(newton);
     }
     return status ? status : newton_test(newton, error);
 }
@@ -141,8 +141,8 @@ static Status newton_solve_and_test(Newton *newton)
  * or does not, wherever the exact one is. */
 static bool is_decided(const Newton *newton, double residual, double error)
 {
-    return fabs(residual - newton->settings.tolerance) >=
-           residual_per_norm(newton) * error;
+    return residual_decides(residual, largest_residual(newton) * error,
+                            newton->settings.tolerance);
 }
 
 /* The same, as search_direction_refine asks it. */
@@ -198,7 +198,7 @@ static Status direction_at(Newton *newton, bool *alone)
      * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
         newton->residual =
-            residual_per_norm(newton) *
+            largest_residual(newton) *
             system_inverse_mass_norm(newton->system, newton->at.g);
         *alone = newton_test(newton, 0) == STATUS_OK;
         newton->counters.skipped += *alone;

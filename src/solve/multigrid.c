@@ -7,6 +7,7 @@
 
 #include "solve/grid_kernels.h"
 #include "solve/plane_search.h"
+#include "solve/residual_test.h"
 #include "solve/tips.h"
 #include "solve/v_cycle.h"
 
@@ -112,11 +113,10 @@ void multigrid_free(Multigrid *mg)
 
 /* ---- conjugate gradients ---- */
 
-/* The largest residual of a direction with |p|_M = 1: each node has m |p_i|^2
- * <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double grid_residual_per_norm(const Multigrid *mg)
+/* m/s, the largest residual of a direction with this norm |p|_M. */
+static double largest_residual(const Multigrid *mg, double norm)
 {
-    return sqrt(2 / mg->grid.lightest) / mg->step.h;
+    return residual_per_norm(mg->grid.lightest, mg->step.h) * norm;
 }
 
 static void set_up_cycle(Multigrid *mg)
@@ -145,13 +145,12 @@ static double true_remainder(Multigrid *mg)
     return grid_inverse_mass_square(&mg->grid, mg->rest);
 }
 
-/* Whether a direction with this remainder passes the test, or does not,
- * wherever the exact one is; residual out. */
-static bool residual_decides(Multigrid *mg, double square)
+/* Whether p, with this remainder, decides the test; residual out. */
+static bool test_is_decided(Multigrid *mg, double square)
 {
     mg->residual = grid_largest(&mg->grid, mg->p) / mg->step.h;
-    return fabs(mg->residual - mg->step.tolerance) >=
-           grid_residual_per_norm(mg) * sqrt(square);
+    return residual_decides(mg->residual, largest_residual(mg, sqrt(square)),
+                            mg->step.tolerance);
 }
 
 typedef enum Goal { GOAL_DIRECTION, GOAL_TEST, GOAL_CURVATURE } Goal;
@@ -186,9 +185,9 @@ static bool conjugate_gradients(Multigrid *mg, Goal goal, int most)
             return true;
         grid_combine(grid, NULL, -now / bend, mg->y, 1, mg->rest);
         square = grid_inverse_mass_square(grid, mg->rest);
-        if (goal == GOAL_TEST && residual_decides(mg, square)) {
+        if (goal == GOAL_TEST && test_is_decided(mg, square)) {
             square = true_remainder(mg);
-            if (residual_decides(mg, square))
+            if (test_is_decided(mg, square))
                 return true;
         }
         if (i == most)
@@ -284,7 +283,7 @@ static bool leaves_saddle(Multigrid *mg)
 static void bound_residual(Multigrid *mg)
 {
     mg->norm2 = grid_inverse_mass_square(&mg->grid, mg->g);
-    mg->bound = mg->residual = grid_residual_per_norm(mg) * sqrt(mg->norm2);
+    mg->bound = mg->residual = largest_residual(mg, sqrt(mg->norm2));
     mg->directed = mg->set_up = false;
 }
 

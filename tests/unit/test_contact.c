@@ -54,6 +54,33 @@ static void free_point(Point *point)
     system_free(&point->system);
 }
 
+/* A pinned node can touch what moves by itself or is moved, and nothing else.
+ */
+static void pairs_are_those_that_can_move(void **unused)
+{
+    (void)unused;
+    enum { PINNED, BALL };
+    unsigned char pinned[2] = {1, 0};
+    double pin_v[4] = {0};
+    System system = {.nodes = 2, .pinned = pinned};
+    Contact contact = {.obstacles = 3, .ball = 1};
+    contact.obstacle[0] = (Obstacle){.kind = OBSTACLE_WALL, .node = -1};
+    contact.obstacle[1] = (Obstacle){.kind = OBSTACLE_BALL, .node = BALL};
+    contact.obstacle[2] = contact.obstacle[0];
+    contact.obstacle[2].motion.phases = 1;
+
+    CHECK(!contact_has_pair(&contact, &system, PINNED, 0));
+    CHECK(contact_has_pair(&contact, &system, PINNED, 1));
+    CHECK(contact_has_pair(&contact, &system, PINNED, 2));
+    CHECK(contact_has_pair(&contact, &system, BALL, 0));
+    CHECK(!contact_has_pair(&contact, &system, BALL, 1));
+    pinned[BALL] = 1;
+    CHECK(!contact_has_pair(&contact, &system, PINNED, 1));
+    system.pin_v = pin_v;
+    CHECK(contact_has_pair(&contact, &system, PINNED, 0));
+    CHECK(contact_has_pair(&contact, &system, PINNED, 1));
+}
+
 /* (s - 1) ln s = f for s in 0 ... 1, by bisection. */
 static double barrier_inverse(double f)
 {
@@ -812,6 +839,7 @@ static void a_fast_ceiling_comes_in_parts(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_are_those_that_can_move),
         cmocka_unit_test(bounce_comes_back_with_small_steps),
         cmocka_unit_test(slopes_hold_and_let_go),
         cmocka_unit_test(a_plastic_spring_keeps_what_has_flowed),

@@ -575,6 +575,28 @@ static void a_saddle_is_left(void **state)
     problem_free(&problem);
 }
 
+/* Near the maximum, on either side: a direction of negative curvature is gone
+ * along in the sense in which E falls. */
+static void a_saddle_is_left_downhill(void **state)
+{
+    (void)state;
+    Multigrid *multigrid;
+    CHECK_STATUS(multigrid_create(10, 0, 1, &multigrid), STATUS_OK);
+    for (int sense = -1; sense <= 1; sense += 2) {
+        Problem problem;
+        problem_create(10, 1, &problem);
+        for (int i = 0; i < 2 * problem.mesh.nodes; i++)
+            problem.x_n[i] = 1e-9 * sense * problem.mesh.x[i];
+        double *zero = new_array(2 * problem.mesh.nodes);
+        CHECK_STATUS(minimise(multigrid, &problem), STATUS_OK);
+        CHECK_AT_MOST(reference_energy(&problem, problem.u),
+                      0.5 * reference_energy(&problem, zero));
+        free(zero);
+        problem_free(&problem);
+    }
+    multigrid_free(multigrid);
+}
+
 static void bits_do_not_depend_on_lanes_or_threads(void **state)
 {
     (void)state;
@@ -610,6 +632,7 @@ int main(void)
         cmocka_unit_test(the_cycle_is_symmetric_and_positive),
         cmocka_unit_test(steps_pass_the_test_of_algorithm_3),
         cmocka_unit_test(a_saddle_is_left),
+        cmocka_unit_test(a_saddle_is_left_downhill),
         cmocka_unit_test(bits_do_not_depend_on_lanes_or_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solve/residual_test.h"
+
 /* Squares of up to 4 segments; most have 3. */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
@@ -177,6 +179,23 @@ static void bound_implies_the_test(void **unused)
 /* The test passes by its answer for the Hessian at x alone: a factor from a
  * square six to nine times as large is tried, is refined as often as allowed to
  * a residual 3e-5 too small, and must not pass a test that x misses by 1e-6. */
+/* A direction that is known up to an error decides the test where that error
+ * cannot carry its residual over the tolerance, to either side.  One node of
+ * the smallest mass that moves at 45 degrees has the largest residual. */
+static void errors_decide_the_test_or_do_not(void **unused)
+{
+    (void)unused;
+    CHECK(residual_decides(1, 0.75, 0.25));
+    CHECK(!residual_decides(1, 0.7500001, 0.25));
+    CHECK(residual_decides(0.25, 0.75, 1));
+    CHECK(!residual_decides(0.25, 0.7500001, 1));
+    CHECK(!residual_decides(NAN, 0, 1));
+    CHECK(!residual_decides(1, NAN, 1));
+
+    const double m = 0.3, h = 0.01, p = 2; /* p_x = p_y */
+    CHECK_NEAR(residual_per_norm(m, h) * sqrt(m * 2 * p * p), 2 * p / h, 1e-10);
+}
+
 static void old_factors_pass_only_what_they_decide(void **unused)
 {
     (void)unused;
@@ -751,6 +770,7 @@ int main(void)
         cmocka_unit_test(records_are_right_where_springs_are_compressed),
         cmocka_unit_test(records_are_right_without_projection),
         cmocka_unit_test(bound_implies_the_test),
+        cmocka_unit_test(errors_decide_the_test_or_do_not),
         cmocka_unit_test(old_factors_pass_only_what_they_decide),
         cmocka_unit_test(rest_costs_one_gradient),
         cmocka_unit_test(pieces_are_the_whole),
