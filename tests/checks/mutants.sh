@@ -3,12 +3,18 @@
 # the sources, one at a time, and runs suites and shell checks until one fails.
 # `make mutants ARGS=word` takes only the lines that contain the word;
 # ARGS=--check only looks whether each fault stands where the list says.
-# JOBS faults are tried at once, each job in a copy of its own.
+# JOBS faults are tried at once, each job in a copy of its own.  LIST is another
+# list than tests/data/mutants.txt.  build/mutants/learnt.txt is the list with
+# what killed each fault this time.
 set -u
 unset MAKEFLAGS MFLAGS MAKELEVEL # what is made below counts its own jobs
 make=${MAKE:-make}
 jobs=${JOBS:-2}
-list=tests/data/mutants.txt
+list=${LIST:-tests/data/mutants.txt}
+case $list in
+/*) ;;
+*) list=$PWD/$list ;;
+esac
 word=${1:-}
 if [ "$word" = --check ]; then
     exec perl tests/checks/mutate.pl check "$list"
@@ -16,16 +22,16 @@ fi
 perl tests/checks/mutate.pl check "$list" || exit 1
 
 # Everything that may notice a fault, what does so most likely and soonest first:
-# the suite of the module's own name, those that know most about its room, the
-# other suites, then the checks of the program from outside.
+# what the list names, the suite of the module's own name, those that know most
+# about its room, the other suites, then the checks of the program from outside.
 numeric='newton derivatives line_search cholesky supernodes sparse averaged
     integrators explicit reference orders scenes'
 slow='contact multigrid solvers pages picture show track stress command'
 checks='check_log.sh check_scenes.sh check_files.sh check_scripts.sh
     check_faults.sh check_pages.sh check_window.sh'
-killers_for() { # file
+killers_for() { # file, what the list names
     module=$(basename "${1%.*}")
-    own=
+    own=$2
     for name in "$module" "${module%_energy}" "${module%%_*}"; do
         [ ! -f "tests/unit/test_$name.c" ] || own="$own $name"
     done
@@ -72,8 +78,10 @@ build() { # targets...
 flags='-O1 -fno-strict-aliasing'
 
 # run_killer NAME: in the tree where it is called; 0: it passes, 1: it fails,
-# 2: it does not compile, 9: there is no such suite.  Processor time is limited,
-# so that a busy machine kills no fault.
+# 2: it does not compile, 9: there is no such suite, or it has nothing of the
+# file with the fault, so that its program is the same as without.  A suite ends
+# at its first failure.  Processor time is limited, so that a busy machine kills
+# no fault.
 run_killer() {
     case $1 in
     *.sh)
@@ -88,17 +96,19 @@ run_killer() {
             build "$suite" build/elasto || return 2
         else
             build "$suite" || return 2
+            ! cmp -s "$suite" "../clean/test_$1" || return 9
         fi
         (
             # shellcheck disable=SC3045
-            ulimit -t 15
-            ELASTO=build/elasto timeout 900 "$suite" >log 2>&1 </dev/null
+            ulimit -t 15 -c 0
+            export ELASTO=build/elasto CMOCKA_TEST_ABORT=1
+            timeout 300 "$suite" >log 2>&1 </dev/null || exit 1
         ) 2>/dev/null || return 1
         ;;
     esac
 }
 check_passes() { # name
-    ELASTO=build/elasto timeout 900 sh "tests/checks/$1" >log 2>&1 </dev/null
+    ELASTO=build/elasto timeout 300 sh "tests/checks/$1" >log 2>&1 </dev/null
 }
 
 # The fault of this line of the list is put in and taken out again; a compiled
@@ -124,9 +134,16 @@ take_out() {
 try_fault() {
     text=$(sed -n "${1}p" "$list")
     reason=$(printf '%s\n' "$text" | awk -F ' @@ ?' '{ print $5 }')
+    known=
+    case $reason in
+    'by '*) known=${reason#by } reason= ;;
+    esac
     put_in "$1"
     by=
-    for killer in $(killers_for "$file"); do
+    for killer in $(killers_for "$file" "$known"); do
+        case $killer in
+        *.sh) [ -z "$reason" ] || continue ;; # the suites are enough then
+        esac
         run_killer "$killer"
         case $? in
         1) by=$killer ;;
@@ -168,6 +185,10 @@ cp -pR original 1
         echo 'tests fail without any fault'
         exit 1
     }
+    mkdir ../clean
+    for test in tests/unit/test_*.c; do
+        cp "build/release/${test%.c}" ../clean
+    done
 ) || exit 1
 for job in $(seq 2 "$jobs"); do
     cp -pR 1 "$job"
@@ -179,7 +200,8 @@ for job in $(seq "$jobs"); do
         cd "$job" || exit 1
         while read -r line; do
             mkdir "../taken/$line" 2>/dev/null || continue
-            try_fault "$line" | tee -a ../results
+            try_fault "$line" >"../taken/$line/result"
+            tee -a ../results <"../taken/$line/result"
         done <../chosen
     ) &
 done
@@ -190,5 +212,6 @@ count() {
 echo "$(count killed) of $(wc -l <chosen) killed," \
     "$(count 'cannot be seen') cannot be seen, $(count SURVIVED) survived," \
     "$(count 'does not compile') do not compile"
+perl ../../tests/checks/mutate.pl learn "$list" . >learnt.txt
 grep -E '^(SURVIVED|does not compile)' results
 [ "$(($(count killed) + $(count 'cannot be seen')))" -eq "$(wc -l <chosen)" ]

@@ -4,14 +4,18 @@
 #   mutate.pl check LIST      each fault of the list stands exactly once
 #   mutate.pl put LIST LINE   puts the fault of this line into its source and
 #                             prints the name of the file
+#   mutate.pl learn LIST DIR  prints the list with what killed each fault;
+#                             DIR/taken/LINE/result says what became of it
 #
-# A line of the list:  PLACE @@ FUNCTION @@ OLD @@ NEW, or, where no test can
-# notice it, @@ REASON.
+# A line of the list:  PLACE @@ FUNCTION @@ OLD @@ NEW @@ by KILLER, or, where no
+# test can notice it, @@ REASON.
 #   PLACE     a room of src/ and include/, or a file: solve, src/main.c
 #   FUNCTION  a function or a table that is defined there once; "-": anywhere
 #   OLD       a piece of its text, whole words, however it is spaced; it stands
 #             there exactly once, so the shortest that does is the best
 #   NEW       what stands there instead
+#   KILLER    the suite or check that is tried first, because it noticed it once;
+#             may be left out
 use strict;
 use warnings;
 
@@ -90,10 +94,20 @@ sub find_fault {
 }
 
 my ($command, $list, $chosen) = @ARGV;
-die "usage: mutate.pl check|put LIST [LINE]\n" unless $list;
+die "usage: mutate.pl check|put|learn LIST [LINE|DIR]\n" unless $list;
 my ($number, $bad) = (0, 0);
 for my $line (split(/\n/, read_file($list))) {
     $number++;
+    if ($command eq 'learn') {
+        my $result = "$chosen/taken/$number/result";
+        if (-f $result && read_file($result) =~ /^killed by (\S+):/) {
+            my $killer = $1;
+            $line =~ s/ @@ by \S+$//;
+            $line .= " @@ by $killer";
+        }
+        print "$line\n";
+        next;
+    }
     next if $line =~ /^(#.*)?$/ || ($chosen && $number != $chosen);
     my @field = map { s/^\s+|\s+$//gr } split(/ @@(?= |$)/, $line, -1);
     my @where = @field < 4 ? 'fields are missing' : find_fault(@field[0 .. 2]);
