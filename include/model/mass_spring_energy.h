@@ -10,15 +10,22 @@
 /* The springs of the system as a term; it needs no data. */
 extern const TermKind mass_spring_energy;
 
-/* The strain s of a spring in positions x [2n] m; d [2] m out. */
-static inline double spring_strain(const System *system, const double *x,
-                                   int spring, double d[2])
+/* The strain |d|^2/l2 - 1 of a spring in positions x [2n] m; d [2] m out. */
+static inline double spring_strain_to(const System *system, const double *x,
+                                      int spring, double l2, double d[2])
 {
     const int *e = system->e + 2 * spring;
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
     d[0] = xi[0] - xj[0];
     d[1] = xi[1] - xj[1];
-    return (d[0] * d[0] + d[1] * d[1]) / system->l2[spring] - 1;
+    return (d[0] * d[0] + d[1] * d[1]) / l2 - 1;
+}
+
+/* The same with the spring's own l2. */
+static inline double spring_strain(const System *system, const double *x,
+                                   int spring, double d[2])
+{
+    return spring_strain_to(system, x, spring, system->l2[spring], d);
 }
 
 /* H [3] J/m^2 out (xx, xy, yy), H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), with

@@ -17,10 +17,13 @@
 
 #include "model/system.h"
 
-/* How a spring answers in this step. */
+/* How a spring answers in this step; with damping (damping.h) V has
+ * theta (e - e_n)^2/2 more. */
 typedef struct SpringLaw {
     double yield; /* Y_n > 0 */
     double flow;  /* 1/(1 + H), 0 < flow <= 1 */
+    double theta; /* eta/h; 0: no damping */
+    double e_n;   /* e at the step's start */
 } SpringLaw;
 
 double spring_law_value(SpringLaw law, double e);

@@ -87,9 +87,9 @@ double system_kinetic(const System *system, const double *v);
  * J/m. */
 void system_bounds(const System *system, double *stiffest, double *force);
 
-/* Before a step and after it: begin and end of all terms.  end returns whether
+/* Before a step and after it: begin and end of all terms.  Both return whether
  * arrays have changed. */
-void system_begin(System *system, const double *x_n, const double *v_n,
+bool system_begin(System *system, const double *x_n, const double *v_n,
                   double h);
 bool system_end(System *system, const double *x, const double *v, double h);
 

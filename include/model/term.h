@@ -21,10 +21,12 @@ typedef struct Term Term;
 
 typedef struct Place {
     const System *system;
-    const double *x_n; /* [2n] m, start of the step */
-    const double *u;   /* [2n] m, displacement from there */
-    const double *x;   /* [2n] m, x_n + u */
-    bool averaged;     /* the averaged twin is asked */
+    const double *x_n;             /* [2n] m, start of the step */
+    const double *u;               /* [2n] m, displacement from there */
+    const double *x;               /* [2n] m, x_n + u */
+    bool averaged;                 /* the averaged twin is asked */
+    const struct Damping *damping; /* of this step (damping.h); NULL: none, or
+                                      asked outside of a step */
 } Place;
 
 typedef struct TermKind {
@@ -34,8 +36,8 @@ typedef struct TermKind {
     bool (*valid)(const Term *term, const System *system);
 
     /* P(x), J.  Where averaged: along the way from x_n, 0 for u = 0.  NULL: the
-     * term has no energy, only a begin or an end, and none of the functions of
-     * one. */
+     * term has no energy, only begin, end or bounds, and none of the functions
+     * of one. */
     double (*value)(const Term *term, const Place *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
@@ -80,9 +82,9 @@ typedef struct TermKind {
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
      * for good (plastic lengths, broken springs); it books what that cost in
-     * term->lost.  Returns whether arrays of the system or of a term have
+     * term->lost.  Both return whether arrays of the system or of a term have
      * changed; factors and bounds that were made with them are then dropped. */
-    void (*begin)(Term *term, System *system, const double *x_n,
+    bool (*begin)(Term *term, System *system, const double *x_n,
                   const double *v_n, double h);
     bool (*end)(Term *term, System *system, const double *x, const double *v,
                 double h);

@@ -38,6 +38,7 @@ typedef struct Options {
     double yield;      /* strain at which springs flow; 0: never */
     double hardening;  /* of the yield strain for flowing by 1 */
     double tear;       /* strain at which springs break; 0: never */
+    double damping;    /* s, eta of the springs; 0: none */
     double timestep;   /* s */
     double tolerance;  /* m/s */
     const IntegratorMethod *integrator; /* NULL: the scene's choice */

@@ -44,6 +44,8 @@ typedef struct Simulation {
     Exhibit exhibit;       /* zeroed in scenes without one */
     Prediction prediction; /* of where the next step leads */
     double work[SIMULATION_MAX_RUNS]; /* J, done by the hand in each run */
+    double grip[SIMULATION_MAX_RUNS]; /* a run's friction is that of the options
+                                         times this; 0: 1 */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
@@ -61,7 +63,7 @@ typedef struct Simulation {
  *   total = kinetic + elastic + gravity + contact + hand
  * and where the rest has gone since it began:
  *   total at the start + work
- *     = total + plastic + fracture + friction + dissipated. */
+ *     = total + plastic + fracture + friction + damping + dissipated. */
 typedef struct Energies {
     double kinetic;
     double elastic; /* springs, with what hardening stores; central field */
@@ -69,7 +71,7 @@ typedef struct Energies {
     double hand;    /* the spring between the mouse and a node */
     double contact; /* barriers of obstacles and of cells */
     double total;
-    double plastic, fracture, friction; /* lost for good */
+    double plastic, fracture, friction, damping; /* lost for good */
     double work;       /* done by what moves walls, pins and the hand */
     double dissipated; /* by the integrator; < 0: it has made energy */
 } Energies;
@@ -124,6 +126,11 @@ bool simulation_remembers(const Simulation *simulation);
 void simulation_set_timestep(Simulation *simulation, double h);
 void simulation_set_tolerance(Simulation *simulation, double tolerance);
 void simulation_set_solver(Simulation *simulation, Solver solver);
+
+/* mu of all obstacles and eta of the springs, s, from the next step on; one
+ * that was 0 begins now.  Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
+Status simulation_set_friction(Simulation *simulation, double mu);
+Status simulation_set_damping(Simulation *simulation, double eta);
 
 /* Pins a node where it is, or sets it free; its velocity is 0 then.
  * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (there is no such node). */

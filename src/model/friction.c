@@ -73,7 +73,7 @@ static double slid(const Contact *contact, const Slide *slide, const double *u)
 }
 
 /* Normal forces and tangents at x_n. */
-static void begin(Term *term, System *system, const double *x_n,
+static bool begin(Term *term, System *system, const double *x_n,
                   const double *v_n, double h)
 {
     Friction *friction = term->data;
@@ -98,6 +98,7 @@ static void begin(Term *term, System *system, const double *x_n,
                     obstacle->friction * contact_force(&contact->barrier, &gap),
                 .carry = h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
         }
+    return false;
 }
 
 /* What was rubbed off in this step. */

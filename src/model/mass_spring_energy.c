@@ -3,16 +3,30 @@
 #include <math.h>
 
 #include "model/avf_energy.h"
+#include "model/damping.h"
+
+/* k and l2 of the springs: those of the system, or what damping makes of them
+ * for a step. */
+static const double *stiffness_of(const Place *at)
+{
+    return at->damping ? at->damping->k : at->system->k;
+}
+
+static const double *l2_of(const Place *at)
+{
+    return at->damping ? at->damping->l2 : at->system->l2;
+}
 
 /* sum l2 k/2 s^2 */
 static double value(const Term *term, const Place *at)
 {
     const System *system = at->system;
+    const double *k = stiffness_of(at), *l2 = l2_of(at);
     double sum = 0, d[2];
     (void)term;
     for (int i = 0; i < system->springs; i++) {
-        double s = spring_strain(system, at->x, i, d);
-        sum += system->l2[i] * 0.5 * system->k[i] * s * s;
+        double s = spring_strain_to(system, at->x, i, l2[i], d);
+        sum += l2[i] * 0.5 * k[i] * s * s;
     }
     return sum;
 }
@@ -21,10 +35,11 @@ static double value(const Term *term, const Place *at)
 static void gradient(const Term *term, const Place *at, double w, double *g)
 {
     const System *system = at->system;
+    const double *k = stiffness_of(at), *l2 = l2_of(at);
     (void)term;
     for (int i = 0; i < system->springs; i++) {
-        double d[2], s = spring_strain(system, at->x, i, d);
-        double factor = w * 2 * system->k[i] * s;
+        double d[2], s = spring_strain_to(system, at->x, i, l2[i], d);
+        double factor = w * 2 * k[i] * s;
         double *gi = g + 2 * system->e[2 * i];
         double *gj = g + 2 * system->e[2 * i + 1];
         gi[0] += factor * d[0];
@@ -38,14 +53,14 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
                    const int *slot, const double *q, double *out)
 {
     const System *system = at->system;
+    const double *k = stiffness_of(at), *l2 = l2_of(at);
     int projected = 0;
     (void)term;
     for (int s = 0; s < system->springs; s++) {
         const double *xi = at->x + 2 * system->e[2 * s];
         const double *xj = at->x + 2 * system->e[2 * s + 1];
         double d[2] = {xi[0] - xj[0], xi[1] - xj[1]}, H[3];
-        projected +=
-            spring_hessian(d, system->l2[s], w * system->k[s], filter, H);
+        projected += spring_hessian(d, l2[s], w * k[s], filter, H);
         mass_spring_add(H, system, s, slot, q, out);
     }
     return projected;
@@ -58,15 +73,15 @@ static void along(const Term *term, const Place *at, const double *p, double w,
                   double reach, double q[3])
 {
     const System *system = at->system;
-    const double *x = at->x;
+    const double *x = at->x, *k = stiffness_of(at), *l2 = l2_of(at);
     (void)term;
     (void)reach;
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
         double d0 = x[i] - x[j], d1 = x[i + 1] - x[j + 1];
         double p0 = p[i] - p[j], p1 = p[i + 1] - p[j + 1];
-        double factor = w * 0.5 * system->k[s] / system->l2[s];
-        double strain = d0 * d0 + d1 * d1 - system->l2[s];
+        double factor = w * 0.5 * k[s] / l2[s];
+        double strain = d0 * d0 + d1 * d1 - l2[s];
         double B = 2 * (d0 * p0 + d1 * p1);
         double C = p0 * p0 + p1 * p1;
         q[0] += factor * (B * B + 2 * strain * C);
@@ -80,15 +95,16 @@ static void along(const Term *term, const Place *at, const double *p, double w,
 static void concave(const Term *term, const Place *at, double w, double *sum)
 {
     const System *system = at->system;
+    const double *k = stiffness_of(at), *l2 = l2_of(at);
     (void)term;
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
         double dx = at->x[2 * i] - at->x[2 * j];
         double dy = at->x[2 * i + 1] - at->x[2 * j + 1];
-        double missing = system->l2[s] - (dx * dx + dy * dy);
+        double missing = l2[s] - (dx * dx + dy * dy);
         if (!(missing > 0))
             continue;
-        double c = w * 2 * system->k[s] / system->l2[s];
+        double c = w * 2 * k[s] / l2[s];
         sum[i] += 2 * c * missing;
         sum[j] += 2 * c * missing;
     }

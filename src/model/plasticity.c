@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
 /* (|e| - Y)_+ */
@@ -13,18 +14,20 @@ static double beyond(SpringLaw law, double e)
 
 double spring_law_value(SpringLaw law, double e)
 {
-    double over = beyond(law, e);
-    return 0.5 * (e * e - law.flow * over * over);
+    double over = beyond(law, e), change = e - law.e_n;
+    double sum = 0.5 * (e * e - law.flow * over * over);
+    return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
 double spring_law_slope(SpringLaw law, double e)
 {
-    return e - copysign(law.flow * beyond(law, e), e);
+    double tau = e - copysign(law.flow * beyond(law, e), e);
+    return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
 double spring_law_curvature(SpringLaw law, double e)
 {
-    return beyond(law, e) > 0 ? 1 - law.flow : 1;
+    return law.theta + (beyond(law, e) > 0 ? 1 - law.flow : 1);
 }
 
 double spring_law_flow(SpringLaw law, double e)
@@ -43,8 +46,9 @@ static double ramp_remainder(double r, double t)
 
 double spring_law_remainder(SpringLaw law, double e, double t)
 {
-    return 0.5 * t * t - law.flow * (ramp_remainder(e - law.yield, t) +
-                                     ramp_remainder(-e - law.yield, -t));
+    return 0.5 * (1 + law.theta) * t * t -
+           law.flow * (ramp_remainder(e - law.yield, t) +
+                       ramp_remainder(-e - law.yield, -t));
 }
 
 /* d is an eigenvector, with (2k/l2) (2 tau' q + l2 tau); across it is
@@ -78,11 +82,15 @@ Plasticity *plasticity_of(const System *system)
     return term ? term->data : NULL;
 }
 
-static SpringLaw law_of(const Plasticity *plasticity, int s)
+static SpringLaw law_of(const Plasticity *plasticity, const Damping *damping,
+                        int s)
 {
-    return (SpringLaw){plasticity->yield +
-                           plasticity->hardening * plasticity->kappa[s],
-                       1 / (1 + plasticity->hardening)};
+    return (SpringLaw){.yield = plasticity->yield +
+                                plasticity->hardening * plasticity->kappa[s],
+                       .flow = 1 / (1 + plasticity->hardening),
+                       .theta = damping ? damping->theta : 0,
+                       .e_n =
+                           damping ? damping->E_n[s] - plasticity->ep[s] : 0};
 }
 
 /* d = x_i - x_j; returns e = |d|^2/l2 - 1 - ep */
@@ -109,7 +117,7 @@ static double value(const Term *term, const Place *at)
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
         double kappa = plasticity->kappa[s];
         sum += system->k[s] * system->l2[s] *
-               (spring_law_value(law_of(plasticity, s), e) +
+               (spring_law_value(law_of(plasticity, at->damping, s), e) +
                 0.5 * plasticity->hardening * kappa * kappa);
     }
     return sum;
@@ -122,8 +130,8 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double factor =
-            w * 2 * system->k[s] * spring_law_slope(law_of(plasticity, s), e);
+        double factor = w * 2 * system->k[s] *
+                        spring_law_slope(law_of(plasticity, at->damping, s), e);
         for (int c = 0; c < 2; c++) {
             g[2 * system->e[2 * s] + c] += factor * d[c];
             g[2 * system->e[2 * s + 1] + c] -= factor * d[c];
@@ -139,8 +147,9 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
     int projected = 0;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d), H[3];
-        projected += spring_law_hessian(law_of(plasticity, s), d, system->l2[s],
-                                        w * system->k[s], e, filter, H);
+        projected +=
+            spring_law_hessian(law_of(plasticity, at->damping, s), d,
+                               system->l2[s], w * system->k[s], e, filter, H);
         mass_spring_add(H, system, s, slot, q, out);
     }
     return projected;
@@ -148,7 +157,7 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
 
 /* With D = alpha B + alpha^2 C the remainder of k l2 V is
  * k l2 (tau alpha^2 C + R_V(e, D)).  Springs that stay elastic all the way have
- * R_V = D^2/2, a polynomial; the others are noted. */
+ * R_V = (1 + theta) D^2/2, a polynomial; the others are noted. */
 static void along(const Term *term, const Place *at, const double *p, double w,
                   double reach, double q[3])
 {
@@ -163,9 +172,10 @@ static void along(const Term *term, const Place *at, const double *p, double w,
         double B = 2 * (d[0] * P[0] + d[1] * P[1]) / system->l2[s];
         double C = (P[0] * P[0] + P[1] * P[1]) / system->l2[s];
         double stiffness = w * system->k[s] * system->l2[s];
-        SpringLaw law = law_of(plasticity, s);
+        SpringLaw law = law_of(plasticity, at->damping, s);
         q[0] += stiffness * spring_law_slope(law, e) * C;
         if (fabs(e) + reach * fabs(B) + reach * reach * C < law.yield) {
+            stiffness *= 1 + law.theta;
             q[0] += stiffness * 0.5 * B * B;
             q[1] += stiffness * B * C;
             q[2] += stiffness * 0.5 * C * C;
@@ -187,7 +197,7 @@ static double remainder_along(const Term *term, const Place *at,
         int s = live->spring;
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
         sum += system->k[s] * system->l2[s] *
-               spring_law_remainder(law_of(plasticity, s), e,
+               spring_law_remainder(law_of(plasticity, at->damping, s), e,
                                     alpha * (live->B + alpha * live->C));
     }
     return w * sum;
@@ -203,7 +213,7 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     (void)h;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, x, s, d);
-        double gamma = spring_law_flow(law_of(plasticity, s), e);
+        double gamma = spring_law_flow(law_of(plasticity, NULL, s), e);
         if (!(gamma > 0) || !(system->k[s] > 0))
             continue;
         plasticity->ep[s] += copysign(gamma, e);
@@ -221,7 +231,7 @@ static void concave(const Term *term, const Place *at, double w, double *sum)
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double tau = spring_law_slope(law_of(plasticity, s), e);
+        double tau = spring_law_slope(law_of(plasticity, at->damping, s), e);
         if (!(tau < 0))
             continue;
         sum[system->e[2 * s]] -= 4 * w * system->k[s] * tau;

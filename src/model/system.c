@@ -103,7 +103,7 @@ static bool spring_is_valid(const System *system, int s)
 /* At x, at rest since the start of a step. */
 static Place place_at(const System *system, const double *x)
 {
-    return (Place){system, x, NULL, x, false};
+    return (Place){system, x, NULL, x, false, NULL};
 }
 
 Status system_check(const System *system, const double *x)
@@ -203,12 +203,15 @@ void system_bounds(const System *system, double *stiffest, double *force)
                                          force);
 }
 
-void system_begin(System *system, const double *x_n, const double *v_n,
+bool system_begin(System *system, const double *x_n, const double *v_n,
                   double h)
 {
+    bool changed = false;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->begin)
-            system->term[t].kind->begin(&system->term[t], system, x_n, v_n, h);
+            changed |= system->term[t].kind->begin(&system->term[t], system,
+                                                   x_n, v_n, h);
+    return changed;
 }
 
 bool system_end(System *system, const double *x, const double *v, double h)

@@ -68,6 +68,6 @@ Colour colour_of_energy(int energy)
     static const Colour colours[] = {0xff1c1c1cu, 0xff3d9bd6u, 0xffb8860bu,
                                      0xff6b8e23u, 0xffa0522du, 0xff8a8a8au,
                                      0xff7b1fa2u, 0xffc2738bu, 0xff2f6f6fu,
-                                     0xff0072b2u, 0xff00a88fu};
-    return colours[energy < 0 ? 0 : energy % 11];
+                                     0xff0072b2u, 0xff00a88fu, 0xffd55e00u};
+    return colours[energy < 0 ? 0 : energy % 12];
 }

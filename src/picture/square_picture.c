@@ -366,13 +366,13 @@ static void square_sample(const Simulation *simulation, History *history,
                           Trail *trail)
 {
     static const char *const names[] = {
-        "total",   "kinetic",  "elastic",  "gravity", "contact",   "hand",
-        "plastic", "fracture", "friction", "work",    "dissipated"};
+        "total",   "kinetic",  "elastic",  "gravity", "contact",    "hand",
+        "plastic", "fracture", "friction", "work",    "dissipated", "damping"};
     enum { NAMES = sizeof names / sizeof *names };
     Energies e = simulation_energies(simulation, 0);
-    const double value[NAMES] = {e.total,    e.kinetic, e.elastic,   e.gravity,
-                                 e.contact,  e.hand,    e.plastic,   e.fracture,
-                                 e.friction, e.work,    e.dissipated};
+    const double value[NAMES] = {
+        e.total,   e.kinetic,  e.elastic,  e.gravity, e.contact,    e.hand,
+        e.plastic, e.fracture, e.friction, e.work,    e.dissipated, e.damping};
     (void)trail;
     history->series = NAMES;
     for (int s = 0; s < NAMES; s++)

@@ -13,6 +13,7 @@ static const Number numbers[] = {
     {"segments", "segments", NULL, 4, NUMBER_STEP, 1},
     {"tolerance", "\u03b5", "m/s", 9, NUMBER_FACTOR, 0},
     {"friction", "\u03bc", NULL, 7, NUMBER_STEP, 0.01},
+    {"damping", "\u03b7", "s", 8, NUMBER_FACTOR, 0},
     {"integrator", "method", NULL, 16, NUMBER_NAME, 0},
     {"filter", "projection", NULL, 9, NUMBER_NAME, 0},
     {"line-search", "line search", NULL, 9, NUMBER_NAME, 0},
@@ -45,6 +46,8 @@ void number_value(const Number *number, const Options *options, char *text)
         snprintf(text, size, "%g", options->tolerance);
     else if (strcmp(option, "friction") == 0)
         snprintf(text, size, "%g", options->friction);
+    else if (strcmp(option, "damping") == 0)
+        snprintf(text, size, "%g", options->damping);
     else if (strcmp(option, "integrator") == 0)
         snprintf(text, size, "%s",
                  options->integrator ? options->integrator->name
@@ -60,6 +63,8 @@ void number_value(const Number *number, const Options *options, char *text)
 /* Whether there is something that the number is about. */
 static bool has_meaning(const Number *number, const Options *options)
 {
+    if (strcmp(number->option, "damping") == 0)
+        return options->damping > 0;
     return strcmp(number->option, "friction") != 0 ||
            options->grounds + options->balls > 0;
 }

@@ -11,8 +11,8 @@
 
 /* Options that may change from one step to the next. */
 static const char *const live_names[] = {
-    "timestep", "stiffness", "tolerance",   "integrator",
-    "solver",   "filter",    "line-search", NULL,
+    "timestep", "stiffness", "tolerance", "integrator",  "friction",
+    "damping",  "solver",    "filter",    "line-search", NULL,
 };
 
 bool track_can_change(const char *name)
@@ -219,6 +219,7 @@ static Status use_options(Track *track)
     Simulation *simulation = &track->simulation;
     const Options *now = &simulation->options;
     const Options *wanted = &track->settings.options;
+    Status status = STATUS_OK;
     if (needs_rebuilding(now, wanted))
         return simulation_change(simulation, wanted);
     if (now->timestep != wanted->timestep)
@@ -231,7 +232,11 @@ static Status use_options(Track *track)
         simulation_set_filter(simulation, wanted->filter);
     if (now->line_search != wanted->line_search)
         simulation_set_line_search(simulation, wanted->line_search);
-    return STATUS_OK;
+    if (now->friction != wanted->friction)
+        status = simulation_set_friction(simulation, wanted->friction);
+    if (!status && now->damping != wanted->damping)
+        status = simulation_set_damping(simulation, wanted->damping);
+    return status;
 }
 
 /* Pins and the hand, as far as they differ. */

@@ -7,6 +7,7 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
+#include "model/damping.h"
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/plasticity.h"
@@ -183,6 +184,8 @@ Status body_add_terms(const Options *options, const SquareMesh *mesh, int more,
         status = cells_add(system, mesh->segments, mesh->rows,
                            mesh->side / mesh->segments,
                            options->cell_stiffness * options->stiffness);
+    if (!status && options->damping > 0)
+        status = damping_add(system, options->damping);
     if (!status && options->tear > 0)
         status = fracture_add(system, options->tear, TEAR_SCATTER);
     return status;
@@ -196,6 +199,8 @@ const char *body_needs_end_of_step(const Options *options)
         return "cells that cannot turn over";
     if (options->yield > 0)
         return "plastic springs";
+    if (options->damping > 0)
+        return "damping";
     return options->moving_pins ? "moving pins" : NULL;
 }
 

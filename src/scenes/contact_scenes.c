@@ -81,6 +81,7 @@ static Status create_slope_run(Simulation *simulation,
     System *system = run == 0 ? &simulation->system : &simulation->more[run];
     SquareMesh mesh = {0};
     Options options = simulation->options;
+    simulation->grip[run] = part[run];
     options.friction *= part[run];
     options.at[1] += 1.3 * options.side / 0.5 * (1 - run);
     for (int i = 0; i < options.grounds; i++)

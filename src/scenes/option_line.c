@@ -356,6 +356,19 @@ static Status check_pins(const Options *options, const Complaint *complaint)
                     typed(options->pin).text, (columns + 1) * (rows + 1) - 1);
 }
 
+/* What the body has is right with the integrator, where one was chosen. */
+static Status check_integrator(const Options *options,
+                               const Complaint *complaint)
+{
+    const char *end = body_needs_end_of_step(options);
+    if (!end || !options->integrator || options->integrator->at_end)
+        return STATUS_OK;
+    return complain(complaint,
+                    "--integrator: '%s' has no %s; of all methods only "
+                    "backward-euler has",
+                    options->integrator->name, end);
+}
+
 /* Options that say something about what the line does not have. */
 static Status check_meaning(const Line *line, const Options *options,
                             const Complaint *complaint)
@@ -372,13 +385,7 @@ static Status check_meaning(const Line *line, const Options *options,
     if (is_given(line, "hardening") && !(options->yield > 0))
         return complain(complaint, "--hardening: the springs do not flow; "
                                    "--yield lets them");
-    const char *end = body_needs_end_of_step(options);
-    if (end && options->integrator && !options->integrator->at_end)
-        return complain(complaint,
-                        "--integrator: '%s' has no %s; of all methods only "
-                        "backward-euler has",
-                        options->integrator->name, end);
-    return STATUS_OK;
+    return check_integrator(options, complaint);
 }
 
 /* What depends on several options: the projection, unless it was chosen, and
@@ -460,7 +467,9 @@ Status options_set(Options *options, const char *name, const char *value,
             row->kind == KIND_SWITCH)
             continue;
         Status status = check_need(row, options->scene, &complaint);
-        return status ? status : option_apply(row, value, options, &complaint);
+        if (!status)
+            status = option_apply(row, value, options, &complaint);
+        return status ? status : check_integrator(options, &complaint);
     }
     return complain(&complaint, "there is no option '%s' with a value",
                     typed(name).text);

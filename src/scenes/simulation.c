@@ -6,6 +6,7 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
+#include "model/damping.h"
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/pull_energy.h"
@@ -207,6 +208,53 @@ void simulation_set_solver(Simulation *simulation, Solver solver)
     forget_runs(simulation);
 }
 
+/* One without friction so far gets the term, which has entries in the Hessian;
+ * it stays when mu becomes 0, with what it has lost. */
+static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
+{
+    Contact *contact = contact_of(run->system);
+    Status status = STATUS_OK;
+    if (!contact)
+        return STATUS_OK;
+    for (int k = 0; k < contact->obstacles; k++)
+        contact->obstacle[k].friction = mu;
+    if (mu > 0 && !system_find_term(run->system, &friction_energy))
+        status = friction_add(run->system, slip_speed);
+    time_integrator_forget(run, true);
+    return status;
+}
+
+Status simulation_set_friction(Simulation *simulation, double mu)
+{
+    Options *options = &simulation->options;
+    Status status = STATUS_OK;
+    options->friction = mu;
+    for (int r = 0; r < simulation->runs && !status; r++) {
+        double grip = simulation->grip[r] > 0 ? simulation->grip[r] : 1;
+        status = set_friction(&simulation->run[r], grip * mu,
+                              options->slip_speed);
+    }
+    forget_runs(simulation);
+    return status;
+}
+
+/* The term stays when eta becomes 0, with what it has lost. */
+Status simulation_set_damping(Simulation *simulation, double eta)
+{
+    Status status = STATUS_OK;
+    simulation->options.damping = eta;
+    for (int r = 0; r < simulation->runs && !status; r++) {
+        System *system = simulation->run[r].system;
+        Damping *data = damping_of(system);
+        if (data)
+            data->eta = eta;
+        else if (eta > 0)
+            status = damping_add(system, eta);
+    }
+    forget_runs(simulation);
+    return status;
+}
+
 /* A system whose last pin is gone is the one that never had any: its centre of
  * mass is free again. */
 static void drop_empty_pins(System *system)
@@ -360,6 +408,7 @@ Energies simulation_energies(const Simulation *simulation, int run)
         .plastic = lost_by(system, &plastic_energy),
         .fracture = lost_by(system, &fracture),
         .friction = lost_by(system, &friction_energy),
+        .damping = lost_by(system, &damping),
         .work = simulation->work[run] + integrator->work,
     };
     energies.elastic =
@@ -368,7 +417,8 @@ Energies simulation_energies(const Simulation *simulation, int run)
                      energies.contact + energies.hand;
     energies.dissipated = simulation->start[run] + energies.work -
                           energies.total - energies.plastic -
-                          energies.fracture - energies.friction;
+                          energies.fracture - energies.friction -
+                          energies.damping;
     return energies;
 }
 

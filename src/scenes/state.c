@@ -3,8 +3,9 @@
 #include <string.h>
 
 #include "model/contact.h"
+#include "model/damping.h"
 #include "model/fracture.h"
-#include "model/pull_energy.h"
+#include "model/friction.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
 
@@ -63,6 +64,32 @@ static void pass_breaks(Cursor *cursor, System *system, double k)
     }
 }
 
+/* What terms have lost, in places that do not depend on which of them there
+ * are: friction and damping may begin later. */
+static void pass_lost(Cursor *cursor, System *system)
+{
+    static const TermKind *const kinds[] = {&plastic_energy, &fracture,
+                                            &friction_energy, &damping};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        Term *term = system_find_term(system, kinds[k]);
+        double lost = term ? term->lost : 0;
+        pass(cursor, &lost, sizeof lost);
+        if (term && cursor->way == RESTORE)
+            term->lost = lost;
+    }
+}
+
+/* Where obstacles are and how they move; how rough they are is an option. */
+static void pass_obstacles(Cursor *cursor, Contact *contact)
+{
+    for (int k = 0; k < contact->obstacles; k++) {
+        Obstacle *obstacle = &contact->obstacle[k];
+        double mu = obstacle->friction;
+        pass(cursor, obstacle, sizeof *obstacle);
+        obstacle->friction = mu;
+    }
+}
+
 /* What steps change in a system: broken springs, plastic strains, obstacles
  * that move, and what each term has lost. */
 static void pass_system(Cursor *cursor, System *system, double k)
@@ -71,9 +98,7 @@ static void pass_system(Cursor *cursor, System *system, double k)
     Plasticity *plasticity = plasticity_of(system);
     Fracture *breaks = fracture_of(system);
     Contact *contact = contact_of(system);
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind != &hand_energy)
-            pass(cursor, &system->term[t].lost, sizeof system->term[t].lost);
+    pass_lost(cursor, system);
     if (plasticity) {
         pass(cursor, plasticity->ep, springs);
         pass(cursor, plasticity->kappa, springs);
@@ -83,8 +108,7 @@ static void pass_system(Cursor *cursor, System *system, double k)
         pass(cursor, &breaks->broken, sizeof breaks->broken);
     }
     if (contact)
-        pass(cursor, contact->obstacle,
-             (size_t)contact->obstacles * sizeof *contact->obstacle);
+        pass_obstacles(cursor, contact);
 }
 
 /* Whether an earlier run has the same system. */

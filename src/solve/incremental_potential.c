@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/damping.h"
 #include "model/inertia_energy.h"
 
 /* The next term with an energy, *term NULL at first, and the row of functions
@@ -21,7 +22,7 @@ static const TermKind *next_term(const IncrementalPotential *E,
 static Place place_of(const IncrementalPotential *E, const double *u,
                       const double *x)
 {
-    return (Place){E->system, E->x_n, u, x, E->averaged};
+    return (Place){E->system, E->x_n, u, x, E->averaged, damping_of(E->system)};
 }
 
 /* Inertia plus w times the sum of the terms' energies, or of their sizes. */

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "base/clock.h"
+#include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
 /* Iterations that multigrid gets; most steps need ten. */
@@ -25,6 +26,16 @@ static bool is_grid(const System *system)
            system->springs == 2 * n * (n + 1) + 2 * n * n;
 }
 
+/* Whether the springs, with or without damping, are all that has an energy. */
+static bool has_springs_alone(const System *system)
+{
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind != &mass_spring_energy &&
+            system->term[t].kind->value)
+            return false;
+    return system_find_term(system, &mass_spring_energy);
+}
+
 /* Why multigrid does not take it, or NULL. */
 static const char *refusal(const Newton *newton)
 {
@@ -34,7 +45,7 @@ static const char *refusal(const Newton *newton)
         return "there is no square grid";
     if (settings->averaged)
         return "the energy is averaged over the step";
-    if (system->terms != 1 || system->term[0].kind != &mass_spring_energy)
+    if (!has_springs_alone(system))
         return "there are energies beside the springs'";
     if (settings->filter != FILTER_CLAMP)
         return "the projection is not clamp";
@@ -97,6 +108,7 @@ Status newton_multigrid_start(Newton *newton)
 {
     const System *system = newton->system;
     const NewtonSettings *settings = &newton->settings;
+    const Damping *damping = damping_of(system);
     Status status = STATUS_OK;
     if (!newton->multigrid)
         status = multigrid_create(system->segments, 0, 0, &newton->multigrid);
@@ -110,8 +122,8 @@ Status newton_multigrid_start(Newton *newton)
                           .u_tilde = newton->u_tilde,
                           .m = system->m,
                           .pinned = system->pinned,
-                          .k = system->k,
-                          .l2 = system->l2,
+                          .k = damping ? damping->k : system->k,
+                          .l2 = damping ? damping->l2 : system->l2,
                           .weight = at->E.weight,
                           .h = settings->h,
                           .tolerance = settings->tolerance,

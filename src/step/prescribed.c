@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/contact.h"
+#include "model/damping.h"
 #include "model/friction.h"
 #include "model/inertia_energy.h"
 
@@ -135,7 +136,8 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
 {
     const System *system = integrator->system;
     const Newton *newton = integrator->newton;
-    Place at = {system, newton->at.E.x_n, newton->at.u, newton->at.x, false};
+    Place at = {system, newton->at.E.x_n,  newton->at.u, newton->at.x,
+                false,  damping_of(system)};
     double sum = 0;
     if (!system->pin_v || !system->pinned)
         return 0;

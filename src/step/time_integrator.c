@@ -88,8 +88,9 @@ Status time_integrator_step(TimeIntegrator *integrator)
 {
     integrator->status = STATUS_OK;
     integrator->moves = prescribed_begin(integrator);
-    system_begin(integrator->system, integrator->x, integrator->v,
-                 integrator->h);
+    if (system_begin(integrator->system, integrator->x, integrator->v,
+                     integrator->h))
+        time_integrator_forget(integrator, false);
     Status failure = integrator->method->step(integrator);
     if (failure)
         return integrator->status = failure;

@@ -50,8 +50,8 @@ static void derivatives_are_those_of_the_formula(void **unused)
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
         }
-        Place at = {&system, x, u, end, false};
-        Place way = {&system, x, u, end, true};
+        Place at = {&system, x, u, end, false, NULL};
+        Place way = {&system, x, u, end, true, NULL};
         int i = 2 * hand.node;
         double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
         double P = hand.k / 2 * (dx * dx + dy * dy);
@@ -74,7 +74,7 @@ static void derivatives_are_those_of_the_formula(void **unused)
                    1e-12 * hand.k);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
-        Place begin = {&system, x, g, x, false};
+        Place begin = {&system, x, g, x, false, NULL};
         term->kind->along(term, &begin, u, 1, 1, q);
         averaged->along(term, &way, u, 1, 1, half);
         double slope =

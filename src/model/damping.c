@@ -1,0 +1,112 @@
+#include "model/damping.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "model/mass_spring_energy.h"
+
+Damping *damping_of(const System *system)
+{
+    Term *term = system_find_term(system, &damping);
+    return term ? term->data : NULL;
+}
+
+static bool valid(const Term *term, const System *system)
+{
+    const Damping *data = term->data;
+    (void)system;
+    return isfinite(data->eta) && data->eta >= 0;
+}
+
+/* *old = new; returns whether that is a change. */
+static bool set(double *old, double new)
+{
+    bool changed = *old != new;
+    *old = new;
+    return changed;
+}
+
+/* The springs of the step from x_n.  A broken one stays broken. */
+static bool begin(Term *term, System *system, const double *x_n,
+                  const double *v_n, double h)
+{
+    Damping *data = term->data;
+    double theta = data->eta / h;
+    bool changed = set(&data->theta, theta);
+    (void)v_n;
+    for (int s = 0; s < system->springs; s++) {
+        double d[2], l2 = system->l2[s];
+        data->E_n[s] = spring_strain(system, x_n, s, d);
+        double d2 = d[0] * d[0] + d[1] * d[1];
+        double mean = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
+        changed |= set(&data->l2[s], mean);
+        changed |= set(&data->k[s], system->k[s] * (1 + theta) * (mean / l2));
+    }
+    return changed;
+}
+
+static bool end(Term *term, System *system, const double *x, const double *v,
+                double h)
+{
+    const Damping *data = term->data;
+    double sum = 0, d[2];
+    (void)v;
+    (void)h;
+    for (int s = 0; s < system->springs; s++) {
+        double change = spring_strain(system, x, s, d) - data->E_n[s];
+        sum += system->k[s] * system->l2[s] * data->theta * change * change;
+    }
+    term->lost += sum;
+    return false;
+}
+
+static void bounds(const Term *term, const System *system, double *stiffest,
+                   double *force)
+{
+    const Damping *data = term->data;
+    for (int s = 0; s < system->springs; s++) {
+        *stiffest = fmax(*stiffest, data->k[s]);
+        *force = fmax(*force, data->k[s] * sqrt(data->l2[s]));
+    }
+}
+
+static void free_damping(void *data)
+{
+    free(((Damping *)data)->E_n);
+    free(data);
+}
+
+const TermKind damping = {
+    .name = "damping",
+    .valid = valid,
+    .begin = begin,
+    .end = end,
+    .bounds = bounds,
+    .free = free_damping,
+    .internal = true,
+    .end_of_step = true,
+};
+
+Status damping_add(System *system, double eta)
+{
+    size_t springs = (size_t)system->springs;
+    Damping *data = calloc(1, sizeof *data);
+    double *arrays = calloc(3 * springs + 1, sizeof *arrays);
+    if (!data || !arrays) {
+        free(arrays);
+        free(data);
+        return STATUS_OUT_OF_MEMORY;
+    }
+    *data = (Damping){.eta = eta,
+                      .E_n = arrays,
+                      .k = arrays + springs,
+                      .l2 = arrays + 2 * springs};
+    for (size_t s = 0; s < springs; s++) {
+        data->k[s] = system->k[s];
+        data->l2[s] = system->l2[s];
+    }
+    if (system_add_term(system, &damping, data))
+        return STATUS_OK;
+    free_damping(data);
+    return STATUS_TOO_LARGE;
+}
