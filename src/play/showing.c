@@ -252,14 +252,29 @@ static void fill_hand(Player *player)
                    .target = {settings->at[0], settings->at[1]}};
 }
 
+/* The numbers of the lane that has most: one may be 0 and hidden elsewhere. */
+static int numbers_of_all(const Player *player,
+                          const Number *found[NUMBERS_MOST])
+{
+    int count = 0;
+    for (int i = 0; i < player->lanes; i++) {
+        const Number *here[NUMBERS_MOST];
+        int more = numbers_of(&player->lane[i].track.settings.options, here);
+        if (more > count)
+            memcpy(found, here, sizeof here);
+        count = more > count ? more : count;
+    }
+    return count;
+}
+
 /* What is different in each lane. */
 static void fill_labels(Player *player)
 {
+    const Number *number[NUMBERS_MOST];
+    int count = numbers_of_all(player, number);
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         const Options *options = &lane->track.settings.options;
-        const Number *number[NUMBERS_MOST];
-        int count = numbers_of(options, number);
         size_t used = 0;
         lane->label[0] = '\0';
         for (int k = 0; k < count; k++) {
