@@ -154,6 +154,10 @@ Status simulation_change(Simulation *simulation, const Options *options);
  * and a line to search (not in explicit integrators), and their change. */
 bool simulation_has_filter(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
+
+/* Whether the blocks that a filter may change are those of the springs alone:
+ * one each, and none of contact or cells. */
+bool simulation_projects_springs(const Simulation *simulation);
 void simulation_set_filter(Simulation *simulation, Filter filter);
 void simulation_set_line_search(Simulation *simulation, LineSearch search);
 

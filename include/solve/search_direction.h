@@ -44,7 +44,7 @@ void search_direction_rebuild(SearchDirection *search);
 /* Makes A and its analysis, unless it has them for this kind, and fills A with
  * the Hessian of E at u, x.
  *   definite   false: a factor L D L^T, which allows negative eigenvalues
- *   projected  out, springs projected
+ *   projected  out, blocks projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status search_direction_assemble(SearchDirection *search, const Iterate *at,
                                  Filter filter, bool definite, int *projected);

@@ -108,15 +108,18 @@ void alpha_text(char *text, size_t size, double alpha)
         plot_number(text, size, alpha);
 }
 
-/* "52 of 72 springs" */
+/* "52 of 72 springs", or "60 blocks" of springs, contacts and cells */
 static void projected_value(char *value, const Simulation *simulation,
                             const Trace *trace)
 {
     if (simulation->options.filter == FILTER_NONE)
         snprintf(value, LISTING_VALUE, "off: P = \u2207\u00b2E");
-    else if (trace->projected >= 0)
+    else if (trace->projected >= 0 && simulation_projects_springs(simulation))
         snprintf(value, LISTING_VALUE, "%d of %d springs", trace->projected,
                  simulation->system.springs);
+    else if (trace->projected >= 0)
+        snprintf(value, LISTING_VALUE, "%d block%s", trace->projected,
+                 trace->projected == 1 ? "" : "s");
 }
 
 /* "alpha = 1/4: refused" */

@@ -59,11 +59,16 @@ static void describe_line(Show *show, const Simulation *simulation,
     case LINE_PROJECT:
         if (options->filter == FILTER_NONE)
             say(s, SHOW_TEXT, "line 3: the Hessian stays as it is");
+        else if (simulation_projects_springs(simulation))
+            say(s, SHOW_TEXT,
+                "line 3: the blocks of %d of %d springs had a negative "
+                "eigenvalue and were projected",
+                trace->projected, simulation->system.springs);
         else
             say(s, SHOW_TEXT,
-                "line 3: %d of %d blocks had a negative eigenvalue and were "
-                "projected",
-                trace->projected, simulation->system.springs);
+                "line 3: %d blocks of springs, contacts and cells had a "
+                "negative eigenvalue and were projected",
+                trace->projected);
         break;
     case LINE_SOLVE:
         say(s, SHOW_TEXT, "line 4: the direction points %s",

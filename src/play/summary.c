@@ -55,7 +55,10 @@ static void print_newton(FILE *file, const Simulation *simulation)
     fprintf(file, "Newton iterations   %ld\n", iterations);
     print_count(file, "factorisations", sum.factorisations);
     print_count(file, "solves", sum.solves);
-    print_count(file, "springs projected", sum.projected);
+    print_count(file,
+                simulation_projects_springs(simulation) ? "springs projected"
+                                                        : "blocks projected",
+                sum.projected);
     print_count(file, "matrix entries", simulation_matrix_entries(simulation));
     print_count(file, "V-cycles", sum.cycles);
     print_count(file, "saddles left", sum.saddles);

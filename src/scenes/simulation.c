@@ -231,8 +231,8 @@ Status simulation_set_friction(Simulation *simulation, double mu)
     options->friction = mu;
     for (int r = 0; r < simulation->runs && !status; r++) {
         double grip = simulation->grip[r] > 0 ? simulation->grip[r] : 1;
-        status = set_friction(&simulation->run[r], grip * mu,
-                              options->slip_speed);
+        status =
+            set_friction(&simulation->run[r], grip * mu, options->slip_speed);
     }
     forget_runs(simulation);
     return status;
@@ -488,6 +488,13 @@ bool simulation_has_line_search(const Simulation *simulation)
 {
     return simulation_has_filter(simulation) ||
            simulation->descent.scalar.f.value;
+}
+
+bool simulation_projects_springs(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    return !system_find_term(system, &contact_energy) &&
+           !system_find_term(system, &cell_energy);
 }
 
 /* What scenes that show directions do after a change of method. */

@@ -525,6 +525,46 @@ static void the_summary_counts(void **unused)
     end();
 }
 
+/* Whether the summary after a step has this word at the start of a line. */
+static bool summary_has(const char *line, const char *words)
+{
+    char text[2048], wanted[80];
+    begin(line);
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    FILE *file = fmemopen(text, sizeof text, "w");
+    CHECK(file != NULL);
+    summary_print(file, &player);
+    fclose(file);
+    CHECK(simulation_counters(player_simulation(&player)).projected > 0);
+    end();
+    snprintf(wanted, sizeof wanted, "\n%s ", words);
+    return strstr(text, wanted) != NULL;
+}
+
+/* What is counted as projected is called what it is: springs, or, where
+ * contacts and cells have blocks too, blocks. */
+static void projections_have_their_name(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "square --stretch 0.5", "drop --stretch 0.6 --filter clamp",
+        "square --stretch 0.6 --cells on --filter clamp",
+        "square --stretch 0.5 --damping 0.01"};
+    for (int n = 0; n < 4; n++) {
+        bool springs = n == 0 || n == 3;
+        CHECK(summary_has(lines[n], "springs projected") == springs);
+        CHECK(summary_has(lines[n], "blocks projected") == !springs);
+        begin(lines[n]);
+        Trace trace = {.line = LINE_PROJECT, .projected = 9};
+        Show show;
+        show_create(player_simulation(&player), &show);
+        show.pane[0].trace = &trace;
+        show_describe(&show);
+        CHECK(strstr(show.sentence, springs ? "9 of 72 springs" : "9 blocks"));
+        end();
+    }
+}
+
 static void give_up(int number)
 {
     stop = number;
@@ -575,6 +615,7 @@ int main(void)
         cmocka_unit_test(a_counted_run_ends_at_its_failure),
         cmocka_unit_test(old_steps_are_neither_kept_twice_nor_for_ever),
         cmocka_unit_test(the_summary_counts),
+        cmocka_unit_test(projections_have_their_name),
         cmocka_unit_test(scripts_wait_while_it_runs),
         cmocka_unit_test(many_steps_a_frame_end_in_time),
     };
