@@ -31,6 +31,7 @@ typedef struct Lane {
     long *at;       /* [room] the track's step for each of the player's */
     StepBar *bar;   /* [room] */
     long room;
+    int rigid;      /* steps in which nothing has deformed, up to this one */
     bool failed;    /* its last step could not be made */
     Status outcome; /* of the last step, or of the one shown */
 } Lane;

@@ -59,6 +59,8 @@ typedef struct Player {
     bool paused;
     bool halted;       /* by itself: at rest, at an end, after a failure */
     bool rests;        /* nothing moves any more */
+    bool drifts;       /* it moves, and nothing deforms any more */
+    bool from_map;     /* the scene is a cell of the envelope */
     bool leaving;      /* the last command was Escape, with nothing open */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */

@@ -170,6 +170,17 @@ int simulation_point(const Simulation *simulation, double at[2]);
  * single point or has ended. */
 void simulation_predict(Simulation *simulation, double x, double y);
 
+/* How fast the body of run 0 deforms: the largest speed of a node, m/s, beside
+ * the rigid motion with the body's momentum and angular momentum.
+ *   centre  out, m/s, speed of the centre of mass
+ *   turn    out, rad/s, of that rigid motion, anticlockwise */
+double simulation_deforming(const Simulation *simulation, double *centre,
+                            double *turn);
+
+/* Whether nothing from outside acts on the body: no gravity, no obstacles, no
+ * pins and no hand. */
+bool simulation_is_free(const Simulation *simulation);
+
 /* Strain of spring s of a run: |d|/l - 1. */
 double simulation_strain(const Simulation *simulation, int run, int s);
 

@@ -24,10 +24,12 @@ Status player_change_lanes(Player *player, const Command *change, int from,
     player->changed = true;
     if (player->rests && player->halted) /* something may move again */
         player->paused = player->halted = false;
-    player->rests = false;
-    for (int i = from; i < to && !status; i++)
+    player->rests = player->drifts = false;
+    for (int i = from; i < to && !status; i++) {
+        player->lane[i].rigid = 0;
         status = track_change(&player->lane[i].track, change, player->message,
                               sizeof player->message);
+    }
     return status;
 }
 
@@ -92,15 +94,21 @@ static Status set_option(Player *player, const char *text)
     bool time = scene->needs & NEEDS_TIME;
     bool method =
         strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
-    bool live = track_can_change(name) && (time || method) &&
+    bool iterates = scene->needs & NEEDS_START; /* a step is an update */
+    bool live = track_can_change(name) && (time || (method && iterates)) &&
                 (simulation->runs == 1 || strcmp(name, "integrator") != 0);
-    Status status;
-    if (!live)
-        status = restart_with(player, name, value, from, to);
-    else if (method && strcmp(old, value) != 0)
-        status = retake_step(player, &change, name, value, old, from, to);
-    else
-        status = player_change_lanes(player, &change, from, to);
+    if (!live) {
+        Status status = restart_with(player, name, value, from, to);
+        if (!status && method) /* races and maps of other runs */
+            player_note(player, "from the start: %s %s",
+                        number ? number->name : name, value);
+        player_reset_speed(player);
+        return status;
+    }
+    Status status =
+        method && strcmp(old, value) != 0
+            ? retake_step(player, &change, name, value, old, from, to)
+            : player_change_lanes(player, &change, from, to);
     player_reset_speed(player);
     return status;
 }
@@ -211,6 +219,9 @@ static Status switch_integrator(Player *player, const Command *command)
     if (!(simulation->scene->needs & NEEDS_TIME))
         return player_refuse(player, "no time passes here");
     const IntegratorMethod *next = player_next_method(simulation);
+    if (next == simulation->run[0].method)
+        return player_refuse(player, "no other method knows all terms of this "
+                                     "scene");
     snprintf(text, sizeof text, "integrator %s", next->name);
     Status status = set_option(player, text);
     if (!status)

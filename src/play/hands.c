@@ -339,6 +339,23 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
     return take(player, &pick);
 }
 
+/* The node under the mouse, or the nearest one of the body there, is pinned or
+ * set free. */
+static Status pin(Player *player, const Layout *layout, Pick *pick)
+{
+    const Simulation *simulation = player_simulation(player);
+    int node = pick->index;
+    if (pick->kind != PICK_NODE) {
+        *pick = world_at(player, layout);
+        node = near_node(player, pick);
+    }
+    if (node < 0 && (simulation->scene->needs & NEEDS_MESH) &&
+        !simulation->scene->step)
+        return player_refuse(player, "no node is here: a right click on one "
+                                     "pins it, or sets it free");
+    return ask_number(player, COMMAND_PIN, node < 0 ? 0 : node, 0, 0);
+}
+
 static Status pressed(Player *player, const Input *input, const Layout *layout)
 {
     Mouse *mouse = &player->mouse;
@@ -356,9 +373,7 @@ static Status pressed(Player *player, const Input *input, const Layout *layout)
         return STATUS_OK;
     }
     Pick pick = show_pick(&player->show, layout, mouse->x, mouse->y);
-    return pick.kind == PICK_NODE
-               ? ask_number(player, COMMAND_PIN, pick.index, 0, 0)
-               : STATUS_OK;
+    return pin(player, layout, &pick);
 }
 
 /* A click on a name takes the next one. */

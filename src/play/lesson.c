@@ -115,29 +115,51 @@ static Status visit_cell(Player *player, const Command *command)
     return envelope_visit(simulation, column, row);
 }
 
-/* The square with the cell's numbers, from its start. */
+/* A number of the scene, as a script would set it. */
+static Status set_number(Player *player, const char *option, double value)
+{
+    Command command = {.kind = COMMAND_SET};
+    snprintf(command.text, sizeof command.text, "%s %.17g", option, value);
+    return player_obey(player, &command);
+}
+
+/* The square with the cell's numbers, from its start: commands that a script
+ * can repeat. */
 Status lesson_load(Player *player, long cell)
 {
-    Simulation *simulation = &player_lane(player)->track.simulation;
-    const Options *map = &simulation->options;
-    Options options;
-    char word[] = "square", program[] = "elasto";
-    char *argv[] = {program, word, NULL};
+    const Lane *lane = player_lane(player);
+    const Options map = lane->track.simulation.options;
+    Command scene = {.kind = COMMAND_SCENE, .text = "square"};
+    Command restart = {.kind = COMMAND_RESTART};
     if (!has_cell(player, cell))
         return player_refuse(player, "there is no such cell");
-    Status status = options_parse(2, argv, &options, player->message,
-                                  sizeof player->message);
-    if (status)
-        return status;
-    options.segments = map->segments;
-    options.stretch = map->stretch;
-    options.timestep = envelope_timestep((int)(cell % ENVELOPE_COLUMNS));
-    options.stiffness = envelope_stiffness((int)(cell / ENVELOPE_COLUMNS));
-    status = player_restart(player, &options, 1);
+    Status status = player_obey(player, &scene);
+    if (!status)
+        status = set_number(player, "segments", map.segments);
+    if (!status)
+        status = set_number(player, "stretch", map.stretch);
+    if (!status)
+        status = set_number(player, "timestep",
+                            envelope_timestep((int)(cell % ENVELOPE_COLUMNS)));
+    if (!status)
+        status = set_number(player, "stiffness",
+                            envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
     player->paused = true;
-    player_set_title(player);
-    player_note(player, "this cell as a scene; Page Down goes on");
+    player->halted = false;
+    if (!status)
+        status = player_obey(player, &restart);
+    player->from_map = true;
+    player_note(player, "this cell as a scene; Esc leads back to the map%s",
+                map.page ? ", Page Down goes on" : "");
     return status;
+}
+
+Status lesson_back_to_map(Player *player)
+{
+    Command scene = {.kind = COMMAND_SCENE, .text = "envelope"};
+    player->from_map = false;
+    return player->left ? lesson_open(player, player->left)
+                        : player_obey(player, &scene);
 }
 
 const Deed lesson_deeds[] = {

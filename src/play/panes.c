@@ -14,8 +14,16 @@ static Status add_pane(Player *player, const Command *command)
     const IntegratorMethod *next = player_next_method(simulation);
     if (player->lanes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
-    if (!(simulation->scene->needs & NEEDS_TIME) || simulation->runs > 1 ||
-        !player->attended || next == simulation->run[0].method)
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        return player_refuse(player, "no time passes here: there is no other "
+                                     "method to put beside it");
+    if (simulation->runs > 1)
+        return player_refuse(player, "several runs are in this picture "
+                                     "already: nothing goes beside it");
+    if (next == simulation->run[0].method)
+        return player_refuse(player, "no other method knows all terms of this "
+                                     "scene: nothing goes beside it");
+    if (!player->attended)
         return player_refuse(player, "nothing to be put beside it here");
     snprintf(change.text, sizeof change.text, "integrator %s", next->name);
     Status status = player_forget_later(player);

@@ -78,8 +78,7 @@ static Status make_again(Player *player, const Command *change,
     if (!again)
         return player_change_lanes(player, change, from, to);
     Outcome before = outcome_of(lane);
-    if (!failed && track_step_shown(&lane->track) > 0 &&
-        state_size(&lane->track.simulation) > 0) {
+    if (!failed && lane->track.keeps && track_step_shown(&lane->track) > 0) {
         const StepRow *row =
             track_row(&lane->track, track_step_shown(&lane->track));
         before.change = row->change;

@@ -337,6 +337,8 @@ void player_fill(Player *player)
     show->paused = player->paused;
     if (player->rests)
         snprintf(show->state, SHOW_VALUE, "at rest");
+    else if (player->drifts && !player->paused)
+        snprintf(show->state, SHOW_VALUE, "drifting");
     fill_settings(player);
     fill_chips(player);
     fill_hand(player);

@@ -54,7 +54,7 @@ Status player_begin(Player *player, const Options *options, int count)
 {
     player->sampled = -1;
     player->halted = false;
-    player->warned = player->rests = player->holds = false;
+    player->warned = player->rests = player->drifts = player->holds = false;
     player->changed = true;
     player->recorded = STATUS_OK;
     player->step = player->newest = 0;
@@ -84,6 +84,7 @@ Status player_restart(Player *player, const Options *options, int count)
         lane_free(&player->lane[i]);
     Status status = recording_restart(&player->recording, &copy[0]);
     if (other) {
+        player->from_map = false;
         player->speed = player_first_speed(&copy[0]);
         player->lens = LENS_FITS;
         player->closed = 0;
@@ -120,7 +121,7 @@ static long clamp_step(const Player *player, long step)
 static void wait_elsewhere(Player *player)
 {
     leave_step(player);
-    player->holds = false;
+    player->holds = player->drifts = false;
     player->paused = true;
 }
 
@@ -188,6 +189,42 @@ static bool is_at_rest(const Lane *lane)
         if (fabs(run->v[i]) > simulation->options.tolerance)
             return false;
     return true;
+}
+
+/* Whether it moves on for ever as it is: nothing acts on it, and nothing has
+ * deformed for some steps, so that this is no turning point. */
+static bool drifts(Lane *lane)
+{
+    enum { STEPS = 8 };
+    const Simulation *simulation = &lane->track.simulation;
+    double centre, turn;
+    const unsigned body = NEEDS_MESH | NEEDS_TIME;
+    if ((simulation->scene->needs & body) != body ||
+        state_size(simulation) == 0 || simulation->runs > 1 ||
+        lane->track.settings.held || !simulation_is_free(simulation) ||
+        !(simulation_deforming(simulation, &centre, &turn) <=
+          simulation->options.tolerance))
+        lane->rigid = 0;
+    else
+        lane->rigid++;
+    return lane->rigid >= STEPS;
+}
+
+/* Says so once. */
+static void tell_drift(Player *player, bool drifting)
+{
+    double centre, turn;
+    const Simulation *simulation = player_simulation(player);
+    if (drifting && !player->drifts) {
+        simulation_deforming(simulation, &centre, &turn);
+        bool turns =
+            fabs(turn) * simulation->mesh.side > simulation->options.tolerance;
+        player_note(player,
+                    "nothing deforms any more: free as it is, it drifts on at "
+                    "%.2g m/s%s; pull a node, pin one, or R begins again",
+                    centre, turns ? " and turns" : "");
+    }
+    player->drifts = drifting;
 }
 
 /* Of the statuses of several lanes the one that ends most. */
@@ -277,18 +314,20 @@ Status player_step(Player *player)
 
 void player_pause_if_due(Player *player)
 {
-    bool ended = true, rests = true, trouble = false;
+    bool ended = true, rests = true, trouble = false, drifting = true;
     if (player->given[0].steps >= 0 || !player->attended)
         return;
     for (int i = 0; i < player->lanes; i++) {
         const Lane *lane = &player->lane[i];
         ended = ended && (lane->track.simulation.done || lane->failed);
         rests = rests && is_at_rest(lane);
+        drifting = drifts(&player->lane[i]) && drifting;
         trouble = trouble || lane->outcome;
     }
     if (rests && !player->rests)
         player_note(player, "at rest: nothing moves any more; pull a node, "
                             "change a number, or R begins again");
+    tell_drift(player, drifting && !rests);
     player->rests = rests;
     player->halted = !player->paused && (ended || rests);
     player->paused = player->paused || player->halted;

@@ -489,6 +489,9 @@ static Status check_change(const Track *track, const Command *change,
     Switch part[SCENE_MAX_SWITCHES];
     Settings trial = track->settings;
     long limit = LONG_MAX;
+    const char *what = change->kind == COMMAND_HANDLE ? "point to drag"
+                       : change->kind == COMMAND_FLIP ? "switch"
+                                                      : "node";
     message[0] = '\0';
     if (change->kind == COMMAND_SET)
         return settings_change(&trial, change, message, size);
@@ -500,7 +503,11 @@ static Status check_change(const Track *track, const Command *change,
         limit = simulation->system.nodes;
     if (change->number >= 0 && change->number < limit)
         return STATUS_OK;
-    snprintf(message, size, "there is none with number %ld", change->number);
+    if (limit > 0)
+        snprintf(message, size, "there is no %s %ld, they are 0 ... %ld", what,
+                 change->number, limit - 1);
+    else
+        snprintf(message, size, "there is no %s here", what);
     return STATUS_INVALID_INPUT;
 }
 

@@ -2,6 +2,7 @@
  * Newton's method, or by lines of Algorithm 3.
  */
 #include "play/playing.h"
+#include "scenes/scene.h"
 
 static Status set_paused(Player *player, bool paused)
 {
@@ -129,6 +130,18 @@ static Status go_back(Player *player, const Command *command)
     return status;
 }
 
+/* Whether the steps of any lane are made of updates that are shown. */
+static bool can_be_finer(const Player *player)
+{
+    for (int i = 0; i < player->lanes; i++) {
+        const Simulation *simulation = &player->lane[i].track.simulation;
+        if ((simulation->scene->needs & NEEDS_TIME) &&
+            simulation->run[0].newton)
+            return true;
+    }
+    return player->fine > 0; /* back from there */
+}
+
 /* Steps, updates, lines, and steps again. */
 static Status go_finer(Player *player, const Command *command)
 {
@@ -138,6 +151,11 @@ static Status go_finer(Player *player, const Command *command)
         "N and \u2190 go by updates of Newton's method",
         "N and \u2190 go by lines of Algorithm 3",
     };
+    if (!can_be_finer(player))
+        return player_refuse(
+            player, player_simulation(player)->scene->needs & NEEDS_TIME
+                        ? "no step here has updates of Newton's method"
+                        : "a step here is one update already");
     player->fine = (player->fine + 1) % 3;
     if (player->fine == 0)
         player_leave_tapes(player);

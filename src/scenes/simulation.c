@@ -477,10 +477,12 @@ long long simulation_matrix_entries(const Simulation *simulation)
     return sum;
 }
 
-/* Springs, and a Newton object that asks for their Hessian. */
+/* Springs, a Newton object that asks for their Hessian, and a scene that shows
+ * what it does. */
 bool simulation_has_filter(const Simulation *simulation)
 {
-    return simulation->system.springs > 0 && simulation->run[0].newton;
+    return simulation->system.springs > 0 && simulation->run[0].newton &&
+           (simulation->scene->needs & NEEDS_SPRINGS);
 }
 
 /* Newton with springs, or in one variable. */
@@ -529,4 +531,56 @@ double simulation_strain(const Simulation *simulation, int run, int s)
     const double *x = simulation->run[run].x;
     int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
     return hypot(x[i] - x[j], x[i + 1] - x[j + 1]) / sqrt(system->l2[s]) - 1;
+}
+
+/* Centre of mass, m, and its velocity, m/s, at [4] out.  Returns the mass. */
+static double centre_of_mass(const Simulation *simulation, double at[4])
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    double mass = 0;
+    memset(at, 0, 4 * sizeof *at);
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        double m = simulation->system.m[i];
+        mass += m;
+        for (int k = 0; k < 2; k++) {
+            at[k] += m * run->x[2 * i + k];
+            at[k + 2] += m * run->v[2 * i + k];
+        }
+    }
+    for (int k = 0; k < 4; k++)
+        at[k] /= mass;
+    return mass;
+}
+
+double simulation_deforming(const Simulation *simulation, double *centre,
+                            double *turn)
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    int nodes = simulation->system.nodes;
+    double at[4], momentum = 0, inertia = 0, fastest = 0;
+    centre_of_mass(simulation, at);
+    for (int i = 0; i < nodes; i++) {
+        double m = simulation->system.m[i];
+        double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
+        double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
+        momentum += m * (r[0] * v[1] - r[1] * v[0]);
+        inertia += m * (r[0] * r[0] + r[1] * r[1]);
+    }
+    *centre = hypot(at[2], at[3]);
+    *turn = inertia > 0 ? momentum / inertia : 0;
+    for (int i = 0; i < nodes; i++) {
+        double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
+        double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
+        fastest =
+            fmax(fastest, hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]));
+    }
+    return fastest;
+}
+
+bool simulation_is_free(const Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    return options->gravity == 0 && options->grounds + options->balls == 0 &&
+           !simulation->scene->own && !simulation->system.pinned &&
+           !hand_energy_of(&simulation->system);
 }

@@ -12,6 +12,7 @@
 
 #include "play/playing.h"
 #include "play/summary.h"
+#include "scenes/envelope_scene.h"
 #include "scenes/scene.h"
 
 static Player player;
@@ -223,6 +224,74 @@ static void at_rest_it_says_so_and_stops(void **unused)
     end();
 }
 
+/* A free square that is thrown never comes to rest: once it deforms no more it
+ * is said that it drifts, and it goes on; a pin makes it swing again. */
+static void a_free_square_drifts_and_says_so(void **unused)
+{
+    (void)unused;
+    double centre, turn;
+    begin("square --segments 2 --velocity 3,4");
+    const Simulation *simulation = player_simulation(&player);
+    int step = 0;
+    for (; step < 3000 && !player.drifts; step++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+    }
+    CHECK(step > 20 && player.drifts && !player.paused && !player.rests);
+    CHECK(strstr(player.note, "drifts on at 5 m/s;") != NULL);
+    player_fill(&player);
+    CHECK(strcmp(player.show.state, "drifting") == 0);
+    CHECK_AT_MOST(simulation_deforming(simulation, &centre, &turn), 0.01);
+    CHECK_NEAR(centre, 5, 1e-3);
+    player.note[0] = '\0'; /* said once */
+    CHECK_STATUS(player_step(&player), STATUS_OK);
+    player_pause_if_due(&player);
+    CHECK(player.drifts && !player.note[0]);
+    CHECK_STATUS(obey("pin 4"), STATUS_OK);
+    CHECK(!player.drifts);
+    run_until_it_pauses();
+    CHECK(player.rests && !player.drifts);
+    end();
+    begin("square --stretch 1 --velocity 3,4 --gravity 9.81");
+    for (step = 0; step < 40; step++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+        CHECK(!player.drifts); /* it falls */
+    }
+    end();
+}
+
+/* What is left of a motion beside the rigid one. */
+static void rigid_motion_deforms_nothing(void **unused)
+{
+    (void)unused;
+    double centre, turn;
+    begin("square --segments 3 --stretch 1.2");
+    Simulation *simulation = &lane(0)->track.simulation;
+    TimeIntegrator *run = &simulation->run[0];
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        run->v[2 * i] = 3 - 2 * run->x[2 * i + 1];
+        run->v[2 * i + 1] = 4 + 2 * run->x[2 * i];
+    }
+    /* rounding of numbers near 5 */
+    CHECK_AT_MOST(simulation_deforming(simulation, &centre, &turn), 1e-14);
+    CHECK_NEAR(centre, 5, 1e-14);
+    CHECK_NEAR(turn, 2, 1e-14);
+    for (int i = 0; i < simulation->system.nodes; i++)
+        run->v[2 * i] += 0.5 * run->x[2 * i]; /* stretches; up to 0.3 m/s */
+    CHECK_NEAR(simulation_deforming(simulation, &centre, &turn), 0.3, 1e-14);
+    CHECK(simulation_is_free(simulation));
+    CHECK_STATUS(obey("pin 0"), STATUS_OK);
+    CHECK(!simulation_is_free(simulation));
+    end();
+    const char *held[] = {"hang", "drop", "squeeze", "bend", "tear"};
+    for (size_t i = 0; i < sizeof held / sizeof *held; i++) {
+        begin(held[i]);
+        CHECK(!simulation_is_free(&lane(0)->track.simulation));
+        end();
+    }
+}
+
 /* A failure beyond all numbers shows the last state below ten times the size,
  * and says so. */
 static void a_failure_shows_the_last_good_state(void **unused)
@@ -424,6 +493,117 @@ static void every_scene_is_taken_hold_of(void **unused)
     }
 }
 
+/* The message of a refused command, or "". */
+static const char *refused(const char *line)
+{
+    Status status = obey(line);
+    CHECK(!status || status == STATUS_INVALID_INPUT);
+    return player.message;
+}
+
+/* Where a key makes no sense the last line says why. */
+static void what_makes_no_sense_is_said(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *scene, *command, *words;
+    } rows[] = {
+        {"circle", "pin 0", "only nodes of a square"},
+        {"circle", "finer", "no step here has updates"},
+        {"circle", "projection", "nothing to project"},
+        {"circle", "add-pane", "several runs are in this picture"},
+        {"overshoot", "finer", "is one update already"},
+        {"overshoot", "add-pane", "no time passes"},
+        {"overshoot", "method", "no time passes"},
+        {"landscape", "grab 0", "nothing to take hold of"},
+        {"drop", "add-pane", "no other method knows all terms"},
+        {"drop", "method", "no other method knows all terms"},
+        {"slope", "method", "no other method knows all terms"},
+        {"dial", "projection", "nothing to project"},
+        {"dial", "line-search", "no line search"},
+        {"race", "finer", "is one update already"},
+        {"race", "pin 3", "only nodes of a square"},
+        {"square", "drag 1 1", "the hand holds nothing"},
+        {"square", "end-pane", "there is only one"},
+        {"square", "pin 25", "no node 25, they are 0 ... 24"},
+        {"square", "flip 0", "there is no switch here"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin(rows[i].scene);
+        player_fill(&player);
+        const char *why = refused(rows[i].command);
+        if (!why[0] || !strstr(why, rows[i].words))
+            print_error("%s, %s: '%s'\n", rows[i].scene, rows[i].command, why);
+        CHECK(why[0] && strstr(why, rows[i].words));
+        end();
+    }
+}
+
+/* A method of the other runs that a scene is about begins them again. */
+static void a_race_begins_again(void **unused)
+{
+    (void)unused;
+    begin("race");
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    CHECK_STATUS(obey("projection"), STATUS_OK);
+    CHECK(player.step == 0);
+    CHECK(strstr(player.note, "from the start: projection none") != NULL);
+    end();
+}
+
+/* The outcome of before is that of the one step, however it was come to. */
+static void a_toggle_tells_of_one_step(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {"landscape", "spring", "tangent",
+                                        "square"};
+    for (int i = 0; i < 4; i++) {
+        char note[sizeof player.note];
+        begin(lines[i]);
+        obey_all((const char *const[]){"step", "step", "step", NULL});
+        obey_all((const char *const[]){"line-search", NULL});
+        memcpy(note, player.note, sizeof note);
+        CHECK(strstr(note, " update") != NULL);
+        end();
+        begin(lines[i]);
+        obey_all((const char *const[]){"step", "step", "step", "back", "next",
+                                       "line-search", NULL});
+        assert_string_equal(player.note, note);
+        end();
+    }
+}
+
+/* A cell of the map as a scene: commands that a script repeats, and Escape
+ * leads back. */
+static void a_cell_of_the_map_is_a_scene(void **unused)
+{
+    (void)unused;
+    enum { CELL = 100 };
+    char line[160];
+    begin("envelope --segments 3 --stretch 1.3");
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    CHECK_STATUS(lesson_load(&player, CELL), STATUS_OK);
+    const Options *options = &player_settings(&player)->options;
+    CHECK(options->scene == &scenes[0] && player.paused && player.step == 0);
+    CHECK(options->segments == 3 && options->stretch == 1.3);
+    snprintf(line, sizeof line,
+             "square --segments 3 --stretch 1.3 --timestep %.17g --stiffness "
+             "%.17g",
+             envelope_timestep(CELL % ENVELOPE_COLUMNS),
+             envelope_stiffness(CELL / ENVELOPE_COLUMNS));
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    uint64_t hash = player_hash(&player);
+    CHECK_STATUS(obey("escape"), STATUS_OK);
+    CHECK(player_simulation(&player)->scene->picture == PICTURE_ENVELOPE);
+    CHECK(!player.quit && !player_is_open(&player));
+    CHECK(player_settings(&player)->options.segments == 3);
+    end();
+    begin(line);
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    CHECK(player_hash(&player) == hash);
+    end();
+}
+
 /* Lanes with different timesteps meet where the longest of them ends. */
 static void panes_meet_at_the_longest_timestep(void **unused)
 {
@@ -603,12 +783,18 @@ int main(void)
         cmocka_unit_test(the_explosion_is_seen_and_tamed),
         cmocka_unit_test(a_toggle_tells_both_outcomes),
         cmocka_unit_test(at_rest_it_says_so_and_stops),
+        cmocka_unit_test(a_free_square_drifts_and_says_so),
+        cmocka_unit_test(rigid_motion_deforms_nothing),
         cmocka_unit_test(a_failure_shows_the_last_good_state),
         cmocka_unit_test(up_to_six_panes),
         cmocka_unit_test(an_update_line_by_line),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
+        cmocka_unit_test(what_makes_no_sense_is_said),
+        cmocka_unit_test(a_race_begins_again),
+        cmocka_unit_test(a_toggle_tells_of_one_step),
+        cmocka_unit_test(a_cell_of_the_map_is_a_scene),
         cmocka_unit_test(panes_meet_at_the_longest_timestep),
         cmocka_unit_test(every_pane_may_fail),
         cmocka_unit_test(every_pane_is_in_the_hash),
