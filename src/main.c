@@ -130,11 +130,23 @@ static const char *advice(const Player *player, Status status)
     }
 }
 
+/* The first lane whose simulation ended so; NULL: none did. */
+static const Lane *lane_that_ended(const Player *player, Status status)
+{
+    for (int i = 0; i < player->lanes; i++)
+        if (player->lane[i].track.simulation.status == status)
+            return &player->lane[i];
+    return NULL;
+}
+
 /* The one line about a failure. */
 static void report_failure(const Player *player, Status status)
 {
     const Recording *recording = &player->recording;
-    char reason[256] = "", name[256];
+    const Lane *lane = lane_that_ended(player, status);
+    char reason[256] = "", name[256], pane[32] = "";
+    if (lane && player->lanes > 1)
+        snprintf(pane, sizeof pane, "pane %d, ", lane->number + 1);
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
     one_line(recording->failed, name, sizeof name);
@@ -148,9 +160,9 @@ static void report_failure(const Player *player, Status status)
                 name);
     else if (recording->reason)
         fprintf(stderr, "elasto: %s: %s\n", name, strerror(recording->reason));
-    else if (player->lane[0].track.simulation.status == status)
-        fprintf(stderr, "elasto: step %ld failed: %s%s\n",
-                player->lane[0].track.simulation.steps + 1, status_text(status),
+    else if (lane)
+        fprintf(stderr, "elasto: %sstep %ld failed: %s%s\n", pane,
+                lane->track.simulation.steps + 1, status_text(status),
                 advice(player, status));
     else
         fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),

@@ -251,6 +251,8 @@ static void draw_numbers(const SpringPen *pen, const System *system)
         stage_pixel(pen->stage, pane_x(pen->pane) + 2 * i, at);
         at[0] += 0.7 * paper->em;
         at[1] += 0.4 * paper->em;
+        if (!box_contains(pen->stage->box, at[0], at[1]))
+            continue;
         snprintf(number, sizeof number, "%d", i);
         canvas_rectangle(&paper->canvas, (int)at[0], (int)at[1],
                          paper_width(paper, FACE_BOLD, 1.3, number),

@@ -414,11 +414,17 @@ int text_width(Text *text, const TextStyle *style, const char *markup)
     return (int)ceil(pen.x);
 }
 
+/* Whether text at this place may be seen: what flies off has no pixel. */
+static bool is_near(double x, double y)
+{
+    return fabs(x) < 1e6 && fabs(y) < 1e6;
+}
+
 /* Letters start at whole pixels. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
-    if (!text || !style_draws(style))
+    if (!text || !style_draws(style) || !is_near(x, y))
         return text_width(text, style, markup);
     int width = align == ALIGN_LEFT ? 0 : text_width(text, style, markup);
     double start = align == ALIGN_LEFT     ? x

@@ -353,6 +353,9 @@ static void overflow_exits_with_1(void **unused)
         "--quiet --states blown.csv");
     check_refused(1, "step", "NaN or infinite", "--timestep");
     CHECK(exists("blown.csv")); /* what was written before stays */
+    run("--headless --steps 50 --timestep 0.05 --quiet "
+        "--integrator backward-euler,forward-euler");
+    check_refused(1, "pane 2, step", "NaN or infinite", "--timestep");
 }
 
 /* Signals end a run early and leave whole files. */

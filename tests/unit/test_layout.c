@@ -1,4 +1,5 @@
 /* Where everything in the window is, and its texts. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -278,6 +279,13 @@ static void texts_are_clipped(void **unused)
                           "wrong \xff\xc3 \xe2\x82 ^{_{}}}{ \xf5");
                 text_draw(text, &canvas, &style, x, y, ALIGN_RIGHT, "");
             }
+        for (double far = 1e5; far < 1e300; far *= 1e5) {
+            int width =
+                text_draw(text, &canvas, &style, far, -far, ALIGN_LEFT, "x");
+            CHECK(width == text_width(text, &style, "x"));
+            CHECK(width == text_draw(text, &canvas, &style, -far, NAN,
+                                     ALIGN_RIGHT, "x"));
+        }
     }
     text_free(text);
     canvas_free(&canvas);
