@@ -1,7 +1,7 @@
 /* stress_contact.c - random scenes of contact, friction, cells, plastic flow,
- * fracture and what moves, each a command line that can be run again.  No gap
- * and no cell may end at any iterate, every step must end with finite numbers,
- * and one that did not converge must say so.
+ * damping, fracture and what moves, each a command line that can be run again.
+ * No gap and no cell may end at any iterate, every step must end with finite
+ * numbers, and one that did not converge must say so.
  */
 #include "stress.h"
 
@@ -102,6 +102,9 @@ static void contact_line(uint64_t seed, long number, char *line, size_t size)
     if (random_below(&random, 3) == 0)
         append(line, size, " --tear %.3g",
                random_logarithmic(&random, 0.03, 1));
+    if (random_below(&random, 3) == 0)
+        append(line, size, " --damping %.3g",
+               random_logarithmic(&random, 1e-5, 10));
     if (kind != 4 && random_below(&random, 3) == 0)
         append(line, size, " --barrier %.3g,%.3g",
                random_logarithmic(&random, 1e-4, 0.004),

@@ -870,6 +870,57 @@ static void a_fast_ceiling_comes_in_parts(void **unused)
     simulation_free(&simulation);
 }
 
+/* Updates of the step that is made, without and with a smaller residual. */
+typedef struct Circles {
+    double best;
+    int updates, since, most;
+} Circles;
+
+static bool count_circles(void *user, const NewtonRecord *record)
+{
+    Circles *circles = user;
+    bool smaller = record->iteration == 0 || record->residual < circles->best;
+    if (record->iteration < 0)
+        return true;
+    circles->best = smaller ? record->residual : circles->best;
+    circles->since = smaller ? 0 : circles->since + 1;
+    circles->updates++;
+    if (circles->since > circles->most)
+        circles->most = circles->since;
+    return true;
+}
+
+/* Without a line search updates of contact may go round in circles: such a step
+ * ends after some hundreds, with its reason. */
+static void circles_without_a_line_search_end(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "drop --segments 6 --stiffness 8.29e4 --timestep 0.0192 --tolerance "
+        "6e-8 --line-search none --velocity 0.229,-70.7",
+        "dent --segments 4 --stiffness 1.56e4 --timestep 0.0789 --tolerance "
+        "0.005 --line-search none --velocity 0.436,-6.82",
+        "dent --segments 5 --stiffness 8.43e6 --timestep 0.342 --tolerance "
+        "6.5e-6 --line-search none --velocity -0.102,-0.42"};
+    for (int n = 0; n < 3; n++) {
+        Simulation simulation;
+        Circles circles = {0};
+        int ended = 0;
+        simulation_from_line(lines[n], count_circles, &circles, &simulation);
+        for (int i = 0; i < 6; i++) {
+            circles = (Circles){0};
+            Status status = simulation_step(&simulation);
+            CHECK(!status || status_is_unconverged(status));
+            CHECK(circles.most <= 500 && circles.updates < 6000);
+            ended += circles.most >= 490 && status;
+            for (int c = 0; c < 2 * simulation.system.nodes; c++)
+                CHECK(isfinite(simulation.run[0].x[c]));
+        }
+        CHECK(ended > 0);
+        simulation_free(&simulation);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -884,6 +935,7 @@ int main(void)
         cmocka_unit_test(a_chain_hangs_at_rest),
         cmocka_unit_test(nothing_penetrates_or_turns_over),
         cmocka_unit_test(the_ledger_adds_up),
+        cmocka_unit_test(circles_without_a_line_search_end),
         cmocka_unit_test(momentum_is_what_the_walls_give),
         cmocka_unit_test(what_is_unloaded_comes_back),
         cmocka_unit_test(directions_do_not_matter),

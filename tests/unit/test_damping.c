@@ -144,7 +144,7 @@ static void the_line_is_exact(void **unused)
     }
 }
 
-/* H p is how the gradient changes; of elastic springs, that have no bend. */
+/* H p is how the gradient changes. */
 static void the_hessian_is_the_gradients_change(void **unused)
 {
     (void)unused;
@@ -152,17 +152,42 @@ static void the_hessian_is_the_gradients_change(void **unused)
     for (int n = 0; n < 100; n++) {
         Case c;
         double g[2][MAX_SIZE] = {{0}}, Hp[MAX_SIZE] = {0}, x[MAX_SIZE];
-        make_case(&random, false, &c);
+        make_case(&random, n % 2, &c);
         const TermKind *kind = c.term->kind;
         kind->hessian(c.term, &c.at, 1, FILTER_NONE, NULL, c.p, Hp);
         for (int way = 0; way < 2; way++) {
             for (int i = 0; i < c.size; i++)
-                x[i] = c.x[i] + (way ? 1e-4 : -1e-4) * c.p[i];
+                x[i] = c.x[i] + (way ? 1e-6 : -1e-6) * c.p[i];
             c.at.x = x;
             kind->gradient(c.term, &c.at, 1, g[way]);
         }
         for (int i = 0; i < c.size; i++)
-            CHECK_NEAR(Hp[i], (g[1][i] - g[0][i]) / 2e-4, 2e-7 * c.scale);
+            CHECK_NEAR(Hp[i], (g[1][i] - g[0][i]) / 2e-6, 1e-8 * c.scale);
+        system_free(&c.system);
+    }
+}
+
+/* What solvers compare with masses and forces: the largest k' and k' l of the
+ * step. */
+static void bounds_are_those_of_the_step(void **unused)
+{
+    (void)unused;
+    Random random = {10};
+    for (int n = 0; n < 50; n++) {
+        Case c;
+        double stiffest, force, most[2] = {0, 0};
+        make_case(&random, false, &c);
+        for (int s = 0; s < c.system.springs; s++) {
+            double l2 = c.system.l2[s], k = c.system.k[s];
+            double E_n = (double)strain(&c.system, s, c.x_n, -1, 0);
+            double mean = l2 * (1 + c.theta * E_n / (1 + c.theta));
+            k *= (1 + c.theta) * mean / l2;
+            most[0] = fmax(most[0], k);
+            most[1] = fmax(most[1], k * sqrt(mean));
+        }
+        system_bounds(&c.system, &stiffest, &force);
+        CHECK(stiffest >= most[0] * (1 - 1e-13));
+        CHECK(force >= most[1] * (1 - 1e-13));
         system_free(&c.system);
     }
 }
@@ -625,6 +650,7 @@ int main(void)
         cmocka_unit_test(the_gradient_is_that_of_the_formula),
         cmocka_unit_test(the_line_is_exact),
         cmocka_unit_test(the_hessian_is_the_gradients_change),
+        cmocka_unit_test(bounds_are_those_of_the_step),
         cmocka_unit_test(the_potential_knows_nothing_of_it),
         cmocka_unit_test(turning_costs_nothing),
         cmocka_unit_test(the_damped_pair_follows_its_equation),
