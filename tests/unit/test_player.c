@@ -705,6 +705,39 @@ static void the_summary_counts(void **unused)
     end();
 }
 
+/* Numbers of the material change while the run goes on: it does not begin
+ * again, the steps before stay, and the step after is another one. */
+static void material_numbers_change_live(void **unused)
+{
+    (void)unused;
+    static const char *const lines[][2] = {{"slope", "set friction 0.01"},
+                                           {"drop", "set damping 0.5"},
+                                           {"dent --damping 1", "lower"}};
+    for (int n = 0; n < 3; n++) {
+        uint64_t hash[2];
+        begin(lines[n][0]);
+        for (int again = 0; again < 2; again++) {
+            if (n == 2) /* the selected number of the row */
+                for (int i = 0; i < player.numbers; i++)
+                    if (strcmp(player.number[i]->option, "damping") == 0)
+                        player.selected = i;
+            for (int i = 0; i < 59 && !again; i++)
+                CHECK_STATUS(obey("step"), STATUS_OK);
+            if (again)
+                CHECK_STATUS(obey("back"), STATUS_OK);
+            if (again)
+                CHECK_STATUS(obey(lines[n][1]), STATUS_OK);
+            CHECK(player.step == 59);
+            CHECK_STATUS(obey("step"), STATUS_OK);
+            CHECK(player.step == 60 && player.newest == 60);
+
+            hash[again] = player_hash(&player);
+        }
+        CHECK(hash[0] != hash[1]);
+        end();
+    }
+}
+
 /* Whether the summary after a step has this word at the start of a line. */
 static bool summary_has(const char *line, const char *words)
 {
@@ -802,6 +835,7 @@ int main(void)
         cmocka_unit_test(old_steps_are_neither_kept_twice_nor_for_ever),
         cmocka_unit_test(the_summary_counts),
         cmocka_unit_test(projections_have_their_name),
+        cmocka_unit_test(material_numbers_change_live),
         cmocka_unit_test(scripts_wait_while_it_runs),
         cmocka_unit_test(many_steps_a_frame_end_in_time),
     };
