@@ -52,17 +52,14 @@ static Status restart_with(Player *player, const char *option,
 {
     Options options[OPTIONS_MAX_PANES];
     int active = player->active;
-    bool paused = player->paused;
     player_options(player, options);
     for (int i = from; i < to; i++)
         if (options_set(&options[i], option, value, player->message,
                         sizeof player->message))
             return STATUS_INVALID_INPUT;
     Status status = player_try_restart(player, options);
-    if (!status) {
+    if (!status)
         player->active = active;
-        player->paused = paused;
-    }
     return status;
 }
 

@@ -40,7 +40,6 @@ static Status save_picture(Player *player, const Command *command)
         paper = &own;
     }
     free_name(player, ".png", name, sizeof name);
-    player->note[0] = '\0';
     if (!status) {
         player_paint(player, paper);
         status = png_file_write(name, &paper->canvas);

@@ -579,6 +579,20 @@ static void surface_shows_the_paper(void **unused)
     simulation_free(&simulation);
 }
 
+/* An output without any pixel, as a window may have for a moment, has a paper
+ * of one, and nothing fails. */
+static void no_output_is_too_small(void **unused)
+{
+    (void)unused;
+    View *view = NULL;
+    CHECK_STATUS(view_create_surface(0, 0, &view), STATUS_OK);
+    const Paper *paper = view_paper(view);
+    assert_non_null(paper);
+    CHECK(paper->canvas.width == 1 && paper->canvas.height == 1);
+    CHECK_STATUS(view_show(view), STATUS_OK);
+    view_free(view);
+}
+
 /* ---- files -------------------------------------------------------------- */
 
 static void png_files_are_whole(void **unused)
@@ -857,6 +871,7 @@ int main(void)
         cmocka_unit_test(a_loose_tolerance_is_named),
         cmocka_unit_test(readme_shows_films_of_all_scenes),
         cmocka_unit_test(surface_shows_the_paper),
+        cmocka_unit_test(no_output_is_too_small),
         cmocka_unit_test(png_files_are_whole),
         cmocka_unit_test(png_failures_have_reasons),
         cmocka_unit_test(outputs_replace_at_the_end),

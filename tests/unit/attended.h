@@ -1,0 +1,81 @@
+/* attended.h - a player whom a script attends, without a window: what the tests
+ * of commands begin with.
+ */
+#ifndef ELASTO_ATTENDED_H
+#define ELASTO_ATTENDED_H
+
+#include "testing.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "play/playing.h"
+
+static Player player;
+static volatile sig_atomic_t stop;
+
+/* A player of this line whom this script attends: it may go back. */
+static inline void begin_script(const char *script, const char *line)
+{
+    static Options options[OPTIONS_MAX_PANES];
+    static char name[] = "/tmp/elasto-test-XXXXXX";
+    char copy[256], message[256] = "";
+    char *argv[32] = {(char[]){"elasto"}, (char[]){"--script"}, name,
+                      (char[]){"--headless"}, (char[]){"--quiet"}};
+    int argc = 5, count = 1;
+    stop = 0;
+    memcpy(name + strlen(name) - 6, "XXXXXX", 6);
+    int file = mkstemp(name);
+    ssize_t size = (ssize_t)strlen(script);
+    assert_true(file >= 0 && write(file, script, (size_t)size) == size);
+    close(file);
+    snprintf(copy, sizeof copy, "%s", line);
+    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
+        argv[argc++] = word;
+    for (int i = 0; i < count; i++) {
+        CHECK_STATUS(options_parse_pane(argc, argv, i, &options[i], message,
+                                        sizeof message),
+                     STATUS_OK);
+        count = options[0].panes;
+    }
+    CHECK_STATUS(player_create(options, count, "elasto", &stop, &player),
+                 STATUS_OK);
+    unlink(name);
+}
+
+static inline void begin(const char *line)
+{
+    begin_script("0 play\n", line);
+}
+
+static inline void end(void)
+{
+    CHECK_STATUS(player_finish(&player), STATUS_OK);
+    player_free(&player);
+}
+
+static inline Status obey(const char *line)
+{
+    Command command;
+    char message[128];
+    CHECK_STATUS(command_parse(line, &command, message, sizeof message),
+                 STATUS_OK);
+    return player_obey(&player, &command);
+}
+
+/* All of these, one after the other. */
+static inline void obey_all(const char *const *lines)
+{
+    for (; *lines; lines++)
+        CHECK_STATUS(obey(*lines), STATUS_OK);
+}
+
+static inline Lane *lane(int i)
+{
+    return &player.lane[i];
+}
+
+#endif

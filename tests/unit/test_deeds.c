@@ -1,0 +1,424 @@
+/* What single commands do: walking through steps, changing a run, taking a step
+ * again, panes, pins and hands, beginning anew, keeping pictures, the screen.
+ */
+#include "attended.h"
+
+#include <math.h>
+#include <sys/stat.h>
+
+#include "base/clock.h"
+#include "picture/picture.h"
+#include "scenes/scene.h"
+
+/* ---- walking ------------------------------------------------------------ */
+
+/* Line by line back over the first line of a step: to the last of the step
+ * before. */
+static void lines_lead_back_into_the_step_before(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    obey_all(
+        (const char *const[]){"step", "step", "finer", "finer", "back", NULL});
+    CHECK(player.step == 2 && lane(0)->place > 0);
+    while (lane(0)->place > 0)
+        CHECK_STATUS(obey("back"), STATUS_OK);
+    CHECK(player.step == 2);
+    CHECK_STATUS(obey("back"), STATUS_OK);
+    CHECK(player.step == 1 && lane(0)->place == lane(0)->tape.places - 1);
+    end();
+}
+
+/* Where one lane has come to the end of its step, it waits there for the
+ * other. */
+static void lanes_wait_for_each_other(void **unused)
+{
+    (void)unused;
+    begin("square --segments 3 --tolerance 0.5,1e-9");
+    obey_all((const char *const[]){"finer", "next", NULL});
+    CHECK(lane(0)->tape.places < lane(1)->tape.places);
+    bool waited = false;
+    for (int i = 0; i < 1000 && player.step == 1; i++) {
+        for (int k = 0; k < 2; k++)
+            CHECK(lane(k)->place >= 0 && lane(k)->place < lane(k)->tape.places);
+        waited = waited || lane(0)->place == lane(0)->tape.places - 1;
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    }
+    CHECK(waited && player.step == 2);
+    end();
+}
+
+static void running_leaves_the_lines(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    CHECK(lane(0)->place == 0 && player.paused);
+    CHECK_STATUS(obey("play"), STATUS_OK);
+    CHECK(lane(0)->place == -1 && !player.paused);
+    CHECK(player.fine == 2);
+    CHECK_STATUS(obey("finer"), STATUS_OK);
+    CHECK(player.fine == 0);
+    end();
+}
+
+/* Between two lines the square is where it was, then where it will be. */
+static void glides_begin_and_end_at_lines(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    player.window = true;
+    enum { SIZE = 18 };
+    double before[SIZE];
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    const Tape *tape = &lane(0)->tape;
+    while (tape->place[lane(0)->place].line != LINE_SEARCH)
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    memcpy(before, lane(0)->from, sizeof before);
+    CHECK_STATUS(obey("next"), STATUS_OK); /* line 6 moves the square */
+    CHECK_SAME_BITS(glide_between(lane(0), 1), before, SIZE);
+    Trace trace;
+    const double *after = tape_trace(tape, lane(0)->place, &trace);
+    CHECK(after && memcmp(after, before, sizeof before) != 0);
+    CHECK_SAME_BITS(glide_between(lane(0), 0), after, SIZE);
+
+    /* 1 ... 0 and flat at both ends: a fifth of the time before the end about
+     * a tenth of the way is left, and never less than nothing. */
+    player.glide = clock_now() - 0.2;
+    double rest = glide_rest(&player);
+    CHECK(rest >= 0 && rest < 0.105);
+    player.glide = clock_now() - 1;
+    CHECK(glide_rest(&player) == 0 && player.glide == 0);
+    end();
+}
+
+/* ---- changing ----------------------------------------------------------- */
+
+/* What panes are compared by changes in one of them, the rest in all. */
+static void changes_are_for_one_pane_or_all(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --timestep 0.01,0.005");
+    obey_all(
+        (const char *const[]){"set timestep 0.002", "set stiffness 2e5", NULL});
+    CHECK(lane(0)->track.settings.options.timestep == 0.002);
+    CHECK(lane(1)->track.settings.options.timestep == 0.005);
+    for (int i = 0; i < 2; i++)
+        CHECK(lane(i)->track.settings.options.stiffness == 2e5);
+    obey_all((const char *const[]){"pane 1", "pause", "set segments 3", NULL});
+    CHECK(player.active == 1 && player.paused && player.step == 0);
+    for (int i = 0; i < 2; i++)
+        CHECK(player.lane[i].track.options.segments == 3);
+    CHECK_STATUS(obey("play"), STATUS_OK);
+    CHECK_STATUS(obey("set segments 2"), STATUS_OK);
+    CHECK(!player.paused);
+    end();
+}
+
+/* The default is that of the command line in its own scene, and the scene's in
+ * every other. */
+static void defaults_are_the_scene_s(void **unused)
+{
+    (void)unused;
+    begin("square --timestep 0.003");
+    obey_all(
+        (const char *const[]){"set timestep 0.001", "default timestep", NULL});
+    CHECK(lane(0)->track.settings.options.timestep == 0.003);
+    CHECK_STATUS(obey("scene hang"), STATUS_OK);
+    double own = lane(0)->track.options.timestep;
+    CHECK(own != 0.003);
+    obey_all(
+        (const char *const[]){"set timestep 0.001", "default timestep", NULL});
+    CHECK(lane(0)->track.settings.options.timestep == own);
+    end();
+}
+
+static void methods_are_switched(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --filter abs");
+    CHECK_STATUS(obey("projection"), STATUS_OK);
+    CHECK(lane(0)->track.settings.options.filter == FILTER_NONE);
+    CHECK_STATUS(obey("projection"), STATUS_OK);
+    CHECK(lane(0)->track.settings.options.filter == FILTER_ABS);
+    end();
+    begin("circle"); /* all at once: the first alone is the next */
+    CHECK(player_simulation(&player)->runs > 1);
+    CHECK(player_next_method(player_simulation(&player)) ==
+          &integrator_methods[0]);
+    end();
+}
+
+/* One number after the other, then none. */
+static void numbers_are_selected_in_turn(void **unused)
+{
+    (void)unused;
+    const Number *number[NUMBERS_MOST];
+    begin("square --segments 2");
+    int count = numbers_of(&player_settings(&player)->options, number);
+    CHECK(count > 2);
+    for (int i = 0; i < count; i++) {
+        CHECK_STATUS(obey("select"), STATUS_OK);
+        CHECK(player.selected == i);
+    }
+    CHECK_STATUS(obey("select"), STATUS_OK);
+    CHECK(player.selected == -1);
+    end();
+}
+
+/* ---- the step once more ------------------------------------------------- */
+
+/* The step is made again where it was; a run goes on running, and a walk stays
+ * at its line. */
+static void a_step_is_taken_again_in_its_place(void **unused)
+{
+    (void)unused;
+    begin("square --segments 3 --stretch 0.6");
+    obey_all((const char *const[]){"next", "next", "play", "projection", NULL});
+    CHECK(player.step == 2 && !player.paused);
+    CHECK(lane(0)->ghost != NULL);
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    CHECK(player.step == 3 && lane(0)->ghost == NULL);
+    TapePlace at;
+    do {
+        CHECK_STATUS(obey("next"), STATUS_OK);
+        at = lane(0)->tape.place[lane(0)->place];
+    } while (at.round < 1 || at.line != LINE_SOLVE);
+    CHECK(player.step == 3);
+    CHECK_STATUS(obey("projection"), STATUS_OK);
+    CHECK(player.step == 3 && player.paused);
+    CHECK(lane(0)->tape.place[lane(0)->place].round == at.round);
+    CHECK(lane(0)->tape.place[lane(0)->place].line == LINE_SOLVE);
+    end();
+}
+
+/* Outcomes of which one explodes are put side by side, whichever comes first;
+ * what is said compares them. */
+static void unlike_outcomes_are_put_side_by_side(void **unused)
+{
+    (void)unused;
+    begin("explosion --filter clamp");
+    obey_all((const char *const[]){"next", "projection", NULL});
+    CHECK(player.lanes == 2);
+    CHECK(lane_extent(lane(0)) > 100 * lane_extent(lane(1)));
+    CHECK(strstr(player.note, "projection clamp: E ") == player.note);
+    CHECK(strstr(player.note, "; no projection: E ") != NULL);
+    end();
+}
+
+/* ---- panes -------------------------------------------------------------- */
+
+static void the_last_pane_goes(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --timestep 0.01,0.005,0.002");
+    CHECK_STATUS(obey("pane 3"), STATUS_INVALID_INPUT);
+    obey_all((const char *const[]){"pane 2", "end-pane", NULL});
+    CHECK(player.lanes == 2 && player.active == 1);
+    CHECK_STATUS(obey("pane 2"), STATUS_INVALID_INPUT);
+    CHECK_STATUS(obey("pane 0"), STATUS_OK);
+    CHECK_STATUS(obey("end-pane"), STATUS_OK);
+    CHECK(player.lanes == 1 && player.active == 0);
+    end();
+}
+
+/* ---- hands -------------------------------------------------------------- */
+
+static void hands_pin_and_hold(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    for (int i = 0; i < 2; i++) {
+        CHECK_STATUS(obey("pin 3"), STATUS_OK);
+        CHECK(simulation_is_pinned(player_simulation(&player), 3) == (i == 0));
+    }
+    CHECK_STATUS(obey("drag 1 1"), STATUS_INVALID_INPUT);
+    CHECK_STATUS(obey("grab 0"), STATUS_OK);
+    CHECK(player.holds);
+    CHECK_STATUS(obey("step"), STATUS_OK); /* nothing let go of it */
+    CHECK(player.lane[0].track.settings.held && player.holds);
+    obey_all((const char *const[]){"drag 1 1", "step", "release", NULL});
+    CHECK(!player.lane[0].track.settings.held && !player.holds);
+    /* Back where it was held: nobody holds it now. */
+    CHECK_STATUS(obey("goto 1"), STATUS_OK);
+    CHECK(player.lane[0].track.settings.held && !player.holds);
+    CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
+    CHECK_STATUS(obey("step"), STATUS_OK);
+    CHECK(!player.lane[0].track.settings.held);
+    end();
+}
+
+/* ---- beginning ---------------------------------------------------------- */
+
+static void scenes_begin(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --tolerance 0.1 --speed 8");
+    int speed = player.speed;
+    CHECK(speed != 0);
+    for (int i = 0; i < 3000 && !player.paused; i++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+    }
+    CHECK(player.halted); /* at rest: nobody asked for this pause */
+    CHECK_STATUS(obey("scene drop"), STATUS_OK);
+    CHECK(!player.paused && player.step == 0 && player.speed == speed);
+    obey_all((const char *const[]){"pause", "scene hang", NULL});
+    CHECK(player.paused); /* somebody did */
+    CHECK_STATUS(obey("start 0.3 -0.2"), STATUS_INVALID_INPUT);
+    obey_all((const char *const[]){"scene landscape", "start 0.3 -0.2", NULL});
+    CHECK(lane(0)->track.options.start[0] == 0.3);
+    CHECK(lane(0)->track.options.start[1] == -0.2);
+    end();
+}
+
+/* Of several panes each must have come to rest. */
+static void rest_is_that_of_all_panes(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2 --tolerance 1e-6,10");
+    CHECK_STATUS(obey("play"), STATUS_OK);
+    for (int i = 0; i < 5; i++)
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+    CHECK(lane(0)->track.now.updates > 0 && lane(1)->track.now.updates == 0);
+    player_pause_if_due(&player);
+    CHECK(!player.paused && !player.rests);
+    end();
+}
+
+/* ---- keeping ------------------------------------------------------------ */
+
+static long size_of(const char *name)
+{
+    struct stat info;
+    return stat(name, &info) == 0 ? (long)info.st_size : -1;
+}
+
+static bool same_files(const char *one, const char *other)
+{
+    FILE *a = fopen(one, "rb"), *b = fopen(other, "rb");
+    assert_true(a && b);
+    int c, d;
+    do {
+        c = getc(a);
+        d = getc(b);
+    } while (c == d && c != EOF);
+    fclose(a);
+    fclose(b);
+    return c == d;
+}
+
+/* Pictures have names of their own, and show no message of before. */
+static void pictures_are_kept(void **unused)
+{
+    (void)unused;
+    static const char *const name[] = {
+        "elasto_square_000000.png", "elasto_square_000000_2.png",
+        "elasto_square_000000.apng", "elasto_square_000000_2.apng"};
+    char folder[] = "/tmp/elasto-test-XXXXXX", before[4096];
+    assert_non_null(getcwd(before, sizeof before));
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    begin("square --segments 2");
+    CHECK_STATUS(obey("pause"), STATUS_OK);
+    CHECK_STATUS(obey("shot"), STATUS_OK);
+    CHECK(strcmp(player.note, "saved elasto_square_000000.png") == 0);
+    CHECK_STATUS(obey("shot"), STATUS_OK);
+    CHECK(size_of(name[0]) > 1000 && same_files(name[0], name[1]));
+
+    /* A film begins with what is seen. */
+    CHECK_STATUS(obey("film"), STATUS_INVALID_INPUT);
+    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    for (int i = 2; i < 4; i++) {
+        CHECK_STATUS(player_draw(&player), STATUS_OK);
+        CHECK_STATUS(obey("film"), STATUS_OK);
+        CHECK(player.sampled == -1); /* a frame comes before the next step */
+        CHECK_STATUS(player_draw(&player), STATUS_OK);
+        CHECK(player.recording.film.frames == 1);
+        CHECK_STATUS(obey("film"), STATUS_OK);
+        CHECK(size_of(name[i]) > 1000);
+    }
+    end();
+    for (int i = 0; i < 4; i++)
+        CHECK(unlink(name[i]) == 0);
+    assert_int_equal(chdir(before), 0);
+    CHECK(rmdir(folder) == 0);
+}
+
+/* ---- the screen --------------------------------------------------------- */
+
+static void the_screen_obeys(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    for (int i = 0; i < 30; i++)
+        CHECK_STATUS(obey("faster"), STATUS_OK);
+    CHECK(player.speed == SPEED_MOST);
+    for (int i = 0; i < 30; i++)
+        CHECK_STATUS(obey("slower"), STATUS_OK);
+    CHECK(player.speed == SPEED_LEAST);
+    obey_all((const char *const[]){"card 1", "enlarge 1", "pages", NULL});
+    CHECK(player.closed == 2 && player.large == 1);
+    CHECK(player.column == LECTURE_PAGES);
+    obey_all((const char *const[]){"card 1", "enlarge 1", "pages", NULL});
+    CHECK(player.closed == 0 && player.large == -1);
+    CHECK(player.column == LECTURE_CARDS);
+    CHECK_STATUS(obey("card 99"), STATUS_INVALID_INPUT);
+    /* Another scene has cards of its own, and none of them is enlarged. */
+    obey_all((const char *const[]){"card 1", "enlarge 1", "restart", NULL});
+    CHECK(player.closed == 2 && player.large == 1);
+    CHECK_STATUS(obey("scene drop"), STATUS_OK);
+    CHECK(player.closed == 0 && player.large == -1);
+    end();
+}
+
+/* What is seen moves by metres of the scene, up where y grows. */
+static void the_camera_moves_by_metres(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    CHECK_STATUS(view_create_surface(800, 600, &player.view), STATUS_OK);
+    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    Layout layout = show_layout(&player.show, 800, 600);
+    Camera camera = show_camera(&player.show, &layout, 0);
+    const double at[2] = {0, 0};
+    double from[2], to[2];
+    camera_pixel(&camera, at, from);
+    CHECK_STATUS(obey("pan 0.1 0.2"), STATUS_OK);
+    player_fill(&player);
+    Camera moved = show_camera(&player.show, &layout, 0);
+    camera_pixel(&moved, at, to);
+    CHECK_NEAR(to[0] - from[0], 0.1 * camera.scale[0], 1e-6);
+    CHECK_NEAR(to[1] - from[1], -0.2 * camera.scale[1], 1e-6);
+    CHECK_STATUS(obey("fit"), STATUS_OK);
+    player_fill(&player);
+    moved = show_camera(&player.show, &layout, 0);
+    camera_pixel(&moved, at, to);
+    CHECK_SAME_BITS(to, from, 2);
+    end();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_lead_back_into_the_step_before),
+        cmocka_unit_test(lanes_wait_for_each_other),
+        cmocka_unit_test(running_leaves_the_lines),
+        cmocka_unit_test(glides_begin_and_end_at_lines),
+        cmocka_unit_test(changes_are_for_one_pane_or_all),
+        cmocka_unit_test(defaults_are_the_scene_s),
+        cmocka_unit_test(methods_are_switched),
+        cmocka_unit_test(numbers_are_selected_in_turn),
+        cmocka_unit_test(a_step_is_taken_again_in_its_place),
+        cmocka_unit_test(unlike_outcomes_are_put_side_by_side),
+        cmocka_unit_test(the_last_pane_goes),
+        cmocka_unit_test(hands_pin_and_hold),
+        cmocka_unit_test(scenes_begin),
+        cmocka_unit_test(rest_is_that_of_all_panes),
+        cmocka_unit_test(pictures_are_kept),
+        cmocka_unit_test(the_screen_obeys),
+        cmocka_unit_test(the_camera_moves_by_metres),
+    };
+    return cmocka_run_group_tests_name("deeds", tests, NULL, NULL);
+}
