@@ -26,6 +26,10 @@ static const double STALLS = 0.3;
 static const double WORTH_A_TEST = 1000;
 enum { MAX_TEST_CYCLES = 100 };
 
+/* Single precision can make the remainder smaller by this factor; then it is
+ * computed again in double precision. */
+static const double REFINED = 1e-4;
+
 /* Iterations that look for negative curvature; without any, the remainder of
  * random numbers falls to this share of its norm. */
 enum { CURVATURE_CYCLES = 20 };
@@ -123,18 +127,38 @@ static void set_up_cycle(Multigrid *mg)
 {
     if (mg->set_up)
         return;
-    grid_stiffen(&mg->grid);
     v_cycle_set_up(mg->cycle);
     mg->counters.set_ups++;
     mg->set_up = true;
 }
 
-/* z = B rest; returns rest.z.  square  |rest|_(M^-1)^2 */
-static double apply_cycle(Multigrid *mg, double square)
+/* How large rest is where |rest|_(M^-1)^2 is this. */
+static double size_of(const Multigrid *mg, double square)
 {
-    v_cycle_apply(mg->cycle, mg->rest, sqrt(square * mg->grid.lightest), mg->z);
-    mg->counters.cycles++;
-    return grid_dot(&mg->grid, mg->rest, mg->z);
+    return sqrt(square * mg->grid.lightest);
+}
+
+/* p = -H^-1 g, about.
+ *   most  V-cycles */
+static void find_direction(Multigrid *mg, int most)
+{
+    const Grid *grid = &mg->grid;
+    set_up_cycle(mg);
+    grid_combine(grid, NULL, -1, mg->g, 0, mg->rest);
+    double start = v_solve_begin(mg->cycle, mg->rest, size_of(mg, mg->norm2));
+    for (int i = 1; v_solve_step(mg->cycle, NULL) && i < most; i++) {
+        mg->counters.cycles++;
+        if (!(v_solve_next(mg->cycle) > CG_ENOUGH * CG_ENOUGH * start))
+            break;
+    }
+    v_solve_end(mg->cycle, mg->p);
+}
+
+/* Whether a direction with this residual and remainder decides the test. */
+static bool test_is_decided(const Multigrid *mg, double residual, double square)
+{
+    return residual_decides(residual, largest_residual(mg, sqrt(square)),
+                            mg->step.tolerance);
 }
 
 /* rest = -g - H p; returns |rest|_(M^-1)^2. */
@@ -145,62 +169,86 @@ static double true_remainder(Multigrid *mg)
     return grid_inverse_mass_square(&mg->grid, mg->rest);
 }
 
-/* Whether p, with this remainder, decides the test; residual out. */
-static bool test_is_decided(Multigrid *mg, double square)
-{
-    mg->residual = grid_largest(&mg->grid, mg->p) / mg->step.h;
-    return residual_decides(mg->residual, largest_residual(mg, sqrt(square)),
-                            mg->step.tolerance);
-}
-
-typedef enum Goal { GOAL_DIRECTION, GOAL_TEST, GOAL_CURVATURE } Goal;
-
-/* Preconditioned conjugate gradients: for p = -H^-1 g (GOAL_DIRECTION: about;
- * GOAL_TEST: until its residual is known to pass or fail), H clamped; or from
- * random numbers in `rest` for a d with d.H d < 0 (GOAL_CURVATURE), H as it is.
- *   most  iterations
- * Returns whether it got there. */
-static bool conjugate_gradients(Multigrid *mg, Goal goal, int most)
+/* p += about H^-1 rest, until that seems to decide the test; and mg->residual
+ * of p.
+ *   square  |rest|_(M^-1)^2
+ *   first   p is 0
+ *   left    V-cycles, in/out */
+static bool refine_direction(Multigrid *mg, double square, bool first,
+                             int *left)
 {
     const Grid *grid = &mg->grid;
-    double square = mg->norm2;
-    set_up_cycle(mg);
-    if (goal == GOAL_CURVATURE) {
-        square = grid_inverse_mass_square(grid, mg->rest);
-    } else {
-        grid_clear(grid, mg->p);
-        grid_combine(grid, NULL, -1, mg->g, 0, mg->rest);
+    VRemainder remainder;
+    double enough = REFINED * REFINED * square;
+    v_solve_begin(mg->cycle, mg->rest, size_of(mg, square));
+    for (bool more = true; more;) {
+        mg->counters.cycles++;
+        --*left;
+        if (!v_solve_step(mg->cycle, &remainder))
+            return false;
+        double residual = first ? remainder.largest / mg->step.h : mg->residual;
+        more = *left > 0 && remainder.square > enough &&
+               !test_is_decided(mg, residual, remainder.square);
+        if (more)
+            v_solve_next(mg->cycle);
     }
-    double now = apply_cycle(mg, square), start = now;
+    v_solve_end(mg->cycle, mg->z);
+    grid_combine(grid, NULL, 1, mg->z, first ? 0 : 1, mg->p);
+    mg->residual = grid_largest(grid, mg->p) / mg->step.h;
+    return true;
+}
+
+/* p = -H^-1 g, until its residual is known to pass or to fail, by a remainder
+ * in double precision.  Returns whether it got there. */
+static bool decide_test(Multigrid *mg)
+{
+    double square = mg->norm2, last;
+    int left = MAX_TEST_CYCLES;
+    set_up_cycle(mg);
+    grid_stiffen(&mg->grid);
+    grid_combine(&mg->grid, NULL, -1, mg->g, 0, mg->rest);
+    do {
+        last = square;
+        if (!refine_direction(mg, square, left == MAX_TEST_CYCLES, &left))
+            return false;
+        square = true_remainder(mg);
+        if (test_is_decided(mg, mg->residual, square))
+            return true;
+    } while (left > 0 && square < 0.25 * last);
+    return false;
+}
+
+/* z = B rest; returns rest.z. */
+static double apply_cycle(Multigrid *mg)
+{
+    double square = grid_inverse_mass_square(&mg->grid, mg->rest);
+    v_cycle_apply(mg->cycle, mg->rest, size_of(mg, square), mg->z);
+    mg->counters.cycles++;
+    return grid_dot(&mg->grid, mg->rest, mg->z);
+}
+
+/* Conjugate gradients on the Hessian as it is, from random numbers in `rest`:
+ * whether they have met a d with d.H d < 0. */
+static bool find_curvature(Multigrid *mg)
+{
+    const Grid *grid = &mg->grid;
+    set_up_cycle(mg);
+    double now = apply_cycle(mg), start = now;
     grid_combine(grid, NULL, 1, mg->z, 0, mg->d);
-    for (int i = 1;; i++) {
-        double bend = grid_product(grid, goal != GOAL_CURVATURE, mg->d, mg->y);
-        if (goal == GOAL_CURVATURE && bend < 0)
+    for (int i = 1; i <= CURVATURE_CYCLES; i++) {
+        double bend = grid_product(grid, false, mg->d, mg->y);
+        if (bend < 0)
             return true;
-        if (!(bend > 0) || !isfinite(now))
+        if (!(bend > 0) || !isfinite(now) || i == CURVATURE_CYCLES)
             return false;
-        if (goal != GOAL_CURVATURE)
-            grid_combine(grid, NULL, now / bend, mg->d, 1, mg->p);
-        if (goal == GOAL_DIRECTION && i == most)
-            return true;
         grid_combine(grid, NULL, -now / bend, mg->y, 1, mg->rest);
-        square = grid_inverse_mass_square(grid, mg->rest);
-        if (goal == GOAL_TEST && test_is_decided(mg, square)) {
-            square = true_remainder(mg);
-            if (test_is_decided(mg, square))
-                return true;
-        }
-        if (i == most)
-            return false;
         double last = now;
-        now = apply_cycle(mg, square);
-        if (goal == GOAL_DIRECTION && now <= CG_ENOUGH * CG_ENOUGH * start)
-            return true;
-        if (goal == GOAL_CURVATURE &&
-            now <= NO_CURVATURE * NO_CURVATURE * start)
+        now = apply_cycle(mg);
+        if (now <= NO_CURVATURE * NO_CURVATURE * start)
             return false;
         grid_combine(grid, NULL, 1, mg->z, now / last, mg->d);
     }
+    return false;
 }
 
 /* ---- the test ---- */
@@ -256,7 +304,7 @@ static bool leaves_saddle(Multigrid *mg)
     if (!mg->step.minimum || mg->saddles == MAX_SADDLES)
         return false;
     random_remainder(mg);
-    if (!conjugate_gradients(mg, GOAL_CURVATURE, CURVATURE_CYCLES))
+    if (!find_curvature(mg))
         return false;
     double inertia, slope = grid_dot(grid, mg->g, mg->d);
     double sign = slope > 0 ? -1 : 1;
@@ -307,7 +355,7 @@ static Status multigrid_test(Multigrid *mg)
             centre_mass(mg);
             evaluate(mg);
         }
-        bool decided = conjugate_gradients(mg, GOAL_TEST, MAX_TEST_CYCLES);
+        bool decided = decide_test(mg);
         mg->counters.certificates++;
         mg->test_below = mg->bound / 2;
         mg->directed = decided;
@@ -395,8 +443,7 @@ Status multigrid_iterate(Multigrid *mg)
     const Grid *grid = &mg->grid;
     decide_windows(mg);
     if (!mg->directed) {
-        conjugate_gradients(mg, GOAL_DIRECTION,
-                            mg->windows ? CYCLES_BETWEEN_WINDOWS : MAX_CYCLES);
+        find_direction(mg, mg->windows ? CYCLES_BETWEEN_WINDOWS : MAX_CYCLES);
         mg->residual = grid_largest(grid, mg->p) / mg->step.h;
     }
     mg->record.residual = mg->residual;

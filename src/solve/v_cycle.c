@@ -26,6 +26,9 @@ struct VCycle {
     VLevel level[V_MAX_LEVELS]; /* the finest first */
     int levels;
     double length, mass; /* units, powers of two: 1/m, 1/kg */
+    double unit;         /* of r */
+    double now;          /* r.z of the last cycle */
+    double *sums;        /* [rows * V_SUMS] */
 };
 
 /* Zeros for some planes of a level, or NULL. */
@@ -42,7 +45,10 @@ static void *v_planes(const VCycle *cycle, const VLevel *level, int planes)
 
 static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
 {
+    bool finest = level == cycle->level;
     level->layout = grid_layout(nodes);
+    size_t lines =
+        (size_t)(nodes / 2 + 1) * V_LINES * (size_t)level->layout.pitch;
     struct {
         void **array;
         int planes;
@@ -55,7 +61,13 @@ static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
         for (int t = 0; t < V_TENSOR; t++)
             if (!(level->K[kind][t] = v_planes(cycle, level, 1)))
                 return false;
-    return true;
+    level->line = calloc(lines + V_SLACK, cycle->kernels->real);
+    if (finest) {
+        level->p = v_planes(cycle, level, 2);
+        level->d = v_planes(cycle, level, 2);
+        level->y = v_planes(cycle, level, 2);
+    }
+    return level->line && (!finest || (level->p && level->d && level->y));
 }
 
 VCycle *v_cycle_create(const Grid *grid)
@@ -67,12 +79,17 @@ VCycle *v_cycle_create(const Grid *grid)
     cycle->grid = grid;
     cycle->kernels =
         v_cycle_kernels(grid->kernels->lanes, n <= PRECISE_SEGMENTS);
-    for (bool more = true; more; n = (n + 1) / 2) {
+    cycle->sums = malloc((size_t)(n + 1) * V_SUMS * sizeof *cycle->sums);
+    for (bool more = cycle->sums; more; n = (n + 1) / 2) {
         more = n > COARSEST;
         if (!create_v_level(cycle, n + 1, &cycle->level[cycle->levels++])) {
             v_cycle_free(cycle);
             return NULL;
         }
+    }
+    if (!cycle->sums) {
+        v_cycle_free(cycle);
+        return NULL;
     }
     return cycle;
 }
@@ -86,11 +103,13 @@ void v_cycle_free(VCycle *cycle)
         for (int kind = 0; kind < SPRING_KINDS; kind++)
             for (int t = 0; t < V_TENSOR; t++)
                 free(level->K[kind][t]);
-        void *arrays[] = {level->m, level->free, level->D,
-                          level->b, level->x,    level->r};
+        void *arrays[] = {level->m, level->free, level->D, level->b,
+                          level->x, level->r,    level->p, level->d,
+                          level->y, level->line};
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
             free(arrays[i]);
     }
+    free(cycle->sums);
     free(cycle);
 }
 
@@ -113,6 +132,7 @@ static void run_rows(const VCycle *cycle, VKernel *kernel, VJob job,
     job.grid = cycle->grid;
     job.length = cycle->length;
     job.mass = cycle->mass;
+    job.sums = cycle->sums;
     VCall call = {kernel, &job};
     int rows = writes->layout.nodes;
     crew_run(cycle->grid->crew, call_v_kernel, &call, rows,
@@ -167,34 +187,106 @@ static void *v_smooth(const VCycle *cycle, const VLevel *level, int times)
     return from;
 }
 
-/* From level->b; returns where the result is. */
+/* What the last kernel has summed up in the rows of the finest level. */
+static double sum_rows(const VCycle *cycle, int which)
+{
+    double sum = 0;
+    for (int i = 0; i < cycle->level->layout.nodes; i++)
+        sum += cycle->sums[i * V_SUMS + which];
+    return sum;
+}
+
+/* From level->b and the first smoothing, level->x; returns where the result is.
+ */
 static void *v_descend(const VCycle *cycle, int l)
 {
     const VKernels *kernels = cycle->kernels;
     const VLevel *level = &cycle->level[l], *coarse = level + 1;
     VJob job = {.level = level, .coarse = coarse};
-    run_rows(cycle, kernels->begin, job, level, V_LIGHT);
     if (l == cycle->levels - 1)
         return v_smooth(cycle, level, COARSEST_SMOOTHINGS - 1);
-    job.in = level->x;
-    job.out = level->r;
-    run_rows(cycle, kernels->residual, job, level, V_HEAVY);
-    job.in = level->r;
-    run_rows(cycle, kernels->restrict_, job, coarse, V_HEAVY);
+    run_rows(cycle, kernels->descend, job, coarse, 5 * V_HEAVY);
     job.in = v_descend(cycle, l + 1);
     run_rows(cycle, kernels->prolong, job, level, V_LIGHT);
     return v_smooth(cycle, level, 1);
 }
 
-void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
+/* Takes r as b of the finest level, and smooths once. */
+static void take(VCycle *cycle, const double *r, double size)
 {
     const VLevel *level = cycle->level;
-    double unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
+    cycle->unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
     run_rows(cycle, cycle->kernels->take,
-             (VJob){.level = level, .in = r, .factor = unit}, level, V_LIGHT);
-    const void *x = v_descend(cycle, 0);
-    run_rows(
-        cycle, cycle->kernels->give,
-        (VJob){.level = level, .in = x, .out = z, .factor = cycle->mass / unit},
-        level, V_LIGHT);
+             (VJob){.level = level, .in = r, .factor = cycle->unit}, level,
+             V_LIGHT);
+    run_rows(cycle, cycle->kernels->begin, (VJob){.level = level}, level,
+             V_LIGHT);
+}
+
+/* Gives what has the units of B r. */
+static void give(const VCycle *cycle, const void *x, double *out)
+{
+    const VLevel *level = cycle->level;
+    VJob job = {.level = level,
+                .in = x,
+                .out = out,
+                .factor = cycle->mass / cycle->unit};
+    run_rows(cycle, cycle->kernels->give, job, level, V_LIGHT);
+}
+
+void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
+{
+    take(cycle, r, size);
+    give(cycle, v_descend(cycle, 0), z);
+}
+
+/* z = B b, d = z + beta d with the beta of b.z, the last one being `last`; 0:
+ * there is none. */
+static double aim(VCycle *cycle, double last)
+{
+    const VLevel *level = cycle->level;
+    VJob job = {.level = level, .in = v_descend(cycle, 0)};
+    cycle->now = sum_rows(cycle, V_DOT);
+    job.factor = last > 0 ? cycle->now / last : 0;
+    run_rows(cycle, cycle->kernels->aim, job, level, V_LIGHT);
+    return cycle->now;
+}
+
+double v_solve_begin(VCycle *cycle, const double *r, double size)
+{
+    const VLevel *level = cycle->level;
+    take(cycle, r, size);
+    memset(level->p, 0, 2 * (size_t)level->layout.plane * cycle->kernels->real);
+    return aim(cycle, 0);
+}
+
+bool v_solve_step(VCycle *cycle, VRemainder *remainder)
+{
+    const VLevel *level = cycle->level;
+    VJob job = {.level = level, .judged = remainder != NULL};
+    run_rows(cycle, cycle->kernels->multiply, job, level, V_HEAVY);
+    double bend = sum_rows(cycle, V_DOT);
+    job.factor = cycle->now / bend;
+    if (!(bend > 0) || !isfinite(job.factor))
+        return false;
+    run_rows(cycle, cycle->kernels->update, job, level, V_LIGHT);
+    if (!remainder)
+        return true;
+    double largest = 0, units = cycle->mass / cycle->unit;
+    for (int i = 0; i < level->layout.nodes; i++)
+        largest = fmax(largest, cycle->sums[i * V_SUMS + V_LARGEST]);
+    remainder->largest = units * largest;
+    remainder->square =
+        sum_rows(cycle, V_SQUARE) * cycle->mass / (cycle->unit * cycle->unit);
+    return true;
+}
+
+double v_solve_next(VCycle *cycle)
+{
+    return aim(cycle, cycle->now);
+}
+
+void v_solve_end(const VCycle *cycle, double *p)
+{
+    give(cycle, cycle->level->p, p);
 }

@@ -9,15 +9,27 @@
 
 enum { V_MAX_LEVELS = 12, V_TENSOR = 3 };
 
+/* Lines of a row of the coarse level that a kernel works with. */
+enum { V_LINES = 6 };
+
 /* A level; all arrays have planes of numbers of the cycle's precision. */
 typedef struct VLevel {
     GridLayout layout;
     void *K[SPRING_KINDS][V_TENSOR]; /* [plane] xx, xy, yy of springs */
-    void *m;                         /* [plane] masses */
-    void *free;      /* [plane] 1: moves; 0: pinned or outside */
-    void *D;         /* [3 planes] inverse diagonal blocks */
-    void *b, *x, *r; /* [2 planes] */
+    void *m;                         /* [plane] masses; 0: pinned or outside */
+    void *free;                      /* [plane] 1: moves; 0 as above */
+    void *D;                         /* [3 planes] inverse diagonal blocks */
+    void *b, *x, *r;                 /* [2 planes] */
+    void *p, *d, *y; /* [2 planes] of conjugate gradients; finest level */
+    void *line;      /* [rows of the coarser level * V_LINES * pitch] */
 } VLevel;
+
+/* What kernels sum up in each row, or find the largest of. */
+enum { V_SUMS = 3 };
+enum { V_DOT, V_SQUARE, V_LARGEST };
+
+/* Partial sums of a row. */
+enum { V_PARTIAL = 16 };
 
 typedef struct VJob {
     const Grid *grid;
@@ -26,6 +38,8 @@ typedef struct VJob {
     const void *in;               /* [2 planes] */
     void *out;                    /* [2 planes] */
     double factor;
+    bool judged;  /* V_SQUARE and V_LARGEST are wanted */
+    double *sums; /* [rows * V_SUMS] */
 } VJob;
 
 /* Each does rows first ... end - 1: of the level, or of the coarse one where it
@@ -37,13 +51,16 @@ typedef struct VKernels {
     VKernel *set_nodes, *coarsen_nodes; /* m and free */
     VKernel *tensors, *coarsen_tensors; /* K */
     VKernel *invert;                    /* D */
-    VKernel *take;      /* b = factor in, doubles of the grid's layout */
-    VKernel *begin;     /* x = omega D b */
-    VKernel *residual;  /* out = b - A in */
-    VKernel *smooth;    /* out = in + omega D (b - A in) */
-    VKernel *restrict_; /* coarse->b = P^T in */
-    VKernel *prolong;   /* x += P in, in on the coarse level */
-    VKernel *give;      /* out = factor in, doubles */
+    VKernel *take;     /* b = factor in, doubles of the grid's layout */
+    VKernel *begin;    /* x = omega D b */
+    VKernel *descend;  /* coarse->b = P^T (b - A x), and there x = omega D b */
+    VKernel *prolong;  /* x += P in, in on the coarse level */
+    VKernel *smooth;   /* out = in + omega D (b - A in), DOT b.out */
+    VKernel *give;     /* out = factor in, doubles */
+    VKernel *aim;      /* d = in + factor d */
+    VKernel *multiply; /* y = A d, DOT d.y */
+    VKernel *update;   /* p += factor d, b -= factor y, x = omega D b; SQUARE
+                          |b|_(m^-1)^2, LARGEST of p */
 } VKernels;
 
 /* Those for a grid's lanes.  precise: double precision. */
