@@ -31,6 +31,7 @@
 #define wide_positive EACH(wide_positive)
 #define wide_even     EACH(wide_even)
 #define wide_between  EACH(wide_between)
+#define wide_ahead    EACH(wide_ahead)
 
 /* Lanes of two registers a and b in a new order; those of b count on. */
 #ifdef __clang__

@@ -3,8 +3,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "solve/grid_kernels.h"
+
+/* Bytes of a large page of memory. */
+enum { LARGE_PAGE = 2 << 20 };
 
 /* What kernels may read beyond the last row of ghosts, rounded up so that
  * arrays are whole cache lines. */
@@ -21,39 +25,55 @@ GridLayout grid_layout(int nodes)
                         .offset = {pitch, 1, pitch + 1, pitch - 1}};
 }
 
+void *grid_memory(size_t bytes)
+{
+    size_t alignment = bytes < LARGE_PAGE ? GRID_ALIGNMENT : LARGE_PAGE;
+    bytes = (bytes + alignment - 1) / alignment * alignment;
+    void *memory = aligned_alloc(alignment, bytes);
+    if (!memory)
+        return NULL;
+#ifdef MADV_HUGEPAGE
+    if (alignment == LARGE_PAGE)
+        madvise(memory, bytes, MADV_HUGEPAGE); /* may be refused */
+#endif
+    return memset(memory, 0, bytes);
+}
+
 double *grid_planes(const Grid *grid, int planes)
 {
     size_t count =
         (size_t)planes * (size_t)grid->layout.plane + 2 * (size_t)GRID_SLACK;
-    size_t size = (count * sizeof(double) + GRID_ALIGNMENT - 1) /
-                  GRID_ALIGNMENT * GRID_ALIGNMENT;
-    double *array = aligned_alloc(GRID_ALIGNMENT, size);
-    if (array)
-        memset(array, 0, size);
-    return array;
+    return grid_memory(count * sizeof(double));
 }
 
-/* Every array of the grid, with how many planes it has. */
+/* Every array of the grid, with how many planes it has, in one piece. */
 static Status create_grid_arrays(Grid *grid)
 {
     struct {
         double **array;
         int planes;
-    } arrays[] = {{&grid->m, 1}, {&grid->per_mass, 1}, {&grid->x_n, 2},
-                  {&grid->u, 2}, {&grid->x, 2},        {&grid->u_tilde, 2}};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i].array = grid_planes(grid, arrays[i].planes)))
-            return STATUS_OUT_OF_MEMORY;
+    } arrays[6 + 3 * SPRING_KINDS] = {{&grid->x, 2}, {&grid->x_n, 2},
+                                      {&grid->u, 2}, {&grid->u_tilde, 2},
+                                      {&grid->m, 1}, {&grid->per_mass, 1}};
+    int count = 6, planes = 0;
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
-        grid->c[kind] = grid_planes(grid, 1);
-        grid->l2[kind] = grid_planes(grid, 1);
-        grid->along[kind] = grid_planes(grid, 1);
-        if (!grid->c[kind] || !grid->l2[kind] || !grid->along[kind])
-            return STATUS_OUT_OF_MEMORY;
+        double **springs[] = {&grid->c[kind], &grid->l2[kind],
+                              &grid->along[kind]};
+        for (int i = 0; i < 3; i++, count++) {
+            arrays[count].array = springs[i];
+            arrays[count].planes = 1;
+        }
+    }
+    for (int i = 0; i < count; i++)
+        planes += arrays[i].planes;
+    double *next = grid->memory = grid_planes(grid, planes);
+    for (int i = 0; i < count && next; i++) {
+        *arrays[i].array = next;
+        next += arrays[i].planes * grid->layout.plane;
     }
     size_t runs = (size_t)grid->layout.nodes * (size_t)grid->layout.blocks;
     grid->sums = malloc(runs * GRID_MAX_SUMS * sizeof *grid->sums);
-    return grid->sums ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    return next && grid->sums ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 Status grid_create(int segments, int lanes, Grid *grid)
@@ -79,17 +99,7 @@ void grid_free(Grid *grid)
 {
     if (!grid)
         return;
-    for (int kind = 0; kind < SPRING_KINDS; kind++) {
-        free(grid->c[kind]);
-        free(grid->l2[kind]);
-        free(grid->along[kind]);
-    }
-    free(grid->m);
-    free(grid->per_mass);
-    free(grid->x_n);
-    free(grid->u);
-    free(grid->x);
-    free(grid->u_tilde);
+    free(grid->memory);
     free(grid->all.run);
     free(grid->sums);
     *grid = (Grid){0};

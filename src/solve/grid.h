@@ -13,6 +13,8 @@
 #ifndef ELASTO_GRID_H
 #define ELASTO_GRID_H
 
+#include <stddef.h>
+
 #include "base/crew.h"
 #include "base/status.h"
 
@@ -84,6 +86,7 @@ typedef struct Grid {
     double lightest;               /* kg, of the nodes that move */
     double stiffest;               /* kg, the largest c l2 = 2 w k */
     double *x_n, *u, *x, *u_tilde; /* [2 planes] m */
+    void *memory;                  /* all of these */
     GridRegion all;
     double *sums; /* [nodes * GRID_MAX_SUMS] of the runs */
     const GridKernels *kernels;
@@ -96,7 +99,12 @@ typedef struct Grid {
 Status grid_create(int segments, int lanes, Grid *grid);
 void grid_free(Grid *grid);
 
-/* Zeros for so many planes, or NULL. */
+/* Zeros, for free(), or NULL.  Where they are many they are in large pages: a
+ * kernel reads up to thirty planes at once, more than the processor has small
+ * pages at hand. */
+void *grid_memory(size_t bytes);
+
+/* The same for so many planes. */
 double *grid_planes(const Grid *grid, int planes);
 
 /* An empty region with room for every node: at most so many runs a row.

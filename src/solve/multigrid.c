@@ -49,6 +49,7 @@ struct Multigrid {
     double *g, *p;            /* [2 planes] grad E and direction at x */
     double *r;                /* [2 planes] the last update */
     double *rest, *z, *d, *y; /* [2 planes] of conjugate gradients */
+    void *memory;             /* of these vectors */
     double norm2;             /* |g|_(M^-1)^2 */
     double bound;             /* m/s, of the residual */
     double last_bound;        /* m/s, an iteration before */
@@ -70,10 +71,11 @@ static Status create_parts(Multigrid *mg)
     mg->cycle = v_cycle_create(&mg->grid);
     double **vectors[] = {&mg->g, &mg->p, &mg->r, &mg->rest,
                           &mg->z, &mg->d, &mg->y};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-        if (!(*vectors[i] = grid_planes(&mg->grid, 2)))
-            return STATUS_OUT_OF_MEMORY;
-    return mg->cycle ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    int count = sizeof vectors / sizeof *vectors;
+    double *next = mg->memory = grid_planes(&mg->grid, 2 * count);
+    for (int i = 0; i < count && next; i++, next += 2 * mg->grid.layout.plane)
+        *vectors[i] = next;
+    return mg->cycle && next ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 Status multigrid_create(int segments, int lanes, int threads,
@@ -105,13 +107,7 @@ void multigrid_free(Multigrid *mg)
     v_cycle_free(mg->cycle);
     tips_free(&mg->tips);
     grid_free(&mg->grid);
-    free(mg->g);
-    free(mg->p);
-    free(mg->r);
-    free(mg->rest);
-    free(mg->z);
-    free(mg->d);
-    free(mg->y);
+    free(mg->memory);
     free(mg);
 }
 
@@ -146,6 +142,7 @@ static void find_direction(Multigrid *mg, int most)
     set_up_cycle(mg);
     grid_combine(grid, NULL, -1, mg->g, 0, mg->rest);
     double start = v_solve_begin(mg->cycle, mg->rest, size_of(mg, mg->norm2));
+    mg->counters.cycles++;
     for (int i = 1; v_solve_step(mg->cycle, NULL) && i < most; i++) {
         mg->counters.cycles++;
         if (!(v_solve_next(mg->cycle) > CG_ENOUGH * CG_ENOUGH * start))

@@ -39,13 +39,13 @@ Status tips_create(const Grid *grid, Tips *tips)
     tips->row = malloc(rows * sizeof *tips->row);
     tips->mark = calloc(blocks, 1);
     tips->first = grid->layout.nodes;
-    tips->D = grid_planes(grid, 3);
-    tips->z = grid_planes(grid, 2);
-    tips->p = grid_planes(grid, 2);
-    tips->old_g = grid_planes(grid, 2);
-    if (!tips->activity || !tips->row || !tips->mark || !tips->D || !tips->z ||
-        !tips->p || !tips->old_g || grid_region_create(grid, &tips->inside))
+    tips->D = grid_planes(grid, 9);
+    if (!tips->activity || !tips->row || !tips->mark || !tips->D ||
+        grid_region_create(grid, &tips->inside))
         return STATUS_OUT_OF_MEMORY;
+    tips->z = tips->D + 3 * grid->layout.plane;
+    tips->p = tips->z + 2 * grid->layout.plane;
+    tips->old_g = tips->p + 2 * grid->layout.plane;
     return grid_region_create(grid, &tips->around);
 }
 
@@ -57,9 +57,6 @@ void tips_free(Tips *tips)
     free(tips->row);
     free(tips->mark);
     free(tips->D);
-    free(tips->z);
-    free(tips->p);
-    free(tips->old_g);
     free(tips->inside.run);
     free(tips->around.run);
     *tips = (Tips){0};

@@ -25,7 +25,7 @@ typedef struct Tips {
     int first, end;      /* rows with marks */
     GridRegion inside;   /* nodes that move */
     GridRegion around;   /* and their neighbours */
-    double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
+    double *D, *z, *p, *old_g; /* [3 planes], [2 planes]; one piece */
     long phases, iterations;   /* done so far */
 } Tips;
 

@@ -15,7 +15,7 @@ enum { COARSEST = 8, COARSEST_SMOOTHINGS = 7 };
 enum { PRECISE_SEGMENTS = 32 };
 
 /* What kernels may read beyond the last plane. */
-enum { V_SLACK = 128, V_ALIGNMENT = 64 };
+enum { V_SLACK = 128 };
 
 /* Nanoseconds that a row takes for each of its nodes, about. */
 static const double V_LIGHT = 0.4, V_HEAVY = 1.5;
@@ -31,43 +31,38 @@ struct VCycle {
     double *sums;        /* [rows * V_SUMS] */
 };
 
-/* Zeros for some planes of a level, or NULL. */
-static void *v_planes(const VCycle *cycle, const VLevel *level, int planes)
-{
-    size_t count = (size_t)planes * (size_t)level->layout.plane + V_SLACK;
-    size_t size = (count * cycle->kernels->real + V_ALIGNMENT - 1) /
-                  V_ALIGNMENT * V_ALIGNMENT;
-    void *array = aligned_alloc(V_ALIGNMENT, size);
-    if (array)
-        memset(array, 0, size);
-    return array;
-}
-
+/* Every array of a level, with how many planes it has, in one piece. */
 static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
 {
-    bool finest = level == cycle->level;
     level->layout = grid_layout(nodes);
-    size_t lines =
-        (size_t)(nodes / 2 + 1) * V_LINES * (size_t)level->layout.pitch;
+    int finest = level == cycle->level ? 2 : 0;
     struct {
         void **array;
         int planes;
-    } arrays[] = {{&level->m, 1}, {&level->free, 1}, {&level->D, 3},
-                  {&level->b, 2}, {&level->x, 2},    {&level->r, 2}};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-        if (!(*arrays[i].array = v_planes(cycle, level, arrays[i].planes)))
-            return false;
+    } arrays[10 + SPRING_KINDS * V_TENSOR] = {
+        {&level->m, 1},      {&level->free, 1},   {&level->D, 3},
+        {&level->b, 2},      {&level->x, 2},      {&level->r, 2},
+        {&level->p, finest}, {&level->d, finest}, {&level->y, finest}};
+    int count = 9, planes = 0;
     for (int kind = 0; kind < SPRING_KINDS; kind++)
-        for (int t = 0; t < V_TENSOR; t++)
-            if (!(level->K[kind][t] = v_planes(cycle, level, 1)))
-                return false;
-    level->line = calloc(lines + V_SLACK, cycle->kernels->real);
-    if (finest) {
-        level->p = v_planes(cycle, level, 2);
-        level->d = v_planes(cycle, level, 2);
-        level->y = v_planes(cycle, level, 2);
+        for (int t = 0; t < V_TENSOR; t++, count++) {
+            arrays[count].array = &level->K[kind][t];
+            arrays[count].planes = 1;
+        }
+    for (int i = 0; i < count; i++)
+        planes += arrays[i].planes;
+    size_t real = cycle->kernels->real;
+    size_t plane = (size_t)level->layout.plane * real;
+    char *next = level->memory =
+        grid_memory((size_t)planes * plane + V_SLACK * real);
+    for (int i = 0; i < count && next; i++) {
+        *arrays[i].array = next;
+        next += (size_t)arrays[i].planes * plane;
     }
-    return level->line && (!finest || (level->p && level->d && level->y));
+    size_t lines =
+        (size_t)(nodes / 2 + 1) * V_LINES * (size_t)level->layout.pitch;
+    level->line = calloc(lines + V_SLACK, real);
+    return next && level->line;
 }
 
 VCycle *v_cycle_create(const Grid *grid)
@@ -99,15 +94,8 @@ void v_cycle_free(VCycle *cycle)
     if (!cycle)
         return;
     for (int l = 0; l < cycle->levels; l++) {
-        VLevel *level = &cycle->level[l];
-        for (int kind = 0; kind < SPRING_KINDS; kind++)
-            for (int t = 0; t < V_TENSOR; t++)
-                free(level->K[kind][t]);
-        void *arrays[] = {level->m, level->free, level->D, level->b,
-                          level->x, level->r,    level->p, level->d,
-                          level->y, level->line};
-        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-            free(arrays[i]);
+        free(cycle->level[l].memory);
+        free(cycle->level[l].line);
     }
     free(cycle->sums);
     free(cycle);

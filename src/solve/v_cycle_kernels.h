@@ -15,6 +15,7 @@ enum { V_LINES = 6 };
 /* A level; all arrays have planes of numbers of the cycle's precision. */
 typedef struct VLevel {
     GridLayout layout;
+    void *memory;                    /* all of these */
     void *K[SPRING_KINDS][V_TENSOR]; /* [plane] xx, xy, yy of springs */
     void *m;                         /* [plane] masses; 0: pinned or outside */
     void *free;                      /* [plane] 1: moves; 0 as above */
