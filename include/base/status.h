@@ -20,7 +20,7 @@ typedef enum Status {
     STATUS_NOT_POSITIVE_DEFINITE, /* Cholesky met a pivot that is not > 0 */
     STATUS_SINGULAR,              /* a system without usable solution */
     STATUS_BLOCKED,               /* a wall or a pin could not be moved on */
-    STATUS_DIVERGED,              /* iterates run off beyond all numbers */
+    STATUS_DIVERGED,              /* E ended above where it began */
     STATUS_NOT_FINITE,            /* NaN or infinity appeared */
     STATUS_INTERRUPTED,           /* the observer asked to stop */
     STATUS_INVALID_INPUT,         /* an argument outside its range */
@@ -37,8 +37,8 @@ const char *status_text(Status status);
 /* The name of the constant without its prefix in lower case, for logs. */
 const char *status_name(Status status);
 
-/* True where a step ended with a usable state (finite, energy not raised)
- * that is not the minimiser: the run goes on, and says so. */
+/* True where a step ended with a usable state that is not the minimiser:
+ * finite, and E not raised, but for DIVERGED.  The run goes on, and says so. */
 bool status_is_unconverged(Status status);
 
 #endif

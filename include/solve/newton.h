@@ -109,7 +109,7 @@ typedef struct Newton {
     double *r;       /* [2n] m, workspace */
     SearchDirection search; /* the Hessian and its factor */
     Rounding rounding;
-    int left;             /* saddles that this minimisation has left */
+    int saddles;          /* that this minimisation has left */
     Multigrid *multigrid; /* NULL: was not needed yet */
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */

@@ -22,7 +22,7 @@ static const struct {
                                       "the Hessian is not positive definite"},
     [STATUS_SINGULAR] = {"singular", "the Hessian is singular"},
     [STATUS_BLOCKED] = {"blocked", "what is moved found no room to go on"},
-    [STATUS_DIVERGED] = {"diverged", "the iterates run off beyond all numbers"},
+    [STATUS_DIVERGED] = {"diverged", "E ended above where it began"},
     [STATUS_NOT_FINITE] = {"not_finite", "a number became NaN or infinite"},
     [STATUS_INTERRUPTED] = {"interrupted", "interrupted"},
     [STATUS_INVALID_INPUT] = {"invalid_input", "the input is out of range"},

@@ -35,7 +35,7 @@ static const char *trouble_words(Status status)
         {STATUS_NOT_POSITIVE_DEFINITE,
          "the Hessian has negative eigenvalues: no descent direction"},
         {STATUS_NOT_FINITE, "the numbers left the range of the computer"},
-        {STATUS_DIVERGED, "the iterates run off beyond all numbers"},
+        {STATUS_DIVERGED, "nothing held E down: it ended above where it began"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].status == status)

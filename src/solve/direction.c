@@ -266,7 +266,7 @@ static Status leave_saddle(Newton *newton)
     double *p = newton->at.p, largest = 0, l2 = INFINITY;
     bool found = false;
     if (!newton->settings.minimum || newton->settings.filter == FILTER_NONE ||
-        newton->left == MAX_SADDLES || is_convex(newton, 1))
+        newton->saddles == MAX_SADDLES || is_convex(newton, 1))
         return STATUS_OK;
     Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
     if (!status)
@@ -281,7 +281,7 @@ static Status leave_saddle(Newton *newton)
     double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
     for (int i = 0; i < 2 * system->nodes; i++)
         p[i] *= scale;
-    newton->left++;
+    newton->saddles++;
     newton->counters.saddles++;
     return STATUS_RUNNING;
 }
@@ -299,7 +299,7 @@ Status direction_first(Newton *newton)
     search->resting = search->updates == 0;
     search->updates = 0;
     Status status = direction_at(newton, &alone);
-    newton->left = 0;
+    newton->saddles = 0;
     /* Where the gradient vanishes may be a maximum, too. */
     if (alone && !newton->settings.minimum)
         return gradient_vanishes(newton) ? look_for_minimum(newton, 1)
