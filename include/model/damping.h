@@ -33,7 +33,8 @@ typedef struct Damping {
  * over the step.  data: Damping. */
 extern const TermKind damping;
 
-/* Where the system has springs; before fracture, which takes their energy.
+/* In the list it comes right after the springs: before fracture, which takes
+ * their energy.
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status damping_add(System *system, double eta);
 

@@ -50,7 +50,8 @@ extern const TermKind friction_energy;
 /* J, what obstacles that move have done by friction in the step u [2n] m. */
 double friction_work_of_obstacles(const System *system, const double *u);
 
-/* Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+/* In the list it comes right after contact.
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status friction_add(System *system, double slip_speed);
 
 #endif

@@ -46,6 +46,11 @@ void system_free(System *system);
  * Returns the term, or NULL: the list is full. */
 Term *system_add_term(System *system, const TermKind *kind, void *data);
 
+/* The same at this place of the list, 0 ... terms: sums and steps' ends keep
+ * their order, however late a term comes. */
+Term *system_insert_term(System *system, int place, const TermKind *kind,
+                         void *data);
+
 /* The first term of this kind, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);
 

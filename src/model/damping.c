@@ -105,7 +105,7 @@ Status damping_add(System *system, double eta)
         data->k[s] = system->k[s];
         data->l2[s] = system->l2[s];
     }
-    if (system_add_term(system, &damping, data))
+    if (system_insert_term(system, system->terms > 0, &damping, data))
         return STATUS_OK;
     free_damping(data);
     return STATUS_TOO_LARGE;

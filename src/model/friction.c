@@ -244,7 +244,9 @@ double friction_work_of_obstacles(const System *system, const double *u)
 
 Status friction_add(System *system, double slip_speed)
 {
+    const Term *obstacles = system_find_term(system, &contact_energy);
     const Contact *contact = contact_of(system);
+    int place = obstacles ? (int)(obstacles - system->term) + 1 : system->terms;
     size_t room =
         (size_t)system->nodes * (size_t)(contact ? contact->obstacles + 1 : 1);
     Friction *friction = calloc(1, sizeof *friction);
@@ -254,7 +256,7 @@ Status friction_add(System *system, double slip_speed)
         friction->slide = slide;
     }
     if (friction && slide &&
-        system_add_term(system, &friction_energy, friction))
+        system_insert_term(system, place, &friction_energy, friction))
         return STATUS_OK;
     Status status = friction && slide ? STATUS_TOO_LARGE : STATUS_OUT_OF_MEMORY;
     free(slide);

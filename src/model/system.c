@@ -55,13 +55,20 @@ void system_free(System *system)
     *system = (System){0};
 }
 
-Term *system_add_term(System *system, const TermKind *kind, void *data)
+Term *system_insert_term(System *system, int place, const TermKind *kind,
+                         void *data)
 {
     if (system->terms == SYSTEM_MAX_TERMS)
         return NULL;
-    Term *term = &system->term[system->terms++];
-    *term = (Term){.kind = kind, .data = data};
-    return term;
+    for (int t = system->terms++; t > place; t--)
+        system->term[t] = system->term[t - 1];
+    system->term[place] = (Term){.kind = kind, .data = data};
+    return &system->term[place];
+}
+
+Term *system_add_term(System *system, const TermKind *kind, void *data)
+{
+    return system_insert_term(system, system->terms, kind, data);
 }
 
 Term *system_find_term(const System *system, const TermKind *kind)

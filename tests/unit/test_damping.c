@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/contact.h"
 #include "model/damping.h"
 #include "model/fracture.h"
 #include "model/mass_spring_energy.h"
@@ -527,7 +528,7 @@ static uint64_t hash_of(const Track *track)
 static void live_changes_are_gone_through_again(void **unused)
 {
     (void)unused;
-    enum { STEPS = 60 };
+    enum { STEPS = 120 };
     static const char *const lines[] = {"slope", "drop --damping 0.01",
                                         "drop --friction 0", "dent"};
     for (int n = 0; n < 4; n++) {
@@ -553,9 +554,9 @@ static void live_changes_are_gone_through_again(void **unused)
                 CHECK_STATUS(track_change(&track, &grab, message, 256),
                              STATUS_OK);
             }
-            if (i == 45)
+            if (i == 105)
                 change(&track, "stiffness 30000");
-            if (i == 50)
+            if (i == 110)
                 change(&track, "damping 0");
             CHECK(track_step_shown(&track) ==
                   i - 1); /* it did not begin anew */
@@ -579,7 +580,7 @@ static void live_changes_are_gone_through_again(void **unused)
 }
 
 /* A run that gets mu or eta at its beginning is the one that has it from the
- * command line. */
+ * command line; long enough to meet what it needs for it. */
 static void a_live_number_is_the_option(void **unused)
 {
     (void)unused;
@@ -587,8 +588,9 @@ static void a_live_number_is_the_option(void **unused)
         {"slope", "friction 0.2", "slope --friction 0.2"},
         {"drop --friction 0", "friction 0.4", "drop --friction 0.4"},
         {"dent", "damping 0.003", "dent --damping 0.003"},
-        {"square --damping 1", "damping 0.003", "square --damping 0.003"}};
-    for (int n = 0; n < 4; n++) {
+        {"square --damping 1", "damping 0.003", "square --damping 0.003"},
+        {"tear", "damping 0.001", "tear --damping 0.001"}};
+    for (int n = 0; n < 5; n++) {
         Simulation simulation;
         Track track;
         simulation_from_line(lines[n][0], NULL, NULL, &simulation);
@@ -598,16 +600,43 @@ static void a_live_number_is_the_option(void **unused)
         simulation_free(&simulation);
         change(&track, lines[n][1]);
         simulation_from_line(lines[n][2], NULL, NULL, &simulation);
-        for (int i = 0; i < 40; i++) {
+        for (int i = 0; i < 120; i++) {
             CHECK_STATUS(track_step(&track), STATUS_OK);
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         }
         for (int r = 0; r < simulation.runs; r++)
             CHECK_SAME_BITS(track.simulation.run[r].x, simulation.run[r].x,
                             2 * simulation.system.nodes);
+        Energies e = simulation_energies(&track.simulation, 0);
+        CHECK((n < 2 ? e.friction : e.damping) > 0);
+        CHECK((e.fracture > 0) == (n == 4)); /* after what was damped */
+        CHECK(e.damping == simulation_energies(&simulation, 0).damping);
         simulation_free(&simulation);
         track_free(&track);
     }
+}
+
+/* What goes on with other options has their mu and eta, and what was lost. */
+static void other_options_are_taken_over(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("slope --damping 0.01", NULL, NULL, &simulation);
+    for (int i = 0; i < 20; i++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    Energies before = simulation_energies(&simulation, 2), after;
+    Options options = simulation.options;
+    options.friction = 0.05;
+    options.damping = 0.03;
+    CHECK_STATUS(simulation_change(&simulation, &options), STATUS_OK);
+    after = simulation_energies(&simulation, 2);
+    CHECK_NEAR(contact_of(simulation.run[2].system)->obstacle[0].friction,
+               1.1 * 0.05, 1e-16);
+    CHECK(damping_of(simulation.run[2].system)->eta == 0.03);
+    CHECK(before.friction > 0 && after.friction == before.friction);
+    CHECK(before.damping > 0 && after.damping == before.damping);
+    CHECK_NEAR(after.dissipated, before.dissipated, 1e-12 * before.friction);
+    simulation_free(&simulation);
 }
 
 /* Only where x_(n+1) is the minimiser is (E - E_n)/h the rate that counts. */
@@ -662,6 +691,7 @@ int main(void)
         cmocka_unit_test(every_scene_can_be_damped),
         cmocka_unit_test(live_changes_are_gone_through_again),
         cmocka_unit_test(a_live_number_is_the_option),
+        cmocka_unit_test(other_options_are_taken_over),
         cmocka_unit_test(other_methods_refuse_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
