@@ -37,12 +37,16 @@ typedef struct TapePlace {
 } TapePlace;
 
 typedef struct Tape {
+    bool open; /* between tape_begin and tape_end: all else is not of this step
+                */
+    long step; /* the one that it is of */
     int size;  /* 2n */
     int count; /* updates of this step */
     int room;  /* of the arrays, one more */
     TapeRound *round;
     NewtonRecord *record; /* [count] */
-    int before;           /* updates of the step before */
+    int before;           /* updates of the step before, or of this step with */
+                          /* other settings; 0: not known */
     int before_room;
     NewtonRecord *record_before;
     bool ended;      /* round [count] is there */
@@ -55,7 +59,9 @@ typedef struct Tape {
     int places;
 } Tape;
 
-/* Before a step.  Returns OK, OUT_OF_MEMORY. */
+/* Before a step: the tape is then that of the next one.  What it was is kept as
+ * the step before it where it was that one, or this one with other settings.
+ * Returns OK, OUT_OF_MEMORY. */
 Status tape_begin(Tape *tape, const Simulation *simulation);
 
 /* After a Newton iteration.  Nothing is kept where memory is missing. */

@@ -125,27 +125,38 @@ Status lane_show(Lane *lane, long step)
     return status;
 }
 
-Status lane_retape(Lane *lane, long step)
+/* The next known step once more, taped. */
+static Status repeat_step(Lane *lane)
 {
     Track *track = &lane->track;
-    long last = lane->at[step];
-    if (last == 0 || last == lane->at[step - 1])
-        return lane_show(lane, step);
-    Status status = track_show(track, last - 1);
-    if (!status)
-        status = tape_begin(&lane->tape, &track->simulation);
+    Status status = tape_begin(&lane->tape, &track->simulation);
     if (status)
         return status;
     track->repeating = true;
     status = track_repeat(track);
     track->repeating = false;
+    Status taped = tape_end(&lane->tape, &track->simulation.options);
+    return status ? status : taped;
+}
+
+/* The step before it is made again, too: its residuals are shown in grey. */
+Status lane_retape(Lane *lane, long step)
+{
+    Track *track = &lane->track;
+    long last = lane->at[step], first = last > 1 ? last - 2 : 0;
+    if (last == 0 || last == lane->at[step - 1])
+        return lane_show(lane, step);
+    tape_clear(&lane->tape);
+    Status status = track_show(track, first);
+    for (long i = first; i < last && !status; i++)
+        status = repeat_step(lane);
     if (status)
         return status;
     lane->taped = true;
     lane->place = -1;
     lane->failed = false;
     lane->outcome = track_row(track, last)->status;
-    return tape_end(&lane->tape, &track->simulation.options);
+    return STATUS_OK;
 }
 
 void lane_forget(Lane *lane, long step)

@@ -128,11 +128,9 @@ static int frames_shown(const Player *player)
     return player->speed < 0 ? 1 << -player->speed : 1;
 }
 
-/* Of a step that was gone to, the cards shall know every update: it is made
- * once more, unless that is long work, or the time line is still dragged. */
-static void know_step(Player *player)
+void player_know_step(Player *player)
 {
-    enum { LONG = 400000 }; /* nodes times updates */
+    enum { LONG = 800000 }; /* nodes times updates */
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         const Simulation *simulation = &lane->track.simulation;
@@ -143,6 +141,7 @@ static void know_step(Player *player)
             continue;
         long work = simulation->system.nodes;
         work *= 1 + lane->bar[player->step - 1].updates;
+        work *= 2; /* with the step before it */
         if (work <= LONG && lane_retape(lane, player->step))
             lane_show(lane, player->step);
         lane->retried = true;
@@ -154,7 +153,7 @@ Status player_draw(Player *player)
     player->changed = false;
     if (!player->view)
         return STATUS_OK;
-    know_step(player);
+    player_know_step(player);
     Paper *paper = view_paper(player->view);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;

@@ -112,6 +112,11 @@ const Simulation *player_simulation(const Player *player);
 void player_reset_speed(Player *player);
 double player_rate(const Player *player); /* steps a second */
 
+/* Before a picture: of a step that was gone to, the cards shall know every
+ * update: it is made once more, unless that is long work, or the time line is
+ * still dragged. */
+void player_know_step(Player *player);
+
 /* A line below the picture. */
 void player_note(Player *player, const char *format, ...);
 

@@ -26,7 +26,7 @@ void tape_clear(Tape *tape)
         free_round(&tape->round[i]);
     tape->count = tape->before = tape->places = 0;
     tape->bytes = 0;
-    tape->ended = tape->tilde = tape->passed = false;
+    tape->ended = tape->tilde = tape->passed = tape->open = false;
 }
 
 void tape_free(Tape *tape)
@@ -70,7 +70,13 @@ static void turn_over(Tape *tape)
 Status tape_begin(Tape *tape, const Simulation *simulation)
 {
     int size = 2 * simulation->system.nodes;
+    long step = simulation->steps + 1;
+    bool near = tape->step == step || tape->step + 1 == step;
     turn_over(tape);
+    if (!near)
+        tape->before = 0;
+    tape->step = step;
+    tape->open = true;
     if (tape->size == size && tape->scratch)
         return STATUS_OK;
     free(tape->x_tilde);
@@ -233,6 +239,8 @@ static void keep_next(Tape *tape, const Newton *newton)
 void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *made)
 {
     bool at_rest = made->iteration < 0 && tape->count == 0;
+    if (!tape->open)
+        return;
     if (at_rest || made->status == STATUS_OK)
         tape->passed =
             newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
@@ -288,6 +296,7 @@ static void add_round(Tape *tape, const Options *options, int i)
 Status tape_end(Tape *tape, const Options *options)
 {
     int rounds = tape->count + 1;
+    tape->open = false;
     TapePlace *place = realloc(
         tape->place, (size_t)rounds * (TRIALS_WALKED + 8) * sizeof *place);
     tape->places = 0;

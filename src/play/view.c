@@ -21,6 +21,7 @@ struct View {
     SDL_Renderer *renderer;
     SDL_Texture *texture; /* of the size of the paper, or NULL */
     Paper paper;
+    int before[2];    /* pixels, before it became as large as the screen */
     Uint64 shown;     /* ms, when present() was called last */
     bool initialised; /* SDL's video is ours to end */
     bool fontless;    /* that there is no font was said */
@@ -180,9 +181,15 @@ void view_set_title(View *view, const char *title)
 
 void view_set_full(View *view, bool full)
 {
-    if (view->window)
-        SDL_SetWindowFullscreen(view->window,
-                                full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    if (!view->window || full == view_is_full(view))
+        return;
+    if (full)
+        SDL_GetWindowSize(view->window, &view->before[0], &view->before[1]);
+    SDL_SetWindowFullscreen(view->window,
+                            full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    /* Where no window manager does it, SDL keeps the size of the screen. */
+    if (!full && view->before[0] > 0)
+        SDL_SetWindowSize(view->window, view->before[0], view->before[1]);
 }
 
 bool view_is_full(const View *view)

@@ -312,6 +312,39 @@ static void an_update_line_by_line(void **unused)
     end();
 }
 
+/* However a step is come to, the tape knows its updates and those of the step
+ * before it, and nothing of the steps that were made again on the way. */
+static void old_steps_are_taped_as_new_ones(void **unused)
+{
+    (void)unused;
+    enum { STEP = 12 };
+    begin("square");
+    for (int i = 0; i < STEP; i++)
+        CHECK_STATUS(obey("step"), STATUS_OK);
+    const Tape *tape = &lane(0)->tape;
+    int count = tape->count, before = tape->before;
+    double first = tape->record_before[0].residual;
+    CHECK(count > 0 && before > 0 && tape->step == STEP && !tape->open);
+    CHECK(before == track_row(&lane(0)->track, STEP - 1)->updates);
+    obey_all((const char *const[]){"step", "goto 7", "goto 12", NULL});
+    CHECK(!lane(0)->taped && tape->step == STEP + 1); /* going there */
+    CHECK(tape->before == count);                     /* adds nothing */
+    CHECK_STATUS(player_retape(&player, STEP), STATUS_OK);
+    CHECK(tape->count == count && tape->before == before);
+    CHECK(tape->record_before[0].residual == first);
+    CHECK_STATUS(player_retape(&player, 1), STATUS_OK);
+    CHECK(tape->before == 0 && tape->step == 1);
+    CHECK(tape->count == track_row(&lane(0)->track, 1)->updates);
+    /* A step far from the one on the tape has nothing before it. */
+    obey_all((const char *const[]){"goto 5", "step", NULL});
+    CHECK(tape->step == 6 && tape->before == 0 && tape->count > 0);
+    /* The same step with another method: both are seen. */
+    int with = tape->count;
+    CHECK_STATUS(obey("projection"), STATUS_OK);
+    CHECK(tape->step == 6 && tape->before == with);
+    end();
+}
+
 /* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
  * with contact; what is drawn of the last test is a p that belongs there, or
  * none. */
@@ -751,6 +784,7 @@ int main(void)
         cmocka_unit_test(a_failure_shows_the_last_good_state),
         cmocka_unit_test(up_to_six_panes),
         cmocka_unit_test(an_update_line_by_line),
+        cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
