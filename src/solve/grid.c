@@ -257,12 +257,12 @@ void grid_diagonal(const Grid *grid, const GridRegion *region, double *D)
 }
 
 double grid_precondition(const Grid *grid, const GridRegion *region,
-                         const double *D, const double *g, const double *old_g,
+                         const double *D, const double *old_g, double *g,
                          double *z, double *old)
 {
     double sum[2];
-    GridJob job = {.in = {D, g, old_g}, .out = {z}};
-    run_kernel(grid->kernels->precondition, job, grid, region, GRID_LIGHT, 2,
+    GridJob job = {.in = {D, old_g}, .out = {g, z}};
+    run_kernel(grid->kernels->precondition, job, grid, region, GRID_HEAVY, 2,
                sum);
     *old = sum[1];
     return sum[0];
@@ -299,10 +299,11 @@ void grid_in_plane(const Grid *grid, const double *g, const double *p,
 }
 
 void grid_move(const Grid *grid, const GridRegion *region, double a,
-               const double *p, double b, const double *r)
+               const double *p, double b, double *r)
 {
-    run_kernel(grid->kernels->move, (GridJob){.in = {p, r}, .factor = {a, b}},
-               grid, region, GRID_LIGHT, 0, NULL);
+    run_kernel(grid->kernels->move,
+               (GridJob){.in = {p}, .out = {r}, .factor = {a, b}}, grid, region,
+               GRID_LIGHT, 0, NULL);
 }
 
 void grid_activity(const Grid *grid, const GridRegion *region, const double *D,

@@ -140,9 +140,9 @@ double grid_product(const Grid *grid, bool clamped, const double *q, double *y);
  * yy; 0 for pins. */
 void grid_diagonal(const Grid *grid, const GridRegion *region, double *D);
 
-/* z = D g; returns g.z and, in *old, old_g.z. */
+/* g = grad E, z = D g; returns g.z and, in *old, old_g.z. */
 double grid_precondition(const Grid *grid, const GridRegion *region,
-                         const double *D, const double *g, const double *old_g,
+                         const double *D, const double *old_g, double *g,
                          double *z, double *old);
 
 /* p = beta p - z, old_g = g; returns g.p and, in *inertia, |p|_M^2. */
@@ -160,9 +160,9 @@ void grid_along(const Grid *grid, const GridRegion *region, const double *p,
 void grid_in_plane(const Grid *grid, const double *g, const double *p,
                    const double *r, double c[14]);
 
-/* u += a p + b r, x = x_n + u; r NULL: u += a p. */
+/* r = a p + b r, u += r, x = x_n + u; r NULL: u += a p. */
 void grid_move(const Grid *grid, const GridRegion *region, double a,
-               const double *p, double b, const double *r);
+               const double *p, double b, double *r);
 
 /* a[block] = g.D g of each block, row by row. */
 void grid_activity(const Grid *grid, const GridRegion *region, const double *D,

@@ -138,10 +138,8 @@ static double size_of(const Multigrid *mg, double square)
  *   most  V-cycles */
 static void find_direction(Multigrid *mg, int most)
 {
-    const Grid *grid = &mg->grid;
     set_up_cycle(mg);
-    grid_combine(grid, NULL, -1, mg->g, 0, mg->rest);
-    double start = v_solve_begin(mg->cycle, mg->rest, size_of(mg, mg->norm2));
+    double start = v_solve_begin(mg->cycle, -1, mg->g, size_of(mg, mg->norm2));
     mg->counters.cycles++;
     for (int i = 1; v_solve_step(mg->cycle, NULL) && i < most; i++) {
         mg->counters.cycles++;
@@ -169,7 +167,7 @@ static double true_remainder(Multigrid *mg)
 /* p += about H^-1 rest, until that seems to decide the test; and mg->residual
  * of p.
  *   square  |rest|_(M^-1)^2
- *   first   p is 0
+ *   first   p is taken for 0, rest for -g
  *   left    V-cycles, in/out */
 static bool refine_direction(Multigrid *mg, double square, bool first,
                              int *left)
@@ -177,7 +175,8 @@ static bool refine_direction(Multigrid *mg, double square, bool first,
     const Grid *grid = &mg->grid;
     VRemainder remainder;
     double enough = REFINED * REFINED * square;
-    v_solve_begin(mg->cycle, mg->rest, size_of(mg, square));
+    v_solve_begin(mg->cycle, first ? -1 : 1, first ? mg->g : mg->rest,
+                  size_of(mg, square));
     for (bool more = true; more;) {
         mg->counters.cycles++;
         --*left;
@@ -203,7 +202,6 @@ static bool decide_test(Multigrid *mg)
     int left = MAX_TEST_CYCLES;
     set_up_cycle(mg);
     grid_stiffen(&mg->grid);
-    grid_combine(&mg->grid, NULL, -1, mg->g, 0, mg->rest);
     do {
         last = square;
         if (!refine_direction(mg, square, left == MAX_TEST_CYCLES, &left))
@@ -324,10 +322,10 @@ static bool leaves_saddle(Multigrid *mg)
     return true;
 }
 
-/* The bound at x, where g is known. */
-static void bound_residual(Multigrid *mg)
+/* The bound at x, where g is known.  norm2  |g|_(M^-1)^2 */
+static void bound_residual(Multigrid *mg, double norm2)
 {
-    mg->norm2 = grid_inverse_mass_square(&mg->grid, mg->g);
+    mg->norm2 = norm2;
     mg->bound = mg->residual = largest_residual(mg, sqrt(mg->norm2));
     mg->directed = mg->set_up = false;
 }
@@ -335,9 +333,9 @@ static void bound_residual(Multigrid *mg)
 /* g and the bound at x. */
 static void evaluate(Multigrid *mg)
 {
-    grid_gradient(&mg->grid, NULL, mg->g);
+    double norm2 = grid_gradient(&mg->grid, NULL, mg->g);
     mg->counters.gradients++;
-    bound_residual(mg);
+    bound_residual(mg, norm2);
 }
 
 /* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
@@ -449,7 +447,6 @@ Status multigrid_iterate(Multigrid *mg)
     if (status)
         return status;
     grid_move(grid, NULL, at[0], mg->p, at[1], mg->r);
-    grid_combine(grid, NULL, at[0], mg->p, at[1], mg->r);
     mg->updated = true;
     mg->iterations++;
     mg->counters.iterations++;
@@ -465,7 +462,7 @@ Status multigrid_iterate(Multigrid *mg)
     mg->counters.windows += mg->tips.phases - phases;
     mg->counters.local += mg->tips.iterations - local;
     mg->counters.gradients++;
-    bound_residual(mg);
+    bound_residual(mg, grid_inverse_mass_square(grid, mg->g));
     return multigrid_test(mg);
 }
 

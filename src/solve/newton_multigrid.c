@@ -142,16 +142,20 @@ Status newton_multigrid_start(Newton *newton)
     return status;
 }
 
-/* Whether multigrid has come to its end without the test being passed. */
-static bool is_stuck(Newton *newton, Status status)
+/* Whether multigrid has come to its end without the test being passed.
+ *   last  no more iterations are allowed */
+static bool is_stuck(Newton *newton, Status status, bool last)
 {
     const NewtonRecord *record = &newton->record;
     newton->first_change = fmin(newton->first_change, record->change);
+    bool small = fabs(record->change) <= SMALL_CHANGE * -newton->first_change;
+    bool many = record->iteration >= HANDED_ITERATIONS;
+    if (last || small || many || status != STATUS_RUNNING ||
+        newton->settings.observer)
+        fetch(newton); /* else nobody looks at it */
     if (status != STATUS_RUNNING)
         return status != STATUS_OK;
-    return record->iteration >= HANDED_ITERATIONS ||
-           (fabs(record->change) <= SMALL_CHANGE * -newton->first_change &&
-            rounding_hides(newton, record->change));
+    return many || (small && rounding_hides(newton, record->change));
 }
 
 Status newton_multigrid_iterate(Newton *newton)
@@ -170,13 +174,13 @@ Status newton_multigrid_iterate(Newton *newton)
     record->solver = SOLVER_MULTIGRID;
     count(newton, &before);
     newton->counters.trials += record->trials;
-    fetch(newton);
-    newton->counters.seconds_multigrid += clock_now() - start;
     NewtonRecord done = *record;
-    if (is_stuck(newton, status))
+    bool last = done.iteration + 1 >= newton->settings.max_iterations;
+    bool stuck = is_stuck(newton, status, last);
+    newton->counters.seconds_multigrid += clock_now() - start;
+    if (stuck)
         status = take_back(newton);
-    if (status == STATUS_RUNNING &&
-        done.iteration + 1 >= newton->settings.max_iterations)
+    if (status == STATUS_RUNNING && last)
         status = STATUS_ITERATION_LIMIT;
     done.status = status;
     done.seconds = clock_now() - start;

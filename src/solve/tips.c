@@ -162,12 +162,10 @@ static double minimise_windows(Tips *tips, double *g)
     const GridRegion *inside = &tips->inside;
     double change = 0, start = 0, last = 0;
     for (int i = 0; i < TIP_ITERATIONS; i++) {
-        if (i > 0)
-            grid_gradient(grid, inside, g);
         if (i % TIP_DIAGONAL_EVERY == 0)
             grid_diagonal(grid, inside, tips->D);
         double old, inertia, beta = 0;
-        double now = grid_precondition(grid, inside, tips->D, g, tips->old_g,
+        double now = grid_precondition(grid, inside, tips->D, tips->old_g, g,
                                        tips->z, &old);
         if (i == 0)
             start = now;

@@ -199,13 +199,13 @@ static void *v_descend(const VCycle *cycle, int l)
     return v_smooth(cycle, level, 1);
 }
 
-/* Takes r as b of the finest level, and smooths once. */
-static void take(VCycle *cycle, const double *r, double size)
+/* Takes s r as b of the finest level, and smooths once. */
+static void take(VCycle *cycle, double s, const double *r, double size)
 {
     const VLevel *level = cycle->level;
     cycle->unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
     run_rows(cycle, cycle->kernels->take,
-             (VJob){.level = level, .in = r, .factor = cycle->unit}, level,
+             (VJob){.level = level, .in = r, .factor = s * cycle->unit}, level,
              V_LIGHT);
     run_rows(cycle, cycle->kernels->begin, (VJob){.level = level}, level,
              V_LIGHT);
@@ -224,7 +224,7 @@ static void give(const VCycle *cycle, const void *x, double *out)
 
 void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
 {
-    take(cycle, r, size);
+    take(cycle, 1, r, size);
     give(cycle, v_descend(cycle, 0), z);
 }
 
@@ -240,10 +240,10 @@ static double aim(VCycle *cycle, double last)
     return cycle->now;
 }
 
-double v_solve_begin(VCycle *cycle, const double *r, double size)
+double v_solve_begin(VCycle *cycle, double s, const double *r, double size)
 {
     const VLevel *level = cycle->level;
-    take(cycle, r, size);
+    take(cycle, s, r, size);
     memset(level->p, 0, 2 * (size_t)level->layout.plane * cycle->kernels->real);
     return aim(cycle, 0);
 }

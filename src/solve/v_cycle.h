@@ -33,16 +33,16 @@ void v_cycle_set_up(VCycle *cycle);
 /* z = B r.  size  a number about as large as the largest of r. */
 void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z);
 
-/* ---- conjugate gradients for H p = r, in the precision of the cycle and with
- * the tensors of its finest level: exact to some 6 digits of r, where a new
- * begin with the remainder goes on. */
+/* ---- conjugate gradients for H p = s r, in the precision of the cycle and
+ * with the tensors of its finest level: exact to some 6 digits of r, where a
+ * new begin with the remainder goes on. */
 
-/* p = 0, d = B r.  Returns r.B r (units of its own: only ratios matter). */
-double v_solve_begin(VCycle *cycle, const double *r, double size);
+/* p = 0, d = s B r.  Returns r.B r (units of its own: only ratios matter). */
+double v_solve_begin(VCycle *cycle, double s, const double *r, double size);
 
 /* What a step leaves. */
 typedef struct VRemainder {
-    double square;  /* |r - H p|_(M^-1)^2 */
+    double square;  /* |s r - H p|_(M^-1)^2 */
     double largest; /* max over nodes of |p_x| + |p_y| */
 } VRemainder;
 
@@ -50,7 +50,7 @@ typedef struct VRemainder {
  * Returns false, and p is what it was, where that point does not exist. */
 bool v_solve_step(VCycle *cycle, VRemainder *remainder);
 
-/* The next d.  Returns (r - H p).B (r - H p) as v_solve_begin does. */
+/* The next d.  Returns what is left of r.B r, as v_solve_begin does. */
 double v_solve_next(VCycle *cycle);
 
 /* p, out [2 planes]. */
