@@ -1,14 +1,15 @@
 #include "solve/grid.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 
 #include "solve/grid_kernels.h"
 
-/* Bytes of a large page of memory. */
-enum { LARGE_PAGE = 2 << 20 };
+/* Bytes of the pages of memory. */
+enum { SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20 };
 
 /* What kernels may read beyond the last row of ghosts, rounded up so that
  * arrays are whole cache lines. */
@@ -25,25 +26,44 @@ GridLayout grid_layout(int nodes)
                         .offset = {pitch, 1, pitch + 1, pitch - 1}};
 }
 
-void *grid_memory(size_t bytes)
+/* Whole cache lines of zeros. */
+static void *create_lines(size_t bytes)
 {
-    size_t alignment = bytes < LARGE_PAGE ? GRID_ALIGNMENT : LARGE_PAGE;
-    bytes = (bytes + alignment - 1) / alignment * alignment;
-    void *memory = aligned_alloc(alignment, bytes);
-    if (!memory)
+    bytes = (bytes + GRID_ALIGNMENT - 1) / GRID_ALIGNMENT * GRID_ALIGNMENT;
+    void *lines = aligned_alloc(GRID_ALIGNMENT, bytes);
+    return lines ? memset(lines, 0, bytes) : NULL;
+}
+
+void *grid_memory(size_t bytes, void **memory)
+{
+    if (bytes < LARGE_PAGE)
+        return *memory = create_lines(bytes);
+    char *start = *memory = calloc(1, bytes + GRID_ALIGNMENT);
+    if (!start)
         return NULL;
 #ifdef MADV_HUGEPAGE
-    if (alignment == LARGE_PAGE)
-        madvise(memory, bytes, MADV_HUGEPAGE); /* may be refused */
+    size_t past = (uintptr_t)start % SMALL_PAGE;
+    madvise(start - past, bytes + past, MADV_HUGEPAGE); /* may be refused */
 #endif
-    return memset(memory, 0, bytes);
+    return start + GRID_ALIGNMENT - (uintptr_t)start % GRID_ALIGNMENT;
+}
+
+/* Numbers in so many planes, and what may be read beyond. */
+static size_t planes_bytes(const Grid *grid, int planes)
+{
+    return ((size_t)planes * (size_t)grid->layout.plane +
+            2 * (size_t)GRID_SLACK) *
+           sizeof(double);
 }
 
 double *grid_planes(const Grid *grid, int planes)
 {
-    size_t count =
-        (size_t)planes * (size_t)grid->layout.plane + 2 * (size_t)GRID_SLACK;
-    return grid_memory(count * sizeof(double));
+    return create_lines(planes_bytes(grid, planes));
+}
+
+double *grid_piece(const Grid *grid, int planes, void **memory)
+{
+    return grid_memory(planes_bytes(grid, planes), memory);
 }
 
 /* Every array of the grid, with how many planes it has, in one piece. */
@@ -66,7 +86,7 @@ static Status create_grid_arrays(Grid *grid)
     }
     for (int i = 0; i < count; i++)
         planes += arrays[i].planes;
-    double *next = grid->memory = grid_planes(grid, planes);
+    double *next = grid_piece(grid, planes, &grid->memory);
     for (int i = 0; i < count && next; i++) {
         *arrays[i].array = next;
         next += arrays[i].planes * grid->layout.plane;

@@ -99,13 +99,15 @@ typedef struct Grid {
 Status grid_create(int segments, int lanes, Grid *grid);
 void grid_free(Grid *grid);
 
-/* Zeros, for free(), or NULL.  Where they are many they are in large pages: a
- * kernel reads up to thirty planes at once, more than the processor has small
- * pages at hand. */
-void *grid_memory(size_t bytes);
-
-/* The same for so many planes. */
+/* Zeros for so many planes, for free(), or NULL. */
 double *grid_planes(const Grid *grid, int planes);
+
+/* The same for many, which the caller divides.  They are in
+ * large pages: a kernel reads up to thirty planes at once, more than the
+ * processor has small pages at hand.
+ *   memory  out, for free() */
+double *grid_piece(const Grid *grid, int planes, void **memory);
+void *grid_memory(size_t bytes, void **memory);
 
 /* An empty region with room for every node: at most so many runs a row.
  * Returns OK, OUT_OF_MEMORY. */

@@ -72,7 +72,7 @@ static Status create_parts(Multigrid *mg)
     double **vectors[] = {&mg->g, &mg->p, &mg->r, &mg->rest,
                           &mg->z, &mg->d, &mg->y};
     int count = sizeof vectors / sizeof *vectors;
-    double *next = mg->memory = grid_planes(&mg->grid, 2 * count);
+    double *next = grid_piece(&mg->grid, 2 * count, &mg->memory);
     for (int i = 0; i < count && next; i++, next += 2 * mg->grid.layout.plane)
         *vectors[i] = next;
     return mg->cycle && next ? STATUS_OK : STATUS_OUT_OF_MEMORY;

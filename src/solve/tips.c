@@ -39,7 +39,7 @@ Status tips_create(const Grid *grid, Tips *tips)
     tips->row = malloc(rows * sizeof *tips->row);
     tips->mark = calloc(blocks, 1);
     tips->first = grid->layout.nodes;
-    tips->D = grid_planes(grid, 9);
+    tips->D = grid_piece(grid, 9, &tips->memory);
     if (!tips->activity || !tips->row || !tips->mark || !tips->D ||
         grid_region_create(grid, &tips->inside))
         return STATUS_OUT_OF_MEMORY;
@@ -56,7 +56,7 @@ void tips_free(Tips *tips)
     free(tips->activity);
     free(tips->row);
     free(tips->mark);
-    free(tips->D);
+    free(tips->memory);
     free(tips->inside.run);
     free(tips->around.run);
     *tips = (Tips){0};

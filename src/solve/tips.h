@@ -25,7 +25,8 @@ typedef struct Tips {
     int first, end;      /* rows with marks */
     GridRegion inside;   /* nodes that move */
     GridRegion around;   /* and their neighbours */
-    double *D, *z, *p, *old_g; /* [3 planes], [2 planes]; one piece */
+    void *memory;        /* of these vectors */
+    double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
     long phases, iterations;   /* done so far */
 } Tips;
 

@@ -53,8 +53,8 @@ static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
         planes += arrays[i].planes;
     size_t real = cycle->kernels->real;
     size_t plane = (size_t)level->layout.plane * real;
-    char *next = level->memory =
-        grid_memory((size_t)planes * plane + V_SLACK * real);
+    char *next =
+        grid_memory((size_t)planes * plane + V_SLACK * real, &level->memory);
     for (int i = 0; i < count && next; i++) {
         *arrays[i].array = next;
         next += (size_t)arrays[i].planes * plane;
