@@ -688,12 +688,21 @@ static void directions_do_not_matter(void **unused)
          "dent --tolerance 1e-8 --segments 8 --stiffness 3.2e6 --density "
          "16000 --barrier 0.01,1.28e7",
          0},
+        {0.6457718232379019, false,
+         "dent --tolerance 1e-8 --segments 8 --damping 0.002", 1e-9},
+        {0, true,
+         "dent --tolerance 1e-8 --segments 8 --velocity -0.02,-2 --damping "
+         "0.002",
+         1e-9},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Simulation plain, other;
         double c = cos(cases[i].angle), s = sin(cases[i].angle);
-        simulation_from_line("dent --tolerance 1e-8 --segments 8", NULL, NULL,
-                             &plain);
+        bool damped = strstr(cases[i].line, "damping");
+        simulation_from_line(
+            damped ? "dent --tolerance 1e-8 --segments 8 --damping 0.002"
+                   : "dent --tolerance 1e-8 --segments 8",
+            NULL, NULL, &plain);
         simulation_from_line(cases[i].line, NULL, NULL, &other);
         if (cases[i].angle != 0)
             turn_run(&other.run[0], cases[i].angle);
@@ -711,6 +720,7 @@ static void directions_do_not_matter(void **unused)
             CHECK_NEAR(got[1], s * x + c * y, cases[i].tolerance);
         }
         CHECK(simulation_energies(&plain, 0).plastic > 1);
+        CHECK((simulation_energies(&plain, 0).damping > 1) == damped);
         simulation_free(&plain);
         simulation_free(&other);
     }

@@ -106,12 +106,22 @@ static void indefinite_factors_run_out(void **unused)
     check_failures(2, (char *[]){program, option, NULL});
 }
 
+/* Contact, friction, cells, flow, damping and breaking. */
+static void all_terms_run_out(void **unused)
+{
+    (void)unused;
+    char program[] = "elasto", scene[] = "dent", option[] = "--segments=3";
+    char damped[] = "--damping=0.01", tears[] = "--tear=0.3";
+    check_failures(5, (char *[]){program, scene, option, damped, tears, NULL});
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_squares_run_out),
         cmocka_unit_test(large_squares_run_out),
         cmocka_unit_test(indefinite_factors_run_out),
+        cmocka_unit_test(all_terms_run_out),
     };
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }
