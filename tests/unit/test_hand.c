@@ -29,6 +29,17 @@ static void change(Track *track, CommandKind kind, long number, double x,
                  STATUS_OK);
 }
 
+/* What the potential of the averaged gradient, k (x_n + u/2 - o), gains up to
+ * u; of the two coordinates of a node. */
+static double mean_gain(const Pull *hand, const double x_n[2],
+                        const double u[2])
+{
+    double sum = 0;
+    for (int c = 0; c < 2; c++)
+        sum += hand->k * u[c] * (x_n[c] + u[c] / 4 - hand->target[c]);
+    return sum;
+}
+
 /* Value, gradient and Hessian against the formula, in random places; what a
  * line and the averaged twin say against both. */
 static void derivatives_are_those_of_the_formula(void **unused)
@@ -72,6 +83,13 @@ static void derivatives_are_those_of_the_formula(void **unused)
         double gained = P - system_energy_of(&system, &hand_energy, x);
         CHECK_NEAR(mean[i] * u[i] + mean[i + 1] * u[i + 1], gained,
                    1e-12 * hand.k);
+        memset(g, 0, sizeof g);
+        Place still = {&system, x, g, x, true, NULL};
+        CHECK_NEAR(averaged->value(term, &way) - averaged->value(term, &still),
+                   mean_gain(&hand, x + i, u + i), 1e-12 * hand.k);
+        double stiffest = 0.5, force = 0;
+        term->kind->bounds(term, &system, &stiffest, &force);
+        CHECK(stiffest == hand.k && force == 0);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
         Place begin = {&system, x, g, x, false, NULL};

@@ -245,19 +245,25 @@ static void history_spans_the_run(void **unused)
     for (int i = 1; i < history.count; i++)
         CHECK(history.time[i] > history.time[i - 1]);
     CHECK(history.count > HISTORY_POINTS / 2);
+    for (int i = 1; i < history.count - 1; i++) /* but for the newest */
+        CHECK(history.time[i] == 0.5 * history.stride * i);
     const double bad[HISTORY_SERIES] = {1, NAN, 1};
     int count = history.count;
     history_add(&history, 1e9, bad);
+    history_add(&history, NAN, (const double[HISTORY_SERIES]){1, 1, 1});
     CHECK(history.count == count);
+    CHECK(history.time[count - 1] == 0.5 * 99999);
     CHECK(history.high == 2.0 * 99999 && history.low == -99999);
     history_cut(&history, 100);
-    CHECK(history.time[history.count - 1] <= 100 && history.time[0] == 0);
+    double cut = history.time[history.count - 1];
+    CHECK(cut <= 100 && cut > 100 - 0.5 * history.stride);
+    CHECK(history.time[0] == 0);
     CHECK(history.high == 4 * history.time[history.count - 1]);
     const double next[HISTORY_SERIES] = {1, 2, 3};
     history_add(&history, 200, next);
     history_add(&history, 201, next);
     CHECK(history.time[history.count - 1] == 201);
-    CHECK(history.time[history.count - 2] <= 200);
+    CHECK(history.time[history.count - 2] == cut); /* it was due */
     history_cut(&history, -1);
     CHECK(history.count == 0 && history.high == 0);
 }
@@ -358,6 +364,40 @@ static void words_keep_off_lines_and_words(void **unused)
                   a.y >= b.y + b.height || b.y >= a.y + a.height);
         }
     }
+    paper_free(&paper);
+}
+
+/* Words stand to the right unless that costs more than another place: a little
+ * corner of something else costs less, a line that ends before them nothing. */
+static void words_stand_to_the_right(void **unused)
+{
+    (void)unused;
+    const double middle[1][2] = {{200, 150}};
+    const double far[2] = {390, 150}, near[2] = {330, 150};
+    Paper paper;
+    Box place = {0};
+    assert_int_equal(paper_create(400, 300, &paper), 0);
+    for (int round = 0; round < 3; round++) {
+        Labels labels = {.stage = {0, 0, 400, 300}};
+        if (round == 1)
+            labels_line(&labels, far, near);
+        if (round == 2)
+            labels_box(&labels, (Box){place.x + place.width - 2,
+                                      place.y + place.height - 2, 20, 20});
+        labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, middle, 1, 20,
+                   "words");
+        Box at = labels.box[labels.boxes - 1];
+        if (round == 0)
+            place = at;
+        CHECK(at.x == place.x && at.y == place.y);
+    }
+    CHECK(place.x >= 219 && place.x + place.width < near[0]);
+    CHECK(place.width * place.height > 500); /* 4 pixels are little of it */
+    Labels labels = {.stage = {0, 0, 400, 300}};
+    labels_disc(&labels, middle[0], 8);
+    Box disc = labels.box[0];
+    CHECK(disc.x == 192 && disc.y == 142);
+    CHECK(disc.width == 16 && disc.height == 16);
     paper_free(&paper);
 }
 
@@ -866,6 +906,7 @@ int main(void)
         cmocka_unit_test(numbers_are_read),
         cmocka_unit_test(printed_numbers_become_markup),
         cmocka_unit_test(words_keep_off_lines_and_words),
+        cmocka_unit_test(words_stand_to_the_right),
         cmocka_unit_test(friction_is_a_number_of_contact),
         cmocka_unit_test(readme_shows_what_is_drawn),
         cmocka_unit_test(a_loose_tolerance_is_named),

@@ -5,6 +5,9 @@
 
 #include "picture/colour_map.h"
 #include "picture/picture.h"
+#include "picture/marks.h"
+#include "picture/square_contact.h"
+#include "picture/square_pen.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
 #include "testing.h"
@@ -137,6 +140,10 @@ static void short_springs_are_skipped(void **unused)
     CHECK(count.drawn + count.skipped == stand.simulation.system.springs);
     CHECK(count.skipped > count.drawn);
     CHECK(count.drawn > 500);
+    bool mesh = false; /* those of a mesh of m x m cells */
+    for (int m = 1; m < 100; m++)
+        mesh = mesh || count.drawn == 2L * m * (m + 1) + 2L * m * m;
+    CHECK(mesh);
     take_down(&stand);
 }
 
@@ -226,6 +233,35 @@ static void the_mouse_finds_nodes_and_springs(void **unused)
     take_down(&stand);
 }
 
+/* A spring is found within 8 pixels, half as far as a node; a broken one is
+ * not; later than at the start a side is its springs. */
+static void springs_are_found_near_them(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 2, 1280, 800, &stand);
+    stand.show.paused = true;
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    Camera camera = show_camera(&stand.show, &layout, 0);
+    System *system = &stand.simulation.system;
+    const double *x = stand.simulation.run[0].x;
+    int left = 0; /* the spring of nodes 0 and 1, in the left column */
+    while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
+        left++;
+    const double middle[2] = {0.5 * (x[0] + x[2]), 0.5 * (x[1] + x[3])};
+    double at[2];
+    camera_pixel(&camera, middle, at);
+    Pick pick = show_pick(&stand.show, &layout, at[0] - 6, at[1]);
+    CHECK(pick.kind == PICK_SPRING && pick.index == left);
+    pick = show_pick(&stand.show, &layout, at[0] - 12, at[1]);
+    CHECK(pick.kind == PICK_NONE);
+    system->k[left] = 0;
+    system->breaks = true;
+    pick = show_pick(&stand.show, &layout, at[0] - 6, at[1]);
+    CHECK(pick.kind == PICK_NONE);
+    take_down(&stand);
+}
+
 /* Before the first step of a paused square its sides are edges. */
 static void edges_set_the_stretch(void **unused)
 {
@@ -285,6 +321,77 @@ static void folds_are_counted(void **unused)
     double *x = stand.simulation.run[0].x;
     x[2 * 12] += 0.6; /* the middle node to the right of its neighbour */
     CHECK(pane_folded(&stand.show.pane[0]) == 2);
+    take_down(&stand);
+}
+
+/* A cell is torn by each of its six springs: those between its four nodes. */
+static void cells_are_torn_by_their_springs(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square --segments 3", 0, 100, 100, &stand);
+    System *system = &stand.simulation.system;
+    system->breaks = true;
+    for (int s = 0; s < system->springs; s++) {
+        double k = system->k[s];
+        system->k[s] = 0;
+        for (int cell = 0; cell < 9; cell++) {
+            int a = cell / 3 * 4 + cell % 3, ends = 0;
+            for (int c = 0; c < 2; c++) {
+                int node = system->e[2 * s + c];
+                ends += node == a || node == a + 1 || node == a + 4 ||
+                        node == a + 5;
+            }
+            CHECK(square_picture_torn(system, &stand.simulation.mesh, cell) ==
+                  (ends == 2));
+        }
+        system->k[s] = k;
+    }
+    take_down(&stand);
+}
+
+/* The outline is seen on all four sides, and nowhere else. */
+static void outlines_go_round(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square --segments 4 --stretch 1", 0, 200, 200, &stand);
+    Stage stage = {.box = {0, 0, 200, 200}, .em = 10};
+    const double bounds[4] = {-1, -1, 1, 1};
+    stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
+    square_outline(&stand.paper, &stage, &stand.simulation.mesh,
+                   stand.simulation.run[0].x, false, COLOUR_X);
+    static const double side[4][2] = {{-0.5, 0}, {0.5, 0}, {0, -0.5}, {0, 0.5}};
+    for (int i = 0; i < 5; i++) {
+        const double middle[2] = {i < 4 ? side[i][0] : 0,
+                                  i < 4 ? side[i][1] : 0};
+        double at[2];
+        stage_pixel(&stage, middle, at);
+        Box near = {(int)at[0] - 3, (int)at[1] - 3, 7, 7};
+        int touched = 49 - count_colour(&stand, near, COLOUR_WHITE);
+        CHECK((touched > 6) == (i < 4));
+    }
+    take_down(&stand);
+}
+
+/* Blocks are lit while they are projected, where any was. */
+static void what_is_projected_is_lit(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square --stretch 0.6", 0, 200, 200, &stand);
+    Trace trace = {
+        .line = LINE_PROJECT, .x = stand.simulation.run[0].x, .projected = 3};
+    stand.show.pane[0].trace = &trace;
+    Stage stage = {.box = {0, 0, 200, 200}, .em = 10};
+    const double bounds[4] = {-1, -1, 1, 1};
+    stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
+    CHECK(square_pen(&stand.paper, &stage, &stand.show, 0).projected);
+    trace.projected = 0; /* on demand, where it was not needed */
+    CHECK(!square_pen(&stand.paper, &stage, &stand.show, 0).projected);
+    trace.projected = 3;
+    trace.line = LINE_UPDATE;
+    CHECK(!square_pen(&stand.paper, &stage, &stand.show, 0).projected);
     take_down(&stand);
 }
 
@@ -464,6 +571,51 @@ static void contact_is_seen(void **unused)
     take_down(&stand);
 }
 
+/* Two of the slopes let the body slide, the third holds it; arrows of forces
+ * end at their nodes, so that they come out of the slope. */
+static void contacts_slide_or_hold(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("slope", 60, 600, 600, &stand);
+    for (int r = 0; r < 3; r++) {
+        const TimeIntegrator *run = &stand.simulation.run[r];
+        const System *system = run->system;
+        Stage stage = {.box = {0, 0, 600, 600}, .em = 10};
+        const double bounds[4] = {run->x[0] - 2, run->x[1] - 2, run->x[0] + 2,
+                                  run->x[1] + 2};
+        stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
+        ContactView view = {.paper = &stand.paper,
+                            .stage = &stage,
+                            .run = run,
+                            .x = run->x,
+                            .h = stand.simulation.options.timestep,
+                            .node = 1};
+        int touches = 0;
+        double lowest = -INFINITY, sum = 0;
+        for (int i = 0; i < system->nodes; i++) {
+            Touch touch;
+            double at[2];
+            if (!square_contact_touch(&view, i, 0, &touch))
+                continue;
+            touches++;
+            CHECK(touch.rough && touch.slides == (r < 2));
+            stage_pixel(&stage, run->x + 2 * i, at);
+            lowest = fmax(lowest, at[1]);
+            sum += touch.force[1];
+        }
+        CHECK(touches > 1 && sum > 0);
+        canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 600, COLOUR_WHITE);
+        square_contact_forces(&view, square_contact_most(&view));
+        int below = 0;
+        for (int j = (int)lowest + 6; j < 600; j++)
+            for (int i = 0; i < 600; i++)
+                below += pixel(&stand, i, j) == COLOUR_FORCE;
+        CHECK(below > 10);
+    }
+    take_down(&stand);
+}
+
 /* Every card of every picture has a name of its own, and they fit. */
 static void cards_have_names(void **unused)
 {
@@ -488,15 +640,20 @@ int main(void)
         cmocka_unit_test(every_size_is_drawn),
         cmocka_unit_test(the_stage_keeps_to_itself),
         cmocka_unit_test(the_mouse_finds_nodes_and_springs),
+        cmocka_unit_test(springs_are_found_near_them),
         cmocka_unit_test(edges_set_the_stretch),
         cmocka_unit_test(maps_are_where_they_seem),
         cmocka_unit_test(folds_are_counted),
+        cmocka_unit_test(cells_are_torn_by_their_springs),
+        cmocka_unit_test(outlines_go_round),
+        cmocka_unit_test(what_is_projected_is_lit),
         cmocka_unit_test(panes_are_drawn_apart),
         cmocka_unit_test(bars_are_steps),
         cmocka_unit_test(a_trace_is_seen),
         cmocka_unit_test(hovers_are_seen),
         cmocka_unit_test(pages_light_their_lines),
         cmocka_unit_test(contact_is_seen),
+        cmocka_unit_test(contacts_slide_or_hold),
         cmocka_unit_test(cards_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

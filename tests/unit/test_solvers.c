@@ -293,6 +293,28 @@ static void newton_leaves_a_saddle_when_asked(void **unused)
     }
 }
 
+/* What Newton counts of multigrid is what multigrid has done, and its limit of
+ * iterations holds for it. */
+static void multigrid_is_counted(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    create_run("--segments 16 --minimum", "backward-euler", SOLVER_MULTIGRID,
+               NULL, NULL, &simulation);
+    for (int step = 0; step < 14; step++)
+        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    Newton *newton = simulation.run[0].newton;
+    const MultigridCounters *did = multigrid_counters(newton->multigrid);
+    CHECK(newton->counters.taken_back == 0 && did->saddles > 0);
+    CHECK(newton->counters.saddles == did->saddles);
+    CHECK(newton->counters.iterations == did->iterations);
+    CHECK(newton->counters.cycles == did->cycles);
+    newton->settings.max_iterations = 1;
+    CHECK_STATUS(simulation_step(&simulation), STATUS_ITERATION_LIMIT);
+    CHECK(newton->counters.iterations == did->iterations);
+    simulation_free(&simulation);
+}
+
 /* Who works, and why it is not multigrid. */
 static void what_does_not_fit_is_left_to_newton(void **unused)
 {
@@ -536,6 +558,7 @@ int main(void)
         cmocka_unit_test(only_newton_has_factors),
         cmocka_unit_test(only_hard_steps_get_windows),
         cmocka_unit_test(newton_leaves_a_saddle_when_asked),
+        cmocka_unit_test(multigrid_is_counted),
         cmocka_unit_test(what_does_not_fit_is_left_to_newton),
         cmocka_unit_test(newton_takes_back_what_multigrid_cannot_end),
         cmocka_unit_test(explicit_methods_have_no_matrix),
