@@ -1,6 +1,7 @@
 #include "picture/square_contact.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "model/contact.h"
 #include "model/friction.h"
@@ -130,17 +131,37 @@ void square_contact_legend(const ContactView *view, double most, Legend *legend)
                      "\u25cf sticks   \u25cb slides");
 }
 
+/* Of a wall's surface, m upwards for each to the right. */
+static double slope_of(const Obstacle *wall)
+{
+    return -wall->n[0] / wall->n[1];
+}
+
+bool square_contact_words(const ContactView *view, char *text, size_t size)
+{
+    const Contact *contact = contact_of(view->run->system);
+    if (!contact || contact->obstacle[0].kind != OBSTACLE_WALL)
+        return false;
+    const Obstacle *wall = &contact->obstacle[0];
+    double slope = slope_of(wall);
+    if (!(wall->n[1] > 0) || !(fabs(slope) > 1e-6))
+        return false;
+    snprintf(text, size, "\u03bc = %.3g tan %.3g\u00b0: %s",
+             wall->friction / fabs(slope), fabs(atan(slope)) / DEGREE,
+             slides(view) ? "slides" : "holds");
+    return true;
+}
+
 void square_contact_label(const ContactView *view)
 {
     const Contact *contact = contact_of(view->run->system);
     const Stage *stage = view->stage;
     double em = view->paper->em, left[2], at[2];
-    if (!contact || contact->obstacle[0].kind != OBSTACLE_WALL)
+    char words[64];
+    if (!square_contact_words(view, words, sizeof words))
         return;
     const Obstacle *wall = &contact->obstacle[0];
-    double slope = -wall->n[0] / wall->n[1];
-    if (!(wall->n[1] > 0) || !(fabs(slope) > 1e-6))
-        return;
+    double slope = slope_of(wall);
     camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);
     const double foot[2] = {left[0],
                             wall->o[1] + slope * (left[0] - wall->o[0])};
@@ -151,8 +172,5 @@ void square_contact_label(const ContactView *view)
         at[1] -= low;
     }
     paper_write(view->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.5 * em, ALIGN_LEFT,
-                "\u03bc = %.3g tan %.3g\u00b0: %s",
-                wall->friction / fabs(slope), fabs(atan(slope)) / DEGREE,
-                slides(view) ? "slides" : "holds");
+                at[1] + 1.5 * em, ALIGN_LEFT, "%s", words);
 }

@@ -50,8 +50,11 @@ void square_contact_forces(const ContactView *view, double most);
 void square_contact_legend(const ContactView *view, double most,
                            Legend *legend);
 
-/* Under the left end of the first wall: its coefficient of friction as a
- * part of its slope, and whether the body slides. */
+/* The first wall's coefficient of friction as a part of its slope, and whether
+ * the body slides; false: it has no slope.  text [size] out */
+bool square_contact_words(const ContactView *view, char *text, size_t size);
+
+/* These words under the left end of that wall. */
 void square_contact_label(const ContactView *view);
 
 #endif

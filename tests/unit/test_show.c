@@ -1,5 +1,6 @@
 /* Frames: what is drawn of a Show, where, and what the mouse finds there. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -605,6 +606,14 @@ static void contacts_slide_or_hold(void **unused)
             sum += touch.force[1];
         }
         CHECK(touches > 1 && sum > 0);
+        char words[64], expected[64];
+        const Obstacle *wall = &contact_of(system)->obstacle[0];
+        double angle = atan2(fabs(wall->n[0]), wall->n[1]);
+        snprintf(expected, sizeof expected, "\u03bc = %.3g tan %.3g\u00b0: %s",
+                 wall->friction / tan(angle), angle * 180 / M_PI,
+                 r < 2 ? "slides" : "holds");
+        CHECK(square_contact_words(&view, words, sizeof words));
+        CHECK(strcmp(words, expected) == 0);
         canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 600, COLOUR_WHITE);
         square_contact_forces(&view, square_contact_most(&view));
         int below = 0;

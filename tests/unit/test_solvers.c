@@ -310,7 +310,9 @@ static void multigrid_is_counted(void **unused)
     CHECK(newton->counters.iterations == did->iterations);
     CHECK(newton->counters.cycles == did->cycles);
     newton->settings.max_iterations = 1;
+    long before = did->iterations;
     CHECK_STATUS(simulation_step(&simulation), STATUS_ITERATION_LIMIT);
+    CHECK(did->iterations == before + 1);
     CHECK(newton->counters.iterations == did->iterations);
     simulation_free(&simulation);
 }
