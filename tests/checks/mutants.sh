@@ -53,7 +53,7 @@ killers_for() { # file, what the list names
         near='options command check_files.sh check_faults.sh' ;;
     */base/* | */model/* | */solve/* | */step/*) near=$numeric ;;
     */scenes/*) near='scenes exhibits options pages body lecture hand' ;;
-    */picture/*) near='layout picture show exhibits' ;;
+    */picture/*) near='layout show exhibits picture' ;;
     */play/output.[ch] | */play/recording.[ch])
         near='picture check_files.sh command check_log.sh check_faults.sh' ;;
     */play/film.[ch] | */play/png*) near='film picture' ;;
