@@ -543,10 +543,10 @@ static void the_ledger_adds_up(void **unused)
                 Energies end = simulation_energies(&simulation, r);
                 double broken = end.fracture - start.fracture;
                 potential_gradient(run->system, run->x, g);
-                double jump =
-                    dissipated_in(run, x, v, broken ? NULL : g, &start, &end) +
-                    damping_work(run->system, run->x, x,
-                                 simulation.options.damping, run->h);
+                double jump = dissipated_in(run, x, v, broken != 0 ? NULL : g,
+                                            &start, &end) +
+                              damping_work(run->system, run->x, x,
+                                           simulation.options.damping, run->h);
                 if (broken == 0)
                     sum[r] += jump;
                 else /* taken from the ledger: nothing to compare */
