@@ -33,6 +33,16 @@ static const OptionRow *likely_row(const char *name)
     return nearest_row(option_rows, sizeof *option_rows, name);
 }
 
+/* The scene with this name, or that one of these words is about; NULL: none. */
+static const Scene *scene_meant(const char *text)
+{
+    const Scene *scene = scene_find(text);
+    for (const Scene *row = scenes; row->name && !scene; row++)
+        if (is_one_of(row->words, text))
+            scene = row;
+    return scene;
+}
+
 /* "no option --dt; did you mean --timestep?" */
 static Status complain_unknown(const char *word, const Complaint *complaint)
 {
@@ -40,19 +50,25 @@ static Status complain_unknown(const char *word, const Complaint *complaint)
     shown.text[strcspn(shown.text, "=")] = '\0';
     const OptionRow *row = likely_row(letters.text);
     const IntegratorMethod *method = integrator_meant(letters.text);
-    if (scene_find(letters.text))
+    const Scene *scene =
+        row ? scene_find(letters.text) : scene_meant(letters.text);
+    bool no = strncmp(letters.text, "no-", 3) == 0;
+    if (scene)
         return complain(complaint,
                         "no option %s; did you mean the scene: elasto %s?",
-                        shown.text, letters.text);
+                        shown.text, scene->name);
     if (method)
         return complain(complaint,
                         "no option %s; did you mean --integrator %s?",
                         shown.text, method->name);
     if (row)
-        return complain(
-            complaint, "no option %s; did you mean --%s%s?", shown.text,
-            row->name,
-            row->names && strncmp(letters.text, "no-", 3) == 0 ? " none" : "");
+        return complain(complaint, "no option %s; did you mean --%s%s?",
+                        shown.text, row->name,
+                        no && row->names ? " none"
+                        : no && row->kind == KIND_NUMBER && row->low <= 0 &&
+                                !(row->needs & NEEDS_MESH)
+                            ? " 0"
+                            : "");
     return complain(complaint, "no option %s; see elasto --help", shown.text);
 }
 
@@ -67,9 +83,10 @@ static Status find_option(const char *word, const OptionRow **found,
     bool is_long = word[1] == '-';
     const char *name = word + 1 + is_long;
     size_t length = strcspn(name, "=");
+    char letter = name[0] == 'V' ? 'v' : name[0]; /* many programs have -V */
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool match = is_long ? strncmp(row->name, name, length) == 0
-                             : row->letter == name[0] && length == 1;
+                             : row->letter == letter && length == 1;
         if (!match || length == 0 || !row->name[0])
             continue;
         *found = row;
@@ -80,9 +97,11 @@ static Status find_option(const char *word, const OptionRow **found,
         add_name(&list, long_name.text);
         matches++;
     }
-    if (matches == 1)
-        return STATUS_OK;
     const OptionRow *likely = likely_row(option_letters(word).text);
+    bool other = is_long && likely && likely != *found &&
+                 is_one_of(likely->words, option_letters(word).text);
+    if (matches == 1 && !other) /* --time is more than half of --timestep */
+        return STATUS_OK;
     if (matches > 1 &&
         !(likely && is_one_of(likely->words, option_letters(word).text)))
         return complain(complaint, "%s can be %s: write a few letters more",
@@ -159,7 +178,9 @@ static Status complain_scene(const char *word, const Complaint *complaint)
                              is_one_of(row->words, left.text)))
             option = row;
     const IntegratorMethod *method = integrator_meant(word);
-    const Scene *scene = nearest_row(scenes, sizeof *scene, word);
+    const Scene *scene = scene_meant(word);
+    if (!scene)
+        scene = nearest_row(scenes, sizeof *scene, word);
     Text hint = {""};
     if (method)
         snprintf(hint.text, sizeof hint.text, "did you mean --integrator %s?",

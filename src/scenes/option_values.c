@@ -162,6 +162,22 @@ static const IntegratorWord integrator_words[] = {
     {NULL, NULL},
 };
 
+/* Methods of others, and which of ours comes nearest. */
+static const IntegratorWord integrator_others[] = {
+    {"leapfrog", "verlet"},
+    {"stormer", "verlet"},
+    {"stoermer-verlet", "verlet"},
+    {"bdf1", "backward-euler"},
+    {"crank-nicolson", "midpoint"},
+    {"trapezoidal", "midpoint"},
+    {"trapezoid", "midpoint"},
+    {"newmark", "midpoint"},
+    {"newmark-beta", "midpoint"},
+    {"gauss-legendre", "midpoint"},
+    {"dirk", "sdirk2"},
+    {NULL, NULL},
+};
+
 const IntegratorMethod *integrator_meant(const char *text)
 {
     const IntegratorWord *word =
@@ -181,8 +197,12 @@ Status parse_integrator(const OptionRow *row, const char *text,
     for (const IntegratorMethod *known = integrator_methods; known->name;
          known++)
         add_name(&list, known->name);
-    const IntegratorMethod *near =
-        nearest_row(integrator_methods, sizeof *near, text);
+    const IntegratorMethod *near = NULL;
+    for (word = integrator_others; word->name && !near; word++)
+        if (is_one_of(word->name, text))
+            near = integrator_method(word->means);
+    if (!near)
+        near = nearest_row(integrator_methods, sizeof *near, text);
     if (!near && (word = nearest_row(integrator_words, sizeof *word, text)))
         near = integrator_method(word->means);
     return complain(complaint, "--%s: '%s' is none of: %s%s%s%s", row->name,

@@ -14,14 +14,16 @@
     .offset = offsetof(Options, field), .size = sizeof((Options){0}.field)
 
 static const OptionName solver_names[] = {
-    {"newton", SOLVER_NEWTON, "projected-newton pn direct cholesky"},
-    {"multigrid", SOLVER_MULTIGRID, "mg matrix-free newton-cg lagged"},
+    {"newton", SOLVER_NEWTON,
+     "projected-newton pn direct cholesky cholmod ldl"},
+    {"multigrid", SOLVER_MULTIGRID,
+     "mg matrix-free newton-cg lagged amg gmg pcg"},
     {"auto", SOLVER_AUTO, "default automatic"},
     {NULL, 0, NULL},
 };
 
 static const OptionName filter_names[] = {
-    {"clamp", FILTER_CLAMP, "on yes true 1 psd spd project projection"},
+    {"clamp", FILTER_CLAMP, "on yes true 1 psd spd project projection eigen"},
     {"none", FILTER_NONE, "off no false 0"},
     {"abs", FILTER_ABS, "absolute-value"},
     {"on-demand", FILTER_ON_DEMAND, "auto lazy"},
@@ -261,7 +263,8 @@ const OptionRow option_rows[] = {
     {.name = "damping",
      .value = "ETA",
      .help = "of the springs' strain rate (Kelvin-Voigt)",
-     .words = "eta damp damper viscosity viscous kelvin-voigt rayleigh",
+     .words = "eta damp damper viscosity viscous kelvin-voigt rayleigh "
+              "restitution drag dissipation",
      .kind = KIND_NUMBER,
      FIELD(damping),
      .low = 0,
@@ -274,7 +277,7 @@ const OptionRow option_rows[] = {
     {.name = "timestep",
      .value = "H",
      .help = "h",
-     .words = "h dt delta-t step-size stepsize time-step-size ts delta",
+     .words = "h t dt delta-t step-size stepsize time-step-size ts delta cfl",
      .kind = KIND_NUMBER,
      FIELD(timestep),
      .low = 1e-30,
@@ -295,8 +298,8 @@ const OptionRow option_rows[] = {
     {.name = "tolerance",
      .value = "T",
      .help = "the search ends at |p|/h <= T",
-     .words = "t tol eps epsilon precision accuracy residual threshold newton-"
-              "tolerance",
+     .words = "tol eps epsilon precision accuracy residual threshold newton-"
+              "tolerance maxiter max-iter max-iterations newton-iterations",
      .kind = KIND_NUMBER,
      FIELD(tolerance),
      .low = 1e-300,
@@ -342,14 +345,14 @@ const OptionRow option_rows[] = {
      .value = "N",
      .help = "then end; without a screen after 100",
      .words = "num-steps nsteps n-steps iterations iters iter max-steps "
-              "max-iterations frames-count duration time end-time t-end tmax",
+              "frames-count duration time end-time t-end tmax",
      .kind = KIND_WHOLE,
      FIELD(steps),
      .low = 0,
      .high = 1e18},
     {.name = "paused",
      .help = "at the start",
-     .words = "pause wait stopped",
+     .words = "pause wait stopped start-paused begin-paused",
      .kind = KIND_SWITCH,
      FIELD(paused)},
     {.name = "speed",
@@ -363,7 +366,8 @@ const OptionRow option_rows[] = {
     {.name = "size",
      .value = "WxH",
      .help = "of the window or the frames, pixels",
-     .words = "window-size geometry resolution-of-window win",
+     .words = "window-size geometry resolution-of-window win screen-size "
+              "dimensions",
      .kind = KIND_OWN,
      FIELD(size),
      .parse = parse_size,
@@ -384,7 +388,7 @@ const OptionRow option_rows[] = {
      .value = "DIR",
      .help = "a PNG of every drawn step",
      .words = "png pngs images pictures frame out-dir output-dir outdir dir "
-              "screenshots render",
+              "screenshots screenshot snapshot snapshots render",
      .kind = KIND_TEXT,
      FIELD(frames)},
     {.name = "states",
@@ -397,7 +401,8 @@ const OptionRow option_rows[] = {
     {.name = "log",
      .value = "FILE",
      .help = "CSV, a row per Newton iteration",
-     .words = "logfile log-file newton-log trace history verbose convergence",
+     .words = "logfile log-file newton-log trace history verbose convergence "
+              "debug logging",
      .kind = KIND_TEXT,
      FIELD(log)},
     {.name = "film",
@@ -415,7 +420,8 @@ const OptionRow option_rows[] = {
     {.name = "lecture",
      .value = "[PAGE]",
      .help = "page by page; Page Down is the next one",
-     .words = "slides page pages lesson presentation present talk slide",
+     .words = "slides page pages lesson presentation present talk slide "
+              "tutorial tour guide guided-tour course",
      .kind = KIND_OWN,
      FIELD(page),
      .parse = parse_page,

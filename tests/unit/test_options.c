@@ -291,6 +291,40 @@ static const BadLine hopeful_lines[] = {
     {"--st 1", {"--stiffness", "--stretch", "--states"}},
     {"--s=1", {"no option --s;", "did you mean --stretch?", ""}},
     {"--headless=1", {"--headless=1", "takes no value", ""}},
+    {"--cfl 0.5", {"no option --cfl;", "did you mean --timestep?", ""}},
+    {"-t 0.01", {"no option -t;", "did you mean --timestep?", ""}},
+    {"--time 3", {"no option --time;", "did you mean --steps?", ""}},
+    {"--maxiter 50", {"no option --maxiter;", "did you mean --tolerance?", ""}},
+    {"--no-gravity", {"did you mean --gravity 0?", "", ""}},
+    {"--no-friction", {"did you mean --friction 0?", "", ""}},
+    {"--restitution 1", {"--restitution;", "did you mean --damping?", ""}},
+    {"--start-paused", {"--start-paused;", "did you mean --paused?", ""}},
+    {"--screenshot", {"--screenshot;", "did you mean --frames?", ""}},
+    {"--debug", {"no option --debug;", "did you mean --log?", ""}},
+    {"--tutorial", {"--tutorial;", "did you mean --lecture?", ""}},
+    {"--video o.mp4", {"--video;", "did you mean --film?", ""}},
+    {"--wall 1,0", {"no option --wall;", "did you mean --ground?", ""}},
+    {"--mu 0.3", {"no option --mu;", "did you mean --friction?", ""}},
+    {"--plasticity", {"--plasticity;", "did you mean --yield?", ""}},
+    {"--contact", {"--contact;", "did you mean the scene: elasto drop?", ""}},
+    {"squash", {"'squash'", "did you mean squeeze?", "--list"}},
+    {"fracture", {"'fracture'", "did you mean tear?", "--list"}},
+    {"contact", {"'contact'", "did you mean drop?", "--list"}},
+    {"explode", {"'explode'", "did you mean explosion?", "--list"}},
+    {"help", {"'help'", "did you mean --help?", ""}},
+    {"lecture", {"'lecture'", "did you mean --lecture?", ""}},
+    {"--integrator leapfrog", {"'leapfrog'", "did you mean verlet?", ""}},
+    {"--integrator crank-nicolson", {"did you mean midpoint?", "", ""}},
+    {"--integrator bdf1", {"'bdf1'", "did you mean backward-euler?", ""}},
+    {"--integrator rk4", {"'rk4' is none of: backward-euler,", "avf4", ""}},
+    {"--solver cholmod", {"'cholmod'", "did you mean newton?", ""}},
+    {"--solver amg", {"'amg'", "did you mean multigrid?", ""}},
+    {"--filter eigen", {"'eigen'", "did you mean clamp?", ""}},
+    {"--size 1200", {"--size", "'1200'", "WIDTHxHEIGHT"}},
+    {"--lecture overshot", {"'overshot'", "did you mean overshoot", ""}},
+    {"drop --integrator avf", {"no contact", "only backward-euler", ""}},
+    {"circle --gravity 9", {"--gravity", "'circle'", "no body that falls"}},
+    {"square circle", {"'circle'", "one scene at a time", ""}},
     {"-h=1", {"-h=1", "takes no value", ""}},
     {"--steps --headless", {"--steps", "missing", ""}},
     {"--log --quiet", {"--log", "missing", ""}},
@@ -352,6 +386,7 @@ static void other_words_are_understood(void **unused)
         CHECK(parse_good(line).scene == &scenes[i]);
     }
     CHECK(parse_good("-h").help && parse_good("-v").version);
+    CHECK(parse_good("-V").version);
     CHECK(parse_good("--segments 1e2").segments == 100);
     CHECK(parse_good("--steps 1e3").steps == 1000);
     CHECK(parse_good("--steps 4.0").steps == 4);
