@@ -40,6 +40,22 @@ static double mean_gain(const Pull *hand, const double x_n[2],
     return sum;
 }
 
+static void check_gain_and_bounds(const Term *term, const Place *way,
+                                  const Pull *hand)
+{
+    const double zero[MAX_SIZE] = {0};
+    const TermKind *averaged = term->kind->averaged;
+    Place still = *way;
+    still.x = way->x_n;
+    still.u = zero;
+    int i = 2 * hand->node;
+    CHECK_NEAR(averaged->value(term, way) - averaged->value(term, &still),
+               mean_gain(hand, way->x_n + i, way->u + i), 1e-12 * hand->k);
+    double stiffest = 0.5, force = 0;
+    term->kind->bounds(term, way->system, &stiffest, &force);
+    CHECK(stiffest == hand->k && force == 0);
+}
+
 /* Value, gradient and Hessian against the formula, in random places; what a
  * line and the averaged twin say against both. */
 static void derivatives_are_those_of_the_formula(void **unused)
@@ -83,13 +99,7 @@ static void derivatives_are_those_of_the_formula(void **unused)
         double gained = P - system_energy_of(&system, &hand_energy, x);
         CHECK_NEAR(mean[i] * u[i] + mean[i + 1] * u[i + 1], gained,
                    1e-12 * hand.k);
-        memset(g, 0, sizeof g);
-        Place still = {&system, x, g, x, true, NULL};
-        CHECK_NEAR(averaged->value(term, &way) - averaged->value(term, &still),
-                   mean_gain(&hand, x + i, u + i), 1e-12 * hand.k);
-        double stiffest = 0.5, force = 0;
-        term->kind->bounds(term, &system, &stiffest, &force);
-        CHECK(stiffest == hand.k && force == 0);
+        check_gain_and_bounds(term, &way, &hand);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
         Place begin = {&system, x, g, x, false, NULL};

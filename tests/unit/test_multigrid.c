@@ -575,6 +575,28 @@ static void a_saddle_is_left(void **state)
     problem_free(&problem);
 }
 
+/* Between two steps springs become stiffer: once told to forget, multigrid
+ * solves the system that there is. */
+static void what_has_changed_is_read_again(void **state)
+{
+    (void)state;
+    Problem problem;
+    problem_create(8, 1.4, &problem);
+    Multigrid *multigrid;
+    CHECK_STATUS(multigrid_create(8, 0, 1, &multigrid), STATUS_OK);
+    CHECK_STATUS(minimise(multigrid, &problem), STATUS_OK);
+    advance(&problem);
+    for (int s = 0; s < problem.mesh.springs; s++)
+        problem.k[s] *= s % 2 ? 3 : 5;
+    multigrid_forget(multigrid);
+    multigrid_forget(NULL);
+    CHECK_STATUS(minimise(multigrid, &problem), STATUS_OK);
+    CHECK_AT_MOST(reference_residual(&problem, problem.u, H),
+                  TOLERANCE * (1 + 1e-9));
+    multigrid_free(multigrid);
+    problem_free(&problem);
+}
+
 /* Near the maximum, on either side: a direction of negative curvature is gone
  * along in the sense in which E falls. */
 static void a_saddle_is_left_downhill(void **state)
@@ -632,6 +654,7 @@ int main(void)
         cmocka_unit_test(the_cycle_is_symmetric_and_positive),
         cmocka_unit_test(steps_pass_the_test_of_algorithm_3),
         cmocka_unit_test(a_saddle_is_left),
+        cmocka_unit_test(what_has_changed_is_read_again),
         cmocka_unit_test(a_saddle_is_left_downhill),
         cmocka_unit_test(bits_do_not_depend_on_lanes_or_threads),
     };
