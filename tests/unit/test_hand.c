@@ -44,6 +44,7 @@ static void check_gain_and_bounds(const Term *term, const Place *way,
                                   const Pull *hand)
 {
     const double zero[MAX_SIZE] = {0};
+    CHECK(term->kind->valid(term, way->system));
     const TermKind *averaged = term->kind->averaged;
     Place still = *way;
     still.x = way->x_n;
@@ -72,7 +73,6 @@ static void derivatives_are_those_of_the_formula(void **unused)
                                 random_uniform(&random, -2, 2)}};
         CHECK_STATUS(hand_energy_set(&system, &hand), STATUS_OK);
         const Term *term = system_find_term(&system, &hand_energy);
-        CHECK(term && term->kind->valid(term, &system));
         for (int i = 0; i < 2 * system.nodes; i++) {
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
