@@ -70,12 +70,18 @@ static void envelope_axes(Paper *paper, const Stage *stage)
     }
     Box last = envelope_box(stage, ENVELOPE_COLUMNS - 1, 0);
     Box top = envelope_box(stage, 0, ENVELOPE_ROWS - 1);
-    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, last.x + last.width,
-                last.y + last.height + 1.5 * paper->em, ALIGN_RIGHT,
+    double em = paper->em, below = last.y + last.height + 1.5 * em;
+    double above = top.y - 1.5 * em;
+    /* On the map itself where the numbers and the legend take all room. */
+    if (below + 1.4 * em > stage->box.y + stage->box.height)
+        below = last.y + last.height - 1.4 * em;
+    if (above < stage->box.y + 1.8 * em)
+        above = top.y + 0.1 * em;
+    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
+                last.x + last.width - 0.3 * em, below, ALIGN_RIGHT,
                 "time step h in s");
-    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, top.x,
-                top.y - 1.5 * paper->em, ALIGN_LEFT,
-                "stiffness k in J/m\u00b2");
+    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, top.x + 0.3 * em, above,
+                ALIGN_LEFT, "stiffness k in J/m\u00b2");
 }
 
 /* A frame of four lines around a cell. */
