@@ -85,14 +85,17 @@ static Status fit(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* A card is closed or opened; enlarged or as the others. */
+/* A card is closed or opened; one that is open is enlarged, or as the others.
+ */
 static Status switch_card(Player *player, const Command *command)
 {
     int cards = picture_cards(picture_of(player->lane[0].track.options.scene));
     int card = (int)fmin((double)command->number, 1e6);
     if (card >= cards)
         return player_refuse(player, "there is no such card");
-    if (command->kind == COMMAND_CARD)
+    player_fill(player);
+    bool closed = player->show.closed >> card & 1;
+    if (command->kind == COMMAND_CARD || closed) /* its title opens it */
         player->closed ^= 1u << card;
     else
         player->large = player->large == card ? -1 : card;

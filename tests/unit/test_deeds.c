@@ -358,16 +358,23 @@ static void the_screen_obeys(void **unused)
     for (int i = 0; i < 30; i++)
         CHECK_STATUS(obey("slower"), STATUS_OK);
     CHECK(player.speed == SPEED_LEAST);
-    obey_all((const char *const[]){"card 1", "enlarge 1", "pages", NULL});
-    CHECK(player.closed == 2 && player.large == 1);
+    obey_all((const char *const[]){"card 1", "enlarge 2", "pages", NULL});
+    CHECK(player.closed == 2 && player.large == 2);
     CHECK(player.column == LECTURE_PAGES);
-    obey_all((const char *const[]){"card 1", "enlarge 1", "pages", NULL});
+    obey_all((const char *const[]){"card 1", "enlarge 2", "pages", NULL});
     CHECK(player.closed == 0 && player.large == -1);
     CHECK(player.column == LECTURE_CARDS);
+    /* A click on the title of a closed card opens it. */
+    obey_all((const char *const[]){"card 1", "enlarge 1", NULL});
+    CHECK(player.closed == 0 && player.large == -1);
+    CHECK_STATUS(obey("enlarge 5"), STATUS_OK); /* closed from the start */
+    player_fill(&player);
+    CHECK(!(player.show.closed >> 5 & 1) && player.large == -1);
+    CHECK_STATUS(obey("card 5"), STATUS_OK);
     CHECK_STATUS(obey("card 99"), STATUS_INVALID_INPUT);
     /* Another scene has cards of its own, and none of them is enlarged. */
-    obey_all((const char *const[]){"card 1", "enlarge 1", "restart", NULL});
-    CHECK(player.closed == 2 && player.large == 1);
+    obey_all((const char *const[]){"card 1", "enlarge 2", "restart", NULL});
+    CHECK(player.closed == 2 && player.large == 2);
     CHECK_STATUS(obey("scene drop"), STATUS_OK);
     CHECK(player.closed == 0 && player.large == -1);
     end();
