@@ -574,6 +574,25 @@ END
 }
 verdict a_hand_on_every_scene "$(every_scene)"
 
+# A cell of the map is opened by a click, Y tells how, Escape leads back.
+map_cell() {
+    side=900
+    begin envelope --paused
+    key n
+    xdotool mousemove --window "$window" 300 500 sleep 0.03 click 1
+    until_true has_title square || echo 'a click opens no square'
+    key n
+    key Escape
+    until_true has_title envelope || echo 'Escape does not lead back'
+    xdotool mousemove --window "$window" 300 500 sleep 0.03 click 1
+    until_true has_title square || echo 'not once more'
+    key n
+    same_again envelope
+    [ "$(grep -c ' scene ' session)" = 3 ] || echo 'Y does not tell of it'
+    grep -q ' set stiffness' session || echo 'Y tells of no stiffness'
+}
+verdict a_cell_of_the_map_is_opened "$(map_cell)"
+
 # Full screen and back: Escape leaves it first, then the program.
 full_screen() {
     begin square --paused
