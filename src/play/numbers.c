@@ -65,6 +65,8 @@ static bool has_meaning(const Number *number, const Options *options)
 {
     if (strcmp(number->option, "damping") == 0)
         return options->damping > 0;
+    if (strcmp(number->option, "solver") == 0) /* of a few equations: any */
+        return options->scene->needs & NEEDS_MESH;
     return strcmp(number->option, "friction") != 0 ||
            options->grounds + options->balls > 0;
 }
