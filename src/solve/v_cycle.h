@@ -9,9 +9,10 @@
  * block Jacobi iteration smooths, once before and once after.  All that is
  * symmetric, so the cycle is a symmetric positive definite matrix.
  *
- * Its numbers are of single precision: it only precedes the exact product in
- * conjugate gradients.  Up to 32 segments, where a fold can hang on the last
- * bits of a direction, they are of double precision.
+ * Its numbers are of single precision, and so are the conjugate gradients that
+ * it has beside it: they find directions, and what a test needs to know of them
+ * is computed again in double precision.  Up to 32 segments, where a fold can
+ * hang on the last bits of a direction, they are of double precision.
  */
 #ifndef ELASTO_V_CYCLE_H
 #define ELASTO_V_CYCLE_H

@@ -433,6 +433,30 @@ static void windows_lower_what_they_say(void **state)
     problem_free(&problem);
 }
 
+/* Conjugate gradients for H p = -a: what they say of the remainder and of p is
+ * so, but for the rounding of their precision; 15 V-cycles make the remainder
+ * 100 times smaller even where springs are broken.  Writes p and y. */
+static void check_solution(VCycle *cycle, const Grid *grid, const double *a,
+                           double *p, double *y, double rounding)
+{
+    VRemainder left = {0, 0};
+    double norm = sqrt(grid_inverse_mass_square(grid, a));
+    v_solve_begin(cycle, -1, a, 1);
+    for (int i = 0; i < 15; i++) {
+        CHECK(v_solve_step(cycle, &left));
+        CHECK(v_solve_next(cycle) >= 0);
+    }
+    v_solve_end(cycle, p);
+    grid_stiffen(grid);
+    grid_product(grid, true, p, y);
+    grid_combine(grid, NULL, -1, a, -1, y);
+    CHECK_NEAR(sqrt(left.square), sqrt(grid_inverse_mass_square(grid, y)),
+               rounding * norm);
+    CHECK(sqrt(left.square) <= 1e-2 * norm);
+    CHECK_NEAR(left.largest, grid_largest(grid, p),
+               rounding * grid_largest(grid, p));
+}
+
 static void the_cycle_is_symmetric_and_positive(void **state)
 {
     (void)state;
@@ -462,6 +486,7 @@ static void the_cycle_is_symmetric_and_positive(void **state)
         CHECK(aBa > 0 && bBb > 0);
         CHECK_NEAR(grid_dot(&grid, a, Bb), grid_dot(&grid, b, Ba),
                    rounding * sqrt(aBa * bBb));
+        check_solution(cycle, &grid, a, Ba, Bb, rounding);
         free(a);
         free(b);
         free(Ba);
