@@ -127,7 +127,8 @@ take_out() {
     *.c) mv object "$object" ;;
     *) touch "$file" ;;
     esac
-    rm -f build/release/libelasto.a
+    # The listings in the program may have been made of the file with the fault.
+    rm -f build/release/libelasto.a build/release/listing_text.[co]
 }
 
 # try_fault LINE: one line about what became of it.
@@ -167,6 +168,8 @@ try_fault() {
 rm -rf build/mutants
 mkdir -p build/mutants/original build/mutants/taken
 cp -pR Makefile README.md include src tests build/mutants/original || exit 1
+cp "$list" build/mutants/list.txt || exit 1 # what is edited meanwhile is not it
+list=$PWD/build/mutants/list.txt
 grep -nE '^[^#]' "$list" | grep -F -e "$word" | cut -d: -f1 \
     >build/mutants/chosen
 [ -s build/mutants/chosen ] || {
