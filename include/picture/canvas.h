@@ -28,6 +28,7 @@ typedef struct Box {
 typedef struct Canvas {
     int width, height; /* pixels */
     Box clip;          /* inside the picture; nothing is drawn beyond it */
+    int above, below;  /* rows of the clip that lines leave to others */
     uint32_t *pixels;  /* [width height] row by row, no gaps */
 } Canvas;
 

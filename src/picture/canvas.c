@@ -140,7 +140,8 @@ void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
 typedef struct LineFrame {
     uint32_t *first;
     ptrdiff_t along, across;  /* distances in pixels[] */
-    int begin, end;           /* clip along */
+    int first_begin;          /* clip along, */
+    int begin, end;           /* and what of it is drawn */
     int low, high;            /* clip across, fixed point */
     uint32_t red_blue, green; /* of the colour */
     uint32_t full;            /* opacity, 0 ... 256 */
@@ -160,6 +161,15 @@ static bool clip_side(double p, double q, double *t0, double *t1)
     return *t0 <= *t1;
 }
 
+/* Whether a line is above or below all rows from top to bottom: most lines are,
+ * of a band of the picture. */
+static inline bool is_beyond(double y0, double y1, int top, int bottom,
+                             double margin)
+{
+    return (y0 < top - margin && y1 < top - margin) ||
+           (y0 > bottom + margin && y1 > bottom + margin);
+}
+
 /* Shortens the line (x0, y0, x1, y1) to the clip and a margin around it. */
 static inline bool clip_line(const Box *clip, double margin, double line[4])
 {
@@ -169,9 +179,6 @@ static inline bool clip_line(const Box *clip, double margin, double line[4])
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
         return true; /* also far faster where nothing is to be cut */
-    if ((line[1] < top && line[3] < top) ||
-        (line[1] > bottom && line[3] > bottom))
-        return false; /* most lines of a band of the picture */
     double dx = line[2] - line[0], dy = line[3] - line[1];
     double t0 = 0, t1 = 1;
     if (!isfinite(dx) || !isfinite(dy) ||
@@ -233,11 +240,14 @@ static void line_columns(const LineFrame *frame, double a0, double a1,
 {
     int from = (int)(a0 * FIXED_ONE), to = (int)(a1 * FIXED_ONE);
     int begin = from >> FIXED_BITS, end = (to + FIXED_ONE - 1) >> FIXED_BITS;
-    begin = begin < frame->begin ? frame->begin : begin;
+    begin = begin < frame->first_begin ? frame->first_begin : begin;
     end = end > frame->end ? frame->end : end;
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int step = (int)(slope * FIXED_ONE);
     int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
+    int first = begin;
+    begin = begin < frame->begin ? frame->begin : begin;
+    b += (begin - first) * step; /* what it is there without a band, too */
     int b_end = b + (end - begin) * step;
     uint32_t *column = frame->first + begin * frame->along;
     bool inside = (b < b_end ? b : b_end) - reach - FIXED_ONE >= frame->low &&
@@ -264,7 +274,11 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
 {
     double line[4] = {x0, y0, x1, y1};
     const Box *clip = &canvas->clip;
+    int top = clip->y + canvas->above;
+    int right = clip->x + clip->width;
+    int bottom = clip->y + clip->height - canvas->below;
     if (!(width > 0) || width > CANVAS_MAX_WIDTH ||
+        is_beyond(y0, y1, top, bottom, width + 1) ||
         !clip_line(clip, width + 1, line))
         return;
     double dx = line[2] - line[0], dy = line[3] - line[1];
@@ -272,13 +286,12 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                        .red_blue = colour & 0xff00ff,
                        .green = colour & 0x00ff00,
                        .full = opacity(colour)};
-    int right = clip->x + clip->width, bottom = clip->y + clip->height;
     if (fabs(dx) >= fabs(dy)) {
         frame.along = 1;
         frame.across = canvas->width;
-        frame.begin = clip->x;
+        frame.first_begin = frame.begin = clip->x;
         frame.end = right;
-        frame.low = clip->y * FIXED_ONE;
+        frame.low = top * FIXED_ONE;
         frame.high = bottom * FIXED_ONE;
         if (dx > 0)
             line_columns(&frame, line[0], line[2], line[1], dy / dx, width);
@@ -287,7 +300,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     } else {
         frame.along = canvas->width;
         frame.across = 1;
-        frame.begin = clip->y;
+        frame.first_begin = clip->y;
+        frame.begin = top;
         frame.end = bottom;
         frame.low = clip->x * FIXED_ONE;
         frame.high = right * FIXED_ONE;

@@ -104,14 +104,12 @@ typedef struct BandJob {
 static void draw_bands(const void *job, int first, int end)
 {
     const BandJob *all = job;
-    const Box clip = all->pen->paper->canvas.clip;
+    int height = all->pen->paper->canvas.clip.height;
     for (int band = first; band < end; band++) {
         Paper paper = *all->pen->paper;
         SpringPen pen = *all->pen;
-        int top = clip.height * band / BANDS;
-        int bottom = clip.height * (band + 1) / BANDS;
-        canvas_clip(&paper.canvas,
-                    (Box){clip.x, clip.y + top, clip.width, bottom - top});
+        paper.canvas.above = height * band / BANDS;
+        paper.canvas.below = height - height * (band + 1) / BANDS;
         pen.paper = &paper;
         draw_whole_springs(&pen, all->system);
     }
