@@ -28,7 +28,7 @@ enum { TIP_SMALL_SQUARE = 48 };
  * Phases go on while they lower E by more than the last iteration of the whole
  * square did for the same work.  That is an average over the last phases, of
  * which each counts this times as much as the next. */
-enum { WORK_GLOBAL = 6, WORK_LOOK = 2 };
+enum { WORK_GLOBAL = 3, WORK_LOOK = 2 };
 static const double TIP_MEMORY = 0.8;
 
 Status tips_create(const Grid *grid, Tips *tips)
