@@ -127,8 +127,8 @@ fi
 with_window=' square circle drop tear dial '
 in_window() { # scene
     [ "$screen" ] || return 1
-    case ${LONG:-}$with_window in
-    long-test* | *" $1 "*) ;;
+    case ${LONG:+all}$with_window in
+    all* | *" $1 "*) ;;
     *) return 1 ;;
     esac
 }

@@ -249,8 +249,9 @@ static void jerk(Track *track, Random *random, int step)
 
 /* One step after a jerk.  A step of backward Euler ends where E is at most what
  * it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 + P_n, the
- * hand's energy in P, up to the rounding of the energies themselves.  Other
- * methods may run away: false, and nothing is NaN; a step beyond all numbers
+ * hand's energy in P, up to the rounding of the energies themselves.  Methods
+ * that damp nothing gather the hand's work: beyond 1e20 J, false, and nothing
+ * is NaN.  A step of explicit ones may lead beyond all numbers: false, and it
  * changes nothing. */
 static bool jerked_step(Track *track, bool descends)
 {
@@ -262,7 +263,7 @@ static bool jerked_step(Track *track, bool descends)
     memcpy(v, run->v, (size_t)size * sizeof *v);
     Status status = track_step(track);
     if (status && !status_is_unconverged(status)) {
-        CHECK(!descends && status == STATUS_NOT_FINITE);
+        CHECK(!run->newton && status == STATUS_NOT_FINITE);
         CHECK_SAME_BITS(run->v, v, size);
         return false;
     }
@@ -270,7 +271,7 @@ static bool jerked_step(Track *track, bool descends)
     for (int k = 0; k < size; k++)
         CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_energies(simulation, 0);
-    if (!descends && !(now.total < 1e100))
+    if (!descends && !(now.total < 1e20))
         return false;
     CHECK(isfinite(now.total) && isfinite(now.work));
     if (descends)
@@ -279,8 +280,10 @@ static bool jerked_step(Track *track, bool descends)
     return true;
 }
 
-/* Random jerks of the mouse, any timestep, every method: every step ends.  One
- * that runs away begins again.  10 000 steps of each with all variations. */
+/* Random jerks of the mouse, any timestep, every method: every step ends.  A
+ * run with too much energy begins again.  10 000 steps of each with all
+ * variations.
+ */
 static void random_drags_end(void **unused)
 {
     (void)unused;
@@ -294,7 +297,8 @@ static void random_drags_end(void **unused)
                                           "symplectic-euler",
                                           "verlet",
                                           "forward-euler"};
-    enum { METHODS = sizeof methods / sizeof *methods, EXPLICIT = METHODS - 3 };
+    enum { METHODS = sizeof methods / sizeof *methods };
+    enum { DAMPING = 3, EXPLICIT = METHODS - 3 };
     const int steps = tests_are_long() ? 10000 : 150;
     Random random = {2026};
     for (int i = 0; i < METHODS; i++) {
@@ -313,9 +317,10 @@ static void random_drags_end(void **unused)
             begin(line, &track);
             runaways++;
         }
-        /* Measured: explicit steps run away every twentieth time, as they must
-         * beyond their stable timestep; implicit ones never do. */
-        CHECK(i < EXPLICIT ? runaways == 0 : runaways > 0);
+        /* Explicit steps run away every twentieth time, as they must beyond
+         * their stable timestep; backward Euler and BDF2 never do. */
+        print_message("  %-16s %d runaways\n", methods[i], runaways);
+        CHECK(i < DAMPING ? runaways == 0 : i < EXPLICIT || runaways > 0);
         track_free(&track);
     }
 }
