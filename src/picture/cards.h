@@ -4,6 +4,7 @@
 #define ELASTO_CARDS_H
 
 #include "picture/picture.h"
+#include "picture/plot.h"
 
 /* The listing of the method that runs, the current line lit, lines that are
  * switched off struck through. */
@@ -18,6 +19,17 @@ extern const Card card_residual;
 /* What the history keeps, over time: energies; radii in the circle. */
 extern const Card card_energies;
 extern const Card card_radius;
+
+/* A quantity of a history at this time, or at the last point before it, J; what
+ * is only rounding beside the others, at that time and at the beginning, is 0;
+ * NaN where there is no point. */
+double energies_value(const Simulation *simulation, const History *history,
+                      int series, double time);
+
+/* The axis of the energies, in units of *joule (out): that of the whole run,
+ * unless what is shown so far would vanish on it; logarithmic where the energy
+ * has grown beyond a million times its start. */
+Axis energies_axis(const Show *show, double *joule);
 
 /* The formulas of the integrators that run. */
 extern const Card card_methods;

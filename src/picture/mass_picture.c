@@ -135,9 +135,10 @@ static void draw_mass_ways(Paper *paper, const Stage *stage,
         mass_next_step(simulation, r, &step);
         const double way[2] = {step.new_x[0] - step.x[0],
                                step.new_x[1] - step.x[1]};
-        stage_arrow(paper, stage, step.x, way, 1, 3, colour_of_run(r));
+        stage_arrow(paper, stage, step.x, way, 1, 3,
+                    circle_colour(simulation, r));
         stage_ring(paper, stage, step.new_x, 8 * paper->unit, 2.2,
-                   colour_of_run(r));
+                   circle_colour(simulation, r));
     }
 }
 
@@ -163,7 +164,8 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
     stage_pin(paper, stage, origin, 5 * paper->unit);
     for (int r = 0; trail && r < simulation->runs; r++)
         for (int i = 0; i < trail->count; i++) {
-            Colour colour = simulation->runs > 1 ? colour_of_run(r) : COLOUR_X;
+            Colour colour =
+                simulation->runs > 1 ? circle_colour(simulation, r) : COLOUR_X;
             stage_disc(paper, stage, trail->point[r][i], 3.5 * paper->unit,
                        colour);
             if (i > 0)
@@ -176,12 +178,13 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
         draw_mass_step(paper, stage, simulation);
     for (int r = 0; r < simulation->runs; r++)
         stage_disc(paper, stage, simulation->run[r].x, 8 * paper->unit,
-                   simulation->runs > 1 ? colour_of_run(r) : COLOUR_X);
+                   simulation->runs > 1 ? circle_colour(simulation, r)
+                                        : COLOUR_X);
     if (show->bare || !stage->text)
         return (SpringCount){0, 0};
     stage_legend(paper, stage, &legend, COLOUR_GREY, "the exact path");
     for (int r = 0; r < simulation->runs && simulation->runs > 1; r++)
-        stage_legend(paper, stage, &legend, colour_of_run(r), "%s",
+        stage_legend(paper, stage, &legend, circle_colour(simulation, r), "%s",
                      simulation->run[r].method->label);
     stage_scale(paper, stage);
     return (SpringCount){0, 0};
@@ -261,11 +264,12 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
         mass_next_step(simulation, r, &step);
         double before = mass_step_energy(step.x, step.v);
         double after = mass_step_energy(step.new_x, step.new_v);
-        lines_add(&lines, simulation->runs > 1 ? colour_of_run(r) : COLOUR_TEXT,
-                  "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
-                  simulation->runs > 1 ? simulation->run[r].method->label : "",
-                  simulation->runs > 1 ? ": " : "", before, after,
-                  after / before);
+        lines_add(
+            &lines,
+            simulation->runs > 1 ? circle_colour(simulation, r) : COLOUR_TEXT,
+            "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
+            simulation->runs > 1 ? simulation->run[r].method->label : "",
+            simulation->runs > 1 ? ": " : "", before, after, after / before);
     }
     lines_draw(paper, inside, &lines);
 }

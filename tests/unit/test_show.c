@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/exhibits.h"
 #include "picture/picture.h"
 #include "picture/marks.h"
 #include "picture/square_contact.h"
@@ -625,6 +627,74 @@ static void contacts_slide_or_hold(void **unused)
     take_down(&stand);
 }
 
+/* What a later explosion would hide: the energies of a step before it keep
+ * their numbers, and the axis is theirs; an axis that runs over many powers of
+ * ten is a logarithmic one. */
+static void energies_before_an_explosion_are_seen(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 6, 1280, 800, &stand);
+    const History *history = &stand.history;
+    double now = simulation_time(&stand.simulation), joule;
+    double total = history->value[0][history->count - 1], later[12];
+    double before = energies_axis(&stand.show, &joule).high * joule;
+    for (int s = 0; s < history->series; s++)
+        later[s] = 1e298;
+    history_add(&stand.history, now + 0.1, later);
+    CHECK(total > 1e3 &&
+          energies_value(&stand.simulation, history, 0, now) == total);
+    Axis axis = energies_axis(&stand.show, &joule);
+    CHECK(!axis.log && axis.high * joule <= before &&
+          axis.high * joule >= total);
+    CHECK(energies_value(&stand.simulation, history, 0, now + 0.1) == 1e298);
+    CHECK(isnan(energies_value(&stand.simulation, history, 0, -1)));
+    take_down(&stand);
+    stand_up("arrows", 80, 1280, 800, &stand);
+    axis = energies_axis(&stand.show, &joule);
+    now = simulation_time(&stand.simulation);
+    CHECK(axis.log && axis.low > 0);
+    double least = INFINITY;
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    Box card = layout.card[picture_card(&mass_picture, "energies")];
+    for (int r = 0; r < 3; r++) { /* one colour a method, here and there */
+        Colour colour = colour_of_method(stand.simulation.run[r].method->name);
+        double energy = energies_value(&stand.simulation, history, r, now);
+        least = fmin(least, energy);
+        CHECK(energy <= axis.high * joule && energy >= axis.low * joule);
+    }
+    CHECK(least > 0 && least < 1e-6);
+    take_down(&stand);
+    stand_up("arrows", 6, 1280, 800, &stand);
+    show_draw(&stand.paper, &stand.show);
+    for (int r = 0; r < 3; r++) { /* one colour a method, here and there */
+        Colour colour = colour_of_method(stand.simulation.run[r].method->name);
+        CHECK(count_colour(&stand, card, colour) > 50);
+        CHECK(count_colour(&stand, layout.stage, colour) > 50);
+    }
+    take_down(&stand);
+}
+
+/* Seven kinds of energy in a small card leave room for their curves. */
+static void a_legend_leaves_room_for_curves(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("dent --size 1280x800", 60, 1280, 800, &stand);
+    int energies = picture_card(&square_picture, "energies");
+    show_draw(&stand.paper, &stand.show);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    Box card = layout.card[energies];
+    /* Light lines across are at most so far up as the plot is. */
+    int top = -1;
+    for (int y = card.y + 2; y < card.y + card.height - 2 && top < 0; y++)
+        if (count_colour(&stand, (Box){card.x + 2, y, card.width - 4, 1},
+                         COLOUR_GRID) > card.width / 3)
+            top = y;
+    CHECK(top > 0 && top < card.y + 0.55 * card.height);
+    take_down(&stand);
+}
+
 /* Every card of every picture has a name of its own, and they fit. */
 static void cards_have_names(void **unused)
 {
@@ -663,6 +733,8 @@ int main(void)
         cmocka_unit_test(pages_light_their_lines),
         cmocka_unit_test(contact_is_seen),
         cmocka_unit_test(contacts_slide_or_hold),
+        cmocka_unit_test(energies_before_an_explosion_are_seen),
+        cmocka_unit_test(a_legend_leaves_room_for_curves),
         cmocka_unit_test(cards_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
