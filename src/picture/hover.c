@@ -177,7 +177,8 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
     Lines lines = {0};
     char number[48], rest[48];
     spring_hessian(d, l2, k, FILTER_NONE, H);
-    plot_number(number, sizeof number, 100 * (sqrt(d2 / l2) - 1));
+    plot_number(number, sizeof number,
+                100 * (hypot(d[0], d[1]) / sqrt(l2) - 1));
     plot_number(rest, sizeof rest, l2);
     snprintf(next_line(&lines), HOVER_TEXT, "spring %d\u2013%d", i, j);
     snprintf(next_line(&lines), HOVER_TEXT,
@@ -197,13 +198,23 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
     draw_eigenvalues(paper, &box, before, after);
 }
 
+/* Whether a node has a place. */
+static bool is_placed(const Pane *pane, int node)
+{
+    const double *x = pane_x(pane) + 2 * (size_t)node;
+    return isfinite(x[0]) && isfinite(x[1]);
+}
+
 void hover_square(Paper *paper, const Stage *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Pick *hover = &show->hover;
     const System *system = &pane->simulation->system;
-    if (hover->kind == PICK_NODE && hover->index < system->nodes)
+    if (hover->kind == PICK_NODE && hover->index < system->nodes &&
+        is_placed(pane, hover->index))
         hover_node(paper, stage, pane, hover->index);
-    if (hover->kind == PICK_SPRING && hover->index < system->springs)
+    if (hover->kind == PICK_SPRING && hover->index < system->springs &&
+        is_placed(pane, system->e[2 * hover->index]) &&
+        is_placed(pane, system->e[2 * hover->index + 1]))
         hover_spring(paper, stage, show, pane, hover->index);
 }

@@ -290,7 +290,7 @@ Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,
         note.y = box->y + box->height - note.height;
     note.x = note.x < box->x ? box->x : note.x;
     note.y = note.y < box->y ? box->y : note.y;
-    canvas_card(&paper->canvas, note, 0.4 * paper->em, 0xf8fffff4u,
+    canvas_card(&paper->canvas, note, 0.4 * paper->em, COLOUR_NOTE,
                 COLOUR_GREY);
     return box_inset(note, margin);
 }

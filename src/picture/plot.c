@@ -55,6 +55,11 @@ void plot_number(char *text, size_t size, double value)
     char plain[32];
     double most = fabs(value);
     const char *sign = value < 0 ? "\u2212" : "";
+    if (!isfinite(value)) {
+        snprintf(text, size, "%s%s", isnan(value) ? "" : sign,
+                 isnan(value) ? "no number" : "\u221e");
+        return;
+    }
     snprintf(plain, sizeof plain, "%.2e", most);
     char *power = strchr(plain, 'e');
     if (!power || (most >= 1e-3 && most < 1e5) || most == 0) {

@@ -18,8 +18,9 @@
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
-static const double ROOM = 1.14;      /* of the stage around the square */
-static const double BARE_ROOM = 1.75; /* the bare square: 57 % of the side */
+static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
+static const double ROOM = 1.14;       /* of the stage around the square */
+static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
@@ -67,7 +68,7 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
         if (isfinite(reach) && reach > need)
             need = reach;
     }
-    while (grow < need && grow < 1e30)
+    while (grow < need && grow < MOST_SEEN)
         grow *= 1.5;
     bounds[2] *= grow;
     bounds[3] *= grow;
@@ -190,6 +191,21 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
     }
 }
 
+/* Nodes without a place: words for what cannot be drawn. */
+static void draw_lost(const SpringPen *pen, Legend *legend)
+{
+    int nodes = pen->pane->simulation->system.nodes, lost = 0;
+    for (int i = 0; i < nodes; i++)
+        lost += !isfinite(pen->x[2 * (size_t)i]) ||
+                !isfinite(pen->x[2 * (size_t)i + 1]);
+    if (lost == nodes)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+                     "no node has a place: beyond all numbers");
+    else if (lost > 0)
+        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+                     "%d of %d nodes are beyond all numbers", lost, nodes);
+}
+
 /* Above them. */
 static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
 {
@@ -203,6 +219,8 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
         draw_direction(pen, trace->p, legend);
     draw_hover(pen, show);
     draw_hand(pen, show);
+    if (pen->stage->text)
+        draw_lost(pen, legend);
     int folded = pane_folded(pane);
     if (folded > 0 && pen->stage->text)
         stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,

@@ -296,7 +296,9 @@ static void numbers_are_read(void **unused)
                 {-77342, "\u221277300"},
                 {1e5, "10^{5}"},
                 {999999, "10^{6}"},
-                {2.5e16, "2.5\u00b710^{16}"}};
+                {2.5e16, "2.5\u00b710^{16}"},
+                {-INFINITY, "\u2212\u221e"},
+                {-NAN, "no number"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[48];
         plot_number(text, sizeof text, rows[i].value);
