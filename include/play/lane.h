@@ -33,6 +33,9 @@ typedef struct Lane {
     long room;
     int rigid;      /* steps in which nothing has deformed, up to this one */
     bool failed;    /* its last step could not be made */
+    long ended;     /* a step could not be made beside others: from this step of
+                       the player on it makes none; 0: it goes on */
+    long last;      /* the player's step that was its last one then */
     Status outcome; /* of the last step, or of the one shown */
 } Lane;
 
@@ -59,7 +62,21 @@ Status lane_advance(Lane *lane, double target, long step);
 /* Shows the player's step.  Returns as track_show. */
 Status lane_show(Lane *lane, long step);
 
-/* The same, by making the step again, so that the tape knows it. */
+/* The last of the track's steps that is at most ten times as large as the first
+ * one. */
+long lane_last_good(const Lane *lane);
+
+/* After a step that could not be made beside others: it takes no more, and goes
+ * back to its last state below ten times the size; what came after that is
+ * forgotten, so that pictures and plots keep their scale.  step is the player's
+ * number of it.  Returns as track_show. */
+Status lane_end(Lane *lane, long step);
+
+/* Whether what it shows at the player's step is that end. */
+bool lane_is_over(const Lane *lane, long step);
+
+/* The same as lane_show, by making the step again, so that the tape knows it.
+ */
 Status lane_retape(Lane *lane, long step);
 
 /* Forgets what came after the player's step that is shown. */

@@ -12,8 +12,9 @@ typedef struct Number {
     const char *name;   /* in the row, in the markup of text.h */
     const char *unit;   /* or NULL */
     int letters;        /* the longest value has */
-    /* How it goes up and down: by factors, by a step, or through names. */
-    enum { NUMBER_FACTOR, NUMBER_STEP, NUMBER_NAME } kind;
+    /* How it goes up and down: by factors, by a step, or through names; or it
+     * is not in the row, and only told where runs differ in it. */
+    enum { NUMBER_FACTOR, NUMBER_STEP, NUMBER_NAME, NUMBER_LABEL } kind;
     double step; /* of NUMBER_STEP */
 } Number;
 
@@ -34,7 +35,11 @@ void number_value(const Number *number, const Options *options, char *text);
 void number_paced(const Number *number, const Options *options, double paces,
                   char *text);
 
-/* The row for an option, or NULL. */
+/* The row for an option, or NULL.  Every option that may have a list of values
+ * has one. */
 const Number *number_find(const char *option);
+
+/* All rows, one after the other; NULL behind the last. */
+const Number *number_at(int i);
 
 #endif

@@ -95,6 +95,15 @@ Status options_set(Options *options, const char *name, const char *value,
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
 
+/* The value of an option that may be a list, as on the command line.
+ *   text  [size] out
+ * Returns whether there is such an option. */
+bool options_value(const Options *options, const char *name, char *text,
+                   size_t size);
+
+/* The names of these options, one after the other; NULL behind the last. */
+const char *options_compared(int i);
+
 /* The name of a value as on the command line. */
 const char *solver_name(Solver solver);
 const char *filter_name(Filter filter);

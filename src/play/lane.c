@@ -94,6 +94,11 @@ Status lane_advance(Lane *lane, double target, long step)
     Status worst = make_room(lane, step);
     if (worst)
         return worst;
+    if (lane->ended) {
+        lane->at[step] = lane->at[step - 1];
+        lane->bar[step - 1] = bar;
+        return STATUS_OK;
+    }
     lane->outcome = STATUS_OK;
     lane->place = -1;
     bool again = true;
@@ -123,6 +128,50 @@ Status lane_show(Lane *lane, long step)
     else
         lane->outcome = lane->track.simulation.status;
     return status;
+}
+
+long lane_last_good(const Lane *lane)
+{
+    enum { TIMES = 10 };
+    const Track *track = &lane->track;
+    long step = track_step_shown(track);
+    if (step < 1)
+        return 0;
+    double limit = TIMES * fmax(track_row(track, 1)->extent, 1e-300);
+    while (step > 0 && !(track_row(track, step)->extent <= limit))
+        step--;
+    return step;
+}
+
+Status lane_end(Lane *lane, long step)
+{
+    Track *track = &lane->track;
+    Status outcome = lane->outcome;
+    lane->ended = lane->last = step;
+    if (!track->keeps)
+        return STATUS_OK;
+    while (lane->last > 0 && lane->at[lane->last] == lane->at[lane->last - 1])
+        lane->last--;
+    if (state_size(&track->simulation) == 0)
+        return STATUS_OK;
+    long good = lane_last_good(lane);
+    for (long i = 0; i <= step; i++)
+        if (lane->at[i] > good)
+            lane->at[i] = good;
+    Status status = track_show(track, good);
+    if (status)
+        return status;
+    track_forget(track);
+    history_cut(&lane->history, lane_time(lane));
+    lane->failed = lane->taped = lane->retried = false;
+    lane->place = -1;
+    lane->outcome = outcome;
+    return STATUS_OK;
+}
+
+bool lane_is_over(const Lane *lane, long step)
+{
+    return lane->ended > 0 && step >= lane->ended;
 }
 
 /* The next known step once more, taped. */
@@ -162,6 +211,8 @@ Status lane_retape(Lane *lane, long step)
 void lane_forget(Lane *lane, long step)
 {
     track_forget(&lane->track);
+    if (lane->ended > step)
+        lane->ended = 0;
     if (lane->sampled > step) {
         history_cut(&lane->history, lane_time(lane));
         trail_cut(&lane->trail,
@@ -191,6 +242,8 @@ Status lane_clone(const Lane *lane, int number, NewtonObserver observer,
     clone->trail = lane->trail;
     clone->sampled = lane->sampled;
     clone->outcome = lane->outcome;
+    clone->ended = lane->ended;
+    clone->last = lane->last;
     return STATUS_OK;
 }
 

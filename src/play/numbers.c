@@ -18,6 +18,16 @@ static const Number numbers[] = {
     {"filter", "projection", NULL, 9, NUMBER_NAME, 0},
     {"line-search", "line search", NULL, 9, NUMBER_NAME, 0},
     {"solver", "solver", NULL, 15, NUMBER_NAME, 0},
+    /* not in the row */
+    {"side", "side", "m", 0, NUMBER_LABEL, 0},
+    {"density", "\u03c1", "kg/m\u00b2", 0, NUMBER_LABEL, 0},
+    {"turn", "turned by", "\u00b0", 0, NUMBER_LABEL, 0},
+    {"gravity", "gravity", "m/s\u00b2", 0, NUMBER_LABEL, 0},
+    {"slip-speed", "slip speed", "m/s", 0, NUMBER_LABEL, 0},
+    {"cells", "cells", NULL, 0, NUMBER_LABEL, 0},
+    {"yield", "yield", NULL, 0, NUMBER_LABEL, 0},
+    {"hardening", "hardening", NULL, 0, NUMBER_LABEL, 0},
+    {"tear", "tear", NULL, 0, NUMBER_LABEL, 0},
 };
 
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
@@ -30,39 +40,21 @@ const Number *number_find(const char *option)
     return NULL;
 }
 
+const Number *number_at(int i)
+{
+    return i >= 0 && i < NUMBERS ? &numbers[i] : NULL;
+}
+
 void number_value(const Number *number, const Options *options, char *text)
 {
-    const char *option = number->option;
-    size_t size = COMMAND_TEXT_SIZE;
-    if (strcmp(option, "timestep") == 0)
-        snprintf(text, size, "%g", options->timestep);
-    else if (strcmp(option, "stiffness") == 0)
-        snprintf(text, size, "%g", options->stiffness);
-    else if (strcmp(option, "stretch") == 0)
-        snprintf(text, size, "%g", options->stretch);
-    else if (strcmp(option, "segments") == 0)
-        snprintf(text, size, "%d", options->segments);
-    else if (strcmp(option, "tolerance") == 0)
-        snprintf(text, size, "%g", options->tolerance);
-    else if (strcmp(option, "friction") == 0)
-        snprintf(text, size, "%g", options->friction);
-    else if (strcmp(option, "damping") == 0)
-        snprintf(text, size, "%g", options->damping);
-    else if (strcmp(option, "integrator") == 0)
-        snprintf(text, size, "%s",
-                 options->integrator ? options->integrator->name
-                                     : integrator_methods[0].name);
-    else if (strcmp(option, "filter") == 0)
-        snprintf(text, size, "%s", filter_name(options->filter));
-    else if (strcmp(option, "line-search") == 0)
-        snprintf(text, size, "%s", line_search_name(options->line_search));
-    else
-        snprintf(text, size, "%s", solver_name(options->solver));
+    options_value(options, number->option, text, COMMAND_TEXT_SIZE);
 }
 
 /* Whether there is something that the number is about. */
 static bool has_meaning(const Number *number, const Options *options)
 {
+    if (number->kind == NUMBER_LABEL)
+        return false;
     if (strcmp(number->option, "damping") == 0)
         return options->damping > 0;
     if (strcmp(number->option, "solver") == 0) /* of a few equations: any */

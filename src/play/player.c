@@ -37,6 +37,14 @@ Lane *player_lane(Player *player)
     return &player->lane[player->active];
 }
 
+double player_time(const Player *player)
+{
+    const Lane *lane = &player->lane[player->active];
+    for (int i = 0; i < player->lanes && lane_is_over(lane, player->step); i++)
+        lane = &player->lane[i];
+    return lane_time(lane);
+}
+
 const Simulation *player_simulation(const Player *player)
 {
     return &player->lane[player->active].track.simulation;
@@ -56,7 +64,7 @@ void player_reset_speed(Player *player)
 {
     player->measured = 0;
     player->clock_mark = clock_now();
-    player->time_mark = lane_time(player_lane(player));
+    player->time_mark = player_time(player);
 }
 
 void player_note(Player *player, const char *format, ...)
@@ -231,16 +239,13 @@ static Status obey_script(Player *player)
  * be seen, at most ten times as large as the first. */
 static Status show_last_good(Player *player)
 {
-    enum { TIMES = 10 };
-    Lane *lane = &player->lane[0];
+    const Lane *lane = &player->lane[0];
     const Track *track = &lane->track;
-    long failed = player->step + 1, step = player->step;
-    if (player->lanes > 1 || !track->keeps || track->newest < 1 ||
+    long failed = player->step + 1;
+    if (!track->keeps || track->newest < 1 ||
         state_size(&track->simulation) == 0)
         return STATUS_OK;
-    double limit = TIMES * fmax(track_row(track, 1)->extent, 1e-300);
-    while (step > 0 && !(track_row(track, step)->extent <= limit))
-        step--;
+    long step = lane_last_good(lane);
     if (step == player->step)
         return STATUS_OK;
     Status status = player_show(player, step);
@@ -252,6 +257,25 @@ static Status show_last_good(Player *player)
     return status;
 }
 
+/* Of several side by side: those whose step could not be made end, and the
+ * others go on. */
+static Status end_lanes(Player *player)
+{
+    Status status = STATUS_OK;
+    for (int i = 0; i < player->lanes && !status; i++) {
+        Lane *lane = &player->lane[i];
+        if (!lane->failed || lane->ended || lane->track.simulation.done)
+            continue;
+        status = lane_end(lane, player->step);
+        player_note(player,
+                    "pane %d ended at step %ld, beyond all numbers: its last "
+                    "state below ten times the size is shown",
+                    i + 1, lane->last);
+        player->warning = true;
+    }
+    return status;
+}
+
 /* A failed step is shown, and somebody may go on from it. */
 static Status show_failure(Player *player, Status status)
 {
@@ -260,9 +284,10 @@ static Status show_failure(Player *player, Status status)
         status == STATUS_SCREEN_FAILED || status == STATUS_FILE_FAILED ||
         status == STATUS_INVALID_INPUT)
         return status;
-    if (player->lanes == 1)
-        player->paused = true;
     player->changed = true;
+    if (player->lanes > 1)
+        return end_lanes(player);
+    player->paused = true;
     return status == STATUS_NOT_FINITE ? show_last_good(player) : STATUS_OK;
 }
 
@@ -288,7 +313,7 @@ static Status step_frame(Player *player)
 /* Simulated over real time, twice a second. */
 static void measure_speed(Player *player)
 {
-    double now = clock_now(), time = lane_time(player_lane(player));
+    double now = clock_now(), time = player_time(player);
     double passed = now - player->clock_mark;
     if (passed < MEASURE_TIME)
         return;

@@ -108,6 +108,10 @@ Status player_forget_later(Player *player);
 Lane *player_lane(Player *player);
 const Simulation *player_simulation(const Player *player);
 
+/* s: that of the lane whose numbers are shown, or where it has ended that of
+ * one that goes on. */
+double player_time(const Player *player);
+
 /* The speed in the texts; it is measured anew from here. */
 void player_reset_speed(Player *player);
 double player_rate(const Player *player); /* steps a second */

@@ -224,7 +224,9 @@ static void fill_pane(Player *player, int i, double rest, Trace *trace)
                    .trail = &lane->trail,
                    .ghost = lane->ghost,
                    .ghost_label = lane->ghost_label};
-    if (outcome && outcome != STATUS_INTERRUPTED)
+    if (lane_is_over(lane, player->step))
+        pane->trouble = STATUS_NOT_FINITE;
+    else if (outcome && outcome != STATUS_INTERRUPTED)
         pane->trouble = outcome;
     if (player->lanes > 1)
         pane->label = lane->label;
@@ -252,44 +254,31 @@ static void fill_hand(Player *player)
                    .target = {settings->at[0], settings->at[1]}};
 }
 
-/* The numbers of the lane that has most: one may be 0 and hidden elsewhere. */
-static int numbers_of_all(const Player *player,
-                          const Number *found[NUMBERS_MOST])
-{
-    int count = 0;
-    for (int i = 0; i < player->lanes; i++) {
-        const Number *here[NUMBERS_MOST];
-        int more = numbers_of(&player->lane[i].track.settings.options, here);
-        if (more > count)
-            memcpy(found, here, sizeof here);
-        count = more > count ? more : count;
-    }
-    return count;
-}
-
 /* What is different in each lane. */
 static void fill_labels(Player *player)
 {
-    const Number *number[NUMBERS_MOST];
-    int count = numbers_of_all(player, number);
+    const Number *number;
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         const Options *options = &lane->track.settings.options;
         size_t used = 0;
         lane->label[0] = '\0';
-        for (int k = 0; k < count; k++) {
+        for (int k = 0; (number = number_at(k)); k++) {
             char value[SHOW_VALUE];
-            if (!player_compares(player, number[k]->option) ||
+            if (!player_compares(player, number->option) ||
                 used >= sizeof lane->label)
                 continue;
-            value_text(number[k], options, &lane->track.simulation, value,
+            value_text(number, options, &lane->track.simulation, value,
                        sizeof value);
-            bool alone = strcmp(number[k]->option, "integrator") == 0;
+            bool alone = strcmp(number->option, "integrator") == 0;
             used += (size_t)snprintf(
                 lane->label + used, sizeof lane->label - used, "%s%s%s%s",
-                used ? ", " : "", alone ? "" : number[k]->name,
-                alone ? "" : " ", value);
+                used ? ", " : "", alone ? "" : number->name, alone ? "" : " ",
+                value);
         }
+        if (lane_is_over(lane, player->step) && used < sizeof lane->label)
+            snprintf(lane->label + used, sizeof lane->label - used,
+                     "%sended at step %ld", used ? ", " : "", lane->last);
     }
 }
 
@@ -308,7 +297,7 @@ static void fill_time(Player *player)
     if (!time)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
-                             "   t = %.4g s", lane_time(lane));
+                             "   t = %.4g s", player_time(player));
     if (player->paused)
         return;
     double speed = player->measured > 0 && player->measured < 0.85 * wanted

@@ -168,7 +168,7 @@ static double next_time(const Player *player)
     double pace = -1, time = 0;
     for (int i = 0; i < player->lanes; i++) {
         const Lane *lane = &player->lane[i];
-        if (!lane->failed && lane_pace(lane) > pace) {
+        if (!lane->failed && !lane->ended && lane_pace(lane) > pace) {
             pace = lane_pace(lane);
             time = lane_time(lane);
         }
@@ -282,7 +282,8 @@ void player_sample(Player *player)
         if (lane->sampled >= player->step)
             continue;
         lane->sampled = player->step;
-        show_sample(&lane->track.simulation, &lane->history, &lane->trail);
+        if (!lane_is_over(lane, player->step))
+            show_sample(&lane->track.simulation, &lane->history, &lane->trail);
     }
 }
 
@@ -315,19 +316,24 @@ Status player_step(Player *player)
 void player_pause_if_due(Player *player)
 {
     bool ended = true, rests = true, trouble = false, drifting = true;
+    int going = 0;
     if (player->given[0].steps >= 0 || !player->attended)
         return;
     for (int i = 0; i < player->lanes; i++) {
         const Lane *lane = &player->lane[i];
+        if (lane_is_over(lane, player->step))
+            continue;
+        going++;
         ended = ended && (lane->track.simulation.done || lane->failed);
         rests = rests && is_at_rest(lane);
         drifting = drifts(&player->lane[i]) && drifting;
         trouble = trouble || lane->outcome;
     }
+    rests = rests && going > 0;
     if (rests && !player->rests)
         player_note(player, "at rest: nothing moves any more; pull a node, "
                             "change a number, or R begins again");
-    tell_drift(player, drifting && !rests);
+    tell_drift(player, drifting && !rests && going > 0);
     player->rests = rests;
     player->halted = !player->paused && (ended || rests);
     player->paused = player->paused || player->halted;

@@ -6,6 +6,9 @@
  */
 #include "scenes/options.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #include "model/square_mesh.h"
 #include "scenes/option_row.h"
 #include "scenes/pins.h"
@@ -500,4 +503,41 @@ const char *filter_name(Filter filter)
 const char *line_search_name(LineSearch search)
 {
     return value_name(line_search_names, (int)search);
+}
+
+bool options_value(const Options *options, const char *name, char *text,
+                   size_t size)
+{
+    const OptionRow *row = option_rows;
+    const IntegratorMethod *method =
+        options->integrator ? options->integrator : &integrator_methods[0];
+    double number;
+    int whole;
+    text[0] = '\0';
+    while (row->name && strcmp(row->name, name) != 0)
+        row++;
+    if (!row->name || !row->compared)
+        return false;
+    const char *field = (const char *)options + row->offset;
+    if (row->kind == KIND_NUMBER) {
+        memcpy(&number, field, sizeof number);
+        snprintf(text, size, "%g", number);
+    } else if (row->kind == KIND_OWN) {
+        snprintf(text, size, "%s", method->name);
+    } else {
+        memcpy(&whole, field, sizeof whole);
+        if (row->kind == KIND_NAME)
+            snprintf(text, size, "%s", value_name(row->names, whole));
+        else
+            snprintf(text, size, "%d", whole);
+    }
+    return true;
+}
+
+const char *options_compared(int i)
+{
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->compared && i-- == 0)
+            return row->name;
+    return NULL;
 }

@@ -48,6 +48,73 @@ static void lanes_wait_for_each_other(void **unused)
     end();
 }
 
+/* Forward Euler explodes within 30 steps.  Beside others it ends there: its
+ * pane goes back to a state of the square's own size, says so, and keeps the
+ * energies of that; time is that of those who go on. */
+static void a_lane_that_fails_leaves_the_others_alone(void **unused)
+{
+    (void)unused;
+    begin_script("0 play\n60 pause\n",
+                 "square --integrator forward-euler,symplectic-euler");
+    CHECK_STATUS(player_run(&player), STATUS_OK);
+    CHECK(player.step == 60 && player.lanes == 2);
+    CHECK(lane(0)->ended > 10 && lane(0)->ended < 60 && lane(1)->ended == 0);
+    CHECK(lane(0)->last == lane(0)->ended - 1);
+    CHECK(lane_extent(lane(0)) < 10);
+    CHECK(lane_is_over(lane(0), player.step) && !lane_is_over(lane(1), 60));
+    CHECK(fabs(player_time(&player) - 60 * 0.004) < 1e-12);
+    const History *history = &lane(0)->history;
+    for (int i = 0; i < history->count; i++)
+        CHECK(history->value[0][i] < 1e12); /* J; the square begins at 4e4 */
+    char words[32];
+    snprintf(words, sizeof words, "ended at step %ld", lane(0)->last);
+    player_fill(&player);
+    CHECK(strstr(player.show.pane[0].label, words) != NULL);
+    CHECK(strstr(player.show.pane[1].label, "ended") == NULL);
+    CHECK(strstr(player.show.time_text, "t = 0.24 s") != NULL);
+    CHECK_STATUS(player_show(&player, 2), STATUS_OK); /* it was alive there */
+    player_fill(&player);
+    CHECK(strstr(player.show.pane[0].label, "ended") == NULL);
+    CHECK_STATUS(player_step(&player), STATUS_OK); /* and goes on from there */
+    CHECK(lane(0)->ended == 0 && player.step == 3);
+    CHECK(fabs(lane_time(lane(0)) - 3 * 0.004) < 1e-12);
+    end();
+}
+
+/* Whatever a list varies, the panes say. */
+static void every_list_labels_its_panes(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "square --gravity 1,9.81",
+        "square --density 500,1000",
+        "square --side 1,2",
+        "square --turn 0,30",
+        "square --yield 0.1,0.2",
+        "square --tear 0.5,0.8",
+        "square --cells on,off",
+        "square --damping 0,0.01",
+        "square --stiffness 1e4,1e5",
+        "drop --friction 0,0.3",
+        "drop --slip-speed 0.001,0.002",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        begin(lines[i]);
+        player_fill(&player);
+        CHECK(lane(0)->label[0] && lane(1)->label[0]);
+        CHECK(strcmp(lane(0)->label, lane(1)->label) != 0);
+        end();
+    }
+    begin("square --turn 0,30 --stiffness 1e4,1e5");
+    player_fill(&player);
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < i; k++)
+            CHECK(strcmp(lane(i)->label, lane(k)->label) != 0);
+    end();
+    for (int i = 0; options_compared(i); i++)
+        CHECK(number_find(options_compared(i)) != NULL);
+}
+
 static void running_leaves_the_lines(void **unused)
 {
     (void)unused;
@@ -411,6 +478,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_lead_back_into_the_step_before),
         cmocka_unit_test(lanes_wait_for_each_other),
+        cmocka_unit_test(a_lane_that_fails_leaves_the_others_alone),
+        cmocka_unit_test(every_list_labels_its_panes),
         cmocka_unit_test(running_leaves_the_lines),
         cmocka_unit_test(glides_begin_and_end_at_lines),
         cmocka_unit_test(changes_are_for_one_pane_or_all),
