@@ -40,6 +40,6 @@ void number_paced(const Number *number, const Options *options, double paces,
 const Number *number_find(const char *option);
 
 /* All rows, one after the other; NULL behind the last. */
-const Number *number_at(int i);
+const Number *number_row(int i);
 
 #endif

@@ -73,7 +73,7 @@ typedef struct Player {
     double started;                    /* s, on the wall clock */
     double clock_mark, time_mark;      /* s, where the speed is measured from */
     double measured; /* simulated over real time; 0: unknown */
-    Energies start;  /* of lane 0, when a summary will want them */
+    Energies start[OPTIONS_MAX_PANES]; /* where a summary will want them */
 
     /* What only the screen shows. */
     Lens lens;

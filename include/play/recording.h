@@ -25,6 +25,9 @@ typedef struct Recording {
     long frames;        /* written */
     long last_frame;    /* its step; -1: none */
     Film film;          /* of the frames */
+    long films;         /* that ended with a frame; of the last one: */
+    long film_frames;
+    char film_name[RECORDING_NAME_SIZE];
     long film_every;    /* it has those of every so manyth step; 0: all */
     bool points;        /* the log tells of points */
     int panes;          /* of more than one the log tells which: 1 ... */

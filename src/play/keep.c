@@ -57,7 +57,7 @@ static Status save_picture(Player *player, const Command *command)
 static Status switch_film(Player *player, const Command *command)
 {
     (void)command;
-    static char name[80]; /* for the message at its end */
+    char name[80];
     Recording *recording = &player->recording;
     Status status;
     bool ends = film_runs(&recording->film);
@@ -72,8 +72,11 @@ static Status switch_film(Player *player, const Command *command)
     }
     if (status)
         player_note(player, "no film: %s", strerror(recording->reason));
+    else if (ends)
+        player_note(player, "film ends: %ld frames, in %s",
+                    recording->film_frames, recording->film_name);
     else
-        player_note(player, ends ? "film ends: %s" : "filming %s", name);
+        player_note(player, "filming %s", name);
     recording->reason = 0;
     recording->message[0] = '\0';
     return STATUS_OK;

@@ -143,6 +143,15 @@ long lane_last_good(const Lane *lane)
     return step;
 }
 
+/* What an explosion has made of the energies would flatten those of others. */
+static void cut_explosion(History *history)
+{
+    enum { TIMES = 10 };
+    while (history->count > 1 && history->value[0][history->count - 1] >
+                                     TIMES * fabs(history->value[0][0]))
+        history_cut(history, history->time[history->count - 2]);
+}
+
 Status lane_end(Lane *lane, long step)
 {
     Track *track = &lane->track;
@@ -163,6 +172,7 @@ Status lane_end(Lane *lane, long step)
         return status;
     track_forget(track);
     history_cut(&lane->history, lane_time(lane));
+    cut_explosion(&lane->history);
     lane->failed = lane->taped = lane->retried = false;
     lane->place = -1;
     lane->outcome = outcome;

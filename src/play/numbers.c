@@ -40,7 +40,7 @@ const Number *number_find(const char *option)
     return NULL;
 }
 
-const Number *number_at(int i)
+const Number *number_row(int i)
 {
     return i >= 0 && i < NUMBERS ? &numbers[i] : NULL;
 }

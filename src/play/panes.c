@@ -34,6 +34,7 @@ static Status add_pane(Player *player, const Command *command)
         lane_free(lane);
         return status;
     }
+    player->start[player->lanes] = player->start[player->lanes - 1];
     player->active = player->lanes++;
     player_note(player, "beside it: %s", next->label);
     return track_change(&lane->track, &change, player->message,

@@ -467,6 +467,7 @@ Status player_create(const Options *options, int count, const char *line,
 
 Status player_finish(Player *player)
 {
+    player_label_lanes(player);
     view_free(player->view);
     player->view = NULL;
     return recording_close(&player->recording);

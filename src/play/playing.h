@@ -160,6 +160,9 @@ void player_deselect(Player *player);
 /* Fills player->show. */
 void player_fill(Player *player);
 
+/* What is different in each lane, as its label. */
+void player_label_lanes(Player *player);
+
 /* The whole picture. */
 void player_paint(Player *player, Paper *paper);
 

@@ -85,7 +85,15 @@ Status recording_end_film(Recording *recording)
     const Film *film = &recording->film;
     snprintf(name, sizeof name, "%s",
              film->output.name ? film->output.name : "");
-    return recording_note(recording, film_close(&recording->film), name);
+    long frames = film_runs(film) ? film->frames : 0;
+    Status status =
+        recording_note(recording, film_close(&recording->film), name);
+    if (!status && frames > 0) {
+        recording->films++;
+        recording->film_frames = frames;
+        memcpy(recording->film_name, name, sizeof name);
+    }
+    return status;
 }
 
 bool recording_wants_frames(const Recording *recording)

@@ -145,6 +145,7 @@ Status retake_step(Player *player, const Command *change, const char *option,
     }
     lane_drop_ghost(lane);
     player->lanes = 2;
+    player->start[1] = player->start[0];
     char note[sizeof player->note];
     memcpy(note, player->note, sizeof note);
     player_show_peaks(player);

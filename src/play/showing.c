@@ -254,8 +254,7 @@ static void fill_hand(Player *player)
                    .target = {settings->at[0], settings->at[1]}};
 }
 
-/* What is different in each lane. */
-static void fill_labels(Player *player)
+void player_label_lanes(Player *player)
 {
     const Number *number;
     for (int i = 0; i < player->lanes; i++) {
@@ -263,7 +262,7 @@ static void fill_labels(Player *player)
         const Options *options = &lane->track.settings.options;
         size_t used = 0;
         lane->label[0] = '\0';
-        for (int k = 0; (number = number_at(k)); k++) {
+        for (int k = 0; (number = number_row(k)); k++) {
             char value[SHOW_VALUE];
             if (!player_compares(player, number->option) ||
                 used >= sizeof lane->label)
@@ -318,7 +317,7 @@ void player_fill(Player *player)
     show->panes = player->lanes;
     show->active = player->active;
     double rest = glide_rest(player);
-    fill_labels(player);
+    player_label_lanes(player);
     for (int i = 0; i < player->lanes; i++)
         fill_pane(player, i, rest, &traces[i]);
     show->hover = hover;

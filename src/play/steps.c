@@ -70,8 +70,9 @@ Status player_begin(Player *player, const Options *options, int count)
             return status;
     }
     player_reset_speed(player);
-    if (!player->given[0].quiet)
-        player->start = simulation_energies(player_simulation(player), 0);
+    for (int i = 0; i < count && !player->given[0].quiet; i++)
+        player->start[i] =
+            simulation_energies(&player->lane[i].track.simulation, 0);
     return record_states(player);
 }
 

@@ -74,9 +74,9 @@ static void print_energy(FILE *file, double energy)
 }
 
 /* Of the first run; where there are several, with its name. */
-static void print_energies(FILE *file, const Player *player)
+static void print_energies(FILE *file, const Player *player, int pane)
 {
-    const Simulation *simulation = &player->lane[0].track.simulation;
+    const Simulation *simulation = &player->lane[pane].track.simulation;
     const Energies end = simulation_energies(simulation, 0);
     const char *name = "", *of = "";
     if (simulation->runs > 1) {
@@ -84,32 +84,52 @@ static void print_energies(FILE *file, const Player *player)
         name = simulation->run[0].method->name;
     }
     fprintf(file, "energy at start     ");
-    print_energy(file, player->start.total);
+    print_energy(file, player->start[pane].total);
     fprintf(file, "%s%s\nenergy at end       ", of, name);
     print_energy(file, end.total);
     fprintf(file, "%s%s\n", of, name);
 }
 
-/* One quantity a line. */
-void summary_print(FILE *file, const Player *player)
+/* The folder of the frames and the last film. */
+static void print_frames(FILE *file, const Recording *recording)
 {
-    const Simulation *simulation = &player->lane[0].track.simulation;
+    char name[256];
+    one_line(recording->folder, name, sizeof name);
+    if (recording->folder)
+        fprintf(file, "frames written      %ld, in %s/\n", recording->frames,
+                name);
+    else if (recording->films == 0)
+        fprintf(file, "frames written      0\n");
+    if (recording->films == 0)
+        return;
+    one_line(recording->film_name, name, sizeof name);
+    fprintf(file, "film                %ld frames, in %s",
+            recording->film_frames, name);
+    if (recording->films > 1)
+        fprintf(file, "; the last of %ld films", recording->films);
+    fputc('\n', file);
+}
+
+/* How far it came. */
+static void print_steps(FILE *file, const Simulation *simulation)
+{
     fprintf(file, "steps               %ld\n", simulation->steps);
     if (simulation->scene->needs & NEEDS_TIME)
         fprintf(file, "simulated time      %g s\n",
                 simulation_time(simulation));
-    fprintf(file, "wall time           %.3f s\n",
-            clock_now() - player->started);
+}
+
+/* What it took, and where that led. */
+static void print_work(FILE *file, const Player *player, int pane)
+{
+    const Simulation *simulation = &player->lane[pane].track.simulation;
     print_newton(file, simulation);
     if (simulation->scene->needs & NEEDS_TIME)
-        print_energies(file, player);
-    char folder[256];
-    one_line(player->recording.folder, folder, sizeof folder);
-    if (player->recording.folder)
-        fprintf(file, "frames written      %ld, in %s/\n",
-                player->recording.frames, folder);
-    else
-        fprintf(file, "frames written      0\n");
+        print_energies(file, player, pane);
+}
+
+static void print_unconverged(FILE *file, const Simulation *simulation)
+{
     fprintf(file, "steps not converged %ld", simulation->unconverged);
     if (simulation->unconverged > 0)
         fprintf(file, ", the first: %s", status_name(simulation->first));
@@ -117,6 +137,31 @@ void summary_print(FILE *file, const Player *player)
         if (simulation->reasons[i] > 0)
             fprintf(file, "\n  %-17s %d", status_name((Status)i),
                     simulation->reasons[i]);
-    fprintf(file, "\nstate hash          %016llx\n",
+    fputc('\n', file);
+}
+
+/* One quantity a line; of several panes those of each, one after the other. */
+void summary_print(FILE *file, const Player *player)
+{
+    for (int i = 0; i < player->lanes && player->lanes > 1; i++) {
+        const Lane *lane = &player->lane[i];
+        fprintf(file, "pane %-14d %s\n", i + 1, lane->label);
+        print_steps(file, &lane->track.simulation);
+        print_work(file, player, i);
+        print_unconverged(file, &lane->track.simulation);
+        fputc('\n', file);
+    }
+    const Simulation *simulation = &player->lane[0].track.simulation;
+    bool one = player->lanes == 1;
+    if (one)
+        print_steps(file, simulation);
+    fprintf(file, "wall time           %.3f s\n",
+            clock_now() - player->started);
+    if (one)
+        print_work(file, player, 0);
+    print_frames(file, &player->recording);
+    if (one)
+        print_unconverged(file, simulation);
+    fprintf(file, "state hash          %016llx\n",
             (unsigned long long)player_hash(player));
 }
