@@ -330,7 +330,7 @@ static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
             return alpha;
     }
     FAIL(1,
-         "no step length lowers E: overflow, or tol below rounding errors\n");
+         "no step tried lowers E: overflow, or tol below rounding errors\n");
 }
 
 /* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */

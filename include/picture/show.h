@@ -58,6 +58,8 @@ typedef struct Trace {
     double residual; /* of p, m/s */
     bool passed;     /* it is not above the tolerance, and that was known
                         without p: the numbers of line 4 are not there */
+    bool given_up;   /* the step ended here with the residual as it was: no
+                        alpha was found, or no time was left */
     double slope;    /* grad E . p, J s^2 */
     int projected;   /* springs; < 0: not known */
     /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */

@@ -59,6 +59,8 @@ typedef struct Scene {
     double strain;   /* its springs are coloured by strain from the start, the
                         full colours at this one; 0: only if one asks */
     unsigned needs;  /* of enum SceneNeeds */
+    bool settles; /* the sentence tells of a motion that dies away: true only of
+                     methods that take energy out */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
     /* Changes the default options, before the command line is applied; NULL:
      * the slides' numbers are right. */

@@ -12,7 +12,7 @@ static const struct {
          "the line search found no step that lowers the energy"},
     [STATUS_NOT_DESCENT] =
         {"not_descent",
-         "the search direction points uphill and no step along it helps"},
+         "the search direction points uphill and no small step along it helps"},
     [STATUS_ROUNDING_LIMIT] =
         {"rounding_limit",
          "rounding hides every further decrease above the tolerance"},

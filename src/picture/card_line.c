@@ -157,7 +157,8 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
         return;
     }
     cards_hint(paper, inside,
-               !trace                         ? "N makes a step"
+               cards_explicit(show)           ? EXPLICIT_HINT
+               : !trace                       ? "N makes a step"
                : trace->passed && trace->line ? "no {p} was needed"
                : trace->line        ? "from line 4 on, where {p} is known"
                : trace->updates > 0 ? "it was not kept"

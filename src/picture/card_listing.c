@@ -169,10 +169,11 @@ static void line_value(char *value, const Simulation *simulation,
         snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s%s", a,
                  scalar ? "" : " m");
     } else {
+        bool above = trace->residual > tolerance;
         plot_number(a, sizeof a, trace->residual);
-        snprintf(value, LISTING_VALUE, "%s %s %s%s", a,
-                 trace->residual > tolerance ? ">" : "\u2264", b,
-                 scalar ? "" : " m/s");
+        snprintf(value, LISTING_VALUE, "%s %s %s%s%s", a,
+                 above ? ">" : "\u2264", b, scalar ? "" : " m/s",
+                 above && trace->given_up ? ": given up" : "");
     }
 }
 

@@ -59,7 +59,9 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     double low = 0.3 * tolerance, high = 30 * tolerance;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
-        cards_hint(paper, inside, "a point for each Newton update");
+        cards_hint(paper, inside,
+                   cards_explicit(show) ? EXPLICIT_HINT
+                                        : "a point for each Newton update");
         return;
     }
     int last = trace->updates - 1; /* it may be the present one already */

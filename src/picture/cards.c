@@ -72,6 +72,14 @@ const Trace *cards_trace(const Show *show, DescentTrace *space)
     return descent_trace(pane->simulation, space);
 }
 
+bool cards_explicit(const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const IntegratorMethod *method = simulation->run[0].method;
+    return (simulation->scene->needs & NEEDS_TIME) && method &&
+           !method->implicit;
+}
+
 Box cards_inside(Box card, double em)
 {
     int margin = (int)lround(0.8 * em), bar = (int)lround(TITLE * em);

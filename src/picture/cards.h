@@ -40,6 +40,11 @@ extern const Card card_spy;
 /* What is inside the frame of a card, below its title; em in pixels. */
 Box cards_inside(Box card, double em);
 
+/* Whether the active pane goes by a method that solves no equation, and what
+ * cards about its solution say then. */
+bool cards_explicit(const Show *show);
+#define EXPLICIT_HINT "an explicit method solves nothing"
+
 /* One line in the middle of a card that has nothing to show yet. */
 void cards_hint(Paper *paper, Box inside, const char *text);
 

@@ -27,9 +27,9 @@ static const char *trouble_words(Status status)
         const char *words;
     } rows[] = {
         {STATUS_NOT_DESCENT,
-         "the direction points uphill: no step length lowers E"},
+         "the direction points uphill: no small step lowers E"},
         {STATUS_LINE_SEARCH_LIMIT,
-         "no step length along the direction lowers E"},
+         "no step tried along the direction lowers E"},
         {STATUS_ITERATION_LIMIT, "the updates do not end"},
         {STATUS_SINGULAR, "the Hessian has no inverse here: no direction"},
         {STATUS_NOT_POSITIVE_DEFINITE,
@@ -41,6 +41,14 @@ static const char *trouble_words(Status status)
         if (rows[i].status == status)
             return rows[i].words;
     return status_text(status);
+}
+
+/* "st", "nd", "rd", "th" */
+static const char *ordinal(int number)
+{
+    static const char *const ends[] = {"th", "st", "nd", "rd"};
+    bool teen = number / 10 % 10 == 1;
+    return teen || number % 10 > 3 ? "th" : ends[number % 10];
 }
 
 /* Line by line. */
@@ -55,6 +63,10 @@ static void describe_line(Show *show, const Simulation *simulation,
     switch (trace->line) {
     case LINE_START:
         say(s, SHOW_TEXT, "line 1: the iterate begins where the step does");
+        break;
+    case LINE_DO:
+        say(s, SHOW_TEXT, "line 2: the loop begins for the %d%s time",
+            trace->iteration + 1, ordinal(trace->iteration + 1));
         break;
     case LINE_PROJECT:
         if (options->filter == FILTER_NONE)
@@ -138,6 +150,22 @@ static void describe_time(Show *show, const Simulation *simulation)
             simulation->steps, number);
 }
 
+/* What the scene shows, where its method does not do something else. */
+static const char *scene_sentence(const Simulation *simulation)
+{
+    const Scene *scene = simulation->scene;
+    const IntegratorMethod *method = simulation->run[0].method;
+    static const char *const damping[] = {"backward-euler", "bdf2", "sdirk2"};
+    if (!scene->settles || !method)
+        return scene->sentence;
+    for (size_t i = 0; i < sizeof damping / sizeof *damping; i++)
+        if (strcmp(method->name, damping[i]) == 0)
+            return scene->sentence;
+    return strcmp(method->name, "forward-euler") == 0
+               ? "every step of forward Euler adds energy"
+               : "this method takes no energy out of the motion";
+}
+
 void show_describe(Show *show)
 {
     const Pane *pane = &show->pane[show->active];
@@ -145,12 +173,13 @@ void show_describe(Show *show)
     if (!show->topic)
         show->topic = simulation->scene->title ? simulation->scene->title
                                                : simulation->scene->name;
-    if (pane->trouble && pane->trouble != STATUS_INTERRUPTED)
+    bool whole = !pane->trace || !pane->trace->line || pane->trace->given_up;
+    if (whole && pane->trouble && pane->trouble != STATUS_INTERRUPTED)
         say(show->sentence, SHOW_TEXT, "%s", trouble_words(pane->trouble));
     else if (pane->trace && pane->trace->line)
         describe_line(show, simulation, pane->trace);
     if (!show->lecture) /* its pages have words of their own */
-        say(show->sentence, SHOW_TEXT, "%s", simulation->scene->sentence);
+        say(show->sentence, SHOW_TEXT, "%s", scene_sentence(simulation));
     describe_method(show, simulation);
     describe_time(show, simulation);
     say(show->state, sizeof show->state, "%s",

@@ -353,6 +353,7 @@ static void trace_last(const Tape *tape, Trace *trace)
     trace->x = round->x;
     trace->p = round->p;
     trace->residual = round[tape->ended].residual;
+    trace->given_up = !tape->ended;
     trace->slope = round->slope;
     trace->projected = round->projected;
     trace->trials = record->trials;
@@ -405,8 +406,19 @@ const double *tape_trace(const Tape *tape, int place, Trace *trace)
     const TapeRound *round = &tape->round[at->round];
     if (at->line == LINE_START)
         return round->x;
-    if (at->line != LINE_END || tape->ended)
+    bool given_up = !tape->ended && tape->count > 0;
+    if (at->line == LINE_END && given_up) { /* as the last round left it */
+        const TapePlace last = {tape->count - 1, LINE_END,
+                                tape->record[tape->count - 1].trials};
+        trace_round(tape, &last, trace);
+    } else if (at->line != LINE_END || tape->ended) {
         trace_round(tape, at, trace);
+    }
+    trace->given_up =
+        given_up && (at->line == LINE_END ||
+                     (at->round == tape->count - 1 && at->line == LINE_SEARCH &&
+                      at->trials == tape->record[at->round].trials &&
+                      tape->record[at->round].alpha == 0));
     bool moved = at->round < tape->count &&
                  (at->line == LINE_UPDATE || at->line == LINE_TEST);
     if (moved && (at->round + 1 < tape->count || tape->ended))

@@ -334,7 +334,7 @@ const LecturePage lecture_pages[] = {
     /* ---- projection ----------------------------------------------------- */
     {.name = "descent",
      .topic = "Descent directions and projection",
-     .text = "Where E is not convex, −H⁻¹ g may point uphill: no step length "
+     .text = "Where E is not convex, −H⁻¹ g may point uphill: no small step "
              "helps. With negative eigenvalues set to 0, p points downhill "
              "everywhere.",
      .line = "landscape --filter none",

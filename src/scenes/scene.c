@@ -19,6 +19,7 @@ const Scene scenes[] = {
      .words = "relax relaxation stretched",
      .title = "A stretched square",
      .sentence = "the stretched square relaxes",
+     .settles = true,
      .picture = PICTURE_SQUARE,
      .needs =
          NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
@@ -91,6 +92,7 @@ const Scene scenes[] = {
      .words = "contact fall falling throw bounce collision",
      .title = "Contact: a square thrown down",
      .sentence = "it falls on a corner, tumbles, and comes to rest",
+     .settles = true,
      .picture = PICTURE_SQUARE,
      .frame = {-1.25, -0.65, 1.25, 1.45},
      .strain = 0.1,

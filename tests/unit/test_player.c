@@ -312,6 +312,70 @@ static void an_update_line_by_line(void **unused)
     end();
 }
 
+/* A step whose line search finds nothing, line by line: each line says what is
+ * true of itself, and the verdict comes where the search gives up.  The test
+ * after it shows the residual as it is, above the tolerance. */
+static void a_failed_search_is_no_convergence(void **unused)
+{
+    (void)unused;
+    int verdicts = 0, lines = 0;
+    begin("unprojected");
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    for (Line line = LINE_START; line != LINE_END; lines++) {
+        char number[16];
+        player_fill(&player);
+        const Trace *trace = player.show.pane[0].trace;
+        const char *sentence = player.show.sentence;
+        line = trace->line;
+        snprintf(number, sizeof number, "line %d:", (int)line);
+        bool verdict = strstr(sentence, "no small step") != NULL;
+        CHECK(verdict == trace->given_up);
+        CHECK(verdict || strncmp(sentence, number, strlen(number)) == 0);
+        CHECK(!trace->given_up || trace->slope > 0);
+        CHECK(!trace->given_up || !trace->accepted);
+        if (line == LINE_END) {
+            CHECK(trace->given_up && trace->residual > 0.01);
+            CHECK(trace->difference != NULL && verdicts == 1);
+        }
+        verdicts += verdict;
+        if (line != LINE_END)
+            CHECK_STATUS(obey("next"), STATUS_OK);
+    }
+    CHECK(lines > 10 && verdicts == 2);
+    player_simulation(&player);
+    obey_all((const char *const[]){"finer", NULL});
+    player_fill(&player);
+    CHECK(player.show.pane[0].trace->line == LINE_NONE);
+    CHECK(player.show.pane[0].trace->given_up);
+    CHECK(player.show.pane[0].trace->residual > 0.01);
+    end();
+    begin("square"); /* one that converges gives nothing up */
+    obey_all((const char *const[]){"next", NULL});
+    player_fill(&player);
+    CHECK(!player.show.pane[0].trace->given_up);
+    end();
+}
+
+/* A scene tells of rest only where its method takes energy out. */
+static void captions_are_those_of_the_method(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line, *words;
+    } rows[] = {{"square", "relaxes"},
+                {"square --integrator bdf2", "relaxes"},
+                {"square --integrator forward-euler", "adds energy"},
+                {"square --integrator avf", "takes no energy out"},
+                {"drop", "comes to rest"},
+                {"hang --integrator verlet", "sags and swings"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin(rows[i].line);
+        player_fill(&player);
+        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
+        end();
+    }
+}
+
 /* However a step is come to, the tape knows its updates and those of the step
  * before it, and nothing of the steps that were made again on the way. */
 static void old_steps_are_taped_as_new_ones(void **unused)
@@ -784,6 +848,8 @@ int main(void)
         cmocka_unit_test(a_failure_shows_the_last_good_state),
         cmocka_unit_test(up_to_six_panes),
         cmocka_unit_test(an_update_line_by_line),
+        cmocka_unit_test(a_failed_search_is_no_convergence),
+        cmocka_unit_test(captions_are_those_of_the_method),
         cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),
