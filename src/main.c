@@ -324,6 +324,10 @@ int main(int argc, char **argv)
         if (!can_be_mapped(&options[i]))
             return EXIT_FAILED;
     }
+    if (options->panes > 1 && !options->quiet) {
+        options_panes(argc, argv, message, sizeof message);
+        fprintf(stderr, "%s\n", message);
+    }
     join_line(argc, argv, line, sizeof line);
     handle_signals();
     atexit(save_files);

@@ -45,6 +45,8 @@ typedef struct Player {
     Lane lane[OPTIONS_MAX_PANES]; /* [lanes] side by side */
     int lanes, active;            /* the one whose numbers are shown */
     long step, newest;            /* shown, and known */
+    long forgotten[2];            /* the first and the last step that was just
+                                     forgotten, and not told; 0: none */
     Recording recording;
     View *view;       /* NULL: nothing is drawn */
     bool window;      /* the view is a window: it takes keys */

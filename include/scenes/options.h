@@ -87,6 +87,10 @@ Status options_parse(int argc, char **argv, Options *options, char *message,
 Status options_parse_pane(int argc, char **argv, int pane, Options *options,
                           char *message, size_t size);
 
+/* "2 panes: --gravity 0 and -9.81": what the lists of a line that was read
+ * make, in one line.  text [size] out */
+void options_panes(int argc, char **argv, char *text, size_t size);
+
 /* One option, by its name without dashes, of options that have a scene already:
  * what this scene cannot make use of is refused, as above. */
 Status options_set(Options *options, const char *name, const char *value,

@@ -137,8 +137,9 @@ static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
                     &lines, COLOUR_FAINT, "    %s: %.3g ms with h = %.3g ms",
                     best->method->label, 1e3 * best->seconds, 1e3 * best->h);
             else
-                lines_add(&lines, COLOUR_GREY, "    no %s method yet",
-                          implicit ? "implicit" : "explicit");
+                lines_add(&lines, COLOUR_GREY, "    no %s method%s",
+                          implicit ? "implicit" : "explicit",
+                          simulation->done ? "" : " yet");
         }
     }
     if (simulation->status)

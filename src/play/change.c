@@ -53,15 +53,19 @@ static Status restart_with(Player *player, const char *option,
 {
     Options options[OPTIONS_MAX_PANES];
     int active = player->active;
+    long newest = player->newest;
     player_options(player, options);
     for (int i = from; i < to; i++)
         if (options_set(&options[i], option, value, player->message,
                         sizeof player->message))
             return STATUS_INVALID_INPUT;
     Status status = player_try_restart(player, options);
-    if (!status)
-        player->active = active;
-    return status;
+    if (status)
+        return status;
+    player->active = active;
+    player->forgotten[0] = 1;
+    player->forgotten[1] = player->attended ? newest : 0;
+    return STATUS_OK;
 }
 
 /* An option while the run goes on, or from the start where it cannot change
@@ -129,7 +133,7 @@ static Status pace_number(Player *player, const Command *command)
 {
     char value[COMMAND_TEXT_SIZE];
     const Number *number[NUMBERS_MOST];
-    const Options *options = &player_settings(player)->options;
+    const Options now = player_numbers(player), *options = &now;
     int count = numbers_of(options, number);
     if (count == 0)
         return player_refuse(player, "there is no number to change here");

@@ -57,8 +57,8 @@ static Status pace(Player *player, int index, int paces)
     if (index < 0 || index >= player->numbers)
         return STATUS_OK;
     const Number *number = player->number[index];
-    number_paced(number, &player_lane(player)->track.settings.options, paces,
-                 text);
+    Options options = player_numbers(player);
+    number_paced(number, &options, paces, text);
     snprintf(value, sizeof value, "%.31s", text);
     return ask_set(player, number->option, value);
 }
@@ -86,7 +86,8 @@ static Status drag_number(Player *player)
         paces += 1e-9; /* a value between the round ones */
     number_paced(number, &mouse->options, paces, text);
     snprintf(value, sizeof value, "%.31s", text);
-    number_value(number, &player_lane(player)->track.settings.options, now);
+    Options options = player_numbers(player);
+    number_value(number, &options, now);
     return strcmp(now, value) == 0 ? STATUS_OK
                                    : ask_set(player, number->option, value);
 }
@@ -114,7 +115,7 @@ static Status type_number(Player *player, const char *key, bool *taken)
     } else if (length > 0 && (strcmp(key, "Return") == 0 ||
                               strcmp(key, "Keypad Enter") == 0)) {
         memcpy(value, typed, sizeof value);
-        typed[0] = '\0';
+        player_deselect(player);
         return ask_set(player, player->number[index]->option, value);
     } else {
         *taken = false;
@@ -314,10 +315,17 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
         }
         mouse->drag = DRAG_NUMBER;
         mouse->index = hit.index;
-        mouse->options = player_lane(player)->track.settings.options;
+        mouse->options = player_numbers(player);
         return STATUS_OK;
     case ZONE_PAGE:
         return page_clicked(player, layout);
+    case ZONE_STRIP:
+        player_note(player, player_settings(player)->options.page
+                                ? "Page Down and Page Up turn the pages, G "
+                                  "lists them, 1 ... 9 open scenes"
+                                : "1 ... 9 open other scenes, ? lists them; "
+                                  "Page Down begins the lecture");
+        return STATUS_OK;
     case ZONE_STAGE:
         break;
     default:

@@ -2,6 +2,7 @@
  * has some.
  */
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "play/playing.h"
 
@@ -30,6 +31,17 @@ const Settings *player_settings(const Player *player)
     return &player->lane[player->active].track.settings;
 }
 
+Options player_numbers(const Player *player)
+{
+    Options options = player_settings(player)->options;
+    double h = player_simulation(player)->options.timestep;
+    char text[32]; /* not one that somebody chose: as the cards have it */
+    snprintf(text, sizeof text, "%.4g", h);
+    if (h != options.timestep)
+        options.timestep = strtod(text, NULL);
+    return options;
+}
+
 /* A switch becomes what it does now, so that a journal of it leads to the same
  * place whatever was before. */
 static Command resolve(const Player *player, const Command *command)
@@ -41,8 +53,10 @@ static Command resolve(const Player *player, const Command *command)
 }
 
 /* Whether the message of before may stay. */
-static bool keeps_note(CommandKind kind)
+static bool keeps_note(const Player *player, CommandKind kind)
 {
+    if (kind == COMMAND_SET && player->mouse.drag != DRAG_NONE)
+        return true;
     return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
@@ -55,13 +69,14 @@ Status player_obey(Player *player, const Command *command)
     player->message[0] = '\0';
     if (resolved.kind != COMMAND_REDRAW)
         player->glide = 0;
-    if (!keeps_note(resolved.kind))
+    if (!keeps_note(player, resolved.kind))
         player->note[0] = '\0';
     if (command_row(resolved.kind)->kept &&
         script_add(&player->journal, player->step, &resolved))
         return STATUS_OUT_OF_MEMORY;
     DeedFunction *act = player_deed(resolved.kind);
     Status status = act ? act(player, &resolved) : STATUS_OK;
+    player_tell_forgotten(player);
     player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||

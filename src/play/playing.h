@@ -26,6 +26,10 @@ Status player_refuse(Player *player, const char *why);
 /* The settings of the lane whose numbers are shown. */
 const Settings *player_settings(const Player *player);
 
+/* The same options with the numbers as they are now: a scene may change its
+ * time step by itself. */
+Options player_numbers(const Player *player);
+
 /* ---- walk.c ------------------------------------------------------------- */
 
 /* Where E has risen beyond all proportion within a step that was taken by
@@ -101,6 +105,9 @@ Status player_retape(Player *player, long step);
 
 /* Going on from an old step: what came after it is forgotten. */
 Status player_forget_later(Player *player);
+
+/* Says which steps were forgotten, beside what else was said. */
+void player_tell_forgotten(Player *player);
 
 /* ---- player.c ----------------------------------------------------------- */
 

@@ -138,7 +138,7 @@ static void fill_settings(Player *player)
 {
     Show *show = &player->show;
     const Lane *lane = &player->lane[player->active];
-    const Options *options = &lane->track.settings.options;
+    const Options shown = player_numbers(player), *options = &shown;
     player->numbers = numbers_of(options, player->number);
     for (int i = 0; i < player->numbers; i++) {
         const Number *number = player->number[i];
@@ -176,6 +176,7 @@ static void fill_chips(Player *player)
     const Options *options =
         &player->lane[player->active].track.settings.options;
     static const char *const next[] = {"next step", "next update", "next line"};
+    static const char *const finer[] = {"updates", "lines", "steps"};
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool newton = simulation->run[0].newton && time;
     bool ended = simulation->done || player->rests;
@@ -188,7 +189,8 @@ static void fill_chips(Player *player)
              false);
     add_chip(player, COMMAND_BACK, "\u2190", "back", false);
     if (options->page) {
-        add_chip(player, COMMAND_PAGE_ON, "PgDn", "next page", ended);
+        add_chip(player, COMMAND_PAGE_ON, "PgDn", "next page",
+                 ended && options->page[1].name);
         add_chip(player, COMMAND_CODE, "K", "code",
                  player->column == LECTURE_CODE);
         add_chip(player, COMMAND_PAGES, "G", "pages",
@@ -196,7 +198,7 @@ static void fill_chips(Player *player)
     }
     add_chip(player, COMMAND_RESTART, "R", "restart", ended);
     if (newton)
-        add_chip(player, COMMAND_FINER, "I", "finer", false);
+        add_chip(player, COMMAND_FINER, "I", finer[player->fine], false);
     if (simulation_has_filter(simulation))
         add_chip(player, COMMAND_FILTER, "P",
                  options->filter == FILTER_NONE ? "projection on"

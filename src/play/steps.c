@@ -1,5 +1,6 @@
 /* steps.c - steps of all lanes, what is recorded of them, and going back. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -153,10 +154,28 @@ Status player_retape(Player *player, long step)
     return go_to_step(player, step, lane_retape);
 }
 
+void player_tell_forgotten(Player *player)
+{
+    long first = player->forgotten[0], last = player->forgotten[1];
+    size_t used = strlen(player->note);
+    player->forgotten[1] = 0;
+    if (last < 1 || used >= sizeof player->note)
+        return;
+    if (first == last)
+        snprintf(player->note + used, sizeof player->note - used,
+                 "%sstep %ld is forgotten", used ? "; " : "", first);
+    else
+        snprintf(player->note + used, sizeof player->note - used,
+                 "%ssteps %ld ... %ld are forgotten", used ? "; " : "", first,
+                 last);
+}
+
 Status player_forget_later(Player *player)
 {
     if (!player->attended || player->step >= player->newest)
         return STATUS_OK;
+    player->forgotten[0] = player->step + 1;
+    player->forgotten[1] = player->newest;
     for (int i = 0; i < player->lanes; i++)
         lane_forget(&player->lane[i], player->step);
     player->newest = player->step;
@@ -228,6 +247,22 @@ static void tell_drift(Player *player, bool drifting)
     player->drifts = drifting;
 }
 
+/* Says so, and why cells may stay folded. */
+static void tell_rest(Player *player)
+{
+    int folded = 0;
+    for (int i = 0; i < player->lanes; i++) {
+        Pane pane = {.simulation = &player->lane[i].track.simulation};
+        folded += pane_folded(&pane);
+    }
+    player_note(player,
+                folded ? "at rest, with folded cells: springs alone do "
+                         "not mind, --cells on keeps them; pull a node, or "
+                         "R begins again"
+                       : "at rest: nothing moves any more; pull a node, "
+                         "change a number, or R begins again");
+}
+
 /* Of the statuses of several lanes the one that ends most. */
 static Status worse(Status one, Status other)
 {
@@ -296,6 +331,7 @@ Status player_step(Player *player)
         status = let_go(player);
     if (status)
         return status;
+    player_tell_forgotten(player);
     leave_step(player);
     status = advance_lanes(player);
     if (player->recorded)
@@ -332,8 +368,7 @@ void player_pause_if_due(Player *player)
     }
     rests = rests && going > 0;
     if (rests && !player->rests)
-        player_note(player, "at rest: nothing moves any more; pull a node, "
-                            "change a number, or R begins again");
+        tell_rest(player);
     tell_drift(player, drifting && !rests && going > 0);
     player->rests = rests;
     player->halted = !player->paused && (ended || rests);

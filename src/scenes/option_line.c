@@ -43,12 +43,56 @@ static const Scene *scene_meant(const char *text)
     return scene;
 }
 
-/* "no option --dt; did you mean --timestep?" */
-static Status complain_unknown(const char *word, const Complaint *complaint)
+/* What others have and we do not, and why. */
+static const char *absent(const char *name)
+{
+    static const char *const rows[][2] = {
+        {"seed random-seed rng random",
+         "there is none: nothing is random, the same line gives the same bits"},
+        {"fps framerate frame-rate",
+         "there is none: windows and films have 60 frames a second"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (is_one_of(rows[i][0], name))
+            return rows[i][1];
+    return NULL;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t length = strlen(text), last = strlen(end);
+    return length > last && strcmp(text + length - last, end) == 0;
+}
+
+/* The row that suits the value better than the one its name means: --output
+ * film.mp4, --resolution 1920x1080. */
+static const OptionRow *row_of_value(const OptionRow *row, const char *value)
+{
+    static const char *const films[] = {".mp4", ".gif", ".apng"};
+    const char *better = NULL;
+    int width, height;
+    bool file = row && row->kind == KIND_TEXT;
+    for (int i = 0; i < 3 && file; i++)
+        if (ends_with(value, films[i]))
+            better = "film";
+    if (sscanf(value, "%dx%d", &width, &height) == 2)
+        better = "size";
+    for (row = better ? option_rows : row; better && row->name; row++)
+        if (strcmp(row->name, better) == 0)
+            break;
+    return row;
+}
+
+/* "no option --dt; did you mean --timestep?"  value: what follows it, or "". */
+static Status complain_unknown(const char *word, const char *value,
+                               const Complaint *complaint)
 {
     Text letters = option_letters(word), shown = typed(word);
     shown.text[strcspn(shown.text, "=")] = '\0';
-    const OptionRow *row = likely_row(letters.text);
+    const char *why = absent(letters.text);
+    if (why)
+        return complain(complaint, "no option %s; %s", shown.text, why);
+    const OptionRow *row = row_of_value(likely_row(letters.text), value);
     const IntegratorMethod *method = integrator_meant(letters.text);
     const Scene *scene =
         row ? scene_find(letters.text) : scene_meant(letters.text);
@@ -73,9 +117,9 @@ static Status complain_unknown(const char *word, const Complaint *complaint)
 }
 
 /* The row of "--name", "--name=value", of an abbreviation that only one option
- * has, or of a letter: "-h". */
-static Status find_option(const char *word, const OptionRow **found,
-                          const Complaint *complaint)
+ * has, or of a letter: "-h".  value: what follows it, for suggestions. */
+static Status find_option(const char *word, const char *value,
+                          const OptionRow **found, const Complaint *complaint)
 {
     Text list = {""};
     int matches = 0;
@@ -106,7 +150,7 @@ static Status find_option(const char *word, const OptionRow **found,
         !(likely && is_one_of(likely->words, option_letters(word).text)))
         return complain(complaint, "%s can be %s: write a few letters more",
                         typed(word).text, list.text);
-    return complain_unknown(word, complaint);
+    return complain_unknown(word, value, complaint);
 }
 
 /* The words of a command line, one by one. */
@@ -137,10 +181,13 @@ static Status next_word(Words *words, Word *word, const Complaint *complaint)
     const char *text = word->text = words->argv[words->at++];
     if (words->plain || !is_option(text))
         return STATUS_OK;
-    Status status = find_option(text, &word->row, complaint);
+    const char *value = strchr(text, '=');
+    const char *next_text =
+        words->at < words->argc ? words->argv[words->at] : "";
+    Status status =
+        find_option(text, value ? value + 1 : next_text, &word->row, complaint);
     if (status)
         return status;
-    const char *value = strchr(text, '=');
     word->text = value ? value + 1 : "";
     if (word->row->kind == KIND_SWITCH) {
         if (value)
@@ -155,7 +202,8 @@ static Status next_word(Words *words, Word *word, const Complaint *complaint)
         Complaint unheard = {unread, sizeof unread};
         bool there = words->at < words->argc;
         if (there && strncmp(words->argv[words->at], "--", 2) == 0)
-            there = find_option(words->argv[words->at], &next, &unheard) != 0;
+            there =
+                find_option(words->argv[words->at], "", &next, &unheard) != 0;
         if (!there)
             return complain(complaint, "--%s: the value is missing: --%s %s",
                             word->row->name, word->row->name, word->row->value);
@@ -477,6 +525,45 @@ Status options_parse_pane(int argc, char **argv, int pane, Options *options,
 {
     Complaint complaint = {message, size};
     return parse_line(argc, argv, pane, true, options, &complaint);
+}
+
+/* "0 and 30", "1, 2 and 3" */
+static Text list_text(const char *list)
+{
+    Text text = {""};
+    int count = count_values(list);
+    for (int i = 0; i < count; i++) {
+        size_t used = strlen(text.text);
+        snprintf(text.text + used, sizeof text.text - used, "%s%.63s",
+                 i == 0           ? ""
+                 : i == count - 1 ? " and "
+                                  : ", ",
+                 typed(list_value(list, i).text).text);
+    }
+    return text;
+}
+
+void options_panes(int argc, char **argv, char *text, size_t size)
+{
+    Line line;
+    Options options = option_defaults();
+    Complaint unheard = {text, size};
+    int panes = 1;
+    text[0] = '\0';
+    if (read_line(argc, argv, true, &options, &line, &unheard))
+        return;
+    for (int i = 0; i < OPTION_MOST; i++)
+        panes *= line.list[i] ? count_values(line.list[i]) : 1;
+    size_t used = (size_t)snprintf(text, size, "%d panes:", panes);
+    bool first = true;
+    for (int i = 0; i < OPTION_MOST && used < size; i++) {
+        if (!line.list[i])
+            continue;
+        used += (size_t)snprintf(text + used, size - used, "%s --%s %s",
+                                 first ? "" : ";", option_rows[i].name,
+                                 list_text(line.list[i]).text);
+        first = false;
+    }
 }
 
 Status options_set(Options *options, const char *name, const char *value,

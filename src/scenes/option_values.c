@@ -65,11 +65,50 @@ void add_name(Text *list, const char *name)
              used > 0 ? ", " : "", name);
 }
 
+/* What is meant by "1/60", "140%", "5ms", as a number in the row's unit; NaN:
+ * nobody knows. */
+static double number_meant(const OptionRow *row, const char *text)
+{
+    static const struct {
+        const char *end, *unit; /* NULL: of a number without one */
+        double factor;
+    } ends[] = {{"%", NULL, 0.01}, {"s", "s", 1},     {"sec", "s", 1},
+                {"ms", "s", 1e-3}, {"us", "s", 1e-6}, {"m", "m", 1},
+                {"cm", "m", 1e-2}, {"mm", "m", 1e-3}, {"km", "m", 1e3}};
+    char *end = NULL;
+    double number = strtod(text, &end);
+    if (end == text || (row->kind != KIND_NUMBER && row->kind != KIND_WHOLE))
+        return NAN;
+    if (*end == '/') {
+        double below = strtod(end + 1, &end);
+        return *end == '\0' ? number / below : NAN;
+    }
+    if (row->unit && strcmp(end, row->unit) == 0)
+        return number;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        if (strcmp(end, ends[i].end) == 0 &&
+            (ends[i].unit == row->unit ||
+             (ends[i].unit && row->unit &&
+              strcmp(ends[i].unit, row->unit) == 0)))
+            return number * ends[i].factor;
+    return NAN;
+}
+
+static bool in_range(const OptionRow *row, double number)
+{
+    return number >= row->low && number <= row->high;
+}
+
 static Status refuse_number(const OptionRow *row, const char *text,
                             const Complaint *complaint)
 {
-    return complain(complaint, "--%s: '%s' is not %s", row->name,
-                    typed(text).text, range_text(row).text);
+    double meant = number_meant(row, text);
+    char write[48] = "";
+    bool whole = row->kind == KIND_WHOLE;
+    if (in_range(row, meant) && !(whole && meant != floor(meant)))
+        snprintf(write, sizeof write, "; write %.4g", meant);
+    return complain(complaint, "--%s: '%s' is not %s%s", row->name,
+                    typed(text).text, range_text(row).text, write);
 }
 
 /* A decimal number at the beginning of a text, no "inf", "0x1" or blanks;
@@ -83,11 +122,6 @@ static const char *read_number(const char *text, double *number)
         end != text + length || !isfinite(*number))
         return NULL;
     return end;
-}
-
-static bool in_range(const OptionRow *row, double number)
-{
-    return number >= row->low && number <= row->high;
 }
 
 /* Also 1e3 and 4.0; digits alone are read exactly. */

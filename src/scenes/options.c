@@ -361,7 +361,7 @@ const OptionRow option_rows[] = {
     {.name = "speed",
      .value = "S",
      .help = "steps a frame, 60 frames a second",
-     .words = "rate fps slow slow-motion fast steps-per-frame",
+     .words = "rate slow slow-motion fast steps-per-frame",
      .kind = KIND_NUMBER,
      FIELD(speed),
      .low = 1.0 / 64,

@@ -200,7 +200,7 @@ const LecturePage lecture_pages[] = {
      .line = "overshoot",
      .cards = "page line residual",
      .look = "f has a single valley, but from 2 the first step leads to −11.6 "
-             "and the next one beyond all bounds.",
+             "and the next one beyond 3·10⁹.",
      .touch = "Drag the start: below 1.0886 it converges, above it flies away. "
               "L turns the line search on.",
      .file = "src/solve/scalar_newton.c",
@@ -222,8 +222,9 @@ const LecturePage lecture_pages[] = {
      .cards = CARDS_NEWTON,
      .look = "N, line by line: within one step E rises to 2·10¹⁶ and nodes fly "
              "more than a kilometre.",
-     .touch = "P turns on the projection, L the line search. With either of "
-              "them E never rises.",
+     .touch =
+         "P tames it: 5 updates. L alone stops it: p points uphill, and no "
+         "step helps.",
      .file = LECTURE,
      .function = "step_forward",
      .lit = "line_search(",
@@ -494,8 +495,8 @@ const LecturePage lecture_pages[] = {
      .line = "slope",
      .cards = "page energies",
      .look = "Three blocks on a slope of 20°. A block holds if its friction "
-             "coefficient is above tan\u00a020°\u00a0=\u00a00.364: two slide, "
-             "one holds.",
+             "coefficient is above tan\u00a020°\u00a0=\u00a00.364: at the "
+             "start two slide, one holds.",
      .touch = "Drag μ; the blocks have 0.5, 0.9 and 1.1 times it. From 0.42 on "
               "the second one holds, too.",
      .file = "src/model/friction.c",

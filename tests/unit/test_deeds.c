@@ -115,6 +115,78 @@ static void every_list_labels_its_panes(void **unused)
         CHECK(number_find(options_compared(i)) != NULL);
 }
 
+/* What a change in a past step costs is told: the steps behind it. */
+static void forgotten_steps_are_told(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    for (int i = 0; i < 6; i++)
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+    CHECK(player.note[0] == '\0');
+    obey_all((const char *const[]){"goto 2", "grab 0", NULL});
+    CHECK(strstr(player.note, "the hand pulls") != NULL);
+    CHECK(strstr(player.note, "; steps 3 ... 6 are forgotten") != NULL);
+    CHECK_STATUS(obey("release"), STATUS_OK);
+    for (int i = 0; i < 2; i++)
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+    obey_all((const char *const[]){"goto 3", "play", NULL});
+    player.note[0] = '\0';
+    CHECK_STATUS(player_step(&player), STATUS_OK);
+    CHECK(strcmp(player.note, "step 4 is forgotten") == 0);
+    obey_all((const char *const[]){"home", "set stretch 1.2", NULL});
+    CHECK(strcmp(player.note, "steps 1 ... 4 are forgotten") == 0);
+    CHECK_STATUS(obey("set stretch 1.3"), STATUS_OK);
+    CHECK(player.note[0] == '\0'); /* nothing was there */
+    end();
+}
+
+/* The key I names the level it leads to; K says where code is. */
+static void keys_say_what_they_do(void **unused)
+{
+    (void)unused;
+    static const char *const levels[] = {"updates", "lines", "steps",
+                                         "updates"};
+    begin("square --segments 2");
+    for (int i = 0; i < 4; i++) {
+        bool found = false;
+        player_fill(&player);
+        for (int k = 0; k < player.show.chips; k++)
+            found =
+                found || (strcmp(player.show.chip[k].key, "I") == 0 &&
+                          strcmp(player.show.chip[k].label, levels[i]) == 0);
+        CHECK(found);
+        CHECK_STATUS(obey("finer"), STATUS_OK);
+    }
+    CHECK_STATUS(obey("code"), STATUS_INVALID_INPUT);
+    CHECK(strstr(player.message, "Page Down") != NULL);
+    CHECK_STATUS(obey("pages"), STATUS_INVALID_INPUT);
+    end();
+    begin("--lecture mesh");
+    CHECK_STATUS(obey("pages"), STATUS_OK);
+    CHECK(player.column == LECTURE_PAGES);
+    CHECK_STATUS(obey("pages"), STATUS_OK);
+    CHECK(player.column == LECTURE_CARDS);
+    CHECK_STATUS(obey("code"), STATUS_OK);
+    CHECK(player.column == LECTURE_CODE);
+    end();
+}
+
+/* The row's h follows the dial. */
+static void numbers_follow_the_scene(void **unused)
+{
+    (void)unused;
+    begin("dial");
+    for (int i = 0; i < 30; i++)
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+    char value[32];
+    double h = player_simulation(&player)->options.timestep;
+    player_fill(&player);
+    snprintf(value, sizeof value, "%.4g s", h);
+    CHECK(h > 0.01 && strcmp(player.show.setting[0].name, "h") == 0);
+    CHECK(strcmp(player.show.setting[0].value, value) == 0);
+    end();
+}
+
 static void running_leaves_the_lines(void **unused)
 {
     (void)unused;
@@ -425,12 +497,10 @@ static void the_screen_obeys(void **unused)
     for (int i = 0; i < 30; i++)
         CHECK_STATUS(obey("slower"), STATUS_OK);
     CHECK(player.speed == SPEED_LEAST);
-    obey_all((const char *const[]){"card 1", "enlarge 2", "pages", NULL});
+    obey_all((const char *const[]){"card 1", "enlarge 2", NULL});
     CHECK(player.closed == 2 && player.large == 2);
-    CHECK(player.column == LECTURE_PAGES);
-    obey_all((const char *const[]){"card 1", "enlarge 2", "pages", NULL});
+    obey_all((const char *const[]){"card 1", "enlarge 2", NULL});
     CHECK(player.closed == 0 && player.large == -1);
-    CHECK(player.column == LECTURE_CARDS);
     /* A click on the title of a closed card opens it. */
     obey_all((const char *const[]){"card 1", "enlarge 1", NULL});
     CHECK(player.closed == 0 && player.large == -1);
@@ -480,6 +550,9 @@ int main(void)
         cmocka_unit_test(lanes_wait_for_each_other),
         cmocka_unit_test(a_lane_that_fails_leaves_the_others_alone),
         cmocka_unit_test(every_list_labels_its_panes),
+        cmocka_unit_test(forgotten_steps_are_told),
+        cmocka_unit_test(keys_say_what_they_do),
+        cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(running_leaves_the_lines),
         cmocka_unit_test(glides_begin_and_end_at_lines),
         cmocka_unit_test(changes_are_for_one_pane_or_all),

@@ -451,8 +451,8 @@ static void the_curve_goes_through_the_step(void **unused)
     }
 }
 
-/* Digits go into the number that is lit, Enter sets it; Escape lets go of it,
- * and only asked twice ends the program. */
+/* Digits go into the number that is lit, Enter sets it and lets go of it, as
+ * Escape does, which only asked twice ends the program. */
 static void numbers_are_typed(void **unused)
 {
     (void)unused;
@@ -468,7 +468,8 @@ static void numbers_are_typed(void **unused)
     }
     CHECK(player.lane[0].track.settings.options.timestep == 0.02);
     CHECK(player_simulation(&player)->scene == &scenes[0]);
-    obey_all((const char *const[]){"escape", "escape", NULL});
+    CHECK(player.selected < 0 && player.typed[0] == '\0');
+    obey_all((const char *const[]){"select", "escape", "escape", NULL});
     CHECK(player.selected < 0 && !player.quit);
     CHECK(player_escape_ends(&player));
     CHECK_STATUS(obey("escape"), STATUS_OK);
