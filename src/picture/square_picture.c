@@ -39,8 +39,51 @@ static bool has_frame(const Simulation *simulation)
     return frame[2] > frame[0];
 }
 
+/* 1, 1.5, 1.5^2, ...: the first that is enough, so that the view jumps seldom.
+ */
+static double grown(double need)
+{
+    double grow = 1;
+    while (grow < need && grow < MOST_SEEN)
+        grow *= 1.5;
+    return grow;
+}
+
+/* How far the nodes are from a point, in parts of half [2]; at least 1. */
+static double reach_from(const Simulation *simulation, const double *x,
+                         const double from[2], const double half[2])
+{
+    double need = 1;
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        double reach = fmax(fabs(x[2 * i] - from[0]) / half[0],
+                            fabs(x[2 * i + 1] - from[1]) / half[1]);
+        if (isfinite(reach) && reach > need)
+            need = reach;
+    }
+    return need;
+}
+
+/* Where a body that nothing holds has drifted to, less the way that the view
+ * has room for: what the view follows it by.  by [2] m, out. */
+static void drifted(const Simulation *simulation, const double *x,
+                    const double half[2], double by[2])
+{
+    const SquareMesh *mesh = &simulation->mesh;
+    const Options *options = &simulation->options;
+    bool near_something = options->grounds + options->balls > 0 ||
+                          simulation->scene->own || simulation->runs != 1;
+    by[0] = by[1] = 0;
+    for (int k = 0; k < 2 && !near_something; k++) {
+        double centre = 0;
+        for (int i = 0; i < mesh->nodes; i++)
+            centre += x[2 * i + k] / mesh->nodes;
+        if (isfinite(centre) && fabs(centre) > 0.5 * half[k])
+            by[k] = centre - copysign(0.5 * half[k], centre);
+    }
+}
+
 /* The square as it starts; where nodes have left that, 1.5, 1.5^2, ... times
- * as much around the same middle, so that the view jumps seldom. */
+ * as much around the same middle.  One that drifts off is followed. */
 static void square_bounds(const Show *show, int pane, double bounds[4])
 {
     const Pane *shown = &show->pane[pane];
@@ -49,7 +92,7 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
     double extent = square_extent(simulation->options.stretch);
     double room = show->bare ? BARE_ROOM : ROOM;
     double half = 0.5 * simulation->mesh.side * room;
-    double need = 1, grow = 1;
+    double by[2];
     bounds[2] = half * extent;
     bounds[3] = show->bare ? half * extent : half * fmin(extent, 1.25);
     if (shown->frame) {
@@ -62,18 +105,13 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
             bounds[k] = simulation->scene->frame[k];
         return;
     }
-    for (int i = 0; i < simulation->system.nodes; i++) {
-        double reach =
-            fmax(fabs(x[2 * i]) / bounds[2], fabs(x[2 * i + 1]) / bounds[3]);
-        if (isfinite(reach) && reach > need)
-            need = reach;
+    drifted(simulation, x, bounds + 2, by);
+    double grow = grown(reach_from(simulation, x, by, bounds + 2));
+    for (int k = 0; k < 2; k++) {
+        double wide = grow * bounds[2 + k];
+        bounds[k] = by[k] - wide;
+        bounds[2 + k] = by[k] + wide;
     }
-    while (grow < need && grow < MOST_SEEN)
-        grow *= 1.5;
-    bounds[2] *= grow;
-    bounds[3] *= grow;
-    bounds[0] = -bounds[2];
-    bounds[1] = -bounds[3];
 }
 
 /* ---- what Newton does --------------------------------------------------- */

@@ -739,9 +739,48 @@ static void cards_have_names(void **unused)
     }
 }
 
+/* A square that drifts off is followed, once the view has grown a single time;
+ * one that has something to meet is not. */
+static void the_view_follows_what_drifts(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        bool followed;
+    } rows[] = {
+        {"square --stretch 1 --velocity 3,1 --timestep 0.02", true},
+        {"square --stretch 1 --velocity 3,1 --timestep 0.02 --ball 0,-5,1",
+         false},
+    };
+    for (int i = 0; i < 2; i++) {
+        Stand begin, drifted;
+        stand_up("square --stretch 1", 0, 1280, 800, &begin);
+        stand_up(rows[i].line, 100, 1280, 800, &drifted);
+        const double *x = pane_x(&drifted.show.pane[0]);
+        Layout layout = show_layout(&drifted.show, 1280, 800);
+        Camera was = show_camera(&begin.show, &layout, 0);
+        Camera is = show_camera(&drifted.show, &layout, 0);
+        Box box = layout.pane[0];
+        CHECK(x[0] > 5);
+        if (rows[i].followed)
+            CHECK_NEAR(1.5 * is.scale[0], was.scale[0], 1e-12 * was.scale[0]);
+        else
+            CHECK(is.scale[0] < 0.3 * was.scale[0]);
+        for (int k = 0; k < drifted.simulation.system.nodes; k++) {
+            double at[2];
+            camera_pixel(&is, x + 2 * k, at);
+            CHECK(at[0] > box.x && at[0] < box.x + box.width);
+            CHECK(at[1] > box.y && at[1] < box.y + box.height);
+        }
+        take_down(&begin);
+        take_down(&drifted);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_view_follows_what_drifts),
         cmocka_unit_test(frames_are_repeatable),
         cmocka_unit_test(a_bare_square_is_the_slide),
         cmocka_unit_test(threads_do_not_change_pixels),
