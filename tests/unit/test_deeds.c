@@ -171,6 +171,44 @@ static void keys_say_what_they_do(void **unused)
     end();
 }
 
+static bool next_page_is_lit(const char *line)
+{
+    bool lit = false;
+    begin(line);
+    player.rests = true;
+    player_fill(&player);
+    for (int i = 0; i < player.show.chips; i++)
+        if (strcmp(player.show.chip[i].key, "PgDn") == 0)
+            lit = player.show.chip[i].lit;
+    end();
+    return lit;
+}
+
+/* Where a page is over, the next one is offered; behind the last there is none.
+ */
+static void the_last_page_offers_no_next_one(void **unused)
+{
+    (void)unused;
+    CHECK(next_page_is_lit("--lecture mesh"));
+    CHECK(!next_page_is_lit("--lecture trust"));
+}
+
+/* A square at rest with folded cells says why they may stay. */
+static void folded_cells_at_rest_are_explained(void **unused)
+{
+    (void)unused;
+    begin("square --segments 16 --tolerance 0.1");
+    for (int i = 0; i < 3000 && !player.paused; i++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+    }
+    CHECK(player.rests);
+    player_fill(&player);
+    CHECK(pane_folded(&player.show.pane[0]) > 0);
+    CHECK(strstr(player.note, "--cells on keeps them") != NULL);
+    end();
+}
+
 /* The row's h follows the dial. */
 static void numbers_follow_the_scene(void **unused)
 {
@@ -476,6 +514,7 @@ static void pictures_are_kept(void **unused)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
         CHECK(player.recording.film.frames == 1);
         CHECK_STATUS(obey("film"), STATUS_OK);
+        CHECK(strstr(player.note, "film ends: 1 frames, in ") != NULL);
         CHECK(size_of(name[i]) > 1000);
     }
     end();
@@ -552,6 +591,8 @@ int main(void)
         cmocka_unit_test(every_list_labels_its_panes),
         cmocka_unit_test(forgotten_steps_are_told),
         cmocka_unit_test(keys_say_what_they_do),
+        cmocka_unit_test(the_last_page_offers_no_next_one),
+        cmocka_unit_test(folded_cells_at_rest_are_explained),
         cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(running_leaves_the_lines),
         cmocka_unit_test(glides_begin_and_end_at_lines),
