@@ -31,6 +31,7 @@ typedef enum Drag {
 typedef struct Mouse {
     double x, y; /* pixels */
     bool inside;
+    bool placed; /* where it rests at the start is known: now it can move */
     Drag drag;
     int index;
     double from[2], last[2]; /* pixels, where the drag began and has come */

@@ -134,6 +134,10 @@ static void search_value(char *value, const Simulation *simulation,
     }
     if (trace->trials < 1)
         return;
+    if (trace->given_up && !trace->accepted) {
+        snprintf(value, LISTING_VALUE, "no {alpha} found");
+        return;
+    }
     alpha = ldexp(alpha, 1 - trace->trials);
     alpha_text(number, sizeof number, alpha);
     snprintf(value, LISTING_VALUE, "{alpha} = %s%s", number,

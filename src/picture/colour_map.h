@@ -17,7 +17,7 @@
 #define COLOUR_CHIP    0xfff6f6f6u
 #define COLOUR_LIT     0xfffff1cdu /* the line, the chip, the setting now */
 #define COLOUR_PANEL   0xd8ffffffu /* under words on a picture */
-#define COLOUR_NOTE    0xfffffff4u /* under words about what the mouse is over */
+#define COLOUR_NOTE    0xfffffff4u /* under words at the mouse */
 #define COLOUR_WARNING 0xffd00000u
 #define COLOUR_VALUE   0xff0044b0u /* what can be changed */
 #define COLOUR_BAR     0xffccd6eau /* a step in the time line */

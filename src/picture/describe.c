@@ -51,15 +51,30 @@ static const char *ordinal(int number)
     return teen || number % 10 > 3 ? "th" : ends[number % 10];
 }
 
+/* The end of the loop; both numbers as text. */
+static void describe_test(char *s, const Trace *trace, const Options *options)
+{
+    char residual[48], tolerance[48];
+    plot_number(residual, sizeof residual, trace->residual);
+    plot_number(tolerance, sizeof tolerance, options->tolerance);
+    if (trace->passed)
+        say(s, SHOW_TEXT,
+            "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
+            "bound is below, and {p} is not needed",
+            tolerance);
+    else
+        say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", residual,
+            trace->residual > options->tolerance ? "above" : "not above",
+            tolerance);
+}
+
 /* Line by line. */
 static void describe_line(Show *show, const Simulation *simulation,
                           const Trace *trace)
 {
-    char *s = show->sentence, number[48], other[48];
+    char *s = show->sentence, number[48];
     const Options *options = &simulation->options;
     double h = options->timestep;
-    plot_number(number, sizeof number, trace->residual);
-    plot_number(other, sizeof other, options->tolerance);
     switch (trace->line) {
     case LINE_START:
         say(s, SHOW_TEXT, "line 1: the iterate begins where the step does");
@@ -97,16 +112,7 @@ static void describe_line(Show *show, const Simulation *simulation,
         say(s, SHOW_TEXT, "line 6: the square moves by {alpha} {p}");
         break;
     case LINE_TEST:
-        if (trace->passed) {
-            say(s, SHOW_TEXT,
-                "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
-                "bound is below, and {p} is not needed",
-                other);
-            break;
-        }
-        say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", number,
-            trace->residual > options->tolerance ? "above" : "not above",
-            other);
+        describe_test(s, trace, options);
         break;
     case LINE_END:
         plot_number(number, sizeof number, h);

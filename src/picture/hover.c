@@ -67,6 +67,25 @@ static void node_force(const System *system, const double *x, int node,
     }
 }
 
+/* What the nodes that have a place fill, pixels; cut to the stage. */
+static Box body_box(const Stage *stage, const Pane *pane)
+{
+    const Box *box = &stage->box;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < pane->simulation->system.nodes; i++) {
+        double at[2];
+        stage_pixel(stage, pane_x(pane) + 2 * (size_t)i, at);
+        for (int k = 0; k < 2 && isfinite(at[0]) && isfinite(at[1]); k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    int left = (int)fmax(low[0], box->x), top = (int)fmax(low[1], box->y);
+    int right = (int)fmin(high[0], box->x + box->width);
+    int bottom = (int)fmin(high[1], box->y + box->height);
+    return (Box){left, top, right - left, bottom - top};
+}
+
 /* m, x, v, f, x_tilde. */
 static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
                        int node)
@@ -92,7 +111,8 @@ static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
     add_vector(&lines, "{xt}", tilde, "m");
     stage_pixel(stage, x + 2 * (size_t)node, at);
     Box box = stage_note(paper, stage, at[0], at[1], paper_pixels(paper, WIDTH),
-                         paper_pixels(paper, LINE * lines.count));
+                         paper_pixels(paper, LINE * lines.count),
+                         body_box(stage, pane));
     draw_lines(paper, &box, &lines);
 }
 
@@ -189,7 +209,8 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
                  paper_pixels(paper, 4 * 1.15 + 0.3 + BARS);
     stage_pixel(stage, show->hover.point, at);
     Box box = stage_note(paper, stage, at[0], at[1],
-                         paper_pixels(paper, 4 * CELL + 0.3), height);
+                         paper_pixels(paper, 4 * CELL + 0.3), height,
+                         body_box(stage, pane));
     draw_lines(paper, &box, &lines);
     draw_block(paper, &box, H);
     paper_write(paper, FACE_REGULAR, SMALL, COLOUR_TEXT, box.x, box.y,

@@ -270,7 +270,7 @@ static void draw_named_direction(Paper *paper, const Plot *plot, Labels *labels,
                                  Colour colour, const char *name, double slope)
 {
     const double tip[2] = {from[0] + p[0], from[1] + p[1]};
-    double at[2], start[2];
+    double at[2], start[2], place[2][2];
     char words[80];
     draw_arrow(paper, plot, from, p, 2.2, colour);
     plot_place(plot, tip[0], tip[1], at);
@@ -280,8 +280,13 @@ static void draw_named_direction(Paper *paper, const Plot *plot, Labels *labels,
     labels_line(labels, start, at);
     snprintf(words, sizeof words, "%s (slope %.2g)", name, slope);
     plot_numbers(words, sizeof words);
-    labels_put(paper, labels, FACE_BOLD, 1, colour, (const double(*)[2])at, 1,
-               0.8 * paper->em, words);
+    double length = fmax(hypot(at[0] - start[0], at[1] - start[1]), 1e-9);
+    for (int k = 0; k < 2; k++) { /* beside the tip, or further on */
+        place[0][k] = at[k];
+        place[1][k] = at[k] + 1.6 * paper->em * (at[k] - start[k]) / length;
+    }
+    labels_put(paper, labels, FACE_BOLD, 1, colour, (const double(*)[2])place,
+               2, 0.8 * paper->em, words);
 }
 
 /* The direction that the run does not take: projected where its own is not, as
@@ -364,8 +369,21 @@ static void keep_places(Paper *paper, const Stage *stage, const Show *show,
     stage_pixel(stage, descent->point, at);
     stage_pixel(stage, tip, to);
     stage_pixel(stage, simulation->exhibit.target, target);
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x;
     for (int i = 0; i < 2; i++)
         labels_box(labels, stage_switch_box(stage, i));
+    for (int s = 0; s < system->springs; s++) {
+        double a[2], b[2];
+        stage_pixel(stage, x + 2 * system->e[2 * s], a);
+        stage_pixel(stage, x + 2 * system->e[2 * s + 1], b);
+        labels_line(labels, a, b);
+    }
+    for (int i = 1; i < system->nodes; i++) {
+        double pin[2];
+        stage_pixel(stage, x + 2 * i, pin);
+        labels_disc(labels, pin, 14 * paper->unit);
+    }
     labels_line(labels, at, to);
     labels_disc(labels, at, 11 * paper->unit);
     labels_disc(labels, target, 11 * paper->unit);

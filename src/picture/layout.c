@@ -4,11 +4,13 @@
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
-static const double GAP = 0.9;          /* between the zones' contents */
-static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
-static const double LETTER = 0.56;      /* a letter is wide, on average */
-static const double SETTING_GAP = 0.9;  /* between settings */
-static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
+static const double GAP = 0.9;       /* between the zones' contents */
+static const double TITLE_BAR = 2.0; /* a card of which only that is seen */
+static const double LETTER = 0.56;   /* a letter is wide, on average */
+static const double SETTING_LETTER = 0.53; /* the same in the row */
+static const double SMALL_LETTER = 0.57;   /* there, of less than 11 pixels */
+static const double SETTING_GAP = 0.9;     /* between settings */
+static const double CHIP_PADDING = 1.8;    /* a chip has beside its letters */
 static const double CHIP_PADDING_LEAST = 1.2;
 static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
@@ -76,9 +78,10 @@ static int place_settings(const LayoutWish *wish, Layout *layout, int most)
     int left = pixels(layout, GAP + 0.5), x = left;
     int right = layout->width - pixels(layout, GAP);
     int height = pixels(layout, ROW - 0.4);
+    double letter = layout->em < 11 ? SMALL_LETTER : SETTING_LETTER;
     layout->settings = 0;
     for (int i = 0; i < wish->settings && i < LAYOUT_SETTINGS; i++) {
-        int width = pixels(layout, wish->setting_letters[i] * 0.53 + 0.6);
+        int width = pixels(layout, wish->setting_letters[i] * letter + 0.6);
         if (x + width > right && x > left) {
             line++;
             x = left;

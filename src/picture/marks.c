@@ -276,18 +276,29 @@ Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
     return plot;
 }
 
-/* To the right of the mouse and below it, if there is room. */
 Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,
-               int height)
+               int height, Box body)
 {
     const Box *box = &stage->box;
     int margin = paper_pixels(paper, 0.7), apart = paper_pixels(paper, 1.1);
+    int right = box->x + box->width, low = box->y + box->height;
     Box note = {(int)x + apart, (int)y + apart, width + 2 * margin,
                 height + 2 * margin};
-    if (note.x + note.width > box->x + box->width)
+    if (note.x + note.width > right)
         note.x = (int)x - apart - note.width;
-    if (note.y + note.height > box->y + box->height)
-        note.y = box->y + box->height - note.height;
+    if (body.width > 0) { /* right of it, left, below, above */
+        int beyond = body.x + body.width + apart, under = body.y + body.height;
+        if (beyond + note.width <= right)
+            note.x = beyond;
+        else if (body.x - apart - note.width >= box->x)
+            note.x = body.x - apart - note.width;
+        else if (under + apart + note.height <= low)
+            note.y = under + apart;
+        else if (body.y - apart - note.height >= box->y)
+            note.y = body.y - apart - note.height;
+    }
+    if (note.y + note.height > low)
+        note.y = low - note.height;
     note.x = note.x < box->x ? box->x : note.x;
     note.y = note.y < box->y ? box->y : note.y;
     canvas_card(&paper->canvas, note, 0.4 * paper->em, COLOUR_NOTE,

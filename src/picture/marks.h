@@ -69,9 +69,10 @@ void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
 Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
                 const char *y_label);
 
-/* A small card beside pixel (x, y), inside the stage.  Returns where its
- * contents go. */
+/* A small card beside pixel (x, y), inside the stage, and beside the body where
+ * there is room.  Returns where its contents go.
+ *   body  what it should not cover, in; without width: nothing */
 Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,
-               int height);
+               int height, Box body);
 
 #endif

@@ -52,19 +52,31 @@ int picture_card(const Picture *picture, const char *name)
     return -1;
 }
 
-/* Over a pane that is not alone: its label in the colour of its curve. */
-static void draw_label(Paper *paper, const Layout *layout, const Show *show,
-                       int pane)
+/* Lines between panes. */
+static void draw_rules(Paper *paper, const Box *box)
 {
-    const Box *box = &layout->pane[pane];
     int thick = (int)fmax(1, paper->unit);
     canvas_rectangle(&paper->canvas, box->x + box->width, box->y, thick,
                      box->height, COLOUR_RULE);
     canvas_rectangle(&paper->canvas, box->x, box->y + box->height, box->width,
                      thick, COLOUR_RULE);
+}
+
+/* Over a pane that is not alone: its label in the colour of its curve. */
+static void draw_label(Paper *paper, const Layout *layout, const Show *show,
+                       int pane)
+{
+    const Box *box = &layout->pane[pane];
     if (!show->pane[pane].label)
         return;
     Box before = canvas_clip(&paper->canvas, *box);
+    int wide = paper_width(paper, FACE_BOLD, 1, show->pane[pane].label);
+    canvas_rectangle(&paper->canvas,
+                     box->x + (box->width - wide) / 2 -
+                         paper_pixels(paper, 0.4),
+                     box->y + box->height - paper_pixels(paper, 1.7),
+                     wide + paper_pixels(paper, 0.8), paper_pixels(paper, 1.4),
+                     COLOUR_PANEL);
     paper_write(paper, FACE_BOLD, 1, colour_of_run(pane),
                 box->x + 0.5 * box->width,
                 box->y + box->height - 1.7 * paper->em, ALIGN_CENTRE, "%s",
@@ -85,6 +97,8 @@ static SpringCount draw_pane(Paper *paper, const Layout *layout,
         stage_handles(paper, &stage, show);
     stage_switches(paper, &stage, show);
     stage_prediction(paper, &stage, show);
+    if (layout->panes > 1)
+        draw_label(paper, layout, show, pane);
     if (picture->hover && stage.text && show->hover.pane == pane &&
         show->hover.kind != PICK_NONE && !show->hand.on)
         picture->hover(paper, &stage, show);
@@ -105,7 +119,7 @@ SpringCount show_draw(Paper *paper, const Show *show)
         sum.drawn += count.drawn;
         sum.skipped += count.skipped;
         if (layout.panes > 1)
-            draw_label(paper, &layout, show, pane);
+            draw_rules(paper, &layout.pane[pane]);
     }
     if (show->bare)
         return sum;

@@ -209,7 +209,7 @@ static void draw_y_axis(Paper *paper, const Plot *plot)
                     at[1] - 0.65 * TICK_SIZE * paper->em, ALIGN_RIGHT, "%s",
                     number);
     }
-    if (plot->y.label)
+    if (plot->y.label && box->height > 1.6 * TICK_SIZE * paper->em)
         paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
                     box->x + box->width, box->y + 0.1 * paper->em, ALIGN_RIGHT,
                     "%s", plot->y.label);
@@ -221,9 +221,26 @@ void plot_axes(Paper *paper, const Plot *plot)
     draw_x_axis(paper, plot);
 }
 
+/* Pixels left of the plot: the widest number of the axis beyond the usual
+ * ones. */
+static int number_room(Paper *paper, const Axis *axis, int height)
+{
+    double ticks[PLOT_MOST_LINES], room = height / (1.6 * paper->em);
+    int most = paper_pixels(paper, NUMBER_ROOM);
+    int count = axis_ticks(axis, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
+    for (int i = 0; i < count; i++) {
+        char number[48];
+        format_tick(number, sizeof number, axis, ticks[i]);
+        int width = paper_width(paper, FACE_REGULAR, TICK_SIZE, number) +
+                    paper_pixels(paper, 0.4);
+        most = width > most ? width : most;
+    }
+    return most;
+}
+
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y)
 {
-    int left = paper_pixels(paper, NUMBER_ROOM);
+    int left = number_room(paper, &y, outer.height);
     int below = paper_pixels(paper, BELOW_ROOM);
     int above = paper_pixels(paper, 0.5), right = paper_pixels(paper, 0.6);
     Plot plot = {{outer.x + left, outer.y + above, outer.width - left - right,

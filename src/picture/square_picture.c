@@ -19,6 +19,7 @@ enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
+static const double PANE_LABEL = 1.9;  /* ems, the label of a pane needs */
 static const double ROOM = 1.14;       /* of the stage around the square */
 static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
 
@@ -266,13 +267,14 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
 }
 
 /* What the colours mean, lower right: from compressed to stretched, or from
- * nothing to the largest plastic strain. */
+ * nothing to the largest plastic strain; `raised` ems above its place. */
 static void draw_colour_bar(Paper *paper, const Stage *stage, double range,
-                            bool plastic)
+                            bool plastic, double raised)
 {
     int width = paper_pixels(paper, 14), height = paper_pixels(paper, 0.6);
     int x = stage->box.x + stage->box.width - width - paper_pixels(paper, 1);
-    int y = stage->box.y + stage->box.height - paper_pixels(paper, 1.2);
+    int y =
+        stage->box.y + stage->box.height - paper_pixels(paper, 1.2 + raised);
     double above = y - 1.4 * paper->em;
     int rim = paper_pixels(paper, 0.4); /* walls may be behind it */
     canvas_rectangle(&paper->canvas, x - rim, (int)above - rim / 2,
@@ -414,7 +416,8 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
         draw_tolerance(&pen, &legend);
         stage_scale(paper, stage);
         if (pen.range > 0)
-            draw_colour_bar(paper, stage, pen.range, pen.plastic);
+            draw_colour_bar(paper, stage, pen.range, pen.plastic,
+                            show->panes > 1 ? PANE_LABEL : 0);
     }
     return count;
 }

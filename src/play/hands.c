@@ -446,9 +446,13 @@ Status player_input(Player *player, const Input *input)
     default:
         break;
     }
+    bool rests =
+        !mouse->placed || (mouse->x == input->x && mouse->y == input->y);
     mouse->x = input->x;
     mouse->y = input->y;
-    mouse->inside = true;
+    mouse->inside = mouse->placed = true;
+    if (rests && input->kind == INPUT_MOVE && mouse->drag == DRAG_NONE)
+        return STATUS_OK; /* the window came to the mouse */
     Layout layout = last_layout(player);
     if (input->kind == INPUT_PRESS)
         return pressed(player, input, &layout);

@@ -356,6 +356,30 @@ static void a_failed_search_is_no_convergence(void **unused)
     end();
 }
 
+/* A window that opens under the mouse tells nothing of what happens to lie
+ * there; once the mouse moves it does. */
+static void a_resting_mouse_asks_nothing(void **unused)
+{
+    (void)unused;
+    begin("square --size 1280x800");
+    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
+    player_fill(&player);
+    Layout layout = show_layout(&player.show, 1280, 800);
+    Camera camera = show_camera(&player.show, &layout, 0);
+    double at[2];
+    camera_pixel(&camera, pane_x(&player.show.pane[0]) + 2 * 12, at);
+    Input input = {.kind = INPUT_MOVE, .x = at[0], .y = at[1]};
+    for (int i = 0; i < 2; i++) {
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        CHECK(player.show.hover.kind == PICK_NONE);
+    }
+    input.x += 1;
+    CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+    CHECK(player.show.hover.kind == PICK_NODE);
+    CHECK(player.show.hover.index == 12);
+    end();
+}
+
 /* A scene tells of rest only where its method takes energy out. */
 static void captions_are_those_of_the_method(void **unused)
 {
@@ -851,6 +875,7 @@ int main(void)
         cmocka_unit_test(an_update_line_by_line),
         cmocka_unit_test(a_failed_search_is_no_convergence),
         cmocka_unit_test(captions_are_those_of_the_method),
+        cmocka_unit_test(a_resting_mouse_asks_nothing),
         cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),

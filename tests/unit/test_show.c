@@ -705,6 +705,96 @@ static void what_flies_far_is_drawn_or_told(void **unused)
     take_down(&stand);
 }
 
+/* Words on a pane keep apart: the card at the mouse hides the label of the
+ * pane, and the colours of strain stand above it. */
+static void words_of_a_pane_keep_apart(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 1, 1280, 800, &stand);
+    Show *show = &stand.show;
+    show->panes = 2;
+    show->pane[1] = show->pane[0];
+    show->pane[0].label = show->pane[1].label = "label label label label label";
+    show_draw(&stand.paper, show);
+    Layout layout = show_layout(show, 1280, 800);
+    Box pane = layout.pane[1];
+    int before = count_colour(&stand, pane, colour_of_run(1));
+    show->hover = (Pick){PICK_SPRING, 1, 12, {0, -0.5}};
+    show_draw(&stand.paper, show);
+    int after = count_colour(&stand, pane, colour_of_run(1));
+    CHECK(before > 50 && after < before - 20);
+    show->hover.kind = PICK_NONE;
+    show->strain = true;
+    show_draw(&stand.paper, show);
+    int line = paper_pixels(&stand.paper, 1.7);
+    Box low = {pane.x, pane.y + pane.height - line, pane.width, line};
+    Box above = {pane.x, low.y - 2 * line, pane.width, 2 * line};
+    Colour end = colour_map_strain(0.99, 1);
+    CHECK(count_colour(&stand, low, end) == 0);
+    CHECK(count_colour(&stand, above, end) > 0);
+    take_down(&stand);
+}
+
+static bool boxes_meet(Box a, Box b)
+{
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
+           b.y < a.y + a.height;
+}
+
+/* On each side of the body where there is room, and inside the stage where
+ * there is none. */
+static void notes_stand_beside_the_body(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 400, 400, &stand);
+    Stage stage = {.box = {0, 0, 400, 400}, .em = 10};
+    static const Box bodies[] = {{20, 20, 200, 360},
+                                 {200, 20, 190, 360},
+                                 {20, 20, 360, 200},
+                                 {20, 180, 360, 200}};
+    for (int i = 0; i < 4; i++) {
+        Box body = bodies[i];
+        Box note = stage_note(&stand.paper, &stage, body.x + 20, body.y + 20,
+                              100, 100, body);
+        CHECK(!boxes_meet(note, body));
+        CHECK(note.x > 0 && note.y > 0 && note.x + note.width < 400 &&
+              note.y + note.height < 400);
+    }
+    Box note = stage_note(&stand.paper, &stage, 390, 390, 100, 100,
+                          (Box){0, 0, 400, 400});
+    CHECK(note.x > 0 && note.x + note.width < 400);
+    CHECK(note.y > 0 && note.y + note.height < 400);
+    take_down(&stand);
+}
+
+/* The widest number of an axis has room left of it; the unit of one that is
+ * too low for it is left out. */
+static void numbers_of_axes_have_room(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("square", 0, 400, 400, &stand);
+    Axis x = {0, 1, false, false, "t in s"};
+    Axis y = {-4e298, 4e298, false, false, "J"};
+    Plot plot = plot_create(&stand.paper, (Box){100, 0, 300, 300}, x, y);
+    int wide =
+        paper_width(&stand.paper, FACE_REGULAR, 0.82, "\u22124\u00b710^{298}");
+    CHECK(plot.box.x >= 100 + wide && plot.box.x < 100 + 2 * wide);
+    CHECK(plot.box.x + plot.box.width <= 400);
+    for (int low = 0; low < 2; low++) {
+        canvas_clear(&stand.paper.canvas, COLOUR_WHITE);
+        plot = plot_create(&stand.paper, (Box){0, 0, 300, low ? 40 : 80}, x,
+                           (Axis){0, 1, false, false, "kJ"});
+        Box corner = {plot.box.x + plot.box.width - 30, 0, 32,
+                      plot.box.y + plot.box.height};
+        int dark = count_colour(&stand, corner, COLOUR_TEXT);
+        CHECK(low ? dark == 0 : dark > 0);
+    }
+    take_down(&stand);
+}
+
 /* Seven kinds of energy in a small card leave room for their curves. */
 static void a_legend_leaves_room_for_curves(void **unused)
 {
@@ -804,6 +894,9 @@ int main(void)
         cmocka_unit_test(contacts_slide_or_hold),
         cmocka_unit_test(energies_before_an_explosion_are_seen),
         cmocka_unit_test(what_flies_far_is_drawn_or_told),
+        cmocka_unit_test(words_of_a_pane_keep_apart),
+        cmocka_unit_test(notes_stand_beside_the_body),
+        cmocka_unit_test(numbers_of_axes_have_room),
         cmocka_unit_test(a_legend_leaves_room_for_curves),
         cmocka_unit_test(cards_have_names),
     };
