@@ -11,6 +11,7 @@
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 
+static const double FLOWN = 10; /* times its side, what explodes fills */
 static const double NODE = 0.1; /* of the distance of two nodes */
 
 /* Half of the largest plastic strain, or 5 %. */
@@ -20,6 +21,23 @@ static double plastic_range(const System *system, const double *ep)
     for (int s = 0; s < system->springs; s++)
         largest = fmax(largest, fabs(ep[s]));
     return plot_round_up(0.5 * largest);
+}
+
+/* Pixels between two nodes: at rest, or where nodes have flown so far that the
+ * rest shape is nothing beside it, of as many over what they fill. */
+static double seen_spacing(const SpringPen *pen, int nodes, int segments)
+{
+    double rest = pen->spacing * segments, reach = 0;
+    for (int k = 0; pen->at && k < 2; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < nodes; i++) {
+            double at = pen->at[2 * (size_t)i + k];
+            low = isfinite(at) ? fmin(low, at) : low;
+            high = isfinite(at) ? fmax(high, at) : high;
+        }
+        reach = fmax(reach, high - low);
+    }
+    return reach > FLOWN * rest ? reach / segments : pen->spacing;
 }
 
 SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
@@ -32,12 +50,13 @@ SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
     SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
     const System *system = simulation->run[run].system;
     pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
-    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
-    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
-    pen.width = fmax(1, pen.width * paper->unit);
     pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
     for (int i = 0; pen.at && i < simulation->system.nodes; i++)
         stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
+    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
+    pen.spacing = seen_spacing(&pen, simulation->system.nodes, mesh->segments);
+    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
+    pen.width = fmax(1, pen.width * paper->unit);
     const Plasticity *plasticity = plasticity_of(system);
     pen.contact = contact_of(system);
     pen.ep = plasticity ? plasticity->ep : NULL;

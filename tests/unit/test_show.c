@@ -691,6 +691,10 @@ static void what_flies_far_is_drawn_or_told(void **unused)
         CHECK(count_colour(&stand, layout.stage, COLOUR_X) > 500);
         CHECK(count_colour(&stand, layout.stage, COLOUR_WARNING) == 0);
     }
+    for (int i = 0; i < size; i++) /* two nodes alone, far above and below */
+        x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
+    show_draw(&stand.paper, &stand.show);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_X) > 300);
     stand.show.hover = (Pick){PICK_SPRING, 0, 0, {0, 0}};
     show_draw(&stand.paper, &stand.show);
     int noted = count_colour(&stand, layout.stage, COLOUR_NOTE);
@@ -795,6 +799,26 @@ static void numbers_of_axes_have_room(void **unused)
     take_down(&stand);
 }
 
+/* Cards about updates promise none where a method makes none. */
+static void explicit_methods_promise_no_updates(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        bool explicit;
+    } rows[] = {{"square", false},
+                {"square --integrator bdf2", false},
+                {"square --integrator forward-euler", true},
+                {"square --integrator verlet", true},
+                {"landscape", false}};
+    static Stand stand;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        stand_up(rows[i].line, 0, 640, 400, &stand);
+        CHECK(cards_explicit(&stand.show) == rows[i].explicit);
+        take_down(&stand);
+    }
+}
+
 /* Seven kinds of energy in a small card leave room for their curves. */
 static void a_legend_leaves_room_for_curves(void **unused)
 {
@@ -897,6 +921,7 @@ int main(void)
         cmocka_unit_test(words_of_a_pane_keep_apart),
         cmocka_unit_test(notes_stand_beside_the_body),
         cmocka_unit_test(numbers_of_axes_have_room),
+        cmocka_unit_test(explicit_methods_promise_no_updates),
         cmocka_unit_test(a_legend_leaves_room_for_curves),
         cmocka_unit_test(cards_have_names),
     };
