@@ -257,7 +257,7 @@ static void tell_rest(Player *player)
     }
     player_note(player,
                 folded ? "at rest, with folded cells: springs alone do "
-                         "not mind, --cells on keeps them; pull a node, or "
+                         "not mind, --cells on forbids it; pull a node, or "
                          "R begins again"
                        : "at rest: nothing moves any more; pull a node, "
                          "change a number, or R begins again");

@@ -205,7 +205,7 @@ static void folded_cells_at_rest_are_explained(void **unused)
     CHECK(player.rests);
     player_fill(&player);
     CHECK(pane_folded(&player.show.pane[0]) > 0);
-    CHECK(strstr(player.note, "--cells on keeps them") != NULL);
+    CHECK(strstr(player.note, "--cells on forbids it") != NULL);
     end();
 }
 
