@@ -171,6 +171,23 @@ static void keys_say_what_they_do(void **unused)
     end();
 }
 
+/* Who looks for other scenes clicks on the title of this one. */
+static void the_title_tells_of_other_scenes(void **unused)
+{
+    (void)unused;
+    begin("square --segments 2");
+    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
+    CHECK_STATUS(player_draw(&player), STATUS_OK);
+    Input press = {.kind = INPUT_PRESS,
+                   .button = BUTTON_LEFT,
+                   .clicks = 1,
+                   .x = 60,
+                   .y = 20};
+    CHECK_STATUS(player_input(&player, &press), STATUS_OK);
+    CHECK(strstr(player.note, "1 ... 9 open other scenes") != NULL);
+    end();
+}
+
 static bool next_page_is_lit(const char *line)
 {
     bool lit = false;
@@ -591,6 +608,7 @@ int main(void)
         cmocka_unit_test(every_list_labels_its_panes),
         cmocka_unit_test(forgotten_steps_are_told),
         cmocka_unit_test(keys_say_what_they_do),
+        cmocka_unit_test(the_title_tells_of_other_scenes),
         cmocka_unit_test(the_last_page_offers_no_next_one),
         cmocka_unit_test(folded_cells_at_rest_are_explained),
         cmocka_unit_test(numbers_follow_the_scene),
