@@ -153,12 +153,25 @@ static void draw_now(Paper *paper, const Plot *plot, double time)
                     fmax(1, paper->unit), COLOUR_BORDER);
 }
 
+/* Whether the energies now are no numbers any more, so that the history has
+ * no point of them. */
+static bool is_beyond(const Simulation *simulation, const History *history,
+                      double time)
+{
+    double now = simulation_time(simulation);
+    double last = history->time[history->count - 1] * (1 + 1e-12);
+    return time >= now && now > last && !series_are_runs(simulation) &&
+           !isfinite(simulation_energies(simulation, 0).total);
+}
+
 double energies_value(const Simulation *simulation, const History *history,
                       int series, double time)
 {
     int point = point_at(history, time);
     if (point < 0)
         return NAN;
+    if (is_beyond(simulation, history, time))
+        return INFINITY;
     double value = history->value[series][point], now = 0, first = 0;
     for (int s = 0; s < history->series && !series_are_runs(simulation); s++) {
         now = fmax(now, fabs(history->value[s][point]));
@@ -174,6 +187,8 @@ Axis energies_axis(const Show *show, double *joule)
     double low = fmax(range.low, -1e300);
     EnergyUnit unit = energy_unit(fmax(high, -low));
     *joule = unit.joule;
+    if (!(range.first > 0)) /* at rest in a field: what came first tells */
+        range.first = -low;
     if (range.first > 0 && high > LOG_FROM * range.first) {
         unit = energy_unit(1);
         *joule = 1;
@@ -197,7 +212,7 @@ static int draw_word(Paper *paper, Box *row, int x, double size, Colour colour,
 {
     char number[48], words[128];
     EnergyUnit unit = energy_unit(fabs(value));
-    if (isfinite(value)) {
+    if (!isnan(value)) {
         plot_number(number, sizeof number, value / unit.joule);
         snprintf(words, sizeof words, "%s %s %s", name, number, unit.name);
     } else {
@@ -215,14 +230,14 @@ static int draw_word(Paper *paper, Box *row, int x, double size, Colour colour,
 }
 
 /* Names in the colours of the curves with the first `numbers` values; returns
- * the pixels it is high. */
+ * the pixels it is high, all of the box where it is too wide. */
 static int write_legend(Paper *paper, Box inside, const Show *show,
                         unsigned worthy, double size, int numbers, bool draw)
 {
     const Pane *active = &show->pane[show->active];
     double time = simulation_time(active->simulation);
     Box row = inside;
-    int x = row.x, count = 0;
+    int x = row.x, count = 0, end = row.x;
     for (int p = 0; compares(show) && p < show->panes; p++) {
         const Pane *pane = &show->pane[p];
         if (!pane->history)
@@ -233,6 +248,7 @@ static int write_legend(Paper *paper, Box inside, const Show *show,
                 : energies_value(pane->simulation, pane->history, 0, time);
         x = draw_word(paper, &row, x, size, draw ? colour_of_run(p) : 0,
                       pane->label ? pane->label : "", value);
+        end = x > end ? x : end;
     }
     const History *history = active->history;
     for (int s = 0; !compares(show) && s < history->series; s++) {
@@ -244,7 +260,11 @@ static int write_legend(Paper *paper, Box inside, const Show *show,
         x = draw_word(paper, &row, x, size,
                       draw ? series_colour(active->simulation, s) : 0,
                       history->name[s] ? history->name[s] : "", value);
+        end = x > end ? x : end;
     }
+    int gap = paper_pixels(paper, 1.05 * size);
+    if (end - gap > inside.x + inside.width) /* a single word is too wide */
+        return inside.height;
     return row.y + paper_pixels(paper, 1.5 * size) - inside.y;
 }
 
@@ -272,6 +292,7 @@ static Box draw_legend(Paper *paper, Box inside, const Show *show,
         way++;
     int used = write_legend(paper, inside, show, worthy, ways[way].size,
                             ways[way].numbers, true);
+    used = used < inside.height ? used : most;
     return (Box){inside.x, inside.y + used, inside.width, inside.height - used};
 }
 

@@ -22,7 +22,8 @@ extern const Card card_radius;
 
 /* A quantity of a history at this time, or at the last point before it, J; what
  * is only rounding beside the others, at that time and at the beginning, is 0;
- * NaN where there is no point. */
+ * infinite where the present energies are no numbers, NaN where there is no
+ * point. */
 double energies_value(const Simulation *simulation, const History *history,
                       int series, double time);
 

@@ -650,6 +650,12 @@ static void energies_before_an_explosion_are_seen(void **unused)
     CHECK(energies_value(&stand.simulation, history, 0, now + 0.1) == 1e298);
     CHECK(isnan(energies_value(&stand.simulation, history, 0, -1)));
     take_down(&stand);
+    stand_up("square --timestep 0.008 --integrator symplectic-euler", 11, 640,
+             400, &stand); /* x is finite, E is not */
+    now = simulation_time(&stand.simulation);
+    CHECK(isinf(energies_value(&stand.simulation, history, 0, now)));
+    CHECK(isfinite(energies_value(&stand.simulation, history, 0, 0.9 * now)));
+    take_down(&stand);
     stand_up("arrows", 80, 1280, 800, &stand);
     axis = energies_axis(&stand.show, &joule);
     now = simulation_time(&stand.simulation);
