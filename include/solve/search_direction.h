@@ -66,10 +66,11 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at);
 /* Looks for negative curvature: conjugate gradients on the Hessian at u, x as
  * it is, from random numbers, preconditioned with the last factor.  Without
  * any, they reduce those numbers and end.  Writes over p.
+ *   known  there is some: it is looked for longer
  *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   bool *found);
+                                   bool known, bool *found);
 
 /* How well at->p solves H p = -g for the Hessian of the last assembly, applied
  * term by term; search->r becomes -g - H p.

@@ -257,21 +257,22 @@ static Status look_for_minimum(Newton *newton, double times)
 enum { MAX_SADDLES = 30 };
 static const double FIRST_TRIAL = 0.1;
 
-/* The test of Algorithm 3 is passed on saddles, too.  Where it is asked for,
- * negative curvature of the Hessian as it is is the next direction.
- * Returns OK (there is none), RUNNING, or a failure. */
-static Status leave_saddle(Newton *newton)
+/* The test of Algorithm 3 is passed on saddles, too.  Negative curvature of the
+ * Hessian as it is is then the next direction.
+ *   known  there is some
+ * Returns OK (none was found), RUNNING, or a failure. */
+static Status leave_saddle(Newton *newton, bool known)
 {
     const System *system = newton->system;
     double *p = newton->at.p, largest = 0, l2 = INFINITY;
     bool found = false;
-    if (!newton->settings.minimum || newton->settings.filter == FILTER_NONE ||
+    if (newton->settings.filter == FILTER_NONE ||
         newton->saddles == MAX_SADDLES || is_convex(newton, 1))
         return STATUS_OK;
     Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
     if (!status)
-        status =
-            search_direction_bends_down(&newton->search, &newton->at, &found);
+        status = search_direction_bends_down(&newton->search, &newton->at,
+                                             known, &found);
     if (status || !found)
         return status;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -292,6 +293,36 @@ static Status leave_saddle(Newton *newton)
  * E, and it is not called one. */
 static const double MASSES_DOWN = 100;
 
+Status direction_judges_end(Newton *newton)
+{
+    /* Of a large square the factor that tells takes longer than multigrid's
+     * whole step; --minimum looks there. */
+    if (newton->working == SOLVER_MULTIGRID &&
+        newton->system->segments > AUTO_NEWTON_SEGMENTS)
+        return STATUS_OK;
+    return look_for_minimum(newton, 1 + MASSES_DOWN);
+}
+
+/* The test is passed.
+ * Returns OK, RUNNING where E bends down and p leads on, or a failure. */
+static Status end_here(Newton *newton)
+{
+    Status status =
+        newton->settings.minimum ? leave_saddle(newton, false) : STATUS_OK;
+    if (status == STATUS_OK)
+        status = direction_judges_end(newton);
+    if (status != STATUS_NOT_A_MINIMUM)
+        return status;
+    newton->search.bends_down = true;
+    status = leave_saddle(newton, true);
+    if (status)
+        return status;
+    status = newton_factor(newton); /* p is another one by now */
+    if (!status)
+        status = newton_solve(newton);
+    return status ? status : STATUS_RUNNING;
+}
+
 Status direction_first(Newton *newton)
 {
     SearchDirection *search = &newton->search;
@@ -299,12 +330,14 @@ Status direction_first(Newton *newton)
     search->resting = search->updates == 0;
     search->updates = 0;
     Status status = direction_at(newton, &alone);
+    search->bends_down = false;
     newton->saddles = 0;
-    /* Where the gradient vanishes may be a maximum, too. */
-    if (alone && !newton->settings.minimum)
-        return gradient_vanishes(newton) ? look_for_minimum(newton, 1)
-                                         : STATUS_OK;
-    return status ? status : leave_saddle(newton);
+    bool vanishes =
+        alone && !newton->settings.minimum && gradient_vanishes(newton);
+    if (status == STATUS_OK)
+        status = end_here(newton);
+    /* Where the gradient vanishes, any curvature downwards tells. */
+    return status || !vanishes ? status : look_for_minimum(newton, 1);
 }
 
 Status direction_next(Newton *newton)
@@ -314,17 +347,5 @@ Status direction_next(Newton *newton)
     newton->search.residual = newton->residual;
     Status status = direction_at(newton, &alone);
     newton->search.bends_down = false;
-    if (status == STATUS_OK)
-        status = leave_saddle(newton);
-    if (status == STATUS_OK)
-        status = look_for_minimum(newton, 1 + MASSES_DOWN);
-    if (status != STATUS_NOT_A_MINIMUM)
-        return status;
-    newton->search.bends_down = true; /* p leads on from here */
-    if (!alone)
-        return STATUS_RUNNING;
-    status = newton_factor(newton);
-    if (!status)
-        status = newton_solve(newton);
-    return status ? status : STATUS_RUNNING;
+    return status ? status : end_here(newton);
 }

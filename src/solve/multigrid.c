@@ -433,6 +433,12 @@ static void decide_windows(Multigrid *mg)
     mg->last_bound = mg->bound;
 }
 
+Status multigrid_leave(Multigrid *mg)
+{
+    mg->step.minimum = true;
+    return multigrid_test(mg);
+}
+
 Status multigrid_iterate(Multigrid *mg)
 {
     const Grid *grid = &mg->grid;

@@ -104,6 +104,17 @@ static Status take_back(Newton *newton)
     return direction_first(newton);
 }
 
+/* Multigrid has passed the test: if there is no minimum it goes on, or Newton
+ * does.  Returns OK, RUNNING, NOT_A_MINIMUM where Newton has to, or a failure.
+ */
+static Status end_here(Newton *newton)
+{
+    Status status = direction_judges_end(newton);
+    bool leaves = status == STATUS_NOT_A_MINIMUM &&
+                  multigrid_leave(newton->multigrid) == STATUS_RUNNING;
+    return leaves ? STATUS_RUNNING : status;
+}
+
 Status newton_multigrid_start(Newton *newton)
 {
     const System *system = newton->system;
@@ -139,7 +150,8 @@ Status newton_multigrid_start(Newton *newton)
         multigrid_counters(newton->multigrid)->certificates ==
             before.certificates)
         return direction_first(newton);
-    return status;
+    status = status == STATUS_OK ? end_here(newton) : status;
+    return status == STATUS_NOT_A_MINIMUM ? take_back(newton) : status;
 }
 
 /* Whether multigrid has come to its end without the test being passed.
@@ -177,6 +189,8 @@ Status newton_multigrid_iterate(Newton *newton)
     NewtonRecord done = *record;
     bool last = done.iteration + 1 >= newton->settings.max_iterations;
     bool stuck = is_stuck(newton, status, last);
+    status = status == STATUS_OK ? end_here(newton) : status;
+    stuck = stuck || status == STATUS_NOT_A_MINIMUM;
     newton->counters.seconds_multigrid += clock_now() - start;
     if (stuck)
         status = take_back(newton);

@@ -22,6 +22,10 @@ Status direction_first(Newton *newton);
 /* The same after an update.  Returns OK, RUNNING, or a failure. */
 Status direction_next(Newton *newton);
 
+/* Whether E bends down at the iterate by more than a hundred masses: no end.
+ * Returns OK, NOT_A_MINIMUM, or a failure. */
+Status direction_judges_end(Newton *newton);
+
 /* ---- step_length.c: how far to go along p (slide: Algorithm 2). */
 
 /* Fills alpha, trials, slope and change of the record.

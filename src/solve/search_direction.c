@@ -5,9 +5,10 @@
 #include <stdlib.h>
 
 /* The search for negative curvature ends after so many iterations, or where the
- * remainder has this share of the norm of the random numbers it began with. */
-enum { CURVATURE_MAX_ITERATIONS = 30 };
-static const double NO_CURVATURE = 1e-3;
+ * remainder has this share of the norm of the random numbers it began with;
+ * later where there is known to be some. */
+enum { CURVATURE_MAX_ITERATIONS = 30, KNOWN_MAX_ITERATIONS = 200 };
+static const double NO_CURVATURE = 1e-3, KNOWN_CURVATURE = 1e-8;
 
 /* Conjugate gradients reduce the squared remainder to this part of the first.
  */
@@ -276,17 +277,19 @@ static void random_numbers(const System *system, double *r)
 }
 
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   bool *found)
+                                   bool known, bool *found)
 {
     int n = 2 * search->system->nodes;
+    int most = known ? KNOWN_MAX_ITERATIONS : CURVATURE_MAX_ITERATIONS;
+    double enough = known ? KNOWN_CURVATURE : NO_CURVATURE;
     ConjugateGradients state = {
-        .at = at, .filter = FILTER_NONE, .enough = NO_CURVATURE * NO_CURVATURE};
+        .at = at, .filter = FILTER_NONE, .enough = enough * enough};
     *found = false;
     Status status = create_workspaces(search);
     if (status)
         return status;
     random_numbers(search->system, search->r);
-    for (int k = 0; k < CURVATURE_MAX_ITERATIONS; k++) {
+    for (int k = 0; k < most; k++) {
         status = apply_factor(search, search->r, search->z);
         if (status)
             return status;

@@ -368,7 +368,10 @@ static void maximum_is_not_taken_for_a_minimum(void **unused)
     simulation_from_line("--segments 3 --timestep 0.1", NULL, NULL,
                          &simulation);
     memset(simulation.run[0].x, 0, SIZE * sizeof(double));
-    check_unconverged_step(&simulation, STATUS_NOT_A_MINIMUM);
+    double maximum = simulation_energies(&simulation, 0).total;
+    CHECK_STATUS(simulation_step(&simulation), STATUS_OK); /* it is left */
+    CHECK(simulation_energies(&simulation, 0).total < 0.9 * maximum);
+    CHECK(simulation_counters(&simulation).saddles > 0);
     simulation_free(&simulation);
     /* h so small that the masses outweigh the springs: there it is one */
     simulation_from_line("--segments 3 --timestep 1e-6", NULL, NULL,
