@@ -154,7 +154,7 @@ build/config-test.mk: $(CONFIG)
 
 # ---- programs --------------------------------------------------------------
 build/elasto: $(B)/elasto FORCE
-	@cmp -s $< $@ || cp $< $@
+	@cmp -s $< $@ || cp -f $< $@
 
 # All rooms in one archive; a program takes from it what it uses.  It is made
 # anew whenever the list of its members changes, so that it holds no old ones.
@@ -174,7 +174,7 @@ $(B)/elasto: $(B)/main.o $(LIBRARY)
 
 # The whole lecture in one file; it needs nothing of ours.
 build/lecture: $(B)/lecture FORCE
-	@cmp -s $< $@ || cp $< $@
+	@cmp -s $< $@ || cp -f $< $@
 
 $(B)/lecture: $(B)/lecture.o
 	$(call say,LINK,$@)
@@ -226,7 +226,7 @@ $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
 # ---- benchmark -------------------------------------------------------------
 # The CSV files that it writes say with which flags it was compiled.
 build/elasto-bench: $(B)/elasto-bench FORCE
-	@cmp -s $< $@ || cp $< $@
+	@cmp -s $< $@ || cp -f $< $@
 
 $(B)/elasto-bench: $(BENCH_OBJECTS) $(B)/bench/bench.o $(LIBRARY)
 	$(call say,LINK,$@)
@@ -343,7 +343,7 @@ $(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) \
 	  $(DEP_LIBS) $(LDLIBS)
 
 build/stress: $(B)/stress-tests FORCE
-	@cmp -s $< $@ || cp $< $@
+	@cmp -s $< $@ || cp -f $< $@
 
 # The program with faults linked in: sanitizers see what they do.
 $(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c

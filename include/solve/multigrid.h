@@ -82,8 +82,8 @@ void multigrid_forget(Multigrid *multigrid);
  * where E is not higher than before. */
 Status multigrid_iterate(Multigrid *multigrid);
 
-/* After an end that turned out to be a saddle: as if the step's minimum had been
- * asked for.  Returns RUNNING where it found the way down, else OK. */
+/* After an end that turned out to be a saddle: as if the step's minimum had
+ * been asked for.  Returns RUNNING where it found the way down, else OK. */
 Status multigrid_leave(Multigrid *multigrid);
 
 /* u [2n] m, out: the present iterate. */

@@ -292,6 +292,32 @@ static void cells_are_exact_along_lines(void **unused)
     simulation_free(&simulation);
 }
 
+/* The same for a node that the way leads to the wall from where the barrier is
+ * 0 yet, and back again.  1e-14: rounding. */
+static void contacts_are_exact_along_lines(void **unused)
+{
+    (void)unused;
+    Point point;
+    const double n[2] = {0, 1}, zero[2] = {0}, high[2] = {0, 0.15};
+    const double low[2] = {0, 0.02}, down[2] = {0.1, -0.13},
+                 up[2] = {0.1, 0.13};
+    make_point(n, 0, 0, 0, 0.1, 1e3, 0.01, high, zero, &point);
+    Term *term = system_find_term(&point.system, &contact_energy);
+    Place there = {.system = &point.system, .x = high};
+    Place here = {.system = &point.system, .x = low};
+    double q[3] = {0}, g[2] = {0}, pressed = term->kind->value(term, &here);
+    CHECK(pressed > 0 && term->kind->value(term, &there) == 0);
+    term->kind->along(term, &there, down, 1, 1, q);
+    CHECK_NEAR(term->kind->remainder(term, &there, down, 1, 1), pressed,
+               1e-14 * pressed);
+    term->kind->gradient(term, &here, 1, g);
+    term->kind->along(term, &here, up, 1, 1, q);
+    double left = pressed + g[1] * up[1];
+    CHECK_NEAR(left + term->kind->remainder(term, &here, up, 1, 1), 0,
+               1e-14 * fabs(g[1]));
+    free_point(&point);
+}
+
 /* Where a spring is compressed, what is said to make up for its negative
  * curvature does exactly that across it; else nothing is. */
 static void concavity_is_made_up_for(void **unused)
@@ -941,6 +967,7 @@ int main(void)
         cmocka_unit_test(flow_is_booked),
         cmocka_unit_test(flow_is_exact_along_lines),
         cmocka_unit_test(cells_are_exact_along_lines),
+        cmocka_unit_test(contacts_are_exact_along_lines),
         cmocka_unit_test(concavity_is_made_up_for),
         cmocka_unit_test(a_chain_hangs_at_rest),
         cmocka_unit_test(nothing_penetrates_or_turns_over),
