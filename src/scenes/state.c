@@ -40,6 +40,7 @@ typedef struct Cursor {
     StatePart part;
     unsigned char *at; /* NULL while counting */
     size_t bytes;
+    bool revived; /* a system has a term again */
 } Cursor;
 
 static void pass(Cursor *cursor, void *piece, size_t size)
@@ -64,9 +65,22 @@ static void pass_breaks(Cursor *cursor, System *system, double k)
     }
 }
 
+/* Friction or damping that had ended by the step of the state: what it lost
+ * before is in the ledger.  NULL without memory. */
+static Term *revive(Cursor *cursor, System *system, const TermKind *kind,
+                    const Options *options)
+{
+    Status status = kind == &damping ? damping_add(system, 0)
+                    : kind == &friction_energy
+                        ? friction_add(system, options->slip_speed)
+                        : STATUS_INVALID_INPUT;
+    cursor->revived = cursor->revived || !status;
+    return status ? NULL : system_find_term(system, kind);
+}
+
 /* What terms have lost, in places that do not depend on which of them there
- * are: friction and damping may begin later. */
-static void pass_lost(Cursor *cursor, System *system)
+ * are: friction and damping may begin later, or end. */
+static void pass_lost(Cursor *cursor, System *system, const Options *options)
 {
     static const TermKind *const kinds[] = {&plastic_energy, &fracture,
                                             &friction_energy, &damping};
@@ -74,6 +88,8 @@ static void pass_lost(Cursor *cursor, System *system)
         Term *term = system_find_term(system, kinds[k]);
         double lost = term ? term->lost : 0;
         pass(cursor, &lost, sizeof lost);
+        if (!term && lost != 0)
+            term = revive(cursor, system, kinds[k], options);
         if (term && cursor->way == RESTORE)
             term->lost = lost;
     }
@@ -92,19 +108,19 @@ static void pass_obstacles(Cursor *cursor, Contact *contact)
 
 /* What steps change in a system: broken springs, plastic strains, obstacles
  * that move, and what each term has lost. */
-static void pass_system(Cursor *cursor, System *system, double k)
+static void pass_system(Cursor *cursor, System *system, const Options *options)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = plasticity_of(system);
     Fracture *breaks = fracture_of(system);
     Contact *contact = contact_of(system);
-    pass_lost(cursor, system);
+    pass_lost(cursor, system, options);
     if (plasticity) {
         pass(cursor, plasticity->ep, springs);
         pass(cursor, plasticity->kappa, springs);
     }
     if (breaks) {
-        pass_breaks(cursor, system, k);
+        pass_breaks(cursor, system, options->stiffness);
         pass(cursor, &breaks->broken, sizeof breaks->broken);
     }
     if (contact)
@@ -168,7 +184,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     if (run->method->memory > 0 && cursor->part == STATE_ALL)
         pass(cursor, run->memory, (size_t)run->method->memory * array);
     if (!is_known(simulation, r))
-        pass_system(cursor, run->system, simulation->options.stiffness);
+        pass_system(cursor, run->system, &simulation->options);
     if (cursor->way != RESTORE)
         return;
     run->steps = head.steps;
@@ -187,11 +203,13 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
     pass_head(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);
+    for (int r = 0; cursor->revived && r < simulation->runs; r++)
+        time_integrator_forget(&simulation->run[r], true);
 }
 
 size_t state_bytes(const Simulation *simulation, StatePart part)
 {
-    Cursor cursor = {COUNT, part, NULL, 0};
+    Cursor cursor = {COUNT, part, NULL, 0, false};
     pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
     return cursor.bytes;
 }
@@ -205,13 +223,13 @@ size_t state_size(const Simulation *simulation)
 
 void state_save(const Simulation *simulation, StatePart part, void *bytes)
 {
-    Cursor cursor = {SAVE, part, bytes, 0};
+    Cursor cursor = {SAVE, part, bytes, 0, false};
     pass_all(&cursor, (Simulation *)simulation);
 }
 
 void state_restore(const void *bytes, StatePart part, Simulation *simulation)
 {
-    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0};
+    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0, false};
     pass_all(&cursor, simulation);
 }
 
