@@ -37,6 +37,7 @@ begin() {
     "$elasto" "$@" --size "${side}x$side" --quiet --frames frames --states states \
         --log log 2>error &
     pid=$!
+    echo $pid >pid
     until_true find_window "$1" || echo "$1: no window"
     until_true test -s frames/frame_000000.png || echo "$1: no frame"
     # Making the renderer, SDL may have made the window anew; and a run of few
@@ -551,6 +552,12 @@ every_scene() { # LONG: all; else one of each kind
         esac
         # shellcheck disable=SC2086
         said=$(hand "$scene" $rest)
+        if [ -n "$said" ]; then # a busy screen may lose a key: once more
+            kill -KILL "$(cat pid)" 2>/dev/null
+            rm -f ./*.part
+            # shellcheck disable=SC2086
+            said=$(hand "$scene" $rest)
+        fi
         [ -z "$said" ] || echo "$scene: $said"
     done <<'END'
 square 280 389 60 -60 757 gpklfsm
