@@ -546,7 +546,7 @@ hand() {
 every_scene() { # LONG: all; else one of each kind
     side=900
     while read -r scene rest; do
-        case ${LONG:+all}' square circle landscape drop spring ' in
+        case ${LONG:+all}' square landscape drop ' in
         all* | *" $scene "*) ;;
         *) continue ;;
         esac
