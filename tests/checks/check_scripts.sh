@@ -123,8 +123,8 @@ else
     echo 'skipped scripts_in_a_window: no Xvfb'
 fi
 
-# One of each kind: steps, no time, contact, fracture, a page's scene.
-with_window=' square circle drop tear dial '
+# One of each kind: steps, contact, a page's scene.
+with_window=' square drop dial '
 in_window() { # scene
     [ "$screen" ] || return 1
     case ${LONG:+all}$with_window in
