@@ -18,6 +18,7 @@ typedef struct IntegratorMethod {
     bool implicit;     /* needs Newton */
     bool averaged;     /* needs the averaged twins of all terms */
     bool at_end;       /* x_(n+1) is the minimiser itself: all terms will do */
+    bool damps;        /* takes energy out of motion: it comes to rest */
     int memory;        /* arrays [2n] kept between steps */
     Status (*step)(TimeIntegrator *);
 } IntegratorMethod;

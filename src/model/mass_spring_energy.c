@@ -5,23 +5,12 @@
 #include "model/avf_energy.h"
 #include "model/damping.h"
 
-/* k and l2 of the springs: those of the system, or what damping makes of them
- * for a step. */
-static const double *stiffness_of(const Place *at)
-{
-    return at->damping ? at->damping->k : at->system->k;
-}
-
-static const double *l2_of(const Place *at)
-{
-    return at->damping ? at->damping->l2 : at->system->l2;
-}
-
 /* sum l2 k/2 s^2 */
 static double value(const Term *term, const Place *at)
 {
     const System *system = at->system;
-    const double *k = stiffness_of(at), *l2 = l2_of(at);
+    const double *k = damped_k(system, at->damping);
+    const double *l2 = damped_l2(system, at->damping);
     double sum = 0, d[2];
     (void)term;
     for (int i = 0; i < system->springs; i++) {
@@ -35,7 +24,8 @@ static double value(const Term *term, const Place *at)
 static void gradient(const Term *term, const Place *at, double w, double *g)
 {
     const System *system = at->system;
-    const double *k = stiffness_of(at), *l2 = l2_of(at);
+    const double *k = damped_k(system, at->damping);
+    const double *l2 = damped_l2(system, at->damping);
     (void)term;
     for (int i = 0; i < system->springs; i++) {
         double d[2], s = spring_strain_to(system, at->x, i, l2[i], d);
@@ -53,7 +43,8 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
                    const int *slot, const double *q, double *out)
 {
     const System *system = at->system;
-    const double *k = stiffness_of(at), *l2 = l2_of(at);
+    const double *k = damped_k(system, at->damping);
+    const double *l2 = damped_l2(system, at->damping);
     int projected = 0;
     (void)term;
     for (int s = 0; s < system->springs; s++) {
@@ -73,7 +64,8 @@ static void along(const Term *term, const Place *at, const double *p, double w,
                   double reach, double q[3])
 {
     const System *system = at->system;
-    const double *x = at->x, *k = stiffness_of(at), *l2 = l2_of(at);
+    const double *x = at->x, *k = damped_k(system, at->damping);
+    const double *l2 = damped_l2(system, at->damping);
     (void)term;
     (void)reach;
     for (int s = 0; s < system->springs; s++) {
@@ -95,7 +87,8 @@ static void along(const Term *term, const Place *at, const double *p, double w,
 static void concave(const Term *term, const Place *at, double w, double *sum)
 {
     const System *system = at->system;
-    const double *k = stiffness_of(at), *l2 = l2_of(at);
+    const double *k = damped_k(system, at->damping);
+    const double *l2 = damped_l2(system, at->damping);
     (void)term;
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];

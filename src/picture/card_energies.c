@@ -180,13 +180,14 @@ double energies_value(const Simulation *simulation, const History *history,
     return fabs(value) < 1e-15 * fmin(now, first) ? 0 : value;
 }
 
-Axis energies_axis(const Show *show, double *joule)
+Axis energies_axis(const Show *show, double *joule, double *last)
 {
     EnergyRange range = find_range(show);
     double high = range.high > 0 ? fmin(range.high, 1e300) : 1;
     double low = fmax(range.low, -1e300);
     EnergyUnit unit = energy_unit(fmax(high, -low));
     *joule = unit.joule;
+    *last = range.last;
     if (!(range.first > 0)) /* at rest in a field: what came first tells */
         range.first = -low;
     if (range.first > 0 && high > LOG_FROM * range.first) {
@@ -299,15 +300,15 @@ static Box draw_legend(Paper *paper, Box inside, const Show *show,
 static void draw_energies(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
-    double joule;
+    double joule, last;
     if (!show->pane[show->active].history)
         return;
     const History *history = show->pane[show->active].history;
     unsigned worthy = worthy_series(simulation, history);
     Box rest = draw_legend(paper, inside, show, worthy);
-    Axis time = {0, plot_round_up(find_range(show).last), false, false,
-                 "t in s"};
-    Plot plot = plot_create(paper, rest, time, energies_axis(show, &joule));
+    Axis energy = energies_axis(show, &joule, &last);
+    Axis time = {0, plot_round_up(last), false, false, "t in s"};
+    Plot plot = plot_create(paper, rest, time, energy);
     plot.y.low *= joule;
     plot.y.high *= joule;
     draw_now(paper, &plot, simulation_time(simulation));

@@ -29,8 +29,9 @@ double energies_value(const Simulation *simulation, const History *history,
 
 /* The axis of the energies, in units of *joule (out): that of the whole run,
  * unless what is shown so far would vanish on it; logarithmic where the energy
- * has grown beyond a million times its start. */
-Axis energies_axis(const Show *show, double *joule);
+ * has grown beyond a million times its start.
+ *   last  out, s, the latest time that the curves may reach */
+Axis energies_axis(const Show *show, double *joule, double *last);
 
 /* The formulas of the integrators that run. */
 extern const Card card_methods;

@@ -161,12 +161,8 @@ static const char *scene_sentence(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     const IntegratorMethod *method = simulation->run[0].method;
-    static const char *const damping[] = {"backward-euler", "bdf2", "sdirk2"};
-    if (!scene->settles || !method)
+    if (!scene->settles || !method || method->damps)
         return scene->sentence;
-    for (size_t i = 0; i < sizeof damping / sizeof *damping; i++)
-        if (strcmp(method->name, damping[i]) == 0)
-            return scene->sentence;
     return strcmp(method->name, "forward-euler") == 0
                ? "every step of forward Euler adds energy"
                : "this method takes no energy out of the motion";

@@ -150,6 +150,12 @@ static bool mass_is_hidden(const Show *show, const Simulation *simulation)
            !guess->shown;
 }
 
+/* Runs side by side have the colours of their methods. */
+static Colour run_colour(const Simulation *simulation, int run, Colour alone)
+{
+    return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
+}
+
 static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
@@ -164,8 +170,7 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
     stage_pin(paper, stage, origin, 5 * paper->unit);
     for (int r = 0; trail && r < simulation->runs; r++)
         for (int i = 0; i < trail->count; i++) {
-            Colour colour =
-                simulation->runs > 1 ? circle_colour(simulation, r) : COLOUR_X;
+            Colour colour = run_colour(simulation, r, COLOUR_X);
             stage_disc(paper, stage, trail->point[r][i], 3.5 * paper->unit,
                        colour);
             if (i > 0)
@@ -178,8 +183,7 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
         draw_mass_step(paper, stage, simulation);
     for (int r = 0; r < simulation->runs; r++)
         stage_disc(paper, stage, simulation->run[r].x, 8 * paper->unit,
-                   simulation->runs > 1 ? circle_colour(simulation, r)
-                                        : COLOUR_X);
+                   run_colour(simulation, r, COLOUR_X));
     if (show->bare || !stage->text)
         return (SpringCount){0, 0};
     stage_legend(paper, stage, &legend, COLOUR_GREY, "the exact path");
@@ -264,12 +268,11 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
         mass_next_step(simulation, r, &step);
         double before = mass_step_energy(step.x, step.v);
         double after = mass_step_energy(step.new_x, step.new_v);
-        lines_add(
-            &lines,
-            simulation->runs > 1 ? circle_colour(simulation, r) : COLOUR_TEXT,
-            "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
-            simulation->runs > 1 ? simulation->run[r].method->label : "",
-            simulation->runs > 1 ? ": " : "", before, after, after / before);
+        lines_add(&lines, run_colour(simulation, r, COLOUR_TEXT),
+                  "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
+                  simulation->runs > 1 ? simulation->run[r].method->label : "",
+                  simulation->runs > 1 ? ": " : "", before, after,
+                  after / before);
     }
     lines_draw(paper, inside, &lines);
 }

@@ -35,10 +35,11 @@ Options player_numbers(const Player *player)
 {
     Options options = player_settings(player)->options;
     double h = player_simulation(player)->options.timestep;
-    char text[32]; /* not one that somebody chose: as the cards have it */
-    snprintf(text, sizeof text, "%.4g", h);
-    if (h != options.timestep)
+    if (h != options.timestep) { /* nobody chose it: as the cards have it */
+        char text[32];
+        snprintf(text, sizeof text, "%.4g", h);
         options.timestep = strtod(text, NULL);
+    }
     return options;
 }
 

@@ -77,10 +77,7 @@ static const OptionRow *row_of_value(const OptionRow *row, const char *value)
             better = "film";
     if (sscanf(value, "%dx%d", &width, &height) == 2)
         better = "size";
-    for (row = better ? option_rows : row; better && row->name; row++)
-        if (strcmp(row->name, better) == 0)
-            break;
-    return row;
+    return better ? option_row(better) : row;
 }
 
 /* "no option --dt; did you mean --timestep?"  value: what follows it, or "". */

@@ -55,6 +55,9 @@ struct OptionRow {
 extern const OptionRow option_rows[];
 enum { OPTION_MOST = 64 }; /* rows */
 
+/* The row with this name, or the end of the table. */
+const OptionRow *option_row(const char *name);
+
 /* A page of the lecture, by number or name; empty: the first. */
 ParseFunction parse_page;
 

@@ -505,17 +505,23 @@ const char *line_search_name(LineSearch search)
     return value_name(line_search_names, (int)search);
 }
 
+const OptionRow *option_row(const char *name)
+{
+    const OptionRow *row = option_rows;
+    while (row->name && strcmp(row->name, name) != 0)
+        row++;
+    return row;
+}
+
 bool options_value(const Options *options, const char *name, char *text,
                    size_t size)
 {
-    const OptionRow *row = option_rows;
+    const OptionRow *row = option_row(name);
     const IntegratorMethod *method =
         options->integrator ? options->integrator : &integrator_methods[0];
     double number;
     int whole;
     text[0] = '\0';
-    while (row->name && strcmp(row->name, name) != 0)
-        row++;
     if (!row->name || !row->compared)
         return false;
     const char *field = (const char *)options + row->offset;

@@ -234,7 +234,6 @@ Status simulation_set_friction(Simulation *simulation, double mu)
         status =
             set_friction(&simulation->run[r], grip * mu, options->slip_speed);
     }
-    forget_runs(simulation);
     return status;
 }
 

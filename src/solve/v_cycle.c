@@ -75,16 +75,16 @@ VCycle *v_cycle_create(const Grid *grid)
     cycle->kernels =
         v_cycle_kernels(grid->kernels->lanes, n <= PRECISE_SEGMENTS);
     cycle->sums = malloc((size_t)(n + 1) * V_SUMS * sizeof *cycle->sums);
-    for (bool more = cycle->sums; more; n = (n + 1) / 2) {
+    if (!cycle->sums) {
+        v_cycle_free(cycle);
+        return NULL;
+    }
+    for (bool more = true; more; n = (n + 1) / 2) {
         more = n > COARSEST;
         if (!create_v_level(cycle, n + 1, &cycle->level[cycle->levels++])) {
             v_cycle_free(cycle);
             return NULL;
         }
-    }
-    if (!cycle->sums) {
-        v_cycle_free(cycle);
-        return NULL;
     }
     return cycle;
 }

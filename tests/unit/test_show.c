@@ -636,15 +636,15 @@ static void energies_before_an_explosion_are_seen(void **unused)
     static Stand stand;
     stand_up("square", 6, 1280, 800, &stand);
     const History *history = &stand.history;
-    double now = simulation_time(&stand.simulation), joule;
+    double now = simulation_time(&stand.simulation), joule, last;
     double total = history->value[0][history->count - 1], later[12];
-    double before = energies_axis(&stand.show, &joule).high * joule;
+    double before = energies_axis(&stand.show, &joule, &last).high * joule;
     for (int s = 0; s < history->series; s++)
         later[s] = 1e298;
     history_add(&stand.history, now + 0.1, later);
     CHECK(total > 1e3 &&
           energies_value(&stand.simulation, history, 0, now) == total);
-    Axis axis = energies_axis(&stand.show, &joule);
+    Axis axis = energies_axis(&stand.show, &joule, &last);
     CHECK(!axis.log && axis.high * joule <= before &&
           axis.high * joule >= total);
     CHECK(energies_value(&stand.simulation, history, 0, now + 0.1) == 1e298);
@@ -657,7 +657,7 @@ static void energies_before_an_explosion_are_seen(void **unused)
     CHECK(isfinite(energies_value(&stand.simulation, history, 0, 0.9 * now)));
     take_down(&stand);
     stand_up("arrows", 80, 1280, 800, &stand);
-    axis = energies_axis(&stand.show, &joule);
+    axis = energies_axis(&stand.show, &joule, &last);
     now = simulation_time(&stand.simulation);
     CHECK(axis.log && axis.low > 0);
     double least = INFINITY;
