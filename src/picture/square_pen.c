@@ -103,6 +103,11 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
 
 static void draw_whole_springs(const SpringPen *pen, const System *system)
 {
+    if (!system->breaks && !pen->projected && !(pen->range > 0)) {
+        canvas_lines(&pen->paper->canvas, pen->at, system->e, system->springs,
+                     pen->width, COLOUR_X);
+        return;
+    }
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_broken(system, s))
             draw_spring(pen, system->e[2 * (size_t)s],
