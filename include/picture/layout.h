@@ -119,6 +119,8 @@ extern const Lens LENS_FITS;
  *   stretched  x and y have scales of their own, and fill the box */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens);
+void camera_pixels(const Camera *camera, int count, const double *world,
+                   double *pixels);
 void camera_pixel(const Camera *camera, const double world[2], double pixel[2]);
 void camera_world(const Camera *camera, double x, double y, double world[2]);
 

@@ -234,8 +234,8 @@ INLINE_EIGHT EightPen eight_pen(const Canvas *canvas, double width,
         right = -INFINITY;
     return (EightPen){
         .low = _mm_setr_pd(clip->x + margin, clip->y + canvas->above + margin),
-        .high = _mm_setr_pd(
-            right, clip->y + clip->height - canvas->below - margin),
+        .high =
+            _mm_setr_pd(right, clip->y + clip->height - canvas->below - margin),
         .red_blue = _mm256_set1_epi32((int)(colour & 0xff00ff)),
         .alpha_green =
             _mm256_set1_epi32((int)(0xff0000 | (colour >> 8 & 0xff))),
@@ -275,9 +275,9 @@ INLINE_EIGHT void mix_eight(uint32_t *p, const EightPen *pen, __m256i near,
                                 _mm256_mullo_epi16(pen->red_blue, part));
     alpha_green = _mm256_add_epi16(_mm256_mullo_epi16(alpha_green, rest),
                                    _mm256_mullo_epi16(pen->alpha_green, part));
-    _mm256_storeu_si256((__m256i *)p,
-                        _mm256_or_si256(_mm256_srli_epi16(red_blue, 8),
-                                        _mm256_andnot_si256(mask, alpha_green)));
+    _mm256_storeu_si256(
+        (__m256i *)p, _mm256_or_si256(_mm256_srli_epi16(red_blue, 8),
+                                      _mm256_andnot_si256(mask, alpha_green)));
 }
 
 /* Eight columns after the other. */
@@ -317,13 +317,14 @@ INLINE_EIGHT void steep_line(const EightPen *pen, LineRun run)
     const __m256i across = _mm256_set1_epi32(2 * run.reach);
     uint32_t *row = pen->pixels + run.begin * pen->row;
     int low = run.b - run.reach;
-    for (int i = run.begin; i < run.end; i++, low += run.step, row += pen->row) {
+    for (int i = run.begin; i < run.end;
+         i++, low += run.step, row += pen->row) {
         int top = i * FIXED_ONE, bottom = top + FIXED_ONE;
         top = top < run.from ? run.from : top;
         bottom = bottom > run.to ? run.to : bottom;
         int column = low >> FIXED_BITS;
-        __m256i near = _mm256_sub_epi32(
-            _mm256_set1_epi32(low - column * FIXED_ONE), rim);
+        __m256i near =
+            _mm256_sub_epi32(_mm256_set1_epi32(low - column * FIXED_ONE), rim);
         mix_eight(row + column, pen, near, _mm256_add_epi32(near, across),
                   fixed_product(_mm256_set1_epi32(bottom - top), pen->full));
     }
@@ -357,9 +358,13 @@ lines_by_eight(const Canvas *canvas, const double *at, const int *ends,
                long count, double width, Colour colour)
 {
     const EightPen pen = eight_pen(canvas, width, colour);
+    const int top = canvas->clip.y + canvas->above;
+    const int bottom = canvas->clip.y + canvas->clip.height - canvas->below;
     for (long k = 0; k < count; k++) {
         const double *a = at + 2 * (size_t)ends[2 * k];
         const double *b = at + 2 * (size_t)ends[2 * k + 1];
+        if (is_beyond(a[1], b[1], top, bottom, width + 1))
+            continue;
         if (!eight_line(&pen, _mm_loadu_pd(a), _mm_loadu_pd(b)))
             clipped_line(canvas, a[0], a[1], b[0], b[1], width, colour);
     }
@@ -420,4 +425,3 @@ void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
                         y0 + b * uy, width, colour);
     }
 }
-

@@ -32,8 +32,8 @@ static double seen_spacing(const SpringPen *pen, int nodes, int segments)
         double low = INFINITY, high = -INFINITY;
         for (int i = 0; i < nodes; i++) {
             double at = pen->at[2 * (size_t)i + k];
-            low = isfinite(at) ? fmin(low, at) : low;
-            high = isfinite(at) ? fmax(high, at) : high;
+            low = isfinite(at) && at < low ? at : low;
+            high = isfinite(at) && at > high ? at : high;
         }
         reach = fmax(reach, high - low);
     }
@@ -51,8 +51,8 @@ SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
     const System *system = simulation->run[run].system;
     pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
     pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
-    for (int i = 0; pen.at && i < simulation->system.nodes; i++)
-        stage_pixel(stage, pen.x + 2 * (size_t)i, pen.at + 2 * (size_t)i);
+    if (pen.at)
+        camera_pixels(&stage->camera, simulation->system.nodes, pen.x, pen.at);
     pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
     pen.spacing = seen_spacing(&pen, simulation->system.nodes, mesh->segments);
     pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
