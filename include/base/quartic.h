@@ -10,9 +10,10 @@ typedef struct Quartic {
 } Quartic;
 
 /* q(alpha) - q(0), by Horner's rule. */
-double quartic_value(const Quartic *quartic, double alpha);
-
-/* The same, as line_search_backtrack calls it. */
-double quartic_difference(const void *quartic, double alpha);
+static inline double quartic_value(const Quartic *quartic, double alpha)
+{
+    const double *q = quartic->q;
+    return alpha * (q[0] + alpha * (q[1] + alpha * (q[2] + alpha * q[3])));
+}
 
 #endif

@@ -13,11 +13,10 @@
 #include "base/status.h"
 
 typedef struct Triplets {
-    int size;     /* rows = columns of the matrix */
-    int count;    /* triplets so far */
-    int capacity; /* triplets there is room for */
-    int *row;     /* [capacity] */
-    int *column;  /* [capacity] */
+    int size;    /* rows = columns of the matrix */
+    int count;   /* triplets so far */
+    int *row;    /* [count, and room for more] row >= column */
+    int *column; /* [the same] */
 } Triplets;
 
 typedef struct Sparse {
@@ -32,11 +31,12 @@ typedef struct Sparse {
 Status triplets_create(int size, long long capacity, Triplets *triplets);
 void triplets_free(Triplets *triplets);
 
-/* Appends entry (row, column); there must be room. */
+/* Appends entry (row, column); there must be room.  Only the lower triangle is
+ * stored, and what belongs to the upper one is mirrored: CHOLMOD would add
+ * mirrored entries. */
 void triplets_add(Triplets *triplets, int row, int column);
 
-/* Sums triplets with equal place.  Only the lower triangle is stored, and what
- * belongs to the upper one is mirrored: CHOLMOD would add mirrored entries.
+/* Sums triplets with equal place.
  *   triplets  in
  *   A         out; free it with sparse_free, also after a failure
  *   slot      [count] out, place of each triplet in A->value

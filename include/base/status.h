@@ -31,7 +31,7 @@ typedef enum Status {
     STATUS_COUNT
 } Status;
 
-/* A sentence without full stop, for people; never NULL. */
+/* A sentence without full stop, for people. */
 const char *status_text(Status status);
 
 /* The name of the constant without its prefix in lower case, for logs. */

@@ -41,18 +41,4 @@ Status damping_add(System *system, double eta);
 /* The system's damping, or NULL. */
 Damping *damping_of(const System *system);
 
-/* k and l2 of the springs: those of the system, or what damping, which may be
- * NULL, makes of them for a step. */
-static inline const double *damped_k(const System *system,
-                                     const Damping *damping)
-{
-    return damping ? damping->k : system->k;
-}
-
-static inline const double *damped_l2(const System *system,
-                                      const Damping *damping)
-{
-    return damping ? damping->l2 : system->l2;
-}
-
 #endif

@@ -7,25 +7,19 @@
 
 #include "model/system.h"
 
-/* The springs of the system as a term; it needs no data. */
-extern const TermKind mass_spring_energy;
+/* The springs of the system as a term, and the same averaged (avf_energy.c);
+ * they need no data. */
+extern const TermKind mass_spring_energy, avf_energy;
 
-/* The strain |d|^2/l2 - 1 of a spring in positions x [2n] m; d [2] m out. */
-static inline double spring_strain_to(const System *system, const double *x,
-                                      int spring, double l2, double d[2])
+/* The strain |d|^2/l2 - 1 of a spring between the nodes e[0] and e[1] in
+ * positions x [2n] m; d [2] m out. */
+static inline double spring_strain(const int e[2], double l2, const double *x,
+                                   double d[2])
 {
-    const int *e = system->e + 2 * spring;
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
     d[0] = xi[0] - xj[0];
     d[1] = xi[1] - xj[1];
     return (d[0] * d[0] + d[1] * d[1]) / l2 - 1;
-}
-
-/* The same with the spring's own l2. */
-static inline double spring_strain(const System *system, const double *x,
-                                   int spring, double d[2])
-{
-    return spring_strain_to(system, x, spring, system->l2[spring], d);
 }
 
 /* H [3] J/m^2 out (xx, xy, yy), H = (2k/l2) (2 d d^T + (|d|^2 - l2) I), with
@@ -43,15 +37,14 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
 {
     double factor = 2 * k / l2, d2 = d[0] * d[0] + d[1] * d[1];
     double along = 3 * d2 - l2, across = d2 - l2;
-    bool absolute = filter == FILTER_ABS;
-    if (across >= 0 || (filter != FILTER_CLAMP && !absolute)) {
+    if (across >= 0 || !filter_projects(filter)) {
         H[0] = factor * (2 * d[0] * d[0] + across);
         H[1] = factor * (2 * d[0] * d[1]);
         H[2] = factor * (2 * d[1] * d[1] + across);
         return false;
     }
-    across = absolute ? -across : 0;
-    along = along > 0 ? along : absolute ? -along : 0;
+    across = projected_eigenvalue(filter, across);
+    along = projected_eigenvalue(filter, along);
     double slope = d2 > 0 ? factor * ((along - across) / d2) : 0;
     H[0] = factor * across + slope * d[0] * d[0];
     H[1] = slope * d[0] * d[1];
@@ -71,28 +64,21 @@ void mass_spring_pattern(const Term *term, const System *system,
 void mass_spring_bounds(const Term *term, const System *system,
                         double *stiffest, double *force);
 
-/* y += [[H, -H], [-H, H]] q for the nodes e[0] and e[1]. */
-static inline void mass_spring_multiply(const double H[3], const int e[2],
-                                        const double *q, double *y)
-{
-    const double *qi = q + 2 * e[0], *qj = q + 2 * e[1];
-    double *yi = y + 2 * e[0], *yj = y + 2 * e[1];
-    double q0 = qi[0] - qj[0], q1 = qi[1] - qj[1];
-    double t0 = H[0] * q0 + H[1] * q1, t1 = H[1] * q0 + H[2] * q1;
-    yi[0] += t0;
-    yi[1] += t1;
-    yj[0] -= t0;
-    yj[1] -= t1;
-}
-
-/* The same block of a spring: added to a matrix through its slots, or, where q
- * is given, multiplied (TermKind's hessian). */
-static inline void mass_spring_add(const double H[3], const System *system,
+/* The block [[H, -H], [-H, H]] of the nodes e[0] and e[1], number `spring` of
+ * such blocks: added to a matrix through its slots, or, where q is given,
+ * out += block q (TermKind's hessian). */
+static inline void mass_spring_add(const double H[3], const int e[2],
                                    int spring, const int *slot, const double *q,
                                    double *out)
 {
     if (q) {
-        mass_spring_multiply(H, system->e + 2 * spring, q, out);
+        int i = 2 * e[0], j = 2 * e[1];
+        double q0 = q[i] - q[j], q1 = q[i + 1] - q[j + 1];
+        double t0 = H[0] * q0 + H[1] * q1, t1 = H[1] * q0 + H[2] * q1;
+        out[i] += t0;
+        out[i + 1] += t1;
+        out[j] -= t0;
+        out[j + 1] -= t1;
         return;
     }
     slot += SPRING_ENTRIES * spring;

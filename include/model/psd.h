@@ -18,6 +18,18 @@ typedef enum Filter {
     FILTER_COUNT
 } Filter;
 
+/* Whether it changes a negative eigenvalue of a block at all. */
+static inline bool filter_projects(Filter filter)
+{
+    return filter == FILTER_CLAMP || filter == FILTER_ABS;
+}
+
+/* What becomes of one eigenvalue where it does. */
+static inline double projected_eigenvalue(Filter filter, double value)
+{
+    return value >= 0 ? value : filter == FILTER_ABS ? -value : 0;
+}
+
 /* Does so with any symmetric 2x2 matrix; one without negative eigenvalues stays
  * as it is, to the last bit.
  *   H  [3] in/out: H_xx, H_xy, H_yy

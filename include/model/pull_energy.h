@@ -19,16 +19,12 @@ typedef struct Pull {
     double target[2]; /* m, o */
 } Pull;
 
-/* Adds the field, changes it, or takes it away where omega2 is 0, 1/s^2.
+/* Adds a pull of one of these kinds, or changes the one that there is.
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE (no room in the list). */
+Status pull_set(System *system, const TermKind *kind, const Pull *pull);
+
+/* The same with the field; takes it away where omega2 is 0, 1/s^2. */
 Status central_field_set(System *system, double omega2);
-
-/* The hand takes a node, or another one.  Returns OK, INVALID_INPUT (there is
- * no such node), OUT_OF_MEMORY, TOO_LARGE. */
-Status hand_energy_set(System *system, const Pull *hand);
-
-/* It lets go; nothing where there is no hand. */
-void hand_energy_remove(System *system);
 
 /* The hand of a system, or NULL; its target and k may be changed. */
 Pull *hand_energy_of(const System *system);

@@ -21,17 +21,19 @@ typedef struct Term Term;
 
 typedef struct Place {
     const System *system;
-    const double *x_n;             /* [2n] m, start of the step */
-    const double *u;               /* [2n] m, displacement from there */
-    const double *x;               /* [2n] m, x_n + u */
-    bool averaged;                 /* the averaged twin is asked */
-    const struct Damping *damping; /* of this step (damping.h); NULL: none, or
-                                      asked outside of a step */
+    const double *x_n; /* [2n] m, start of the step */
+    const double *u;   /* [2n] m, displacement from there; NULL: no step */
+    const double *x;   /* [2n] m, x_n + u */
+    bool averaged;     /* the averaged twin is asked */
+    const struct Damping *damping; /* of this step (damping.h); NULL: none */
+    const double *k, *l2; /* [springs] of the springs in this step: those of the
+                             system, or what damping makes of them */
 } Place;
 
-typedef struct TermKind {
-    const char *name; /* in the energy ledger and in messages: "springs" */
+Place place_at(const System *system, const double *x_n, const double *u,
+               const double *x, bool averaged);
 
+typedef struct TermKind {
     /* Whether its numbers are finite and in their ranges; NULL: always. */
     bool (*valid)(const Term *term, const System *system);
 
@@ -121,7 +123,7 @@ struct Term {
 
 /* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal
  * (i = j) only xx xy yy. */
-enum { BLOCK_ENTRIES = 4, DIAGONAL_ENTRIES = 3 };
+enum { DIAGONAL_ENTRIES = 3 };
 void term_add_block(const System *system, int i, int j, Triplets *triplets);
 
 /* Triplets xx and yy of node i alone. */

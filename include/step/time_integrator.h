@@ -1,8 +1,10 @@
 /* time_integrator.h - one step forward in time (slide time_integrator.py).
  *
- * One table: name, order, step function.  A step function moves x and v from
- * t_n to t_n + h; those of implicit methods fill u_tilde and call
- * time_integrator_minimise, those of explicit ones never touch Newton.
+ * One table: name, order, step function (methods.c).  A step function reads x
+ * and v, those of t_n, and fills new_x and new_v, those of t_n + h, which
+ * become x and v unless it fails or one of them is not finite.  Those of
+ * implicit methods fill u_tilde and call time_integrator_minimise, those of
+ * explicit ones never touch Newton.
  */
 #ifndef ELASTO_TIME_INTEGRATOR_H
 #define ELASTO_TIME_INTEGRATOR_H
@@ -36,8 +38,8 @@ struct TimeIntegrator {
     double work;      /* J, done so far by what moves walls and pins */
     double *x;        /* [2n] m; the arrays below are in the same piece */
     double *v;        /* [2n] m/s */
-    double *new_x;    /* [2n] m, workspace of step functions */
-    double *new_v;    /* [2n] m/s, workspace of step functions */
+    double *new_x;    /* [2n] m, x at the end of a step; workspace in it */
+    double *new_v;    /* [2n] m/s, v, the same */
     double *memory;   /* [memory * 2n] what the method remembers */
     bool remembers;   /* memory holds something */
     Newton *newton;   /* NULL for explicit methods */
@@ -49,9 +51,9 @@ extern const IntegratorMethod integrator_methods[];
 /* The row with this name, or NULL. */
 const IntegratorMethod *integrator_method(const char *name);
 
-/* The first term that the method is not right for, or NULL. */
-const Term *integrator_method_refuses(const IntegratorMethod *method,
-                                      const System *system);
+/* Whether the system has a term that the method is not right for. */
+bool integrator_method_refuses(const IntegratorMethod *method,
+                               const System *system);
 
 /* Allocates for the system and copies the start.
  *   settings  of Newton, with h; explicit methods use only h
@@ -79,10 +81,5 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
 /* After arrays of the system, or (rebuild) its list of terms or its pins, were
  * changed from outside: nothing computed from them is used again. */
 void time_integrator_forget(TimeIntegrator *integrator, bool rebuild);
-
-/* For step functions: x = new_x, v = new_v unless one is not finite: then
- * nothing changes and NOT_FINITE is returned.  new_x, new_v [2n] in. */
-Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
-                              const double *new_v);
 
 #endif

@@ -9,7 +9,6 @@ Status triplets_create(int size, long long capacity, Triplets *triplets)
     *triplets = (Triplets){.size = size};
     if (size < 1 || capacity < 1 || capacity >= INT_MAX)
         return STATUS_TOO_LARGE;
-    triplets->capacity = (int)capacity;
     triplets->row = malloc((size_t)capacity * sizeof *triplets->row);
     triplets->column = malloc((size_t)capacity * sizeof *triplets->column);
     if (!triplets->row || !triplets->column)
@@ -28,9 +27,9 @@ void triplets_free(Triplets *triplets)
 
 void triplets_add(Triplets *triplets, int row, int column)
 {
-    triplets->row[triplets->count] = row;
-    triplets->column[triplets->count] = column;
-    triplets->count++;
+    int t = triplets->count++;
+    triplets->row[t] = row > column ? row : column;
+    triplets->column[t] = row > column ? column : row;
 }
 
 /* out = the entries of `in` (NULL: 0, 1, 2, ...) stably sorted by key.
@@ -51,22 +50,18 @@ static void counting_sort(int count, int size, const int *key, const int *in,
 }
 
 /* Walks the sorted triplets; each new place opens a new slot. */
-static void number_slots(int count, const int *sorted, const int *row,
-                         const int *column, Sparse *A, int *slot)
+static void number_slots(const Triplets *triplets, const int *sorted, Sparse *A,
+                         int *slot)
 {
-    int last = -1, last_row = -1, last_column = -1;
-    for (int i = 0; i < count; i++) {
-        int t = sorted[i];
-        if (row[t] != last_row || column[t] != last_column) {
-            last++;
-            last_row = row[t];
-            last_column = column[t];
-            A->row[last] = last_row;
-            A->start[last_column + 1] = last + 1;
+    const int *row = triplets->row, *column = triplets->column;
+    for (int i = 0; i < triplets->count; i++) {
+        int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
+        if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
+            A->row[A->entries++] = row[t];
+            A->start[column[t] + 1] = A->entries;
         }
-        slot[t] = last;
+        slot[t] = A->entries - 1;
     }
-    A->entries = last + 1;
     for (int c = 0; c < A->size; c++) /* columns without entries */
         if (A->start[c + 1] < A->start[c])
             A->start[c + 1] = A->start[c];
@@ -78,31 +73,19 @@ Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     *A = (Sparse){.size = size};
     A->start = calloc((size_t)size + 1, sizeof *A->start);
-    int *start = malloc(((size_t)size + 1) * sizeof *start);
-    int *row = calloc(1, bytes), *column = calloc(1, bytes);
-    int *by_row = calloc(1, bytes), *sorted = calloc(1, bytes);
     A->row = malloc(bytes);
-    Status status = STATUS_OUT_OF_MEMORY;
-    if (!A->start || !start || !row || !column || !by_row || !sorted || !A->row)
-        goto done;
-    for (int t = 0; t < count; t++) {
-        int r = triplets->row[t], c = triplets->column[t];
-        row[t] = r < c ? c : r;
-        column[t] = r < c ? r : c;
+    int *start = malloc(((size_t)size + 1) * sizeof *start);
+    int *by_row = malloc(bytes), *sorted = malloc(bytes);
+    if (A->start && A->row && start && by_row && sorted) {
+        counting_sort(count, size, triplets->row, NULL, start, by_row);
+        counting_sort(count, size, triplets->column, by_row, start, sorted);
+        number_slots(triplets, sorted, A, slot);
+        A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
     }
-    counting_sort(count, size, row, NULL, start, by_row);
-    counting_sort(count, size, column, by_row, start, sorted);
-    number_slots(count, sorted, row, column, A, slot);
-    A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
-    if (A->value)
-        status = STATUS_OK;
-done:
     free(start);
-    free(row);
-    free(column);
     free(by_row);
     free(sorted);
-    return status;
+    return A->value ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 void sparse_free(Sparse *A)

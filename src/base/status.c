@@ -33,19 +33,14 @@ static const struct {
     [STATUS_SCREEN_FAILED] = {"screen_failed", "drawing failed"},
 };
 
-static bool is_known(Status status)
-{
-    return (int)status >= 0 && status < STATUS_COUNT;
-}
-
 const char *status_text(Status status)
 {
-    return is_known(status) ? status_rows[status].text : "unknown status";
+    return status_rows[status].text;
 }
 
 const char *status_name(Status status)
 {
-    return is_known(status) ? status_rows[status].name : "unknown";
+    return status_rows[status].name;
 }
 
 bool status_is_unconverged(Status status)

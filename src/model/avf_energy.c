@@ -1,8 +1,17 @@
-#include "model/avf_energy.h"
+/* Phi(u), whose gradient is the spring force averaged along the straight way
+ * from x_n to x_n + u:
+ *   grad Phi(u) = integral over t = 0 ... 1 of grad P(x_n + t u).
+ * A step that minimises with Phi instead of P conserves energy exactly (Rojas,
+ * Liu, Kavan: Average Vector Field Integration for St. Venant-Kirchhoff
+ * Deformable Models, 2018).
+ *
+ * With d = x_n,i - x_n,j, delta = u_i - u_j, s = |d|^2/l2 - 1,
+ * B = 2 d.delta/l2 and C = |delta|^2/l2 the strain on the way is
+ * s + t B + t^2 C, and the integrals are polynomials.
+ */
+#include "model/mass_spring_energy.h"
 
 #include <math.h>
-
-#include "model/mass_spring_energy.h"
 
 /* What all integrals of one spring are made of. */
 typedef struct AverageSpring {
@@ -16,7 +25,7 @@ static AverageSpring average_spring(const Place *at, int spring)
     const double *ui = at->u + 2 * e[0], *uj = at->u + 2 * e[1];
     double l2 = at->system->l2[spring];
     AverageSpring a = {.delta = {ui[0] - uj[0], ui[1] - uj[1]}};
-    a.s = spring_strain(at->system, at->x_n, spring, a.d);
+    a.s = spring_strain(e, l2, at->x_n, a.d);
     a.B = 2 * (a.d[0] * a.delta[0] + a.d[1] * a.delta[1]) / l2;
     a.C = (a.delta[0] * a.delta[0] + a.delta[1] * a.delta[1]) / l2;
     return a;
@@ -85,7 +94,7 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
         double H[3];
         average_hessian(&a, system->l2[i], w * system->k[i], H);
         projected += filter_2x2(filter, H);
-        mass_spring_add(H, system, i, slot, q, out);
+        mass_spring_add(H, system->e + 2 * i, i, slot, q, out);
     }
     return projected;
 }
@@ -124,15 +133,13 @@ static void concave(const Term *term, const Place *at, double w, double *sum)
         AverageSpring a = average_spring(at, s);
         double t = a.C > 0 ? fmin(fmax(-a.B / (2 * a.C), 0), 1) : 0;
         double missing = -(a.s + t * (a.B + t * a.C));
-        if (!(missing > 0))
-            continue;
-        sum[system->e[2 * s]] += 2 * w * system->k[s] * missing;
-        sum[system->e[2 * s + 1]] += 2 * w * system->k[s] * missing;
+        double c = 2 * w * system->k[s] * fmax(missing, 0);
+        sum[system->e[2 * s]] += c;
+        sum[system->e[2 * s + 1]] += c;
     }
 }
 
 const TermKind avf_energy = {
-    .name = "springs",
     .value = value,
     .gradient = gradient,
     .entries = mass_spring_entries,

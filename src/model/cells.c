@@ -390,7 +390,6 @@ static void free_cells(void *data)
 }
 
 const TermKind cell_energy = {
-    .name = "cells",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -52,15 +52,13 @@ bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(gap->d / barrier->d_hat);
     double across = -contact_force(barrier, gap) / gap->r; /* a wall's is 0 */
-    bool negative = across < 0;
-    if (filter == FILTER_CLAMP)
-        across = 0;
-    else if (filter == FILTER_ABS)
-        across = -across;
+    bool changed = across < 0 && filter_projects(filter);
+    if (changed)
+        across = projected_eigenvalue(filter, across);
     H[0] = along * n[0] * n[0] + across * n[1] * n[1];
     H[1] = (along - across) * n[0] * n[1];
     H[2] = along * n[1] * n[1] + across * n[0] * n[0];
-    return negative && (filter == FILTER_CLAMP || filter == FILTER_ABS);
+    return changed;
 }
 
 /* A ball: |D + alpha P| = r - F d is the quadratic equation
@@ -212,8 +210,7 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
  * nodes have the same number.) */
 static int entries_of_a_node(const Contact *contact)
 {
-    return contact->ball < 0 ? DIAGONAL_ENTRIES
-                             : 2 * DIAGONAL_ENTRIES + BLOCK_ENTRIES;
+    return contact->ball < 0 ? DIAGONAL_ENTRIES : SPRING_ENTRIES;
 }
 
 long long contact_entries(const Contact *contact, const System *system)
@@ -243,20 +240,16 @@ void contact_add_block(const Contact *contact, ContactPair pair,
                        double *out)
 {
     int i = 2 * pair.node, ball = contact->obstacle[pair.obstacle].node;
-    if (q && ball >= 0) {
-        mass_spring_multiply(H, (int[2]){pair.node, ball}, q, out);
+    if (ball >= 0) {
+        int both[2] = {pair.node, ball};
+        mass_spring_add(H, both, pair.node, slot, q, out);
     } else if (q) {
         out[i] += H[0] * q[i] + H[1] * q[i + 1];
         out[i + 1] += H[1] * q[i] + H[2] * q[i + 1];
     } else {
-        slot += (long long)entries_of_a_node(contact) * pair.node;
-        for (int t = 0; t < 3; t++) {
+        slot += entries_of_a_node(contact) * pair.node;
+        for (int t = 0; t < DIAGONAL_ENTRIES; t++)
             out[slot[t]] += H[t];
-            if (ball >= 0)
-                out[slot[3 + t]] += H[t];
-        }
-        for (int t = 0; ball >= 0 && t < 4; t++)
-            out[slot[6 + t]] -= H[(t + 1) / 2];
     }
 }
 
@@ -384,7 +377,6 @@ static void free_contact(void *data)
 }
 
 const TermKind contact_energy = {
-    .name = "contact",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -36,7 +36,7 @@ static bool begin(Term *term, System *system, const double *x_n,
     (void)v_n;
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
-        data->E_n[s] = spring_strain(system, x_n, s, d);
+        data->E_n[s] = spring_strain(system->e + 2 * s, l2, x_n, d);
         double d2 = d[0] * d[0] + d[1] * d[1];
         double mean = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
         changed |= set(&data->l2[s], mean);
@@ -53,8 +53,10 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     (void)v;
     (void)h;
     for (int s = 0; s < system->springs; s++) {
-        double change = spring_strain(system, x, s, d) - data->E_n[s];
-        sum += system->k[s] * system->l2[s] * data->theta * change * change;
+        double l2 = system->l2[s];
+        double E = spring_strain(system->e + 2 * s, l2, x, d);
+        double change = E - data->E_n[s];
+        sum += system->k[s] * l2 * data->theta * change * change;
     }
     term->lost += sum;
     return false;
@@ -77,7 +79,6 @@ static void free_damping(void *data)
 }
 
 const TermKind damping = {
-    .name = "damping",
     .valid = valid,
     .begin = begin,
     .end = end,

@@ -61,7 +61,8 @@ static int find_candidates(Fracture *fracture, const System *system,
     for (int s = 0; s < system->springs; s++) {
         if (spring_is_broken(system, s))
             continue;
-        double d[2], strain = spring_strain(system, x, s, d);
+        double d[2];
+        double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
         fracture->load[s] = strain / fracture_strength(fracture, s);
         if (fracture->load[s] > 1)
             fracture->candidate[count++] = s;
@@ -118,7 +119,6 @@ static void free_fracture(void *data)
 }
 
 const TermKind fracture = {
-    .name = "fracture",
     .valid = valid,
     .end = end,
     .free = free_fracture,

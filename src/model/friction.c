@@ -214,7 +214,6 @@ static void free_friction(void *data)
 }
 
 const TermKind friction_energy = {
-    .name = "friction",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -2,20 +2,15 @@
 
 #include <math.h>
 
-#include "model/avf_energy.h"
-#include "model/damping.h"
-
 /* sum l2 k/2 s^2 */
 static double value(const Term *term, const Place *at)
 {
     const System *system = at->system;
-    const double *k = damped_k(system, at->damping);
-    const double *l2 = damped_l2(system, at->damping);
     double sum = 0, d[2];
     (void)term;
     for (int i = 0; i < system->springs; i++) {
-        double s = spring_strain_to(system, at->x, i, l2[i], d);
-        sum += l2[i] * 0.5 * k[i] * s * s;
+        double s = spring_strain(system->e + 2 * i, at->l2[i], at->x, d);
+        sum += at->l2[i] * 0.5 * at->k[i] * s * s;
     }
     return sum;
 }
@@ -24,14 +19,12 @@ static double value(const Term *term, const Place *at)
 static void gradient(const Term *term, const Place *at, double w, double *g)
 {
     const System *system = at->system;
-    const double *k = damped_k(system, at->damping);
-    const double *l2 = damped_l2(system, at->damping);
     (void)term;
     for (int i = 0; i < system->springs; i++) {
-        double d[2], s = spring_strain_to(system, at->x, i, l2[i], d);
-        double factor = w * 2 * k[i] * s;
-        double *gi = g + 2 * system->e[2 * i];
-        double *gj = g + 2 * system->e[2 * i + 1];
+        const int *e = system->e + 2 * i;
+        double d[2], s = spring_strain(e, at->l2[i], at->x, d);
+        double factor = w * 2 * at->k[i] * s;
+        double *gi = g + 2 * e[0], *gj = g + 2 * e[1];
         gi[0] += factor * d[0];
         gi[1] += factor * d[1];
         gj[0] -= factor * d[0];
@@ -43,16 +36,14 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
                    const int *slot, const double *q, double *out)
 {
     const System *system = at->system;
-    const double *k = damped_k(system, at->damping);
-    const double *l2 = damped_l2(system, at->damping);
     int projected = 0;
     (void)term;
     for (int s = 0; s < system->springs; s++) {
-        const double *xi = at->x + 2 * system->e[2 * s];
-        const double *xj = at->x + 2 * system->e[2 * s + 1];
-        double d[2] = {xi[0] - xj[0], xi[1] - xj[1]}, H[3];
-        projected += spring_hessian(d, l2[s], w * k[s], filter, H);
-        mass_spring_add(H, system, s, slot, q, out);
+        const int *e = system->e + 2 * s;
+        double d[2], H[3];
+        spring_strain(e, at->l2[s], at->x, d);
+        projected += spring_hessian(d, at->l2[s], w * at->k[s], filter, H);
+        mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;
 }
@@ -64,15 +55,14 @@ static void along(const Term *term, const Place *at, const double *p, double w,
                   double reach, double q[3])
 {
     const System *system = at->system;
-    const double *x = at->x, *k = damped_k(system, at->damping);
-    const double *l2 = damped_l2(system, at->damping);
+    const double *x = at->x, *l2 = at->l2;
     (void)term;
     (void)reach;
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
         double d0 = x[i] - x[j], d1 = x[i + 1] - x[j + 1];
         double p0 = p[i] - p[j], p1 = p[i + 1] - p[j + 1];
-        double factor = w * 0.5 * k[s] / l2[s];
+        double factor = w * 0.5 * at->k[s] / l2[s];
         double strain = d0 * d0 + d1 * d1 - l2[s];
         double B = 2 * (d0 * p0 + d1 * p1);
         double C = p0 * p0 + p1 * p1;
@@ -87,19 +77,13 @@ static void along(const Term *term, const Place *at, const double *p, double w,
 static void concave(const Term *term, const Place *at, double w, double *sum)
 {
     const System *system = at->system;
-    const double *k = damped_k(system, at->damping);
-    const double *l2 = damped_l2(system, at->damping);
     (void)term;
     for (int s = 0; s < system->springs; s++) {
-        int i = system->e[2 * s], j = system->e[2 * s + 1];
-        double dx = at->x[2 * i] - at->x[2 * j];
-        double dy = at->x[2 * i + 1] - at->x[2 * j + 1];
-        double missing = l2[s] - (dx * dx + dy * dy);
-        if (!(missing > 0))
-            continue;
-        double c = w * 2 * k[s] / l2[s];
-        sum[i] += 2 * c * missing;
-        sum[j] += 2 * c * missing;
+        const int *e = system->e + 2 * s;
+        double d[2], strain = spring_strain(e, at->l2[s], at->x, d);
+        double c = w * 4 * at->k[s] * fmax(-strain, 0);
+        sum[e[0]] += c;
+        sum[e[1]] += c;
     }
 }
 
@@ -132,7 +116,6 @@ void mass_spring_bounds(const Term *term, const System *system,
 }
 
 const TermKind mass_spring_energy = {
-    .name = "springs",
     .value = value,
     .gradient = gradient,
     .entries = mass_spring_entries,

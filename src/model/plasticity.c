@@ -59,19 +59,16 @@ bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
     double factor = 2 * k / l2, q = d[0] * d[0] + d[1] * d[1];
     double across = l2 * spring_law_slope(law, e);
     double along = 2 * spring_law_curvature(law, e) * q + across;
-    bool negative = along < 0 || across < 0;
-    if (filter == FILTER_CLAMP) {
-        along = fmax(along, 0);
-        across = fmax(across, 0);
-    } else if (filter == FILTER_ABS) {
-        along = fabs(along);
-        across = fabs(across);
+    bool changed = (along < 0 || across < 0) && filter_projects(filter);
+    if (changed) {
+        along = projected_eigenvalue(filter, along);
+        across = projected_eigenvalue(filter, across);
     }
     double difference = q > 0 ? (along - across) / q : 0;
     H[0] = factor * (across + difference * d[0] * d[0]);
     H[1] = factor * difference * d[0] * d[1];
     H[2] = factor * (across + difference * d[1] * d[1]);
-    return negative && (filter == FILTER_CLAMP || filter == FILTER_ABS);
+    return changed;
 }
 
 /* ---- the term -------------------------------------------------------- */
@@ -97,7 +94,8 @@ static SpringLaw law_of(const Plasticity *plasticity, const Damping *damping,
 static double strain_at(const Plasticity *plasticity, const System *system,
                         const double *x, int s, double d[2])
 {
-    return spring_strain(system, x, s, d) - plasticity->ep[s];
+    return spring_strain(system->e + 2 * s, system->l2[s], x, d) -
+           plasticity->ep[s];
 }
 
 static bool valid(const Term *term, const System *system)
@@ -150,7 +148,7 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
         projected +=
             spring_law_hessian(law_of(plasticity, at->damping, s), d,
                                system->l2[s], w * system->k[s], e, filter, H);
-        mass_spring_add(H, system, s, slot, q, out);
+        mass_spring_add(H, system->e + 2 * s, s, slot, q, out);
     }
     return projected;
 }
@@ -232,10 +230,9 @@ static void concave(const Term *term, const Place *at, double w, double *sum)
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
         double tau = spring_law_slope(law_of(plasticity, at->damping, s), e);
-        if (!(tau < 0))
-            continue;
-        sum[system->e[2 * s]] -= 4 * w * system->k[s] * tau;
-        sum[system->e[2 * s + 1]] -= 4 * w * system->k[s] * tau;
+        double c = 4 * w * system->k[s] * fmax(-tau, 0);
+        sum[system->e[2 * s]] += c;
+        sum[system->e[2 * s + 1]] += c;
     }
 }
 
@@ -249,7 +246,6 @@ static void free_plasticity(void *data)
 }
 
 const TermKind plastic_energy = {
-    .name = "plastic springs",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -9,11 +9,10 @@ bool filter_2x2(Filter filter, double H[3])
     double mean = 0.5 * (H[0] + H[2]);
     double radius = hypot(0.5 * (H[0] - H[2]), H[1]);
     double low = mean - radius, high = mean + radius;
-    bool absolute = filter == FILTER_ABS;
-    if (low >= 0 || (filter != FILTER_CLAMP && !absolute))
+    if (low >= 0 || !filter_projects(filter))
         return false;
-    double new_low = absolute ? -low : 0;
-    double new_high = high > 0 ? high : absolute ? -high : 0;
+    double new_low = projected_eigenvalue(filter, low);
+    double new_high = projected_eigenvalue(filter, high);
     double factor = high > low ? (new_high - new_low) / (high - low) : 0;
     H[0] = new_low + factor * (H[0] - low);
     H[1] = factor * H[1];

@@ -3,21 +3,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The nodes first ... end - 1 are pulled. */
-static int first_node(const Pull *pull)
+/* The coordinates first ... end - 1 are pulled. */
+static int first(const Pull *pull)
 {
-    return pull->node < 0 ? 0 : pull->node;
+    return pull->node < 0 ? 0 : 2 * pull->node;
 }
 
-static int end_node(const Pull *pull, const System *system)
+static int end(const Pull *pull, const System *system)
 {
-    return pull->node < 0 ? system->nodes : pull->node + 1;
+    return pull->node < 0 ? 2 * system->nodes : 2 * pull->node + 2;
 }
 
-/* w c_i; with a huge omega2, w keeps it below overflow. */
+/* w c of coordinate i; with a huge omega2, w keeps it below overflow. */
 static double stiffness(const Pull *pull, const System *system, double w, int i)
 {
-    return pull->node < 0 ? w * pull->k * system->m[i] : w * pull->k;
+    return pull->node < 0 ? w * pull->k * system->m[i / 2] : w * pull->k;
 }
 
 static bool valid(const Term *term, const System *system)
@@ -33,38 +33,35 @@ static double value(const Term *term, const Place *at)
 {
     const Pull *pull = term->data;
     double sum = 0;
-    for (int i = first_node(pull); i < end_node(pull, at->system); i++)
-        for (int c = 2 * i; c < 2 * i + 2; c++) {
-            double o = pull->target[c % 2], x = at->x[c] - o;
-            sum += stiffness(pull, at->system, 0.5, i) *
-                   (at->averaged
-                        ? 2 * at->u[c] * (at->x_n[c] - o + 0.25 * at->u[c])
-                        : x * x);
-        }
+    for (int i = first(pull); i < end(pull, at->system); i++) {
+        double o = pull->target[i % 2], x = at->x[i] - o;
+        double size = at->averaged
+                          ? 2 * at->u[i] * (at->x_n[i] - o + 0.25 * at->u[i])
+                          : x * x;
+        sum += stiffness(pull, at->system, 0.5, i) * size;
+    }
     return sum;
 }
 
 static void gradient(const Term *term, const Place *at, double w, double *g)
 {
     const Pull *pull = term->data;
-    for (int i = first_node(pull); i < end_node(pull, at->system); i++)
-        for (int c = 2 * i; c < 2 * i + 2; c++) {
-            double x = at->averaged ? at->x_n[c] + 0.5 * at->u[c] : at->x[c];
-            g[c] +=
-                stiffness(pull, at->system, w, i) * (x - pull->target[c % 2]);
-        }
+    for (int i = first(pull); i < end(pull, at->system); i++) {
+        double x = at->averaged ? at->x_n[i] + 0.5 * at->u[i] : at->x[i];
+        g[i] += stiffness(pull, at->system, w, i) * (x - pull->target[i % 2]);
+    }
 }
 
 /* The diagonal of these nodes. */
 static long long entries(const Term *term, const System *system)
 {
-    return 2LL * (end_node(term->data, system) - first_node(term->data));
+    return end(term->data, system) - first(term->data);
 }
 
 static void pattern(const Term *term, const System *system, Triplets *triplets)
 {
-    for (int i = first_node(term->data); i < end_node(term->data, system); i++)
-        term_add_diagonal(system, i, triplets);
+    for (int i = first(term->data); i < end(term->data, system); i += 2)
+        term_add_diagonal(system, i / 2, triplets);
 }
 
 /* Averaged, what is linear in u counts half.  It is never negative. */
@@ -72,15 +69,14 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
                    const int *slot, const double *q, double *out)
 {
     const Pull *pull = term->data;
-    int first = 2 * first_node(pull);
+    double part = at->averaged ? 0.5 * w : w;
     (void)filter;
-    for (int i = first; i < 2 * end_node(pull, at->system); i++) {
-        double c =
-            stiffness(pull, at->system, at->averaged ? 0.5 * w : w, i / 2);
+    for (int i = first(pull); i < end(pull, at->system); i++) {
+        double c = stiffness(pull, at->system, part, i);
         if (q)
             out[i] += c * q[i];
         else
-            out[slot[i - first]] += c;
+            out[slot[i - first(pull)]] += c;
     }
     return 0;
 }
@@ -89,52 +85,31 @@ static void along(const Term *term, const Place *at, const double *p, double w,
                   double reach, double q[3])
 {
     const Pull *pull = term->data;
+    double part = at->averaged ? 0.25 * w : 0.5 * w;
     (void)reach;
-    for (int i = 2 * first_node(pull); i < 2 * end_node(pull, at->system); i++)
-        q[0] += (at->averaged ? 0.25 : 0.5) *
-                stiffness(pull, at->system, w, i / 2) * p[i] * p[i];
+    for (int i = first(pull); i < end(pull, at->system); i++)
+        q[0] += stiffness(pull, at->system, part, i) * p[i] * p[i];
 }
 
-static void hand_bounds(const Term *term, const System *system,
-                        double *stiffest, double *force)
+static void bounds(const Term *term, const System *system, double *stiffest,
+                   double *force)
 {
     const Pull *pull = term->data;
-    (void)system;
     (void)force;
-    *stiffest = fmax(*stiffest, pull->k);
+    for (int i = first(pull); i < end(pull, system); i += 2)
+        *stiffest = fmax(*stiffest, stiffness(pull, system, 1, i));
 }
 
-const TermKind central_field = {
-    .name = "central field",
-    .valid = valid,
-    .value = value,
-    .gradient = gradient,
-    .entries = entries,
-    .pattern = pattern,
-    .hessian = hessian,
-    .along = along,
-    .averaged = &central_field,
-    .free = free,
-    .diagonal = true,
-};
+/* What both kinds share; averaged, each is itself. */
+#define PULL                                                                   \
+    .valid = valid, .value = value, .gradient = gradient, .entries = entries,  \
+    .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
+    .free = free, .diagonal = true
 
-const TermKind hand_energy = {
-    .name = "hand",
-    .valid = valid,
-    .value = value,
-    .gradient = gradient,
-    .entries = entries,
-    .pattern = pattern,
-    .hessian = hessian,
-    .along = along,
-    .averaged = &hand_energy,
-    .bounds = hand_bounds,
-    .free = free,
-    .diagonal = true,
-};
+const TermKind central_field = {PULL, .averaged = &central_field};
+const TermKind hand_energy = {PULL, .averaged = &hand_energy};
 
-/* Adds a term of this kind, or changes the one that there is. */
-static Status set_pull(System *system, const TermKind *kind, const Pull *pull)
+Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {
     Term *term = system_find_term(system, kind);
     Pull *own = term ? term->data : malloc(sizeof *own);
@@ -149,23 +124,11 @@ static Status set_pull(System *system, const TermKind *kind, const Pull *pull)
 
 Status central_field_set(System *system, double omega2)
 {
+    Pull all = {.node = -1, .k = omega2};
     if (omega2 != 0)
-        return set_pull(system, &central_field,
-                        &(Pull){.node = -1, .k = omega2});
+        return pull_set(system, &central_field, &all);
     system_remove_term(system, &central_field);
     return STATUS_OK;
-}
-
-Status hand_energy_set(System *system, const Pull *hand)
-{
-    if (hand->node < 0 || hand->node >= system->nodes)
-        return STATUS_INVALID_INPUT;
-    return set_pull(system, &hand_energy, hand);
-}
-
-void hand_energy_remove(System *system)
-{
-    system_remove_term(system, &hand_energy);
 }
 
 Pull *hand_energy_of(const System *system)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
 Status system_create(int nodes, int springs, System *system)
@@ -107,15 +108,23 @@ static bool spring_is_valid(const System *system, int s)
              is_positive(system->k[s] / system->l2[s])));
 }
 
-/* At x, at rest since the start of a step. */
-static Place place_at(const System *system, const double *x)
+Place place_at(const System *system, const double *x_n, const double *u,
+               const double *x, bool averaged)
 {
-    return (Place){system, x, NULL, x, false, NULL};
+    const Damping *damping = u ? damping_of(system) : NULL;
+    return (Place){.system = system,
+                   .x_n = x_n,
+                   .u = u,
+                   .x = x,
+                   .averaged = averaged,
+                   .damping = damping,
+                   .k = damping ? damping->k : system->k,
+                   .l2 = damping ? damping->l2 : system->l2};
 }
 
 Status system_check(const System *system, const double *x)
 {
-    Place at = place_at(system, x);
+    Place at = place_at(system, x, NULL, x, false);
     if (!isfinite(system->gravity[0]) || !isfinite(system->gravity[1]))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < system->nodes; i++)
@@ -154,13 +163,13 @@ double system_energy_of(const System *system, const TermKind *kind,
                         const double *x)
 {
     const Term *term = system_find_term(system, kind);
-    Place at = place_at(system, x);
+    Place at = place_at(system, x, NULL, x, false);
     return term ? kind->value(term, &at) : 0;
 }
 
 double system_potential(const System *system, const double *x)
 {
-    Place at = place_at(system, x);
+    Place at = place_at(system, x, NULL, x, false);
     double sum = 0;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value)
@@ -187,17 +196,14 @@ bool system_is_free(const System *system)
 
 void system_acceleration(const System *system, const double *x, double *a)
 {
-    Place at = place_at(system, x);
+    Place at = place_at(system, x, NULL, x, false);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value)
             system->term[t].kind->gradient(&system->term[t], &at, -1, a);
     for (int i = 0; i < 2 * system->nodes; i++)
-        a[i] /= system->m[i / 2];
-    if (system_has_gravity(system))
-        for (int i = 0; i < 2 * system->nodes; i++)
-            a[i] += system->gravity[i % 2];
+        a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
     system_clear_pinned(system, a);
 }
 

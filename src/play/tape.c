@@ -148,10 +148,12 @@ static void keep_line(Tape *tape, TapeRound *round, const Iterate *at)
         round->value[i] = along_difference(&along, i * pace);
 }
 
-/* The kept values, joined by straight lines. */
+/* The polynomial, or the kept values, joined by straight lines. */
 static double kept_difference(const void *function, double alpha)
 {
     const TapeRound *round = function;
+    if (!round->value)
+        return quartic_value(&round->along, alpha);
     double place = alpha / round->first * TAPE_PARTS;
     if (!(place >= 0 && place <= TAPE_VALUES - 1))
         return NAN;
@@ -168,8 +170,8 @@ static void show_line(const TapeRound *round, Trace *trace)
     trace->first = round->first;
     if (!round->p)
         return;
-    trace->difference = round->value ? kept_difference : quartic_difference;
-    trace->function = round->value ? (const void *)round : &round->along;
+    trace->difference = kept_difference;
+    trace->function = round;
 }
 
 /* x and p of a round where p is known by what it led to, the present iterate:

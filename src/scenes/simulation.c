@@ -341,7 +341,7 @@ Status simulation_grab(Simulation *simulation, int node, double x, double y)
     hand = hand_energy_of(system);
     wanted.k = hand ? hand->k : hand_stiffness(simulation, node);
     book_hand(simulation, -1);
-    Status status = hand_energy_set(system, &wanted);
+    Status status = pull_set(system, &hand_energy, &wanted);
     book_hand(simulation, 1);
     for (int r = 0; r < simulation->runs && !status; r++)
         time_integrator_forget(&simulation->run[r], other);
@@ -353,7 +353,7 @@ void simulation_release(Simulation *simulation)
     if (!hand_energy_of(&simulation->system))
         return;
     book_hand(simulation, -1);
-    hand_energy_remove(&simulation->system);
+    system_remove_term(&simulation->system, &hand_energy);
     for (int r = 0; r < simulation->runs; r++)
         time_integrator_forget(&simulation->run[r], true);
 }

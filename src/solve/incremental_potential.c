@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/damping.h"
 #include "model/inertia_energy.h"
 
 /* The next term with an energy, *term NULL at first, and the row of functions
@@ -22,7 +21,7 @@ static const TermKind *next_term(const IncrementalPotential *E,
 static Place place_of(const IncrementalPotential *E, const double *u,
                       const double *x)
 {
-    return (Place){E->system, E->x_n, u, x, E->averaged, damping_of(E->system)};
+    return place_at(E->system, E->x_n, u, x, E->averaged);
 }
 
 /* Inertia plus w times the sum of the terms' energies, or of their sizes. */

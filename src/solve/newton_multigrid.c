@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "base/clock.h"
-#include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
 /* Iterations that multigrid gets; most steps need ten. */
@@ -119,7 +118,6 @@ Status newton_multigrid_start(Newton *newton)
 {
     const System *system = newton->system;
     const NewtonSettings *settings = &newton->settings;
-    const Damping *damping = damping_of(system);
     Status status = STATUS_OK;
     if (!newton->multigrid)
         status = multigrid_create(system->segments, 0, 0, &newton->multigrid);
@@ -128,13 +126,14 @@ Status newton_multigrid_start(Newton *newton)
     double start = clock_now();
     MultigridCounters before = *multigrid_counters(newton->multigrid);
     const Iterate *at = &newton->at;
+    Place place = place_at(system, at->E.x_n, at->u, at->x, false);
     MultigridStep step = {.x_n = at->E.x_n,
                           .u = at->u,
                           .u_tilde = newton->u_tilde,
                           .m = system->m,
                           .pinned = system->pinned,
-                          .k = damped_k(system, damping),
-                          .l2 = damped_l2(system, damping),
+                          .k = place.k,
+                          .l2 = place.l2,
                           .weight = at->E.weight,
                           .h = settings->h,
                           .tolerance = settings->tolerance,

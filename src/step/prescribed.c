@@ -136,8 +136,8 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
 {
     const System *system = integrator->system;
     const Newton *newton = integrator->newton;
-    Place at = {system, newton->at.E.x_n,  newton->at.u, newton->at.x,
-                false,  damping_of(system)};
+    Place at =
+        place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x, false);
     double sum = 0;
     if (!system->pin_v || !system->pinned)
         return 0;

@@ -4,27 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "step/methods.h"
 #include "step/prescribed.h"
-
-const IntegratorMethod integrator_methods[] = {
-    {"backward-euler", "backward Euler", 1, .implicit = true, .at_end = true,
-     .damps = true, .step = backward_euler_step},
-    {"forward-euler", "forward Euler", 1, .step = forward_euler_step},
-    {"symplectic-euler", "symplectic Euler", 1, .step = symplectic_euler_step},
-    {"verlet", "velocity Verlet", 2, .memory = 1, .step = verlet_step},
-    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .memory = 2,
-     .step = bdf2_step},
-    {"midpoint", "implicit midpoint", 2, .implicit = true,
-     .step = midpoint_step},
-    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true,
-     .step = sdirk2_step},
-    {"avf", "average vector field", 2, .implicit = true, .averaged = true,
-     .step = avf_step},
-    {"avf4", "AVF, 4th order", 4, .implicit = true, .averaged = true,
-     .step = avf4_step},
-    {.name = NULL},
-};
 
 const IntegratorMethod *integrator_method(const char *name)
 {
@@ -34,16 +14,16 @@ const IntegratorMethod *integrator_method(const char *name)
     return NULL;
 }
 
-const Term *integrator_method_refuses(const IntegratorMethod *method,
-                                      const System *system)
+bool integrator_method_refuses(const IntegratorMethod *method,
+                               const System *system)
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
         if ((method->averaged && kind->value && !kind->averaged) ||
             (kind->end_of_step && !method->at_end))
-            return &system->term[t];
+            return true;
     }
-    return NULL;
+    return false;
 }
 
 Status time_integrator_create(const IntegratorMethod *method, System *system,
@@ -86,6 +66,18 @@ void time_integrator_free(TimeIntegrator *integrator)
     *integrator = (TimeIntegrator){0};
 }
 
+/* x = new_x, v = new_v, unless one is not finite. */
+static Status accept(TimeIntegrator *integrator)
+{
+    size_t size = 2 * (size_t)integrator->system->nodes;
+    if (!all_finite(integrator->new_x, 2 * size)) { /* and new_v behind it */
+        integrator->remembers = false;
+        return STATUS_NOT_FINITE;
+    }
+    memcpy(integrator->x, integrator->new_x, 2 * size * sizeof(double));
+    return STATUS_OK;
+}
+
 Status time_integrator_step(TimeIntegrator *integrator)
 {
     integrator->status = STATUS_OK;
@@ -94,6 +86,8 @@ Status time_integrator_step(TimeIntegrator *integrator)
                      integrator->h))
         time_integrator_forget(integrator, false);
     Status failure = integrator->method->step(integrator);
+    if (!failure)
+        failure = accept(integrator);
     if (failure)
         return integrator->status = failure;
     integrator->steps++;
@@ -109,19 +103,13 @@ Status time_integrator_step(TimeIntegrator *integrator)
     return integrator->status;
 }
 
-/* u_tilde += weight g */
-static void add_gravity(TimeIntegrator *integrator, double weight)
-{
-    const System *system = integrator->system;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        integrator->newton->u_tilde[i] += weight * system->gravity[i % 2];
-}
-
 Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
                                 double weight)
 {
-    if (system_has_gravity(integrator->system))
-        add_gravity(integrator, weight);
+    const System *system = integrator->system;
+    if (system_has_gravity(system))
+        for (int i = 0; i < 2 * system->nodes; i++)
+            integrator->newton->u_tilde[i] += weight * system->gravity[i % 2];
     integrator->newton->step = integrator->steps + 1;
     Status status =
         integrator->moves
@@ -142,15 +130,4 @@ void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
         newton_rebuild(integrator->newton);
     else
         newton_forget(integrator->newton);
-}
-
-Status time_integrator_accept(TimeIntegrator *integrator, const double *new_x,
-                              const double *new_v)
-{
-    size_t size = 2 * (size_t)integrator->system->nodes;
-    if (!all_finite(new_x, size) || !all_finite(new_v, size))
-        return STATUS_NOT_FINITE;
-    memcpy(integrator->x, new_x, size * sizeof *new_x);
-    memcpy(integrator->v, new_v, size * sizeof *new_v);
-    return STATUS_OK;
 }

@@ -232,7 +232,7 @@ static void flow_is_booked(void **unused)
     Term *term = &system.term[0];
     for (int i = 0; i < 2; i++) {
         double x[4] = {-0.5, 0, 0.6 + 0.1 * i, 0};
-        Place at = {.system = &system, .x = x};
+        Place at = place_at(&system, x, NULL, x, false);
         double before = term->kind->value(term, &at) + term->lost;
         CHECK(term->kind->end(term, &system, x, x, 1));
         CHECK_NEAR(term->kind->value(term, &at) + term->lost, before, 1e-15);
@@ -253,8 +253,8 @@ static void flow_is_exact_along_lines(void **unused)
         double x[4] = {-0.5, 0, 0.5 + 0.006 * i, 0}, p[4] = {0, 0, 0.01, 0.02};
         double to[4] = {x[0], x[1], x[2] + p[2], x[3] + p[3]};
         double q[3] = {0}, g[4] = {0};
-        Place at = {.system = &system, .x = x};
-        Place end = {.system = &system, .x = to};
+        Place at = place_at(&system, x, NULL, x, false);
+        Place end = place_at(&system, to, NULL, to, false);
         term->kind->gradient(term, &at, 1, g);
         term->kind->along(term, &at, p, 1, 1, q);
         double change = g[2] * p[2] + g[3] * p[3] + q[0] + q[1] + q[2] +
@@ -283,7 +283,8 @@ static void cells_are_exact_along_lines(void **unused)
         p[i] = i % 2 ? -0.7 * x[i] : 0;
         to[i] = x[i] + p[i];
     }
-    Place at = {.system = system, .x = x}, end = {.system = system, .x = to};
+    Place at = place_at(system, x, NULL, x, false),
+          end = place_at(system, to, NULL, to, false);
     double pressed = term->kind->value(term, &end);
     CHECK(pressed > 0 && term->kind->value(term, &at) == 0);
     term->kind->along(term, &at, p, 1, 1, q);
@@ -303,8 +304,8 @@ static void contacts_are_exact_along_lines(void **unused)
                  up[2] = {0.1, 0.13};
     make_point(n, 0, 0, 0, 0.1, 1e3, 0.01, high, zero, &point);
     Term *term = system_find_term(&point.system, &contact_energy);
-    Place there = {.system = &point.system, .x = high};
-    Place here = {.system = &point.system, .x = low};
+    Place there = place_at(&point.system, high, NULL, high, false);
+    Place here = place_at(&point.system, low, NULL, low, false);
     double q[3] = {0}, g[2] = {0}, pressed = term->kind->value(term, &here);
     CHECK(pressed > 0 && term->kind->value(term, &there) == 0);
     term->kind->along(term, &there, down, 1, 1, q);
@@ -329,7 +330,7 @@ static void concavity_is_made_up_for(void **unused)
     for (int i = 0; i < 2; i++) {
         double x[4] = {-0.5, 0, i ? 0.49 : 0.51, 0}, sum[2] = {0};
         double g[4] = {0};
-        Place at = {.system = &system, .x = x};
+        Place at = place_at(&system, x, NULL, x, false);
         term->kind->concave(term, &at, 1, sum);
         term->kind->gradient(term, &at, 1, g);    /* 2 k tau d */
         double across = 4 * g[2] / (x[2] - x[0]); /* of (0, 1, 0, -1) */
@@ -443,7 +444,7 @@ static void nothing_penetrates_or_turns_over(void **unused)
 /* grad P at x, all terms but friction, pins not left out. */
 static void potential_gradient(const System *system, const double *x, double *g)
 {
-    Place at = {system, x, NULL, x, false, NULL};
+    Place at = place_at(system, x, NULL, x, false);
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value &&

@@ -51,7 +51,7 @@ typedef struct Kernel {
 static double energy_value(const Energy *energy, const double *x)
 {
     const System *system = &energy->system;
-    Place at = {system, energy->x_n, x, x, false, NULL};
+    Place at = place_at(system, energy->x_n, x, x, false);
     double value = 0;
     if (energy->part == TERM_INERTIA)
         value =
@@ -74,7 +74,7 @@ static void energy_gradient(const Energy *energy, const double *x, double *g)
     IncrementalPotential E = energy->E;
     E.system = &fewer;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
-    Place at = {&fewer, energy->x_n, x, x, false, NULL};
+    Place at = place_at(&fewer, energy->x_n, x, x, false);
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     if (energy->part == TERM_INERTIA)
@@ -127,7 +127,7 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
     Sparse A;
     int *slot;
     Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
-    Place place = {&fewer, energy->x_n, x, x, false, NULL};
+    Place place = place_at(&fewer, energy->x_n, x, x, false);
     CHECK_STATUS(incremental_potential_pattern(&fewer, &A, &slot), STATUS_OK);
     if (energy->part == TERM_SPRINGS)
         mass_spring_energy.hessian(NULL, &place, E.weight, FILTER_NONE,

@@ -71,14 +71,14 @@ static void derivatives_are_those_of_the_formula(void **unused)
                      .k = random_uniform(&random, 1, 100),
                      .target = {random_uniform(&random, -2, 2),
                                 random_uniform(&random, -2, 2)}};
-        CHECK_STATUS(hand_energy_set(&system, &hand), STATUS_OK);
+        CHECK_STATUS(pull_set(&system, &hand_energy, &hand), STATUS_OK);
         const Term *term = system_find_term(&system, &hand_energy);
         for (int i = 0; i < 2 * system.nodes; i++) {
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
         }
-        Place at = {&system, x, u, end, false, NULL};
-        Place way = {&system, x, u, end, true, NULL};
+        Place at = place_at(&system, x, u, end, false);
+        Place way = place_at(&system, x, u, end, true);
         int i = 2 * hand.node;
         double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
         double P = hand.k / 2 * (dx * dx + dy * dy);
@@ -102,7 +102,7 @@ static void derivatives_are_those_of_the_formula(void **unused)
         check_gain_and_bounds(term, &way, &hand);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
-        Place begin = {&system, x, g, x, false, NULL};
+        Place begin = place_at(&system, x, g, x, false);
         term->kind->along(term, &begin, u, 1, 1, q);
         averaged->along(term, &way, u, 1, 1, half);
         double slope =
@@ -113,7 +113,7 @@ static void derivatives_are_those_of_the_formula(void **unused)
         term->kind->hessian(term, &begin, 1, FILTER_CLAMP, NULL, u, y);
         CHECK_NEAR(y[i] * u[i] + y[i + 1] * u[i + 1], 2 * q[0],
                    1e-13 * hand.k * d);
-        hand_energy_remove(&system);
+        system_remove_term(&system, &hand_energy);
         CHECK(system_energy_of(&system, &hand_energy, end) == 0 &&
               !hand_energy_of(&system));
         system_free(&system);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "step/methods.h"
+#include "step/time_integrator.h"
 
 /* Squares of up to 4 segments. */
 enum { SIZE = 2 * 25 };

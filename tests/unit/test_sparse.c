@@ -263,7 +263,7 @@ static void plain_triplets_sum_to_the_same(void **unused)
             triplets_create(size, SPRING_ENTRIES * system->springs, &triplets),
             STATUS_OK);
         mass_spring_pattern(NULL, system, &triplets);
-        Place at = {system, a.x, NULL, a.x, false, NULL};
+        Place at = place_at(system, a.x, NULL, a.x, false);
         int plain[SPRING_ENTRIES * MAX_SPRINGS];
         for (int t = 0; t < SPRING_ENTRIES * system->springs; t++)
             plain[t] = t;
