@@ -10,12 +10,10 @@
 
 struct Cholesky {
     cholmod_common common;
-    cholmod_sparse A;  /* a view of the caller's matrix */
     cholmod_factor *L; /* symbolic at first, then numeric */
-    cholmod_dense *x;  /* result and workspaces of cholmod_solve2 */
-    cholmod_dense *y, *e;
     CholeskyKind kind;
-    const Sparse *matrix; /* for the refinement of INDEFINITE */
+    const Sparse *matrix; /* the caller's */
+    double *y;            /* [n] solution in the order of the factor's rows */
     double *b, *r;        /* [n] right-hand side; residual or workspace */
 };
 
@@ -79,18 +77,19 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
     cholmod_start(&cholesky->common);
     set_parameters(&cholesky->common, kind, ordered);
     cholesky->kind = kind;
-    cholesky->A = sparse_view(A);
     cholesky->matrix = A;
-    cholesky->L = cholmod_analyze(&cholesky->A, &cholesky->common);
+    cholmod_sparse view = sparse_view(A);
+    cholesky->L = cholmod_analyze(&view, &cholesky->common);
     Status status = cholmod_failure(&cholesky->common);
-    cholesky->b = malloc((size_t)A->size * sizeof *cholesky->b);
-    cholesky->r = malloc((size_t)A->size * sizeof *cholesky->r);
-    if (!status && (!cholesky->L || !cholesky->b || !cholesky->r))
+    cholesky->y = malloc(3 * (size_t)A->size * sizeof *cholesky->y);
+    if (!status && (!cholesky->L || !cholesky->y))
         status = STATUS_OUT_OF_MEMORY;
     if (status) {
         cholesky_free(cholesky);
         return status;
     }
+    cholesky->b = cholesky->y + A->size;
+    cholesky->r = cholesky->b + A->size;
     *out = cholesky;
     return STATUS_OK;
 }
@@ -99,13 +98,9 @@ void cholesky_free(Cholesky *cholesky)
 {
     if (!cholesky)
         return;
-    cholmod_free_dense(&cholesky->x, &cholesky->common);
-    cholmod_free_dense(&cholesky->y, &cholesky->common);
-    cholmod_free_dense(&cholesky->e, &cholesky->common);
     cholmod_free_factor(&cholesky->L, &cholesky->common);
     cholmod_finish(&cholesky->common);
-    free(cholesky->b);
-    free(cholesky->r);
+    free(cholesky->y);
     free(cholesky);
 }
 
@@ -121,13 +116,13 @@ static double largest_of(const double *x, size_t n)
 Status cholesky_factor(Cholesky *cholesky)
 {
     cholmod_common *common = &cholesky->common;
-    if (!all_finite(cholesky->A.x, (size_t)cholesky->matrix->entries))
+    cholmod_sparse A = sparse_view(cholesky->matrix);
+    if (!all_finite(A.x, A.nzmax))
         return STATUS_NOT_FINITE;
     common->status = CHOLMOD_OK;
     if (cholesky->kind == CHOLESKY_INDEFINITE) /* pivots nearer to 0 go there */
-        common->dbound = 1e-10 * largest_of(cholesky->matrix->value,
-                                            (size_t)cholesky->matrix->entries);
-    cholmod_factorize(&cholesky->A, cholesky->L, common);
+        common->dbound = 1e-10 * largest_of(A.x, A.nzmax);
+    cholmod_factorize(&A, cholesky->L, common);
     /* cholmod_factorize returns TRUE for indefinite matrices too. */
     if (common->status == CHOLMOD_NOT_POSDEF ||
         (common->status >= CHOLMOD_OK && cholesky->L->minor != cholesky->L->n))
@@ -135,55 +130,39 @@ Status cholesky_factor(Cholesky *cholesky)
     return common->status < CHOLMOD_OK ? cholmod_failure(common) : STATUS_OK;
 }
 
-/* x = P^T L^-T L^-1 P b, with P the order of the rows. */
-static Status solve_by_supernodes(Cholesky *cholesky, const double *b,
-                                  double *x)
+/* y = L^-T D^-1 L^-1 y; the first entry of each column is that of D. */
+static void solve_by_columns(const cholmod_factor *L, double *y)
+{
+    const int *start = L->p, *count = L->nz, *row = L->i;
+    const double *value = L->x;
+    for (size_t j = 0; j < L->n; j++)
+        for (int k = start[j] + 1; k < start[j] + count[j]; k++)
+            y[row[k]] -= value[k] * y[j];
+    for (size_t j = L->n; j-- > 0;) {
+        y[j] /= value[start[j]];
+        for (int k = start[j] + 1; k < start[j] + count[j]; k++)
+            y[j] -= value[k] * y[row[k]];
+    }
+}
+
+/* x = P^T (P A P^T)^-1 P b by the factor, with P the order of its rows. */
+static Status solve_once(Cholesky *cholesky, const double *b, double *x)
 {
     const cholmod_factor *L = cholesky->L;
-    const Supernodes supernodes = {L->nsuper, L->super, L->pi,
-                                   L->px,     L->s,     L->x};
     const int *order = L->Perm;
+    double *y = cholesky->y;
     for (size_t i = 0; i < L->n; i++)
-        cholesky->b[i] = b[order[i]];
-    supernodes_solve(&supernodes, cholesky->b, cholesky->r);
+        y[i] = b[order[i]];
+    if (cholesky->kind == CHOLESKY_INDEFINITE) {
+        solve_by_columns(L, y);
+    } else {
+        const Supernodes panels = {L->nsuper, L->super, L->pi,
+                                   L->px,     L->s,     L->x};
+        supernodes_solve(&panels, y, cholesky->r);
+    }
     for (size_t i = 0; i < L->n; i++)
-        x[order[i]] = cholesky->b[i];
+        x[order[i]] = y[i];
     return all_finite(x, L->n) ? STATUS_OK : STATUS_NOT_FINITE;
-}
-
-/* x = P^T L^-T D^-1 L^-1 P b */
-static Status solve_by_columns(Cholesky *cholesky, const double *b, double *x)
-{
-    size_t n = cholesky->A.nrow;
-    cholmod_dense right = {
-        .nrow = n,
-        .ncol = 1,
-        .nzmax = n,
-        .d = n,
-        .xtype = CHOLMOD_REAL,
-        .dtype = CHOLMOD_DOUBLE,
-    };
-    memcpy(&right.x, &b, sizeof b); /* only read, though the type says not */
-    cholesky->common.status = CHOLMOD_OK;
-    /* CHOLMOD 5.12 does not notice when it gets no memory for y. */
-    if (!cholmod_ensure_dense(&cholesky->y, n, 1, n, CHOLMOD_REAL,
-                              &cholesky->common))
-        return cholmod_failure(&cholesky->common);
-    if (!cholmod_solve2(CHOLMOD_A, cholesky->L, &right, NULL, &cholesky->x,
-                        NULL, &cholesky->y, &cholesky->e, &cholesky->common))
-        return cholmod_failure(&cholesky->common);
-    memcpy(x, cholesky->x->x, n * sizeof *x);
-    return all_finite(x, n) ? STATUS_OK : STATUS_NOT_FINITE;
-}
-
-/* r = b - A x; returns max |r_i|. */
-static double residual_of(const Cholesky *cholesky, const double *x)
-{
-    size_t n = cholesky->A.nrow;
-    sparse_multiply(cholesky->matrix, x, cholesky->r);
-    for (size_t i = 0; i < n; i++)
-        cholesky->r[i] = cholesky->b[i] - cholesky->r[i];
-    return largest_of(cholesky->r, n);
 }
 
 /* Without pivoting an indefinite factor can be inaccurate, and pivots next to
@@ -191,32 +170,34 @@ static double residual_of(const Cholesky *cholesky, const double *x)
  * x += (L D L^T)^-1 (b - A x), gives the accuracy back. */
 static Status solve_refined(Cholesky *cholesky, double *x)
 {
-    enum { MAX_REFINEMENTS = 20 };
-    size_t n = cholesky->A.nrow;
-    double size = largest_of(cholesky->b, n);
-    Status status = solve_by_columns(cholesky, cholesky->b, x);
-    double residual = status ? 0 : residual_of(cholesky, x);
-    for (int i = 0; i < MAX_REFINEMENTS && !status; i++) {
-        if (residual <= 1e-15 * size)
-            break;
-        status = solve_by_columns(cholesky, cholesky->r, cholesky->r);
-        for (size_t j = 0; j < n && !status; j++)
-            x[j] += cholesky->r[j];
-        double last = residual;
-        residual = residual_of(cholesky, x);
-        if (!(residual < 0.5 * last))
+    enum { MAX_SOLVES = 21 };
+    size_t n = cholesky->L->n;
+    double *b = cholesky->b, *r = cholesky->r;
+    double size = largest_of(b, n), residual = INFINITY, last;
+    memcpy(r, b, n * sizeof *r);
+    memset(x, 0, n * sizeof *x);
+    for (int i = 0; i < MAX_SOLVES; i++) {
+        Status status = solve_once(cholesky, r, r);
+        if (status)
+            return status;
+        for (size_t j = 0; j < n; j++)
+            x[j] += r[j];
+        sparse_multiply(cholesky->matrix, x, r);
+        for (size_t j = 0; j < n; j++)
+            r[j] = b[j] - r[j];
+        last = residual;
+        residual = largest_of(r, n);
+        if (residual <= 1e-15 * size || !(residual < 0.5 * last))
             break;
     }
-    if (status)
-        return status;
     return residual <= 1e-8 * size ? STATUS_OK : STATUS_SINGULAR;
 }
 
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
     if (cholesky->kind == CHOLESKY_DEFINITE)
-        return solve_by_supernodes(cholesky, b, x);
-    memcpy(cholesky->b, b, cholesky->A.nrow * sizeof *b);
+        return solve_once(cholesky, b, x);
+    memcpy(cholesky->b, b, cholesky->L->n * sizeof *b);
     return solve_refined(cholesky, x);
 }
 

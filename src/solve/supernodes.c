@@ -1,27 +1,15 @@
 #include "solve/supernodes.h"
 
-#include <string.h>
-
 /* Two numbers in one register, an extension of C that gcc and clang share:
- * arithmetic works lane by lane, with the bits that each would have alone. */
+ * arithmetic works lane by lane, with the bits that each would have alone.  It
+ * may begin at any number of an array. */
 enum { LANES = 2 };
-typedef double Lanes __attribute__((vector_size(LANES * sizeof(double))));
+typedef double Lanes __attribute__((vector_size(LANES * sizeof(double)),
+                                    aligned(sizeof(double))));
 
-static inline Lanes lanes_load(const double *a)
+static inline Lanes lanes(const double *a)
 {
-    Lanes lanes;
-    memcpy(&lanes, a, sizeof lanes);
-    return lanes;
-}
-
-static inline void lanes_store(double *a, Lanes lanes)
-{
-    memcpy(a, &lanes, sizeof lanes);
-}
-
-static inline double lanes_sum(Lanes a)
-{
-    return a[0] + a[1];
+    return *(const Lanes *)a;
 }
 
 /* Columns that are eliminated together. */
@@ -42,19 +30,6 @@ static Panel panel_of(const Supernodes *L, size_t k)
 static const double *panel_column(const Panel *panel, int j)
 {
     return panel->value + (size_t)j * (size_t)panel->rows;
-}
-
-/* w [rows] = x at the panel's rows */
-static void gather(const Panel *panel, const double *x, double *w)
-{
-    for (int i = 0; i < panel->rows; i++)
-        w[i] = x[panel->row[i]];
-}
-
-static void scatter(const Panel *panel, int rows, const double *w, double *x)
-{
-    for (int i = 0; i < rows; i++)
-        x[panel->row[i]] = w[i];
 }
 
 /* Solves for w[j] and takes its share from the rows below. */
@@ -84,10 +59,8 @@ static void forward_group(const Panel *panel, int j, double *w)
     w[j + 3] = v3;
     int i = j + GROUP;
     for (; i + LANES <= panel->rows; i += LANES)
-        lanes_store(w + i,
-                    lanes_load(w + i) -
-                        ((lanes_load(a + i) * v0 + lanes_load(b + i) * v1) +
-                         (lanes_load(c + i) * v2 + lanes_load(d + i) * v3)));
+        *(Lanes *)(w + i) -= (lanes(a + i) * v0 + lanes(b + i) * v1) +
+                             (lanes(c + i) * v2 + lanes(d + i) * v3);
     for (; i < panel->rows; i++)
         w[i] -= (a[i] * v0 + b[i] * v1) + (c[i] * v2 + d[i] * v3);
 }
@@ -110,14 +83,14 @@ static void backward_group(const Panel *panel, int j, double *w)
     Lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
     int i = j + GROUP;
     for (; i + LANES <= panel->rows; i += LANES) {
-        Lanes below = lanes_load(w + i);
-        s0 += lanes_load(a + i) * below;
-        s1 += lanes_load(b + i) * below;
-        s2 += lanes_load(c + i) * below;
-        s3 += lanes_load(d + i) * below;
+        Lanes below = lanes(w + i);
+        s0 += lanes(a + i) * below;
+        s1 += lanes(b + i) * below;
+        s2 += lanes(c + i) * below;
+        s3 += lanes(d + i) * below;
     }
-    double v0 = w[j] - lanes_sum(s0), v1 = w[j + 1] - lanes_sum(s1);
-    double v2 = w[j + 2] - lanes_sum(s2), v3 = w[j + 3] - lanes_sum(s3);
+    double v0 = w[j] - (s0[0] + s0[1]), v1 = w[j + 1] - (s1[0] + s1[1]);
+    double v2 = w[j + 2] - (s2[0] + s2[1]), v3 = w[j + 3] - (s3[0] + s3[1]);
     for (; i < panel->rows; i++) {
         v0 -= a[i] * w[i];
         v1 -= b[i] * w[i];
@@ -152,14 +125,18 @@ void supernodes_solve(const Supernodes *L, double *x, double *w)
 {
     for (size_t k = 0; k < L->count; k++) {
         Panel panel = panel_of(L, k);
-        gather(&panel, x, w);
+        for (int i = 0; i < panel.rows; i++)
+            w[i] = x[panel.row[i]];
         forward(&panel, w);
-        scatter(&panel, panel.rows, w, x);
+        for (int i = 0; i < panel.rows; i++)
+            x[panel.row[i]] = w[i];
     }
     for (size_t k = L->count; k > 0; k--) {
         Panel panel = panel_of(L, k - 1);
-        gather(&panel, x, w);
+        for (int i = 0; i < panel.rows; i++)
+            w[i] = x[panel.row[i]];
         backward(&panel, w);
-        scatter(&panel, panel.columns, w, x);
+        for (int i = 0; i < panel.columns; i++)
+            x[panel.row[i]] = w[i];
     }
 }
