@@ -68,7 +68,6 @@ typedef struct NewtonCounters {
     long solves;
     long projected;  /* blocks projected, summed over factorisations */
     long trials;     /* energies looked at by the line search */
-    long shifted;    /* factorisations that needed a shift */
     long skipped;    /* tests passed by the gradient's size alone */
     long certified;  /* tests passed with an old factor and an error bound */
     long cycles;     /* of multigrid */
@@ -86,6 +85,7 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 typedef struct Rounding {
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
+    double force;    /* J/m, the largest of a spring without a length */
     double concave;  /* 1/s^2, incremental_potential_concave for w = 1, wherever
                         the nodes are */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
@@ -106,10 +106,14 @@ typedef struct Newton {
     const System *system;
     Iterate at;      /* E, u, x, g, p; u holds all arrays, in one piece */
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
-    double *r;       /* [2n] m, workspace */
-    SearchDirection search; /* the Hessian and its factor */
+    double *u_trial, *x_trial; /* [2n] m, where a step may lead; workspaces */
+    SearchDirection search;    /* the Hessian and its factor */
+    int age;         /* updates since that was made; < 0: none to use */
+    int clamps;      /* iterations that on-demand projection still clamps */
+    int saddles;     /* that this minimisation has left */
+    bool bends_down; /* the test is passed, but at no minimum */
+    bool resting;    /* the last minimisation needed no update */
     Rounding rounding;
-    int saddles;          /* that this minimisation has left */
     Multigrid *multigrid; /* NULL: was not needed yet */
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */

@@ -22,32 +22,24 @@ typedef struct SearchDirection {
     Cholesky *cholesky;    /* NULL: no matrix was needed yet */
     double shift;          /* kg, on the diagonal of what was factored */
     double *b;             /* [2n] right-hand side in elimination order */
-    double *r, *z, *q, *d; /* [2n] of conjugate gradients, or NULL */
-    int age;         /* updates since the factor was made; < 0: none to use */
-    int clamps;      /* iterations that on-demand projection still clamps */
-    int updates;     /* of this minimisation; < 0: there was none yet */
-    bool bends_down; /* the test is passed, but at no minimum */
-    bool resting;    /* the last minimisation needed no update */
-    double residual; /* m/s, of the direction before the present one */
+    double *r, *z, *q, *d; /* [2n] of conjugate gradients */
 } SearchDirection;
 
 /* Returns OK, OUT_OF_MEMORY; free it in any case.  No matrix is made yet. */
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
 
-/* The factor is not to be used any more. */
-void search_direction_forget(SearchDirection *search);
-
 /* The next assembly makes the pattern and its analysis again. */
 void search_direction_rebuild(SearchDirection *search);
 
 /* Makes A and its analysis, unless it has them for this kind, and fills A with
  * the Hessian of E at u, x.
- *   definite   false: a factor L D L^T, which allows negative eigenvalues
+ *   filter     NONE: the Hessian as it is, for a factor L D L^T, which allows
+ *              negative eigenvalues; ON_DEMAND: as it is, for one that does not
  *   projected  out, blocks projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status search_direction_assemble(SearchDirection *search, const Iterate *at,
-                                 Filter filter, bool definite, int *projected);
+                                 Filter filter, int *projected);
 
 /* A += times M, and what rounding may have taken from semi-definite A. */
 void search_direction_add_masses(SearchDirection *search, double times);
@@ -64,28 +56,20 @@ Status search_direction_factor(SearchDirection *search, int *tries);
 Status search_direction_solve(SearchDirection *search, const Iterate *at);
 
 /* Looks for negative curvature: conjugate gradients on the Hessian at u, x as
- * it is, from random numbers, preconditioned with the last factor.  Without
- * any, they reduce those numbers and end.  Writes over p.
- *   known  there is some: it is looked for longer
+ * it is, from random numbers, preconditioned with the last factor.  Writes over
+ * p.
  *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   bool known, bool *found);
+                                   bool *found);
 
 /* How well at->p solves H p = -g for the Hessian of the last assembly, applied
- * term by term; search->r becomes -g - H p.
- *   error  out, |r|_(M^-1), kg^(1/2) m: a bound of |p - exact|_M where H - M is
- *          positive semi-definite
- * Returns OK, OUT_OF_MEMORY. */
+ * term by term.
+ *   error  out, kg^(1/2) m, a bound of |p - exact|_M: |g + H p|_(M^-1) where
+ *          H - M is positive semi-definite; else as far as the factor can tell
+ * Returns as search_direction_solve. */
 Status search_direction_judge(SearchDirection *search, const Iterate *at,
                               double *error);
-
-/* search->z = H^-1 search->r with the last factor: what p lacks, as far as that
- * can tell.  Returns as search_direction_solve. */
-Status search_direction_correct(SearchDirection *search);
-
-/* Whether p, at most error away from what it should be, is good enough. */
-typedef bool (*GoodEnough)(const void *user, const double *p, double error);
 
 /* p = -H^-1 g for the Hessian at u, x with the factor of an older one: p holds
  * what search_direction_solve made of g, and conjugate gradients improve it.
@@ -93,13 +77,13 @@ typedef bool (*GoodEnough)(const void *user, const double *p, double error);
  * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
  *   filter  CLAMP or ABS
  *   most    solves, which end it
- *   enough  ends it before; NULL: nothing does
+ *   enough  kg^(1/2) m, an error which ends it before
  *   at      p is in/out
  *   error   out, kg^(1/2) m
  *   solves  out
  * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
 Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, int most, GoodEnough enough,
-                               const void *user, double *error, int *solves);
+                               Filter filter, int most, double enough,
+                               double *error, int *solves);
 
 #endif

@@ -204,7 +204,7 @@ static bool judge_step(void *user, const NewtonRecord *record)
     const Iterate *at = &end->simulation->run[0].newton->at;
     int projected;
     end->energy = incremental_potential_value(&at->E, at->u, at->x);
-    end->status = search_direction_assemble(&end->search, at, FILTER_NONE, true,
+    end->status = search_direction_assemble(&end->search, at, FILTER_ON_DEMAND,
                                             &projected);
     if (!end->status)
         end->status = cholesky_factor(end->search.cholesky);

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "solve/residual_test.h"
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
@@ -20,30 +19,30 @@ static double newton_residual(const Newton *newton, const double *p)
     return largest / newton->settings.h;
 }
 
-/* m/s, of a direction with |p|_M = 1, at most. */
-static double largest_residual(const Newton *newton)
+/* m/s, the largest residual of a direction with |p|_M = 1: each node has
+ * m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+static double residual_per_norm(const Newton *newton)
 {
-    return residual_per_norm(newton->rounding.lightest, newton->settings.h);
+    return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
 }
 
 /* Assembles and factors the Hessian at x, once. */
-static Status factor_as(Newton *newton, Filter filter, bool definite)
+static Status factor_as(Newton *newton, Filter filter)
 {
     NewtonCounters *counters = &newton->counters;
     double start = clock_now(), assembled;
     int projected, tries = 0;
     Status status = search_direction_assemble(&newton->search, &newton->at,
-                                              filter, definite, &projected);
+                                              filter, &projected);
     assembled = clock_now();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
-    newton->search.age = status ? -1 : 0;
+    newton->age = status ? -1 : 0;
     newton->record.factorised = true;
     newton->record.projected = projected;
     newton->record.shift = newton->search.shift;
     counters->projected += projected;
     counters->factorisations += tries;
-    counters->shifted += newton->search.shift > 0;
     counters->seconds_assembly += assembled - start;
     counters->seconds_factor += clock_now() - assembled;
     return status;
@@ -53,20 +52,16 @@ static Status factor_as(Newton *newton, Filter filter, bool definite)
  * after a failure it clamps, and goes on to do so for some iterations. */
 static Status newton_factor(Newton *newton)
 {
-    Filter filter = newton->settings.filter;
-    newton->search.age = -1;
-    if (filter == FILTER_NONE)
-        return factor_as(newton, FILTER_NONE, false);
-    if (filter != FILTER_ON_DEMAND)
-        return factor_as(newton, filter, true);
-    if (newton->search.clamps == 0) {
-        Status status = factor_as(newton, FILTER_NONE, true);
+    if (newton->settings.filter != FILTER_ON_DEMAND)
+        return factor_as(newton, newton->settings.filter);
+    if (newton->clamps == 0) {
+        Status status = factor_as(newton, FILTER_ON_DEMAND);
         if (status != STATUS_NOT_POSITIVE_DEFINITE)
             return status;
-        newton->search.clamps = CLAMPS_AFTER_FAILURE;
+        newton->clamps = CLAMPS_AFTER_FAILURE;
     }
-    newton->search.clamps--;
-    return factor_as(newton, FILTER_CLAMP, true);
+    newton->clamps--;
+    return factor_as(newton, FILTER_CLAMP);
 }
 
 /* p = -H^-1 g (slide: search_dir). */
@@ -85,47 +80,31 @@ static Status newton_solve(Newton *newton)
 static bool factor_may_serve(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
-    if (newton->settings.filter == FILTER_NONE || search->age < 0 ||
-        search->age > 1 || search->kind == CHOLESKY_INDEFINITE ||
+    if (newton->settings.filter == FILTER_NONE || newton->age < 0 ||
+        newton->age > 1 || search->kind == CHOLESKY_INDEFINITE ||
         search->shift > 0 || newton->rounding.blurred)
         return false;
-    return search->updates == 0
-               ? search->resting
-               : search->residual <= 10 * newton->settings.tolerance;
+    return newton->record.iteration < 0
+               ? newton->resting
+               : newton->record.residual <= 10 * newton->settings.tolerance;
 }
 
 /* The test of Algorithm 3 for a direction that is at most error away, in the
  * norm of the masses, from what it should be. */
 static Status newton_test(const Newton *newton, double error)
 {
-    double residual = newton->residual;
-    if (error > 0)
-        residual += largest_residual(newton) * error;
+    double residual = newton->residual + residual_per_norm(newton) * error;
     return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
-/* Where springs outweigh the masses so much that a factor is not exact, the
- * test is passed only by a direction that is known well enough: with the bound
- * of what H p = -g lacks.  (What rounding has done to g itself is not in this:
- * no direction knows it.) */
-static Status newton_certify(Newton *newton)
-{
-    double error;
-    Status status =
-        search_direction_judge(&newton->search, &newton->at, &error);
-    if (!status && newton->search.filter == FILTER_NONE) {
-        /* H - M may be indefinite: the factor tells what is lacking */
-        status = search_direction_correct(&newton->search);
-        error = 2 * newton_residual(newton, newton->search.z) /
-                largest_residual(newton);
-    }
-    return status ? status : newton_test(newton, error);
-}
-
-/* p and its residual with the present factor.  Returns RUNNING, OK (the test
- * is passed), or a failure. */
+/* p and its residual with the present factor.  Where springs outweigh the
+ * masses so much that a factor is not exact, the test is passed only by a
+ * direction that is known well enough: with the bound of what H p = -g lacks.
+ * (What rounding has done to g itself is not in this: no direction knows it.)
+ * Returns RUNNING, OK (the test is passed), or a failure. */
 static Status newton_solve_and_test(Newton *newton)
 {
+    double error;
     Status status = newton_solve(newton);
     if (status)
         return status;
@@ -134,29 +113,18 @@ static Status newton_solve_and_test(Newton *newton)
         return STATUS_NOT_FINITE;
     status = newton_test(newton, 0);
     bool exact = !newton->rounding.blurred && newton->search.shift == 0;
-    return status || exact ? status : newton_certify(newton);
-}
-
-/* Whether a direction with this residual and at most this error passes the test
- * or does not, wherever the exact one is. */
-static bool is_decided(const Newton *newton, double residual, double error)
-{
-    return residual_decides(residual, largest_residual(newton) * error,
-                            newton->settings.tolerance);
-}
-
-/* The same, as search_direction_refine asks it. */
-static bool test_is_decided(const void *user, const double *p, double error)
-{
-    return is_decided(user, newton_residual(user, p), error);
+    if (status || exact)
+        return status;
+    status = search_direction_judge(&newton->search, &newton->at, &error);
+    return status ? status : newton_test(newton, error);
 }
 
 /* More solves than this to refine a direction, and a new factor is cheaper. */
 enum { REFINE_MAX_SOLVES = 6 };
 
 /* Whether the test is passed by the direction with the factor of an earlier
- * iterate: it is refined until the test can be decided for the Hessian at x,
- * with the error's bound on both sides. */
+ * iterate: it is refined until the test can be decided for the Hessian at x, by
+ * the error's bound. */
 static bool old_factor_passes(Newton *newton)
 {
     double error;
@@ -166,29 +134,25 @@ static bool old_factor_passes(Newton *newton)
     if (newton_solve_and_test(newton) != STATUS_OK)
         return false;
     double start = clock_now();
+    double left = newton->settings.tolerance - newton->residual;
     Status status = search_direction_refine(
         &newton->search, &newton->at, filter, REFINE_MAX_SOLVES,
-        test_is_decided, newton, &error, &solves);
+        0.5 * left / residual_per_norm(newton), &error, &solves);
     newton->counters.solves += solves;
     newton->counters.seconds_solve += clock_now() - start;
-    if (status)
-        return false;
     newton->residual = newton_residual(newton, newton->at.p);
-    return is_decided(newton, newton->residual, error) &&
-           newton_test(newton, 0) == STATUS_OK;
+    return !status && newton_test(newton, error) == STATUS_OK;
 }
 
 /* Gradient and direction at x, and the test of Algorithm 3.
- *   alone  out: the gradient's size alone has passed it
  * Returns OK (converged), RUNNING, or a failure. */
-static Status direction_at(Newton *newton, bool *alone)
+static Status direction_at(Newton *newton)
 {
     double start = clock_now();
     incremental_potential_gradient(&newton->at.E, newton->at.u, newton->at.x,
                                    newton->at.g);
     newton->counters.gradients++;
     newton->counters.seconds_assembly += clock_now() - start;
-    *alone = false;
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
@@ -198,12 +162,12 @@ static Status direction_at(Newton *newton, bool *alone)
      * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
         newton->residual =
-            largest_residual(newton) *
+            residual_per_norm(newton) *
             system_inverse_mass_norm(newton->system, newton->at.g);
-        *alone = newton_test(newton, 0) == STATUS_OK;
-        newton->counters.skipped += *alone;
-        if (*alone)
+        if (newton_test(newton, 0) == STATUS_OK) {
+            newton->counters.skipped++;
             return STATUS_OK;
+        }
     }
     if (factor_may_serve(newton) && old_factor_passes(newton)) {
         newton->counters.certified++;
@@ -217,74 +181,34 @@ static Status direction_at(Newton *newton, bool *alone)
  * compressed to nothing. */
 static bool gradient_vanishes(const Newton *newton)
 {
-    double largest = 0, stiffest, force;
+    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
     for (int i = 0; i < 2 * newton->system->nodes; i++)
-        largest = fmax(largest, fabs(newton->at.g[i]));
-    system_bounds(newton->system, &stiffest, &force);
-    return largest <= 1e-12 * newton->at.E.weight * force;
+        if (!(fabs(newton->at.g[i]) <= most))
+            return false;
+    return true;
 }
 
-/* Whether the Hessian as it is, with `times` M in place of M, is known to be
- * positive definite without a factorisation.  Writes over r. */
-static bool is_convex(Newton *newton, double times)
-{
-    return newton->at.E.weight * newton->rounding.concave < times ||
-           incremental_potential_concave(&newton->at, newton->r) < times;
-}
-
-/* The same by a Cholesky factor where the bounds do not tell.
- * Returns OK, NOT_A_MINIMUM, or a failure. */
+/* Whether the Hessian as it is, with `times` M in place of M, is positive
+ * definite: by bounds, and where they do not tell by its Cholesky factor.
+ * Writes over x_trial.  Returns OK, NOT_A_MINIMUM, or a failure. */
 static Status look_for_minimum(Newton *newton, double times)
 {
     SearchDirection *search = &newton->search;
     int projected;
-    if (newton->settings.filter == FILTER_NONE || is_convex(newton, times))
+    if (newton->settings.filter == FILTER_NONE ||
+        newton->at.E.weight * newton->rounding.concave < times ||
+        incremental_potential_concave(&newton->at, newton->x_trial) < times)
         return STATUS_OK;
-    Status status = search_direction_assemble(search, &newton->at, FILTER_NONE,
-                                              true, &projected);
+    Status status = search_direction_assemble(search, &newton->at,
+                                              FILTER_ON_DEMAND, &projected);
     if (status)
         return status;
     search_direction_add_masses(search, times - 1);
-    search->age = -1;
+    newton->age = -1;
     newton->counters.factorisations++;
     status = cholesky_factor(search->cholesky);
     return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
                                                   : status;
-}
-
-/* Saddles that one minimisation leaves, and how far: the first trial moves the
- * node that moves most by this share of a spring. */
-enum { MAX_SADDLES = 30 };
-static const double FIRST_TRIAL = 0.1;
-
-/* The test of Algorithm 3 is passed on saddles, too.  Negative curvature of the
- * Hessian as it is is then the next direction.
- *   known  there is some
- * Returns OK (none was found), RUNNING, or a failure. */
-static Status leave_saddle(Newton *newton, bool known)
-{
-    const System *system = newton->system;
-    double *p = newton->at.p, largest = 0, l2 = INFINITY;
-    bool found = false;
-    if (newton->settings.filter == FILTER_NONE ||
-        newton->saddles == MAX_SADDLES || is_convex(newton, 1))
-        return STATUS_OK;
-    Status status = newton->search.age < 0 ? newton_factor(newton) : STATUS_OK;
-    if (!status)
-        status = search_direction_bends_down(&newton->search, &newton->at,
-                                             known, &found);
-    if (status || !found)
-        return status;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        largest = fmax(largest, fabs(p[i]));
-    for (int s = 0; s < system->springs; s++)
-        l2 = fmin(l2, system->l2[s]);
-    double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        p[i] *= scale;
-    newton->saddles++;
-    newton->counters.saddles++;
-    return STATUS_RUNNING;
 }
 
 /* The test of the slides projects, and so it also passes where E bends down.
@@ -300,52 +224,55 @@ Status direction_judges_end(Newton *newton)
     if (newton->working == SOLVER_MULTIGRID &&
         newton->system->segments > AUTO_NEWTON_SEGMENTS)
         return STATUS_OK;
-    return look_for_minimum(newton, 1 + MASSES_DOWN);
+    return look_for_minimum(newton,
+                            newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
 }
 
-/* The test is passed.
- * Returns OK, RUNNING where E bends down and p leads on, or a failure. */
-static Status end_here(Newton *newton)
+/* Saddles that one minimisation leaves, and how far: the first trial moves the
+ * node that moves most by this share of a spring. */
+enum { MAX_SADDLES = 30 };
+static const double FIRST_TRIAL = 0.1;
+
+/* From where E bends down: p along negative curvature of the Hessian as it is,
+ * if that is found; else as anywhere.  Returns RUNNING or a failure. */
+static Status leave_saddle(Newton *newton)
 {
-    Status status =
-        newton->settings.minimum ? leave_saddle(newton, false) : STATUS_OK;
-    if (status == STATUS_OK)
-        status = direction_judges_end(newton);
-    if (status != STATUS_NOT_A_MINIMUM)
-        return status;
-    newton->search.bends_down = true;
-    status = leave_saddle(newton, true);
-    if (status)
-        return status;
-    status = newton_factor(newton); /* p is another one by now */
-    if (!status)
+    const System *system = newton->system;
+    double *p = newton->at.p, largest = 0, l2 = INFINITY;
+    bool found = false;
+    Status status = newton_factor(newton);
+    if (!status && newton->saddles < MAX_SADDLES)
+        status =
+            search_direction_bends_down(&newton->search, &newton->at, &found);
+    if (!status && !found)
         status = newton_solve(newton);
-    return status ? status : STATUS_RUNNING;
-}
-
-Status direction_first(Newton *newton)
-{
-    SearchDirection *search = &newton->search;
-    bool alone;
-    search->resting = search->updates == 0;
-    search->updates = 0;
-    Status status = direction_at(newton, &alone);
-    search->bends_down = false;
-    newton->saddles = 0;
-    bool vanishes =
-        alone && !newton->settings.minimum && gradient_vanishes(newton);
-    if (status == STATUS_OK)
-        status = end_here(newton);
-    /* Where the gradient vanishes, any curvature downwards tells. */
-    return status || !vanishes ? status : look_for_minimum(newton, 1);
+    if (status || !found)
+        return status ? status : STATUS_RUNNING;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        largest = fmax(largest, fabs(p[i]));
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    double scale = FIRST_TRIAL * (system->springs ? sqrt(l2) : 1) / largest;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        p[i] *= scale;
+    newton->saddles++;
+    newton->counters.saddles++;
+    return STATUS_RUNNING;
 }
 
 Status direction_next(Newton *newton)
 {
-    bool alone;
-    newton->search.updates++;
-    newton->search.residual = newton->residual;
-    Status status = direction_at(newton, &alone);
-    newton->search.bends_down = false;
-    return status ? status : end_here(newton);
+    Status status = direction_at(newton);
+    if (status == STATUS_OK)
+        status = direction_judges_end(newton);
+    newton->bends_down = status == STATUS_NOT_A_MINIMUM;
+    return newton->bends_down ? leave_saddle(newton) : status;
+}
+
+Status direction_first(Newton *newton)
+{
+    Status status = direction_next(newton);
+    /* Where the gradient vanishes, any curvature downwards tells. */
+    return status || !gradient_vanishes(newton) ? status
+                                                : look_for_minimum(newton, 1);
 }

@@ -7,7 +7,6 @@
 
 #include "solve/grid_kernels.h"
 #include "solve/plane_search.h"
-#include "solve/residual_test.h"
 #include "solve/tips.h"
 #include "solve/v_cycle.h"
 
@@ -116,7 +115,7 @@ void multigrid_free(Multigrid *mg)
 /* m/s, the largest residual of a direction with this norm |p|_M. */
 static double largest_residual(const Multigrid *mg, double norm)
 {
-    return residual_per_norm(mg->grid.lightest, mg->step.h) * norm;
+    return sqrt(2 / mg->grid.lightest) / mg->step.h * norm;
 }
 
 static void set_up_cycle(Multigrid *mg)
@@ -152,8 +151,8 @@ static void find_direction(Multigrid *mg, int most)
 /* Whether a direction with this residual and remainder decides the test. */
 static bool test_is_decided(const Multigrid *mg, double residual, double square)
 {
-    return residual_decides(residual, largest_residual(mg, sqrt(square)),
-                            mg->step.tolerance);
+    return fabs(residual - mg->step.tolerance) >=
+           largest_residual(mg, sqrt(square));
 }
 
 /* rest = -g - H p; returns |rest|_(M^-1)^2. */

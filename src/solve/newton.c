@@ -25,15 +25,16 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
 {
     Iterate *at = &newton->at;
     int size = 2 * newton->system->nodes;
-    size_t bytes = (size_t)size * sizeof *x_n;
     at->E = (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde,
                                    newton->settings.averaged};
-    memset(at->u, 0, bytes);
-    memcpy(at->x, x_n, bytes);
+    memset(at->u, 0, (size_t)size * sizeof *at->u);
+    memcpy(at->x, x_n, (size_t)size * sizeof *at->x);
     for (int i = 0; u && i < size; i++) {
         at->u[i] = u[i];
-        at->x[i] = x_n[i] + u[i];
+        at->x[i] += u[i];
     }
+    newton->saddles = 0;
+    newton->resting = newton->record.iteration < 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
     rounding_start(newton);
@@ -51,23 +52,19 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
 static Status newton_update(Newton *newton)
 {
     Iterate *at = &newton->at;
-    double alpha = newton->record.alpha, sum = 0;
-    int size = 2 * newton->system->nodes;
-    for (int i = 0; i < size; i++)
-        sum += 0 * (at->E.x_n[i] + (at->u[i] + alpha * at->p[i]));
-    if (!(sum == 0))
+    size_t size = 2 * (size_t)newton->system->nodes;
+    newton_try(newton, newton->record.alpha);
+    if (!all_finite(newton->x_trial, size))
         return STATUS_NOT_FINITE;
-    if (!rounding_allows(newton, alpha)) {
+    if (!rounding_allows(newton)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
-    for (int i = 0; i < size; i++) {
-        at->u[i] += alpha * at->p[i];
-        at->x[i] = at->E.x_n[i] + at->u[i];
-    }
+    memcpy(at->u, newton->u_trial, size * sizeof *at->u);
+    memcpy(at->x, newton->x_trial, size * sizeof *at->x);
     newton->counters.iterations++;
-    if (newton->search.age >= 0)
-        newton->search.age++;
+    if (newton->age >= 0)
+        newton->age++;
     return STATUS_OK;
 }
 
@@ -87,7 +84,7 @@ static Status newton_limits(Newton *newton, Status status)
         (newton->record.iteration + 1 >= newton->settings.max_iterations ||
          (!searches && newton->rounding.stagnant >= CIRCLING_ITERATIONS)))
         status = STATUS_ITERATION_LIMIT;
-    if (newton->search.bends_down &&
+    if (newton->bends_down &&
         (status == STATUS_ROUNDING_LIMIT || status == STATUS_LINE_SEARCH_LIMIT))
         status = STATUS_NOT_A_MINIMUM;
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
@@ -123,22 +120,21 @@ Status newton_iterate(Newton *newton)
 static void move_centre(Newton *newton)
 {
     const System *system = newton->system;
-    Iterate *at = &newton->at;
+    const double *x_n = newton->at.E.x_n, *u_tilde = newton->u_tilde;
+    double *u = newton->at.u, *x = newton->at.x;
     double mass = 0, missing[2] = {0, 0};
     for (int i = 0; i < system->nodes; i++) {
         double m = system->m[i];
         mass += m;
-        missing[0] += m * (newton->u_tilde[2 * i] - at->u[2 * i]);
-        missing[1] += m * (newton->u_tilde[2 * i + 1] - at->u[2 * i + 1]);
+        missing[0] += m * (u_tilde[2 * i] - u[2 * i]);
+        missing[1] += m * (u_tilde[2 * i + 1] - u[2 * i + 1]);
     }
     double by[2] = {missing[0] / mass, missing[1] / mass};
-    for (int i = 0; i < 2 * system->nodes; i += 2) {
-        double u[2] = {at->u[i] + by[0], at->u[i + 1] + by[1]};
-        at->x[i] = at->E.x_n[i] + u[0];
-        at->x[i + 1] = at->E.x_n[i + 1] + u[1];
-        at->u[i] = u[0];
-        at->u[i + 1] = u[1];
-    }
+    for (int i = 0; i < system->nodes; i++)
+        for (int c = 0; c < 2; c++) {
+            u[2 * i + c] += by[c];
+            x[2 * i + c] = x_n[2 * i + c] + u[2 * i + c];
+        }
 }
 
 /* Internal forces cannot move the centre of mass: at the minimum sum m u equals
@@ -186,14 +182,15 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    newton->at.u = calloc(6 * size, sizeof(double));
+    newton->at.u = calloc(7 * size, sizeof(double));
     if (!newton->at.u)
         return STATUS_OUT_OF_MEMORY;
     newton->at.x = newton->at.u + size;
     newton->at.g = newton->at.x + size;
     newton->at.p = newton->at.g + size;
     newton->u_tilde = newton->at.p + size;
-    newton->r = newton->u_tilde + size;
+    newton->u_trial = newton->u_tilde + size;
+    newton->x_trial = newton->u_trial + size;
     Status status = search_direction_create(system, &newton->search);
     if (!status)
         newton_forget(newton);
@@ -213,7 +210,8 @@ void newton_free(Newton *newton)
 void newton_forget(Newton *newton)
 {
     rounding_bounds(newton);
-    search_direction_forget(&newton->search);
+    newton->age = -1;
+    newton->clamps = 0;
     multigrid_forget(newton->multigrid);
 }
 
@@ -221,6 +219,15 @@ void newton_rebuild(Newton *newton)
 {
     newton_forget(newton);
     search_direction_rebuild(&newton->search);
+}
+
+void newton_try(Newton *newton, double alpha)
+{
+    const Iterate *at = &newton->at;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        newton->u_trial[i] = at->u[i] + alpha * at->p[i];
+        newton->x_trial[i] = at->E.x_n[i] + newton->u_trial[i];
+    }
 }
 
 Status newton_tell(Newton *newton, const NewtonRecord *record)
@@ -240,7 +247,6 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
     sum->solves += counters->solves;
     sum->projected += counters->projected;
     sum->trials += counters->trials;
-    sum->shifted += counters->shifted;
     sum->skipped += counters->skipped;
     sum->certified += counters->certified;
     sum->cycles += counters->cycles;

@@ -10,6 +10,9 @@
  * the observer asks to stop. */
 Status newton_tell(Newton *newton, const NewtonRecord *record);
 
+/* u_trial = u + alpha p, and x_trial there. */
+void newton_try(Newton *newton, double alpha);
+
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
  * each iterate, with as few factorisations as will do. */
 
@@ -22,7 +25,8 @@ Status direction_first(Newton *newton);
 /* The same after an update.  Returns OK, RUNNING, or a failure. */
 Status direction_next(Newton *newton);
 
-/* Whether E bends down at the iterate by more than a hundred masses: no end.
+/* Whether E bends down at the iterate by more than a hundred masses, or at all
+ * where a minimum is asked for: no end.
  * Returns OK, NOT_A_MINIMUM, or a failure. */
 Status direction_judges_end(Newton *newton);
 
@@ -50,9 +54,9 @@ void rounding_start(Newton *newton);
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
 bool rounding_hides(const Newton *newton, double change);
 
-/* Whether E is as low at u + alpha p as the line search says it is; always true
- * where the minimisation is not held to it.  Writes over g and r. */
-bool rounding_allows(Newton *newton, double alpha);
+/* Whether E is as low at u_trial as the line search says it is; always true
+ * where the minimisation is not held to it. */
+bool rounding_allows(Newton *newton);
 
 /* After an iteration that did not converge: RUNNING, or ROUNDING_LIMIT where
  * the residual has not become smaller for long and E does not fall. */

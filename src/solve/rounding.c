@@ -22,18 +22,19 @@ void rounding_bounds(Newton *newton)
 {
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    double *zero = newton->search.b, force;
+    double *zero = newton->search.b;
     rounding->lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         rounding->lightest = fmin(rounding->lightest, system->m[i]);
-    system_bounds(system, &rounding->stiffest, &force);
+    system_bounds(system, &rounding->stiffest, &rounding->force);
     memset(zero, 0, 2 * (size_t)system->nodes * sizeof *zero);
     Iterate point = {.E = {system, 1, zero, zero, newton->settings.averaged},
                      .u = zero,
                      .x = zero};
-    rounding->concave = system_is_free(system)
-                            ? incremental_potential_concave(&point, newton->r)
-                            : INFINITY;
+    rounding->concave =
+        system_is_free(system)
+            ? incremental_potential_concave(&point, newton->x_trial)
+            : INFINITY;
 }
 
 void rounding_start(Newton *newton)
@@ -61,17 +62,13 @@ bool rounding_hides(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-bool rounding_allows(Newton *newton, double alpha)
+bool rounding_allows(Newton *newton)
 {
-    const Iterate *at = &newton->at;
     Rounding *rounding = &newton->rounding;
     if (!rounding->held || newton->settings.search == LINE_SEARCH_NONE)
         return true;
-    for (int i = 0; i < 2 * newton->system->nodes; i++) {
-        at->g[i] = at->u[i] + alpha * at->p[i];
-        newton->r[i] = at->E.x_n[i] + at->g[i];
-    }
-    double energy = incremental_potential_value(&at->E, at->g, newton->r);
+    double energy = incremental_potential_value(&newton->at.E, newton->u_trial,
+                                                newton->x_trial);
     if (!(energy <= rounding->energy + rounding->margin))
         return false;
     rounding->energy = energy;

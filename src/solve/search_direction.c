@@ -5,10 +5,9 @@
 #include <stdlib.h>
 
 /* The search for negative curvature ends after so many iterations, or where the
- * remainder has this share of the norm of the random numbers it began with;
- * later where there is known to be some. */
-enum { CURVATURE_MAX_ITERATIONS = 30, KNOWN_MAX_ITERATIONS = 200 };
-static const double NO_CURVATURE = 1e-3, KNOWN_CURVATURE = 1e-8;
+ * squared remainder has this share of the random numbers' it began with. */
+enum { CURVATURE_MAX_ITERATIONS = 200 };
+static const double NO_CURVATURE = 1e-16;
 
 /* Conjugate gradients reduce the squared remainder to this part of the first.
  */
@@ -22,9 +21,16 @@ enum { CONJUGATE_MAX_SOLVES = 59 };
 
 Status search_direction_create(const System *system, SearchDirection *search)
 {
-    *search = (SearchDirection){.system = system, .age = -1, .updates = -1};
-    search->b = calloc(2 * (size_t)system->nodes, sizeof *search->b);
-    return search->b ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    size_t size = 2 * (size_t)system->nodes;
+    *search = (SearchDirection){.system = system};
+    search->b = calloc(5 * size, sizeof *search->b);
+    if (!search->b)
+        return STATUS_OUT_OF_MEMORY;
+    search->r = search->b + size;
+    search->z = search->r + size;
+    search->q = search->z + size;
+    search->d = search->q + size;
+    return STATUS_OK;
 }
 
 void search_direction_rebuild(SearchDirection *search)
@@ -42,22 +48,13 @@ void search_direction_free(SearchDirection *search)
         return;
     search_direction_rebuild(search);
     free(search->b);
-    free(search->r);
     *search = (SearchDirection){0};
-}
-
-void search_direction_forget(SearchDirection *search)
-{
-    search->age = -1;
-    search->updates = -1;
-    search->clamps = 0;
 }
 
 /* Pattern and symbolic analysis: once, and again only when another kind of
  * factor is wanted. */
-static Status analyse(SearchDirection *search, bool definite)
+static Status analyse(SearchDirection *search, CholeskyKind kind)
 {
-    CholeskyKind kind = definite ? CHOLESKY_DEFINITE : CHOLESKY_INDEFINITE;
     if (search->cholesky && search->kind == kind)
         return STATUS_OK;
     search_direction_rebuild(search);
@@ -73,15 +70,16 @@ static Status analyse(SearchDirection *search, bool definite)
 }
 
 Status search_direction_assemble(SearchDirection *search, const Iterate *at,
-                                 Filter filter, bool definite, int *projected)
+                                 Filter filter, int *projected)
 {
     *projected = 0;
-    Status status = analyse(search, definite);
+    Status status = analyse(search, filter == FILTER_NONE ? CHOLESKY_INDEFINITE
+                                                          : CHOLESKY_DEFINITE);
     if (status)
         return status;
-    search->filter = filter;
-    *projected =
-        incremental_potential_hessian(at, filter, search->slot, &search->A);
+    search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
+    *projected = incremental_potential_hessian(at, search->filter, search->slot,
+                                               &search->A);
     return STATUS_OK;
 }
 
@@ -151,21 +149,6 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* Workspaces, the first time they are needed: r, z, q, d in one piece. */
-static Status create_workspaces(SearchDirection *search)
-{
-    size_t size = 2 * (size_t)search->system->nodes;
-    if (search->r)
-        return STATUS_OK;
-    search->r = calloc(4 * size, sizeof *search->r);
-    if (!search->r)
-        return STATUS_OUT_OF_MEMORY;
-    search->z = search->r + size;
-    search->q = search->z + size;
-    search->d = search->q + size;
-    return STATUS_OK;
-}
-
 /* The state of conjugate gradients for H p = -g, preconditioned with a factor
  * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
  * r. H is applied spring by spring: that keeps small masses which the assembled
@@ -206,49 +189,46 @@ static bool conjugate_step(SearchDirection *search, ConjugateGradients *state)
     return true;
 }
 
+/* r = -g - H p */
 Status search_direction_judge(SearchDirection *search, const Iterate *at,
                               double *error)
 {
-    Status status = create_workspaces(search);
-    if (status)
-        return status;
+    const System *system = search->system;
+    double *r = search->r, *z = search->z;
     incremental_potential_product(at, search->filter, at->p, search->q);
-    for (int i = 0; i < 2 * search->system->nodes; i++)
-        search->r[i] = -at->g[i] - search->q[i];
-    *error = system_inverse_mass_norm(search->system, search->r);
-    return STATUS_OK;
-}
-
-Status search_direction_correct(SearchDirection *search)
-{
-    return apply_factor(search, search->r, search->z);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        r[i] = -at->g[i] - search->q[i];
+    *error = system_inverse_mass_norm(system, r);
+    if (search->filter != FILTER_NONE)
+        return STATUS_OK;
+    /* H - M may be indefinite: twice what the factor says is lacking. */
+    Status status = apply_factor(search, r, z);
+    double square = 0;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        square += system->m[i / 2] * z[i] * z[i];
+    *error = 2 * sqrt(square);
+    return status;
 }
 
 Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, int most, GoodEnough enough,
-                               const void *user, double *error, int *solves)
+                               Filter filter, int most, double enough,
+                               double *error, int *solves)
 {
     ConjugateGradients state = {at, filter, .enough = ALL_DIGITS};
-    *solves = 0;
-    Status status = create_workspaces(search);
-    if (status)
-        return status;
+    Status status = STATUS_OK;
     for (int i = 0; i < 2 * search->system->nodes; i++) {
         search->z[i] = at->p[i]; /* factor^-1 (-g) already */
         at->p[i] = search->d[i] = 0;
         search->r[i] = -at->g[i];
     }
-    while (conjugate_step(search, &state)) {
+    for (*solves = 0; !status && conjugate_step(search, &state); ++*solves) {
         *error = system_inverse_mass_norm(search->system, search->r);
-        if (*solves == most || (enough && enough(user, at->p, *error)))
+        if (*solves == most || *error <= enough)
             return STATUS_OK;
-        ++*solves;
         status = apply_factor(search, search->r, search->z);
-        if (status)
-            return status;
     }
     *error = system_inverse_mass_norm(search->system, search->r);
-    return STATUS_OK;
+    return status;
 }
 
 Status search_direction_solve(SearchDirection *search, const Iterate *at)
@@ -261,8 +241,7 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at)
     double error;
     int solves;
     return search_direction_refine(search, at, search->filter,
-                                   CONJUGATE_MAX_SOLVES, NULL, NULL, &error,
-                                   &solves);
+                                   CONJUGATE_MAX_SOLVES, 0, &error, &solves);
 }
 
 /* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */
@@ -277,30 +256,20 @@ static void random_numbers(const System *system, double *r)
 }
 
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
-                                   bool known, bool *found)
+                                   bool *found)
 {
     int n = 2 * search->system->nodes;
-    int most = known ? KNOWN_MAX_ITERATIONS : CURVATURE_MAX_ITERATIONS;
-    double enough = known ? KNOWN_CURVATURE : NO_CURVATURE;
-    ConjugateGradients state = {
-        .at = at, .filter = FILTER_NONE, .enough = enough * enough};
-    *found = false;
-    Status status = create_workspaces(search);
-    if (status)
-        return status;
+    ConjugateGradients state = {at, FILTER_NONE, .enough = NO_CURVATURE};
+    Status status = STATUS_OK;
     random_numbers(search->system, search->r);
-    for (int k = 0; k < most; k++) {
+    for (int k = 0; k < CURVATURE_MAX_ITERATIONS && !status; k++) {
         status = apply_factor(search, search->r, search->z);
-        if (status)
-            return status;
-        if (conjugate_step(search, &state))
-            continue;
-        *found = state.curvature < 0;
-        break;
+        if (!status && !conjugate_step(search, &state))
+            break;
     }
-    const double *d = search->d; /* there since it has workspaces */
-    double sign = dot(n, d, at->g) > 0 ? -1 : 1;
+    *found = !status && state.curvature < 0;
+    double sign = dot(n, search->d, at->g) > 0 ? -1 : 1;
     for (int i = 0; i < n && *found; i++)
-        at->p[i] = sign * d[i];
-    return STATUS_OK;
+        at->p[i] = sign * search->d[i];
+    return status;
 }

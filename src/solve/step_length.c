@@ -5,19 +5,12 @@
 #include "base/clock.h"
 
 /* Whether the terms allow u + alpha p; rounding may say no where the reach of
- * p said yes.  Writes over r. */
+ * p said yes. */
 static bool is_allowed(Newton *newton, double alpha)
 {
-    const Iterate *at = &newton->at;
-    int size = 2 * newton->system->nodes;
-    for (int i = 0; i < size; i++) {
-        newton->r[i] = at->u[i] + alpha * at->p[i];
-        at->x[i] = at->E.x_n[i] + newton->r[i];
-    }
-    bool allowed = incremental_potential_allowed(&at->E, newton->r, at->x);
-    for (int i = 0; i < size; i++)
-        at->x[i] = at->E.x_n[i] + at->u[i];
-    return allowed;
+    newton_try(newton, alpha);
+    return incremental_potential_allowed(&newton->at.E, newton->u_trial,
+                                         newton->x_trial);
 }
 
 /* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha

@@ -102,8 +102,8 @@ static bool ends_low(Newton *newton)
     int projected, tries;
     SearchDirection search;
     CHECK_STATUS(search_direction_create(newton->system, &search), STATUS_OK);
-    CHECK_STATUS(search_direction_assemble(&search, &newton->at, FILTER_NONE,
-                                           true, &projected),
+    CHECK_STATUS(search_direction_assemble(&search, &newton->at,
+                                           FILTER_ON_DEMAND, &projected),
                  STATUS_OK);
     search_direction_add_masses(&search, 100.1);
     Status status = search_direction_factor(&search, &tries);

@@ -169,13 +169,6 @@ static void light_nodes_are_not_overlooked(void **unused)
     }
 }
 
-/* An error of at most this. */
-static bool error_is_small(const void *user, const double *p, double error)
-{
-    (void)p;
-    return error <= *(const double *)user;
-}
-
 /* With the factor of the very Hessian one step of conjugate gradients is all
  * there is to do. */
 static void refining_with_the_right_factor_is_one_step(void **unused)
@@ -189,14 +182,13 @@ static void refining_with_the_right_factor_is_one_step(void **unused)
     CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 16e-6),
                  STATUS_RUNNING);
     double size = system_inverse_mass_norm(&simulation.system, newton->at.g);
-    double p[2 * 16], accuracy = 1e-10 * size;
+    double p[2 * 16];
     CHECK(n == 2 * 16);
     memcpy(p, newton->at.p, sizeof p);
     Iterate at = newton->at;
     at.p = p;
     CHECK_STATUS(search_direction_refine(&newton->search, &at, FILTER_CLAMP, 6,
-                                         error_is_small, &accuracy, &error,
-                                         &solves),
+                                         1e-10 * size, &error, &solves),
                  STATUS_OK);
     CHECK(solves == 0);
     CHECK_AT_MOST(error, 1e-12 * size);
