@@ -47,13 +47,12 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
                                 : direction_first(newton);
 }
 
-/* u += alpha p, x = x_n + u.  Changes neither where the result would not be
- * finite, or E would rise for all the line search knows. */
+/* u += alpha p, x = x_n + u, as they were tried.  Changes neither where the
+ * result would not be finite, or E would rise for all the line search knows. */
 static Status newton_update(Newton *newton)
 {
     Iterate *at = &newton->at;
     size_t size = 2 * (size_t)newton->system->nodes;
-    newton_try(newton, newton->record.alpha);
     if (!all_finite(newton->x_trial, size))
         return STATUS_NOT_FINITE;
     if (!rounding_allows(newton)) {
@@ -219,15 +218,6 @@ void newton_rebuild(Newton *newton)
 {
     newton_forget(newton);
     search_direction_rebuild(&newton->search);
-}
-
-void newton_try(Newton *newton, double alpha)
-{
-    const Iterate *at = &newton->at;
-    for (int i = 0; i < 2 * newton->system->nodes; i++) {
-        newton->u_trial[i] = at->u[i] + alpha * at->p[i];
-        newton->x_trial[i] = at->E.x_n[i] + newton->u_trial[i];
-    }
 }
 
 Status newton_tell(Newton *newton, const NewtonRecord *record)

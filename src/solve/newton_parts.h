@@ -10,9 +10,6 @@
  * the observer asks to stop. */
 Status newton_tell(Newton *newton, const NewtonRecord *record);
 
-/* u_trial = u + alpha p, and x_trial there. */
-void newton_try(Newton *newton, double alpha);
-
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
  * each iterate, with as few factorisations as will do. */
 
@@ -32,7 +29,7 @@ Status direction_judges_end(Newton *newton);
 
 /* ---- step_length.c: how far to go along p (slide: Algorithm 2). */
 
-/* Fills alpha, trials, slope and change of the record.
+/* Fills alpha, trials, slope and change of the record, u_trial and x_trial.
  * Returns OK, or why no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT,
  * ROUNDING_LIMIT, NOT_FINITE; alpha and change are then 0. */
 Status step_length(Newton *newton);

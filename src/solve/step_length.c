@@ -4,13 +4,17 @@
 
 #include "base/clock.h"
 
-/* Whether the terms allow u + alpha p; rounding may say no where the reach of
- * p said yes. */
-static bool is_allowed(Newton *newton, double alpha)
+/* u_trial = u + alpha p, and x_trial there.  Returns whether the terms allow
+ * it; rounding may say no where the reach of p said yes. */
+static bool try_step(Newton *newton, double alpha)
 {
-    newton_try(newton, alpha);
-    return incremental_potential_allowed(&newton->at.E, newton->u_trial,
-                                         newton->x_trial);
+    const Iterate *at = &newton->at;
+    double *u = newton->u_trial, *x = newton->x_trial;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        u[i] = at->u[i] + alpha * at->p[i];
+        x[i] = at->E.x_n[i] + u[i];
+    }
+    return incremental_potential_allowed(&at->E, u, x);
 }
 
 /* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
@@ -29,7 +33,7 @@ static Status search_line(Newton *newton)
             status = line_search_backtrack(along_difference, &along,
                                            &record->alpha, &trials);
         record->trials += trials;
-        allowed = status || !along.rough || is_allowed(newton, record->alpha);
+        allowed = status || try_step(newton, record->alpha);
         if (!allowed)
             record->alpha /= 2;
         if (!allowed && record->alpha < 1e-300)
