@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 #include "play/handout.h"
 #include "play/player.h"
 #include "scenes/pages.h"

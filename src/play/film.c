@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 
 /* ---- animated PNG -------------------------------------------------------
  * The file is a PNG whose picture is the first frame, with chunks that other

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 #include "play/playing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 #include "play/png_file.h"
 #include "scenes/scene.h"
 

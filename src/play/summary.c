@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/clock.h"
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 /* Who made the first run's last step, and why it was not multigrid. */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 
 Status complain(const Complaint *complaint, const char *format, ...)
 {

@@ -49,7 +49,7 @@ killers_for() { # file, what the list names
     */step/*) own="$own integrators averaged explicit orders" ;;
     esac
     case $1 in
-    */base/one_line.[ch] | */scenes/*option* | */scenes/nearest.[ch])
+    */scenes/one_line.[ch] | */scenes/*option* | */scenes/nearest.[ch])
         near='options command check_files.sh check_faults.sh' ;;
     */base/* | */model/* | */solve/* | */step/*) near=$numeric ;;
     */scenes/*) near='scenes exhibits options pages body lecture hand' ;;

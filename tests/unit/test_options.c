@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 #include "scenes/options.h"
 #include "scenes/scene.h"
 

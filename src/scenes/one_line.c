@@ -1,4 +1,4 @@
-#include "base/one_line.h"
+#include "scenes/one_line.h"
 
 #include <stdbool.h>
 #include <string.h>
