@@ -135,12 +135,11 @@ double contact_node_radius(const Contact *contact, int node);
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
-/* For terms that act on pairs (contact and friction): their entries in the
- * Hessian, and how a pair's block [[H, -H], [-H, H]], or H alone for an
+/* For terms that act on pairs (contact and friction): the functions entries and
+ * pattern, and how a pair's block [[H, -H], [-H, H]], or H alone for an
  * obstacle that is no node, is added (TermKind's hessian). */
-long long contact_entries(const Contact *contact, const System *system);
-void contact_pattern(const Contact *contact, const System *system,
-                     Triplets *triplets);
+long long contact_entries(const Place *at);
+void contact_pattern(const Place *at, Triplets *triplets);
 void contact_add_block(const Contact *contact, ContactPair pair,
                        const double H[3], const int *slot, const double *q,
                        double *out);

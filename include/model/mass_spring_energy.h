@@ -58,11 +58,9 @@ enum { SPRING_ENTRIES = 10 };
 
 /* The functions entries and pattern of a term with a block for each spring, and
  * its bounds: max k, and max k sqrt(l2) of a spring compressed to nothing. */
-long long mass_spring_entries(const Term *term, const System *system);
-void mass_spring_pattern(const Term *term, const System *system,
-                         Triplets *triplets);
-void mass_spring_bounds(const Term *term, const System *system,
-                        double *stiffest, double *force);
+long long mass_spring_entries(const Place *at);
+void mass_spring_pattern(const Place *at, Triplets *triplets);
+void mass_spring_bounds(const Place *at, double *stiffest, double *force);
 
 /* The block [[H, -H], [-H, H]] of the nodes e[0] and e[1], number `spring` of
  * such blocks: added to a matrix through its slots, or, where q is given,

@@ -6,9 +6,6 @@
  * functions (a TermKind); a function that is NULL has nothing to add there.
  * Terms need not look at pins: whoever calls them takes the gradient of pinned
  * nodes out of g and their entries out of the Hessian.
- *
- *   at  where: positions at the start of the step, displacement, and their sum
- *   w   s^2, factor on all that is added (h^2 for implicit Euler)
  */
 #ifndef ELASTO_TERM_H
 #define ELASTO_TERM_H
@@ -17,10 +14,15 @@
 #include "model/psd.h"
 
 typedef struct System System;
+typedef struct TermKind TermKind;
 typedef struct Term Term;
 
+/* Who is asked, and where. */
 typedef struct Place {
     const System *system;
+    const Term *term;
+    double w;          /* s^2, factor on all that is added to an array (h^2 for
+                          implicit Euler) */
     const double *x_n; /* [2n] m, start of the step */
     const double *u;   /* [2n] m, displacement from there; NULL: no step */
     const double *x;   /* [2n] m, x_n + u */
@@ -30,34 +32,39 @@ typedef struct Place {
                              system, or what damping makes of them */
 } Place;
 
+/* No term yet; w = 1. */
 Place place_at(const System *system, const double *x_n, const double *u,
                const double *x, bool averaged);
 
-typedef struct TermKind {
-    /* Whether its numbers are finite and in their ranges; NULL: always. */
-    bool (*valid)(const Term *term, const System *system);
+/* Goes on to the next term with an energy, after NULL the first one, and
+ * returns the functions that stand for it; after the last one NULL. */
+const TermKind *next_energy(Place *at);
 
-    /* P(x), J.  Where averaged: along the way from x_n, 0 for u = 0.  NULL: the
-     * term has no energy, only begin, end or bounds, and none of the functions
-     * of one. */
-    double (*value)(const Term *term, const Place *at);
+struct TermKind {
+    /* Whether its numbers are finite and in their ranges; NULL: always. */
+    bool (*valid)(const Place *at);
+
+    /* P(x), J, without w.  Where averaged: along the way from x_n, 0 for u = 0.
+     * NULL: the term has no energy, only begin, end or bounds, and none of the
+     * functions of one. */
+    double (*value)(const Place *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
-     * and at->x alone (x_n = x, u = 0). */
-    void (*gradient)(const Term *term, const Place *at, double w, double *g);
+     * and at->x alone (u NULL). */
+    void (*gradient)(const Place *at, double *g);
 
     /* The entries of the Hessian, the same ones at every x: how many, and the
      * triplets in rows and columns of the matrix (term_add_block). */
-    long long (*entries)(const Term *term, const System *system);
-    void (*pattern)(const Term *term, const System *system, Triplets *triplets);
+    long long (*entries)(const Place *at);
+    void (*pattern)(const Place *at, Triplets *triplets);
 
     /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
      * out += w Hessian q, without a matrix: out and q are then [2n].  Each
      * block is filtered: with CLAMP and ABS what is added must be positive
      * semi-definite; NONE and ON_DEMAND mean the Hessian as it is.  Returns how
      * many blocks were changed by the filter. */
-    int (*hessian)(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out);
+    int (*hessian)(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out);
 
     /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
      * 1: the slope of all terms together is g.p.
@@ -68,18 +75,16 @@ typedef struct TermKind {
      *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
      *              - alpha grad P.p] without cancellation, minus what along
      *              gave; asked once for each trial.  NULL: a polynomial. */
-    void (*along)(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3]);
-    double (*remainder)(const Term *term, const Place *at, const double *p,
-                        double w, double alpha);
+    void (*along)(const Place *at, const double *p, double reach, double q[3]);
+    double (*remainder)(const Place *at, const double *p, double alpha);
 
     /* The largest alpha that p may be followed, > 0 (contact, cells); NULL:
      * any.  Backtracking starts at the smallest of all terms and 1. */
-    double (*reach)(const Term *term, const Place *at, const double *p);
+    double (*reach)(const Place *at, const double *p);
 
     /* Whether x is a place where the energy exists: every distance and area
      * > 0.  Asked after rounding, for starts and for updates; NULL: always. */
-    bool (*allowed)(const Term *term, const Place *at);
+    bool (*allowed)(const Place *at);
 
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
@@ -94,18 +99,17 @@ typedef struct TermKind {
     /* The same term averaged along the straight way from x_n to x_n + u, for
      * the average vector field methods: its gradient is the integral of
      * grad P(x_n + t u) over t = 0 ... 1.  NULL: those methods refuse it. */
-    const struct TermKind *averaged;
+    const TermKind *averaged;
 
     /* Raises *stiffest to a bound of the curvature's size at rest, J/m^2, and
      * *force, J/m, to the size of a force that a vanishing gradient is compared
      * with. */
-    void (*bounds)(const Term *term, const System *system, double *stiffest,
-                   double *force);
+    void (*bounds)(const Place *at, double *stiffest, double *force);
 
     /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive
      * semi-definite; sum [n], one for both coordinates.  NULL: the term bends
      * up everywhere. */
-    void (*concave)(const Term *term, const Place *at, double w, double *sum);
+    void (*concave)(const Place *at, double *sum);
 
     void (*free)(void *data); /* NULL: the term does not own its data */
 
@@ -113,7 +117,7 @@ typedef struct TermKind {
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
                          backward Euler; other methods refuse it by name */
-} TermKind;
+};
 
 struct Term {
     const TermKind *kind;

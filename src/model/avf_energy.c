@@ -32,11 +32,10 @@ static AverageSpring average_spring(const Place *at, int spring)
 }
 
 /* sum l2 k/2 [2 s B + (B^2 + 2 s C)/2 + 2 B C/3 + C^2/4] */
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
     const System *system = at->system;
     double sum = 0;
-    (void)term;
     for (int i = 0; i < system->springs; i++) {
         AverageSpring a = average_spring(at, i);
         sum += system->l2[i] * 0.5 * system->k[i] *
@@ -48,13 +47,12 @@ static double value(const Term *term, const Place *at)
 
 /* integral of 2 k s(t) (d + t delta):
  * k [(2 s + B + 2C/3) d + (s + 2B/3 + C/2) delta] */
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
     const System *system = at->system;
-    (void)term;
     for (int i = 0; i < system->springs; i++) {
         AverageSpring a = average_spring(at, i);
-        double k = w * system->k[i];
+        double k = at->w * system->k[i];
         double along_d = k * (2 * a.s + a.B + 2 * a.C / 3);
         double along_delta = k * (a.s + 2 * a.B / 3 + 0.5 * a.C);
         for (int c = 0; c < 2; c++) {
@@ -83,16 +81,15 @@ static void average_hessian(const AverageSpring *a, double l2, double k,
            round;
 }
 
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
     const System *system = at->system;
     int projected = 0;
-    (void)term;
     for (int i = 0; i < system->springs; i++) {
         AverageSpring a = average_spring(at, i);
         double H[3];
-        average_hessian(&a, system->l2[i], w * system->k[i], H);
+        average_hessian(&a, system->l2[i], at->w * system->k[i], H);
         projected += filter_2x2(filter, H);
         mass_spring_add(H, system->e + 2 * i, i, slot, q, out);
     }
@@ -101,18 +98,16 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
 
 /* Along p: B + alpha b, C + alpha c1 + alpha^2 c2 with b = 2 d.q/l2,
  * c1 = 2 delta.q/l2, c2 = |q|^2/l2, q = p_i - p_j, put into Phi. */
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
     const System *system = at->system;
-    (void)term;
     (void)reach;
     for (int i = 0; i < system->springs; i++) {
         AverageSpring a = average_spring(at, i);
         const double *pi = p + 2 * system->e[2 * i];
         const double *pj = p + 2 * system->e[2 * i + 1];
         double q0 = pi[0] - pj[0], q1 = pi[1] - pj[1], l2 = system->l2[i];
-        double factor = w * l2 * 0.5 * system->k[i];
+        double factor = at->w * l2 * 0.5 * system->k[i];
         double b = 2 * (a.d[0] * q0 + a.d[1] * q1) / l2;
         double c1 = 2 * (a.delta[0] * q0 + a.delta[1] * q1) / l2;
         double c2 = (q0 * q0 + q1 * q1) / l2;
@@ -125,15 +120,14 @@ static void along(const Term *term, const Place *at, const double *p, double w,
 
 /* The Hessian is the integral of t H(x_n + t u), so what a spring lacks in
  * length is at most half of what it lacks where it is shortest on its way. */
-static void concave(const Term *term, const Place *at, double w, double *sum)
+static void concave(const Place *at, double *sum)
 {
     const System *system = at->system;
-    (void)term;
     for (int s = 0; s < system->springs; s++) {
         AverageSpring a = average_spring(at, s);
         double t = a.C > 0 ? fmin(fmax(-a.B / (2 * a.C), 0), 1) : 0;
         double missing = -(a.s + t * (a.B + t * a.C));
-        double c = 2 * w * system->k[s] * fmax(missing, 0);
+        double c = 2 * at->w * system->k[s] * fmax(missing, 0);
         sum[system->e[2 * s]] += c;
         sum[system->e[2 * s + 1]] += c;
     }

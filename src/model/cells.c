@@ -214,17 +214,16 @@ static bool next_squeezed(const Cells *cells, const Place *at, int *t,
     return false;
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Cells *cells = term->data;
-    (void)system;
+    const Cells *cells = at->term->data;
     return isfinite(cells->area) && cells->area > 0 && isfinite(cells->c) &&
            cells->c > 0;
 }
 
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     double sum = 0;
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);)
@@ -232,42 +231,41 @@ static double value(const Term *term, const Place *at)
     return sum;
 }
 
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
         double own[6];
         cell_gradient(&corner, own);
         for (int k = 0; k < 6; k++)
-            g[2 * cells->node[3 * t + k / 2] + k % 2] += w * own[k];
+            g[2 * cells->node[3 * t + k / 2] + k % 2] += at->w * own[k];
     }
 }
 
-static long long entries(const Term *term, const System *system)
+static long long entries(const Place *at)
 {
-    const Cells *cells = term->data;
-    (void)system;
+    const Cells *cells = at->term->data;
     return (long long)CELL_ENTRIES * cells->triangles;
 }
 
-static void pattern(const Term *term, const System *system, Triplets *triplets)
+static void pattern(const Place *at, Triplets *triplets)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     for (int t = 0; t < cells->triangles; t++) {
         const int *node = cells->node + 3 * t;
         for (int k = 0; k < 3; k++)
-            term_add_block(system, node[k], node[k], triplets);
-        term_add_block(system, node[0], node[1], triplets);
-        term_add_block(system, node[0], node[2], triplets);
-        term_add_block(system, node[1], node[2], triplets);
+            term_add_block(at->system, node[k], node[k], triplets);
+        term_add_block(at->system, node[0], node[1], triplets);
+        term_add_block(at->system, node[0], node[2], triplets);
+        term_add_block(at->system, node[1], node[2], triplets);
     }
 }
 
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     int projected = 0;
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
@@ -275,7 +273,7 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
         double H[CELL_ENTRIES];
         projected += cell_hessian(&corner, filter, H);
         for (int k = 0; k < CELL_ENTRIES; k++)
-            H[k] *= w;
+            H[k] *= at->w;
         if (q)
             cell_multiply(H, node, q, out);
         for (int k = 0; k < CELL_ENTRIES && !q; k++)
@@ -295,9 +293,9 @@ static void motion(const Cells *cells, const Corner *corner, const double *p,
                (double[2]){c[0] - a[0], c[1] - a[1]}, J1, J2);
 }
 
-static double reach(const Term *term, const Place *at, const double *p)
+static double reach(const Place *at, const double *p)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     double smallest = INFINITY, J1, J2;
     for (int t = 0; t < cells->triangles; t++) {
         Corner corner = corner_at(cells, at->x, t);
@@ -310,12 +308,10 @@ static double reach(const Term *term, const Place *at, const double *p)
 }
 
 /* Notes the triangles that may be below J_hat on the way. */
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
-    Cells *cells = term->data;
+    Cells *cells = at->term->data;
     double J1, J2;
-    (void)w;
     (void)q;
     cells->live = 0;
     for (int t = 0; t < cells->triangles; t++) {
@@ -327,10 +323,9 @@ static void along(const Term *term, const Place *at, const double *p, double w,
     }
 }
 
-static double remainder_along(const Term *term, const Place *at,
-                              const double *p, double w, double alpha)
+static double remainder_along(const Place *at, const double *p, double alpha)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     double sum = 0;
     (void)p;
     for (int k = 0; k < cells->live; k++) {
@@ -339,12 +334,12 @@ static double remainder_along(const Term *term, const Place *at,
         sum +=
             cell_remainder(&corner, alpha * live->J1, alpha * alpha * live->J2);
     }
-    return w * sum;
+    return at->w * sum;
 }
 
-static bool allowed(const Term *term, const Place *at)
+static bool allowed(const Place *at)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     for (int t = 0; t < cells->triangles; t++)
         if (!(corner_at(cells, at->x, t).J > 0) &&
             is_whole(cells, at->system, t))
@@ -354,25 +349,23 @@ static bool allowed(const Term *term, const Place *at)
 
 /* The curvature where the barrier begins, and the force there if it went on
  * without bending: both by g = K e with sides of the rest length. */
-static void bounds(const Term *term, const System *system, double *stiffest,
-                   double *force)
+static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     double c = 2 * cells->c / CELL_J_HAT;
-    (void)system;
     *stiffest = fmax(*stiffest, c / CELL_J_HAT / cells->area);
     *force = fmax(*force, c / sqrt(cells->area));
 }
 
 /* Along e = (x_b - x_a, x_c - x_a) the lower eigenvalue is c1 q (edge_hessian),
  * and |e|^2 <= 4 |x_a|^2 + 2 |x_b|^2 + 2 |x_c|^2. */
-static void concave(const Term *term, const Place *at, double w, double *sum)
+static void concave(const Place *at, double *sum)
 {
-    const Cells *cells = term->data;
+    const Cells *cells = at->term->data;
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
         const int *node = cells->node + 3 * t;
-        double down = -w * cells->c / CELL_J_HAT / cells->area *
+        double down = -at->w * cells->c / CELL_J_HAT / cells->area *
                       barrier_slope(corner.J / CELL_J_HAT);
         sum[node[0]] += 2 * down;
         sum[node[1]] += down;

@@ -160,9 +160,9 @@ static bool next_touching(const Contact *contact, const Place *at,
     return false;
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     const Barrier *barrier = &contact->barrier;
     bool good = isfinite(barrier->c) && barrier->c > 0 &&
                 isfinite(barrier->d_hat) && barrier->d_hat > 0;
@@ -172,16 +172,16 @@ static bool valid(const Term *term, const System *system)
         good = good && isfinite(it->o[0]) && isfinite(it->o[1]) &&
                isfinite(it->v[0]) && isfinite(it->v[1]) &&
                isfinite(it->friction) && it->friction >= 0 &&
-               it->node < system->nodes &&
+               it->node < at->system->nodes &&
                (wall ? fabs(hypot(it->n[0], it->n[1]) - 1) < 1e-12
                      : isfinite(it->radius) && it->radius > 0);
     }
     return good;
 }
 
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     double sum = 0;
     Gap gap;
     for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);)
@@ -190,12 +190,12 @@ static double value(const Term *term, const Place *at)
 }
 
 /* The force pushes the node along n and a free ball back. */
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     Gap gap;
     for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
-        double force = w * contact_force(&contact->barrier, &gap);
+        double force = at->w * contact_force(&contact->barrier, &gap);
         int ball = contact->obstacle[pair.obstacle].node;
         for (int c = 0; c < 2; c++) {
             g[2 * pair.node + c] -= force * gap.n[c];
@@ -213,14 +213,16 @@ static int entries_of_a_node(const Contact *contact)
     return contact->ball < 0 ? DIAGONAL_ENTRIES : SPRING_ENTRIES;
 }
 
-long long contact_entries(const Contact *contact, const System *system)
+long long contact_entries(const Place *at)
 {
-    return (long long)entries_of_a_node(contact) * system->nodes;
+    const Contact *contact = contact_of(at->system);
+    return (long long)entries_of_a_node(contact) * at->system->nodes;
 }
 
-void contact_pattern(const Contact *contact, const System *system,
-                     Triplets *triplets)
+void contact_pattern(const Place *at, Triplets *triplets)
 {
+    const System *system = at->system;
+    const Contact *contact = contact_of(system);
     int ball = contact->ball < 0 ? -1 : contact->obstacle[contact->ball].node;
     for (int i = 0; i < system->nodes; i++) {
         term_add_block(system, i, i, triplets);
@@ -253,27 +255,17 @@ void contact_add_block(const Contact *contact, ContactPair pair,
     }
 }
 
-static long long entries(const Term *term, const System *system)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
-    return contact_entries(term->data, system);
-}
-
-static void pattern(const Term *term, const System *system, Triplets *triplets)
-{
-    contact_pattern(term->data, system, triplets);
-}
-
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
-{
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     int projected = 0;
     Gap gap;
     for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
         double H[3];
         projected += contact_hessian(&contact->barrier, &gap, filter, H);
         for (int t = 0; t < 3; t++)
-            H[t] *= w;
+            H[t] *= at->w;
         contact_add_block(contact, pair, H, slot, q, out);
     }
     return projected;
@@ -290,9 +282,9 @@ static double pair_motion(const Contact *contact, ContactPair pair,
     return hypot(P[0], P[1]);
 }
 
-static double reach(const Term *term, const Place *at, const double *p)
+static double reach(const Place *at, const double *p)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     double smallest = INFINITY;
     for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
         double P[2];
@@ -304,11 +296,9 @@ static double reach(const Term *term, const Place *at, const double *p)
 }
 
 /* Notes the pairs that may be within d_hat on the way. */
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
-    Contact *contact = term->data;
-    (void)w;
+    Contact *contact = at->term->data;
     (void)q;
     contact->live = 0;
     for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
@@ -320,10 +310,9 @@ static void along(const Term *term, const Place *at, const double *p, double w,
     }
 }
 
-static double remainder_along(const Term *term, const Place *at,
-                              const double *p, double w, double alpha)
+static double remainder_along(const Place *at, const double *p, double alpha)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     double sum = 0;
     for (int k = 0; k < contact->live; k++) {
         double P[2];
@@ -332,12 +321,12 @@ static double remainder_along(const Term *term, const Place *at,
         pair_motion(contact, pair, p, alpha, P);
         sum += contact_remainder(&contact->barrier, &gap, P);
     }
-    return w * sum;
+    return at->w * sum;
 }
 
-static bool allowed(const Term *term, const Place *at)
+static bool allowed(const Place *at)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);)
         if (!(contact_pair_gap(contact, at->x, pair.node, pair.obstacle).d > 0))
             return false;
@@ -345,23 +334,21 @@ static bool allowed(const Term *term, const Place *at)
 }
 
 /* Where the barrier begins: 2 c/d_hat^2, and the force 2 c/d_hat half way. */
-static void bounds(const Term *term, const System *system, double *stiffest,
-                   double *force)
+static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const Barrier *barrier = &((const Contact *)term->data)->barrier;
-    (void)system;
+    const Barrier *barrier = &((const Contact *)at->term->data)->barrier;
     double half_way = 2 * barrier->c / barrier->d_hat;
     *stiffest = fmax(*stiffest, half_way / barrier->d_hat);
     *force = fmax(*force, half_way);
 }
 
 /* A ball's curvature bends down by force/r across the normal. */
-static void concave(const Term *term, const Place *at, double w, double *sum)
+static void concave(const Place *at, double *sum)
 {
-    const Contact *contact = term->data;
+    const Contact *contact = at->term->data;
     Gap gap;
     for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
-        double down = w * contact_force(&contact->barrier, &gap) / gap.r;
+        double down = at->w * contact_force(&contact->barrier, &gap) / gap.r;
         int ball = contact->obstacle[pair.obstacle].node;
         sum[pair.node] += ball < 0 ? down : 2 * down;
         if (ball >= 0)
@@ -380,8 +367,8 @@ const TermKind contact_energy = {
     .valid = valid,
     .value = value,
     .gradient = gradient,
-    .entries = entries,
-    .pattern = pattern,
+    .entries = contact_entries,
+    .pattern = contact_pattern,
     .hessian = hessian,
     .along = along,
     .remainder = remainder_along,

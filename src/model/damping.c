@@ -11,10 +11,9 @@ Damping *damping_of(const System *system)
     return term ? term->data : NULL;
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Damping *data = term->data;
-    (void)system;
+    const Damping *data = at->term->data;
     return isfinite(data->eta) && data->eta >= 0;
 }
 
@@ -62,11 +61,10 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     return false;
 }
 
-static void bounds(const Term *term, const System *system, double *stiffest,
-                   double *force)
+static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const Damping *data = term->data;
-    for (int s = 0; s < system->springs; s++) {
+    const Damping *data = at->term->data;
+    for (int s = 0; s < at->system->springs; s++) {
         *stiffest = fmax(*stiffest, data->k[s]);
         *force = fmax(*force, data->k[s] * sqrt(data->l2[s]));
     }

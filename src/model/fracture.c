@@ -101,10 +101,9 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     return true;
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Fracture *fracture = term->data;
-    (void)system;
+    const Fracture *fracture = at->term->data;
     return isfinite(fracture->strength) && fracture->strength > 0 &&
            fracture->scatter >= 0 && fracture->scatter < 1;
 }

@@ -122,17 +122,17 @@ static double way(const Contact *contact, const Slide *slide, const Place *at)
     return slid(contact, slide, at->u) - slide->carry;
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Friction *friction = term->data;
+    const Friction *friction = at->term->data;
     return isfinite(friction->slip_speed) && friction->slip_speed > 0 &&
-           contact_of(system);
+           contact_of(at->system);
 }
 
 /* Nothing of it is stored: outside of a step (u NULL) it is 0. */
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
-    const Friction *friction = term->data;
+    const Friction *friction = at->term->data;
     const Contact *contact = contact_of(at->system);
     double sum = 0;
     for (int s = 0; at->u && s < friction->slides; s++) {
@@ -143,14 +143,14 @@ static double value(const Term *term, const Place *at)
     return sum;
 }
 
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
-    const Friction *friction = term->data;
+    const Friction *friction = at->term->data;
     const Contact *contact = contact_of(at->system);
     for (int s = 0; s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
         int ball = contact->obstacle[slide->pair.obstacle].node;
-        double force = w * slide->weight *
+        double force = at->w * slide->weight *
                        friction_slope(way(contact, slide, at), friction->e);
         for (int c = 0; c < 2; c++) {
             g[2 * slide->pair.node + c] += force * slide->t[c];
@@ -160,29 +160,17 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
     }
 }
 
-static long long entries(const Term *term, const System *system)
-{
-    (void)term;
-    return contact_entries(contact_of(system), system);
-}
-
-static void pattern(const Term *term, const System *system, Triplets *triplets)
-{
-    (void)term;
-    contact_pattern(contact_of(system), system, triplets);
-}
-
 /* mu lambda f0'' t t^T, never negative */
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
-    const Friction *friction = term->data;
+    const Friction *friction = at->term->data;
     const Contact *contact = contact_of(at->system);
     (void)filter;
     for (int s = 0; s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
         const double *t = slide->t;
-        double bend = w * slide->weight *
+        double bend = at->w * slide->weight *
                       friction_curvature(way(contact, slide, at), friction->e);
         double H[3] = {bend * t[0] * t[0], bend * t[0] * t[1],
                        bend * t[1] * t[1]};
@@ -191,10 +179,9 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
     return 0;
 }
 
-static double remainder_along(const Term *term, const Place *at,
-                              const double *p, double w, double alpha)
+static double remainder_along(const Place *at, const double *p, double alpha)
 {
-    const Friction *friction = term->data;
+    const Friction *friction = at->term->data;
     const Contact *contact = contact_of(at->system);
     double sum = 0;
     for (int s = 0; s < friction->slides; s++) {
@@ -203,7 +190,7 @@ static double remainder_along(const Term *term, const Place *at,
                friction_remainder(way(contact, slide, at),
                                   alpha * slid(contact, slide, p), friction->e);
     }
-    return w * sum;
+    return at->w * sum;
 }
 
 static void free_friction(void *data)
@@ -217,8 +204,8 @@ const TermKind friction_energy = {
     .valid = valid,
     .value = value,
     .gradient = gradient,
-    .entries = entries,
-    .pattern = pattern,
+    .entries = contact_entries,
+    .pattern = contact_pattern,
     .hessian = hessian,
     .remainder = remainder_along,
     .begin = begin,

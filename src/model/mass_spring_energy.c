@@ -3,11 +3,10 @@
 #include <math.h>
 
 /* sum l2 k/2 s^2 */
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
     const System *system = at->system;
     double sum = 0, d[2];
-    (void)term;
     for (int i = 0; i < system->springs; i++) {
         double s = spring_strain(system->e + 2 * i, at->l2[i], at->x, d);
         sum += at->l2[i] * 0.5 * at->k[i] * s * s;
@@ -16,10 +15,10 @@ static double value(const Term *term, const Place *at)
 }
 
 /* grad_i P = 2 k s d, grad_j P = -2 k s d */
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
     const System *system = at->system;
-    (void)term;
+    double w = at->w;
     for (int i = 0; i < system->springs; i++) {
         const int *e = system->e + 2 * i;
         double d[2], s = spring_strain(e, at->l2[i], at->x, d);
@@ -32,17 +31,16 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
     }
 }
 
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
     const System *system = at->system;
     int projected = 0;
-    (void)term;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         double d[2], H[3];
         spring_strain(e, at->l2[s], at->x, d);
-        projected += spring_hessian(d, at->l2[s], w * at->k[s], filter, H);
+        projected += spring_hessian(d, at->l2[s], at->w * at->k[s], filter, H);
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;
@@ -51,12 +49,10 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
 /* With q = p_i - p_j, B = 2 d.q/l2 and C = |q|^2/l2 a spring's strain along
  * the direction is s + alpha B + alpha^2 C, so its energy
  * l2 k/2 (s + alpha B + alpha^2 C)^2 has the coefficients below. */
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
     const System *system = at->system;
-    const double *x = at->x, *l2 = at->l2;
-    (void)term;
+    const double *x = at->x, *l2 = at->l2, w = at->w;
     (void)reach;
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
@@ -74,44 +70,38 @@ static void along(const Term *term, const Place *at, const double *p, double w,
 
 /* Every spring's block is at least -2 c (|x_i|^2 + |x_j|^2), where -c is the
  * lower eigenvalue of its H. */
-static void concave(const Term *term, const Place *at, double w, double *sum)
+static void concave(const Place *at, double *sum)
 {
     const System *system = at->system;
-    (void)term;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         double d[2], strain = spring_strain(e, at->l2[s], at->x, d);
-        double c = w * 4 * at->k[s] * fmax(-strain, 0);
+        double c = at->w * 4 * at->k[s] * fmax(-strain, 0);
         sum[e[0]] += c;
         sum[e[1]] += c;
     }
 }
 
-long long mass_spring_entries(const Term *term, const System *system)
+long long mass_spring_entries(const Place *at)
 {
-    (void)term;
-    return (long long)SPRING_ENTRIES * system->springs;
+    return (long long)SPRING_ENTRIES * at->system->springs;
 }
 
-void mass_spring_pattern(const Term *term, const System *system,
-                         Triplets *triplets)
+void mass_spring_pattern(const Place *at, Triplets *triplets)
 {
-    (void)term;
-    for (int s = 0; s < system->springs; s++) {
-        int i = system->e[2 * s], j = system->e[2 * s + 1];
-        term_add_block(system, i, i, triplets);
-        term_add_block(system, j, j, triplets);
-        term_add_block(system, i, j, triplets);
+    for (int s = 0; s < at->system->springs; s++) {
+        int i = at->system->e[2 * s], j = at->system->e[2 * s + 1];
+        term_add_block(at->system, i, i, triplets);
+        term_add_block(at->system, j, j, triplets);
+        term_add_block(at->system, i, j, triplets);
     }
 }
 
-void mass_spring_bounds(const Term *term, const System *system,
-                        double *stiffest, double *force)
+void mass_spring_bounds(const Place *at, double *stiffest, double *force)
 {
-    (void)term;
-    for (int s = 0; s < system->springs; s++) {
-        *stiffest = fmax(*stiffest, system->k[s]);
-        *force = fmax(*force, system->k[s] * sqrt(system->l2[s]));
+    for (int s = 0; s < at->system->springs; s++) {
+        *stiffest = fmax(*stiffest, at->system->k[s]);
+        *force = fmax(*force, at->system->k[s] * sqrt(at->system->l2[s]));
     }
 }
 

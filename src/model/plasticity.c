@@ -98,17 +98,16 @@ static double strain_at(const Plasticity *plasticity, const System *system,
            plasticity->ep[s];
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Plasticity *plasticity = term->data;
-    (void)system;
+    const Plasticity *plasticity = at->term->data;
     return isfinite(plasticity->yield) && plasticity->yield > 0 &&
            isfinite(plasticity->hardening) && plasticity->hardening >= 0;
 }
 
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
-    const Plasticity *plasticity = term->data;
+    const Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     double sum = 0;
     for (int s = 0; s < system->springs; s++) {
@@ -122,13 +121,13 @@ static double value(const Term *term, const Place *at)
 }
 
 /* 2 k tau d */
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
-    const Plasticity *plasticity = term->data;
+    const Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double factor = w * 2 * system->k[s] *
+        double factor = at->w * 2 * system->k[s] *
                         spring_law_slope(law_of(plasticity, at->damping, s), e);
         for (int c = 0; c < 2; c++) {
             g[2 * system->e[2 * s] + c] += factor * d[c];
@@ -137,17 +136,17 @@ static void gradient(const Term *term, const Place *at, double w, double *g)
     }
 }
 
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
-    const Plasticity *plasticity = term->data;
+    const Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     int projected = 0;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d), H[3];
-        projected +=
-            spring_law_hessian(law_of(plasticity, at->damping, s), d,
-                               system->l2[s], w * system->k[s], e, filter, H);
+        projected += spring_law_hessian(law_of(plasticity, at->damping, s), d,
+                                        system->l2[s], at->w * system->k[s], e,
+                                        filter, H);
         mass_spring_add(H, system->e + 2 * s, s, slot, q, out);
     }
     return projected;
@@ -156,10 +155,9 @@ static int hessian(const Term *term, const Place *at, double w, Filter filter,
 /* With D = alpha B + alpha^2 C the remainder of k l2 V is
  * k l2 (tau alpha^2 C + R_V(e, D)).  Springs that stay elastic all the way have
  * R_V = (1 + theta) D^2/2, a polynomial; the others are noted. */
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
-    Plasticity *plasticity = term->data;
+    Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     plasticity->live = 0;
     for (int s = 0; s < system->springs; s++) {
@@ -169,7 +167,7 @@ static void along(const Term *term, const Place *at, const double *p, double w,
         double P[2] = {pi[0] - pj[0], pi[1] - pj[1]};
         double B = 2 * (d[0] * P[0] + d[1] * P[1]) / system->l2[s];
         double C = (P[0] * P[0] + P[1] * P[1]) / system->l2[s];
-        double stiffness = w * system->k[s] * system->l2[s];
+        double stiffness = at->w * system->k[s] * system->l2[s];
         SpringLaw law = law_of(plasticity, at->damping, s);
         q[0] += stiffness * spring_law_slope(law, e) * C;
         if (fabs(e) + reach * fabs(B) + reach * reach * C < law.yield) {
@@ -183,10 +181,9 @@ static void along(const Term *term, const Place *at, const double *p, double w,
     }
 }
 
-static double remainder_along(const Term *term, const Place *at,
-                              const double *p, double w, double alpha)
+static double remainder_along(const Place *at, const double *p, double alpha)
 {
-    const Plasticity *plasticity = term->data;
+    const Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     double sum = 0;
     (void)p;
@@ -198,7 +195,7 @@ static double remainder_along(const Term *term, const Place *at,
                spring_law_remainder(law_of(plasticity, at->damping, s), e,
                                     alpha * (live->B + alpha * live->C));
     }
-    return w * sum;
+    return at->w * sum;
 }
 
 /* What has flowed stays: ep moves by gamma, the yield strain grows. */
@@ -223,14 +220,14 @@ static bool end(Term *term, System *system, const double *x, const double *v,
 }
 
 /* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
-static void concave(const Term *term, const Place *at, double w, double *sum)
+static void concave(const Place *at, double *sum)
 {
-    const Plasticity *plasticity = term->data;
+    const Plasticity *plasticity = at->term->data;
     const System *system = at->system;
     for (int s = 0; s < system->springs; s++) {
         double d[2], e = strain_at(plasticity, system, at->x, s, d);
         double tau = spring_law_slope(law_of(plasticity, at->damping, s), e);
-        double c = 4 * w * system->k[s] * fmax(-tau, 0);
+        double c = 4 * at->w * system->k[s] * fmax(-tau, 0);
         sum[system->e[2 * s]] += c;
         sum[system->e[2 * s + 1]] += c;
     }

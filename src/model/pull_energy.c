@@ -4,100 +4,99 @@
 #include <stdlib.h>
 
 /* The coordinates first ... end - 1 are pulled. */
-static int first(const Pull *pull)
+static int first(const Place *at)
 {
+    const Pull *pull = at->term->data;
     return pull->node < 0 ? 0 : 2 * pull->node;
 }
 
-static int end(const Pull *pull, const System *system)
+static int end(const Place *at)
 {
-    return pull->node < 0 ? 2 * system->nodes : 2 * pull->node + 2;
+    const Pull *pull = at->term->data;
+    return pull->node < 0 ? 2 * at->system->nodes : 2 * pull->node + 2;
 }
 
 /* w c of coordinate i; with a huge omega2, w keeps it below overflow. */
-static double stiffness(const Pull *pull, const System *system, double w, int i)
+static double stiffness(const Place *at, double w, int i)
 {
-    return pull->node < 0 ? w * pull->k * system->m[i / 2] : w * pull->k;
+    const Pull *pull = at->term->data;
+    return w * pull->k * (pull->node < 0 ? at->system->m[i / 2] : 1);
 }
 
-static bool valid(const Term *term, const System *system)
+static bool valid(const Place *at)
 {
-    const Pull *pull = term->data;
-    return pull->node < system->nodes && pull->k >= 0 && isfinite(pull->k) &&
-           isfinite(pull->target[0]) && isfinite(pull->target[1]);
+    const Pull *pull = at->term->data;
+    return pull->node < at->system->nodes && pull->k >= 0 &&
+           isfinite(pull->k) && isfinite(pull->target[0]) &&
+           isfinite(pull->target[1]);
 }
 
 /* c/2 |x - o|^2.  Averaged along the way from x_n the gradient is the one half
  * way, c (x_n + u/2 - o), and its potential c u.(x_n + u/4 - o). */
-static double value(const Term *term, const Place *at)
+static double value(const Place *at)
 {
-    const Pull *pull = term->data;
+    const Pull *pull = at->term->data;
     double sum = 0;
-    for (int i = first(pull); i < end(pull, at->system); i++) {
+    for (int i = first(at); i < end(at); i++) {
         double o = pull->target[i % 2], x = at->x[i] - o;
         double size = at->averaged
                           ? 2 * at->u[i] * (at->x_n[i] - o + 0.25 * at->u[i])
                           : x * x;
-        sum += stiffness(pull, at->system, 0.5, i) * size;
+        sum += stiffness(at, 0.5, i) * size;
     }
     return sum;
 }
 
-static void gradient(const Term *term, const Place *at, double w, double *g)
+static void gradient(const Place *at, double *g)
 {
-    const Pull *pull = term->data;
-    for (int i = first(pull); i < end(pull, at->system); i++) {
+    const Pull *pull = at->term->data;
+    for (int i = first(at); i < end(at); i++) {
         double x = at->averaged ? at->x_n[i] + 0.5 * at->u[i] : at->x[i];
-        g[i] += stiffness(pull, at->system, w, i) * (x - pull->target[i % 2]);
+        g[i] += stiffness(at, at->w, i) * (x - pull->target[i % 2]);
     }
 }
 
 /* The diagonal of these nodes. */
-static long long entries(const Term *term, const System *system)
+static long long entries(const Place *at)
 {
-    return end(term->data, system) - first(term->data);
+    return end(at) - first(at);
 }
 
-static void pattern(const Term *term, const System *system, Triplets *triplets)
+static void pattern(const Place *at, Triplets *triplets)
 {
-    for (int i = first(term->data); i < end(term->data, system); i += 2)
-        term_add_diagonal(system, i / 2, triplets);
+    for (int i = first(at); i < end(at); i += 2)
+        term_add_diagonal(at->system, i / 2, triplets);
 }
 
 /* Averaged, what is linear in u counts half.  It is never negative. */
-static int hessian(const Term *term, const Place *at, double w, Filter filter,
-                   const int *slot, const double *q, double *out)
+static int hessian(const Place *at, Filter filter, const int *slot,
+                   const double *q, double *out)
 {
-    const Pull *pull = term->data;
-    double part = at->averaged ? 0.5 * w : w;
+    double part = at->averaged ? 0.5 * at->w : at->w;
     (void)filter;
-    for (int i = first(pull); i < end(pull, at->system); i++) {
-        double c = stiffness(pull, at->system, part, i);
+    for (int i = first(at); i < end(at); i++) {
+        double c = stiffness(at, part, i);
         if (q)
             out[i] += c * q[i];
         else
-            out[slot[i - first(pull)]] += c;
+            out[slot[i - first(at)]] += c;
     }
     return 0;
 }
 
-static void along(const Term *term, const Place *at, const double *p, double w,
-                  double reach, double q[3])
+static void along(const Place *at, const double *p, double reach, double q[3])
 {
-    const Pull *pull = term->data;
-    double part = at->averaged ? 0.25 * w : 0.5 * w;
+    double part = at->averaged ? 0.25 * at->w : 0.5 * at->w;
     (void)reach;
-    for (int i = first(pull); i < end(pull, at->system); i++)
-        q[0] += stiffness(pull, at->system, part, i) * p[i] * p[i];
+    for (int i = first(at); i < end(at); i++)
+        q[0] += stiffness(at, part, i) * p[i] * p[i];
 }
 
-static void bounds(const Term *term, const System *system, double *stiffest,
-                   double *force)
+static void bounds(const Place *at, double *stiffest, double *force)
 {
-    const Pull *pull = term->data;
     (void)force;
-    for (int i = first(pull); i < end(pull, system); i += 2)
-        *stiffest = fmax(*stiffest, stiffness(pull, system, 1, i));
+    for (int i = first(at); i < end(at); i += 2)
+        *stiffest = fmax(*stiffest, stiffness(at, 1, i));
 }
 
 /* What both kinds share; averaged, each is itself. */

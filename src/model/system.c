@@ -113,6 +113,7 @@ Place place_at(const System *system, const double *x_n, const double *u,
 {
     const Damping *damping = u ? damping_of(system) : NULL;
     return (Place){.system = system,
+                   .w = 1,
                    .x_n = x_n,
                    .u = u,
                    .x = x,
@@ -120,6 +121,20 @@ Place place_at(const System *system, const double *x_n, const double *u,
                    .damping = damping,
                    .k = damping ? damping->k : system->k,
                    .l2 = damping ? damping->l2 : system->l2};
+}
+
+const TermKind *next_energy(Place *at)
+{
+    const System *system = at->system;
+    const Term *end = system->term + system->terms;
+    at->term = at->term ? at->term + 1 : system->term;
+    while (at->term < end && !at->term->kind->value)
+        at->term++;
+    if (at->term == end)
+        at->term = NULL;
+    if (!at->term)
+        return NULL;
+    return at->averaged ? at->term->kind->averaged : at->term->kind;
 }
 
 Status system_check(const System *system, const double *x)
@@ -136,8 +151,9 @@ Status system_check(const System *system, const double *x)
             return STATUS_INVALID_INPUT;
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if ((kind->valid && !kind->valid(&system->term[t], system)) ||
-            (kind->allowed && !kind->allowed(&system->term[t], &at)))
+        at.term = &system->term[t];
+        if ((kind->valid && !kind->valid(&at)) ||
+            (kind->allowed && !kind->allowed(&at)))
             return STATUS_INVALID_INPUT;
     }
     return STATUS_OK;
@@ -162,18 +178,17 @@ double system_gravity_potential(const System *system, const double *x)
 double system_energy_of(const System *system, const TermKind *kind,
                         const double *x)
 {
-    const Term *term = system_find_term(system, kind);
     Place at = place_at(system, x, NULL, x, false);
-    return term ? kind->value(term, &at) : 0;
+    at.term = system_find_term(system, kind);
+    return at.term ? kind->value(&at) : 0;
 }
 
 double system_potential(const System *system, const double *x)
 {
     Place at = place_at(system, x, NULL, x, false);
     double sum = 0;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            sum += system->term[t].kind->value(&system->term[t], &at);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        sum += kind->value(&at);
     return sum;
 }
 
@@ -197,11 +212,11 @@ bool system_is_free(const System *system)
 void system_acceleration(const System *system, const double *x, double *a)
 {
     Place at = place_at(system, x, NULL, x, false);
+    at.w = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            system->term[t].kind->gradient(&system->term[t], &at, -1, a);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        kind->gradient(&at, a);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
     system_clear_pinned(system, a);
@@ -209,11 +224,13 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 void system_bounds(const System *system, double *stiffest, double *force)
 {
+    Place at = place_at(system, NULL, NULL, NULL, false);
     *stiffest = *force = 0;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->bounds)
-            system->term[t].kind->bounds(&system->term[t], system, stiffest,
-                                         force);
+    for (int t = 0; t < system->terms; t++) {
+        at.term = &system->term[t];
+        if (at.term->kind->bounds)
+            at.term->kind->bounds(&at, stiffest, force);
+    }
 }
 
 bool system_begin(System *system, const double *x_n, const double *v_n,

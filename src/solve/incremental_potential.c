@@ -6,22 +6,12 @@
 
 #include "model/inertia_energy.h"
 
-/* The next term with an energy, *term NULL at first, and the row of functions
- * that stands for it in E; NULL at the end. */
-static const TermKind *next_term(const IncrementalPotential *E,
-                                 const Term **term)
-{
-    const Term *end = E->system->term + E->system->terms;
-    for (*term = *term ? *term + 1 : E->system->term; *term < end; ++*term)
-        if ((*term)->kind->value)
-            return E->averaged ? (*term)->kind->averaged : (*term)->kind;
-    return NULL;
-}
-
 static Place place_of(const IncrementalPotential *E, const double *u,
                       const double *x)
 {
-    return place_at(E->system, E->x_n, u, x, E->averaged);
+    Place at = place_at(E->system, E->x_n, u, x, E->averaged);
+    at.w = E->weight;
+    return at;
 }
 
 /* Inertia plus w times the sum of the terms' energies, or of their sizes. */
@@ -29,10 +19,9 @@ static double sum_of(const IncrementalPotential *E, const double *u,
                      const double *x, bool sizes)
 {
     Place at = place_of(E, u, x);
-    const TermKind *kind;
     double sum = 0;
-    for (const Term *term = NULL; (kind = next_term(E, &term));) {
-        double P = kind->value(term, &at);
+    for (const TermKind *kind; (kind = next_energy(&at));) {
+        double P = kind->value(&at);
         sum += sizes ? fabs(P) : P;
     }
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
@@ -59,28 +48,26 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 {
     const System *system = E->system;
     Place at = place_of(E, u, x);
-    const TermKind *kind;
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
-    for (const Term *term = NULL; (kind = next_term(E, &term));)
-        kind->gradient(term, &at, E->weight, g);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        kind->gradient(&at, g);
     system_clear_pinned(system, g);
 }
 
 /* The masses on the diagonal, then the terms one after the other. */
 static Status create_triplets(const System *system, Triplets *triplets)
 {
-    IncrementalPotential E = {.system = system};
-    const TermKind *kind;
+    Place at = place_at(system, NULL, NULL, NULL, false);
     long long count = 2LL * system->nodes;
-    for (const Term *term = NULL; (kind = next_term(&E, &term));)
-        count += kind->entries(term, system);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        count += kind->entries(&at);
     Status status = triplets_create(2 * system->nodes, count, triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, triplets);
-    for (const Term *term = NULL; !status && (kind = next_term(&E, &term));)
-        kind->pattern(term, system, triplets);
+    for (const TermKind *kind; !status && (kind = next_energy(&at));)
+        kind->pattern(&at, triplets);
     return status;
 }
 
@@ -126,15 +113,13 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
-    const TermKind *kind;
     int projected = 0;
     memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
     slot += 2 * system->nodes;
-    for (const Term *term = NULL; (kind = next_term(E, &term));) {
-        projected += kind->hessian(term, &place, E->weight, filter, slot, NULL,
-                                   A->value);
-        slot += kind->entries(term, system);
+    for (const TermKind *kind; (kind = next_energy(&place));) {
+        projected += kind->hessian(&place, filter, slot, NULL, A->value);
+        slot += kind->entries(&place);
     }
     return projected;
 }
@@ -145,11 +130,10 @@ void incremental_potential_product(const Iterate *at, Filter filter,
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
-    const TermKind *kind;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    for (const Term *term = NULL; (kind = next_term(E, &term));)
-        kind->hessian(term, &place, E->weight, filter, NULL, q, y);
+    for (const TermKind *kind; (kind = next_energy(&place));)
+        kind->hessian(&place, filter, NULL, q, y);
     system_clear_pinned(system, y);
 }
 
@@ -159,16 +143,15 @@ Along incremental_potential_along(const Iterate *at, double reach)
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
     Place place = place_of(E, at->u, at->x);
-    const TermKind *kind;
     Along along = {.at = at};
     double *q = along.smooth.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += at->g[i] * at->p[i];
         q[1] += 0.5 * system->m[i / 2] * at->p[i] * at->p[i];
     }
-    for (const Term *term = NULL; (kind = next_term(E, &term));) {
+    for (const TermKind *kind; (kind = next_energy(&place));) {
         if (kind->along)
-            kind->along(term, &place, at->p, E->weight, reach, q + 1);
+            kind->along(&place, at->p, reach, q + 1);
         along.rough = along.rough || kind->remainder || kind->allowed;
     }
     return along;
@@ -182,21 +165,19 @@ double along_difference(const void *function, double alpha)
         return sum;
     const Iterate *at = along->at;
     Place place = place_of(&at->E, at->u, at->x);
-    const TermKind *kind;
-    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
+    for (const TermKind *kind; (kind = next_energy(&place));)
         if (kind->remainder)
-            sum += kind->remainder(term, &place, at->p, at->E.weight, alpha);
+            sum += kind->remainder(&place, at->p, alpha);
     return sum;
 }
 
 double incremental_potential_reach(const Iterate *at)
 {
     Place place = place_of(&at->E, at->u, at->x);
-    const TermKind *kind;
     double reach = 1;
-    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
+    for (const TermKind *kind; (kind = next_energy(&place));)
         if (kind->reach)
-            reach = fmin(reach, kind->reach(term, &place, at->p));
+            reach = fmin(reach, kind->reach(&place, at->p));
     return reach;
 }
 
@@ -204,9 +185,8 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
     Place at = place_of(E, u, x);
-    const TermKind *kind;
-    for (const Term *term = NULL; (kind = next_term(E, &term));)
-        if (kind->allowed && !kind->allowed(term, &at))
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        if (kind->allowed && !kind->allowed(&at))
             return false;
     return true;
 }
@@ -215,13 +195,12 @@ double incremental_potential_concave(const Iterate *at, double *sum)
 {
     const System *system = at->E.system;
     Place place = place_of(&at->E, at->u, at->x);
-    const TermKind *kind;
     double largest = 0;
     for (int i = 0; i < system->nodes; i++)
         sum[i] = 0;
-    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
+    for (const TermKind *kind; (kind = next_energy(&place));)
         if (kind->concave)
-            kind->concave(term, &place, at->E.weight, sum);
+            kind->concave(&place, sum);
     for (int i = 0; i < system->nodes; i++) {
         double c = sum[i] / system->m[i];
         largest = isnan(c) ? INFINITY : fmax(largest, c);
@@ -234,9 +213,8 @@ double incremental_potential_concave(const Iterate *at, double *sum)
 bool incremental_potential_solve(Iterate *at, Status *status)
 {
     const System *system = at->E.system;
-    const TermKind *kind;
-    for (const Term *term = NULL; (kind = next_term(&at->E, &term));)
-        if (!kind->diagonal)
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->value && !system->term[t].kind->diagonal)
             return false;
     for (int i = 0; i < 2 * system->nodes; i++) {
         if (!system->pinned || !system->pinned[i / 2])

@@ -139,14 +139,14 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
     Place at =
         place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x, false);
     double sum = 0;
+    at.w = weight;
     if (!system->pin_v || !system->pinned)
         return 0;
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
     inertia_energy_gradient(system->nodes, newton->at.u, newton->u_tilde,
                             system->m, g);
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value)
-            system->term[t].kind->gradient(&system->term[t], &at, weight, g);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        kind->gradient(&at, g);
     for (int i = 0; i < 2 * system->nodes; i++)
         if (system->pinned[i / 2])
             sum += g[i] * newton->at.u[i] / weight;

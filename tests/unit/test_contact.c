@@ -233,9 +233,10 @@ static void flow_is_booked(void **unused)
     for (int i = 0; i < 2; i++) {
         double x[4] = {-0.5, 0, 0.6 + 0.1 * i, 0};
         Place at = place_at(&system, x, NULL, x, false);
-        double before = term->kind->value(term, &at) + term->lost;
+        at.term = term;
+        double before = term->kind->value(&at) + term->lost;
         CHECK(term->kind->end(term, &system, x, x, 1));
-        CHECK_NEAR(term->kind->value(term, &at) + term->lost, before, 1e-15);
+        CHECK_NEAR(term->kind->value(&at) + term->lost, before, 1e-15);
     }
     CHECK(plasticity_of(&system)->kappa[0] > 0.1);
     system_free(&system);
@@ -255,12 +256,12 @@ static void flow_is_exact_along_lines(void **unused)
         double q[3] = {0}, g[4] = {0};
         Place at = place_at(&system, x, NULL, x, false);
         Place end = place_at(&system, to, NULL, to, false);
-        term->kind->gradient(term, &at, 1, g);
-        term->kind->along(term, &at, p, 1, 1, q);
+        at.term = end.term = term;
+        term->kind->gradient(&at, g);
+        term->kind->along(&at, p, 1, q);
         double change = g[2] * p[2] + g[3] * p[3] + q[0] + q[1] + q[2] +
-                        term->kind->remainder(term, &at, p, 1, 1);
-        CHECK_NEAR(change,
-                   term->kind->value(term, &end) - term->kind->value(term, &at),
+                        term->kind->remainder(&at, p, 1);
+        CHECK_NEAR(change, term->kind->value(&end) - term->kind->value(&at),
                    1e-15);
     }
     system_free(&system);
@@ -283,13 +284,13 @@ static void cells_are_exact_along_lines(void **unused)
         p[i] = i % 2 ? -0.7 * x[i] : 0;
         to[i] = x[i] + p[i];
     }
-    Place at = place_at(system, x, NULL, x, false),
-          end = place_at(system, to, NULL, to, false);
-    double pressed = term->kind->value(term, &end);
-    CHECK(pressed > 0 && term->kind->value(term, &at) == 0);
-    term->kind->along(term, &at, p, 1, 1, q);
-    CHECK_NEAR(term->kind->remainder(term, &at, p, 1, 1), pressed,
-               1e-12 * pressed);
+    Place at = place_at(system, x, NULL, x, false);
+    Place end = place_at(system, to, NULL, to, false);
+    at.term = end.term = term;
+    double pressed = term->kind->value(&end);
+    CHECK(pressed > 0 && term->kind->value(&at) == 0);
+    term->kind->along(&at, p, 1, q);
+    CHECK_NEAR(term->kind->remainder(&at, p, 1), pressed, 1e-12 * pressed);
     simulation_free(&simulation);
 }
 
@@ -306,15 +307,16 @@ static void contacts_are_exact_along_lines(void **unused)
     Term *term = system_find_term(&point.system, &contact_energy);
     Place there = place_at(&point.system, high, NULL, high, false);
     Place here = place_at(&point.system, low, NULL, low, false);
-    double q[3] = {0}, g[2] = {0}, pressed = term->kind->value(term, &here);
-    CHECK(pressed > 0 && term->kind->value(term, &there) == 0);
-    term->kind->along(term, &there, down, 1, 1, q);
-    CHECK_NEAR(term->kind->remainder(term, &there, down, 1, 1), pressed,
+    there.term = here.term = term;
+    double q[3] = {0}, g[2] = {0}, pressed = term->kind->value(&here);
+    CHECK(pressed > 0 && term->kind->value(&there) == 0);
+    term->kind->along(&there, down, 1, q);
+    CHECK_NEAR(term->kind->remainder(&there, down, 1), pressed,
                1e-14 * pressed);
-    term->kind->gradient(term, &here, 1, g);
-    term->kind->along(term, &here, up, 1, 1, q);
+    term->kind->gradient(&here, g);
+    term->kind->along(&here, up, 1, q);
     double left = pressed + g[1] * up[1];
-    CHECK_NEAR(left + term->kind->remainder(term, &here, up, 1, 1), 0,
+    CHECK_NEAR(left + term->kind->remainder(&here, up, 1), 0,
                1e-14 * fabs(g[1]));
     free_point(&point);
 }
@@ -331,8 +333,9 @@ static void concavity_is_made_up_for(void **unused)
         double x[4] = {-0.5, 0, i ? 0.49 : 0.51, 0}, sum[2] = {0};
         double g[4] = {0};
         Place at = place_at(&system, x, NULL, x, false);
-        term->kind->concave(term, &at, 1, sum);
-        term->kind->gradient(term, &at, 1, g);    /* 2 k tau d */
+        at.term = term;
+        term->kind->concave(&at, sum);
+        term->kind->gradient(&at, g);             /* 2 k tau d */
         double across = 4 * g[2] / (x[2] - x[0]); /* of (0, 1, 0, -1) */
         CHECK_NEAR(sum[0] + sum[1], i ? -across : 0, 1e-15);
     }
@@ -446,10 +449,9 @@ static void potential_gradient(const System *system, const double *x, double *g)
 {
     Place at = place_at(system, x, NULL, x, false);
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value &&
-            system->term[t].kind != &friction_energy)
-            system->term[t].kind->gradient(&system->term[t], &at, 1, g);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        if (kind != &friction_energy)
+            kind->gradient(&at, g);
 }
 
 /* What walls that move do in a step, by the test's own formulas. */

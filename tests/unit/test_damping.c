@@ -91,7 +91,8 @@ static void make_case(Random *random, bool flows, Case *c)
     }
     c->term = &system->term[0];
     c->at = place_at(system, c->x_n, c->u, c->x, false);
-    c->term->kind->gradient(c->term, &c->at, 1, c->g);
+    c->at.term = c->term;
+    c->term->kind->gradient(&c->at, c->g);
 }
 
 /* Of the springs' terms in a step, elastic and plastic, against differences of
@@ -131,11 +132,11 @@ static void the_line_is_exact(void **unused)
             slope += c.g[i] * c.p[i];
             other[i] = c.x[i] + alpha * c.p[i];
         }
-        c.term->kind->along(c.term, &c.at, c.p, 1, 1, q);
+        c.term->kind->along(&c.at, c.p, 1, q);
         double got =
             alpha * (slope + alpha * (q[0] + alpha * (q[1] + alpha * q[2])));
         if (c.term->kind->remainder)
-            got += c.term->kind->remainder(c.term, &c.at, c.p, 1, alpha);
+            got += c.term->kind->remainder(&c.at, c.p, alpha);
         CHECK_NEAR(
             got,
             exact_value(&c.system, c.theta, c.flows, c.x_n, other, -1, 0) -
@@ -155,12 +156,12 @@ static void the_hessian_is_the_gradients_change(void **unused)
         double g[2][MAX_SIZE] = {{0}}, Hp[MAX_SIZE] = {0}, x[MAX_SIZE];
         make_case(&random, n % 2, &c);
         const TermKind *kind = c.term->kind;
-        kind->hessian(c.term, &c.at, 1, FILTER_NONE, NULL, c.p, Hp);
+        kind->hessian(&c.at, FILTER_NONE, NULL, c.p, Hp);
         for (int way = 0; way < 2; way++) {
             for (int i = 0; i < c.size; i++)
                 x[i] = c.x[i] + (way ? 1e-6 : -1e-6) * c.p[i];
             c.at.x = x;
-            kind->gradient(c.term, &c.at, 1, g[way]);
+            kind->gradient(&c.at, g[way]);
         }
         for (int i = 0; i < c.size; i++)
             CHECK_NEAR(Hp[i], (g[1][i] - g[0][i]) / 2e-6, 1e-8 * c.scale);
@@ -229,7 +230,9 @@ static void turning_costs_nothing(void **unused)
         double theta = damped_system(&random, false, &system, x_n, x);
         Term *term = &system.term[0];
         Place at = place_at(&system, x_n, u, x, false);
-        term->kind->gradient(term, &at, 1, g);
+        Place undamped = place_at(&system, x, NULL, x, false);
+        at.term = undamped.term = term;
+        term->kind->gradient(&at, g);
         for (int i = 0; i < 2 * system.nodes; i++) {
             sum[i % 2] += g[i];
             sum[2] += i % 2 ? x[i - 1] * g[i] : -x[i + 1] * g[i];
@@ -243,9 +246,8 @@ static void turning_costs_nothing(void **unused)
             x[i + 1] = sin(angle) * x_n[i] + cos(angle) * x_n[i + 1] - 0.2;
         }
         memset(g, 0, sizeof g);
-        term->kind->gradient(term, &at, 1, g);
-        at.damping = NULL;
-        term->kind->gradient(term, &at, 1, plain);
+        term->kind->gradient(&at, g);
+        term->kind->gradient(&undamped, plain);
         for (int i = 0; i < 2 * system.nodes; i++)
             CHECK_NEAR(g[i], plain[i], 2e-14 * (1 + theta) * size);
         system_free(&system);

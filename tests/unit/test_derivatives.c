@@ -57,7 +57,7 @@ static double energy_value(const Energy *energy, const double *x)
         value =
             inertia_energy_value(system->nodes, x, energy->x_tilde, system->m);
     else if (energy->part == TERM_SPRINGS)
-        value = energy->E.weight * mass_spring_energy.value(NULL, &at);
+        value = energy->E.weight * mass_spring_energy.value(&at);
     else if (energy->part == TERM_CENTRAL)
         value = energy->E.weight * system_potential(system, x);
     else
@@ -75,16 +75,17 @@ static void energy_gradient(const Energy *energy, const double *x, double *g)
     E.system = &fewer;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
     Place at = place_at(&fewer, energy->x_n, x, x, false);
+    at.term = system_find_term(system, &central_field);
+    at.w = E.weight;
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     if (energy->part == TERM_INERTIA)
         inertia_energy_gradient(system->nodes, x, energy->x_tilde, system->m,
                                 g);
     else if (energy->part == TERM_SPRINGS)
-        mass_spring_energy.gradient(NULL, &at, E.weight, g);
+        mass_spring_energy.gradient(&at, g);
     else if (energy->part == TERM_CENTRAL)
-        central_field.gradient(system_find_term(system, &central_field), &at,
-                               E.weight, g);
+        central_field.gradient(&at, g);
     else
         incremental_potential_gradient(&E, x, x, g);
     if (energy->fault == FAULT_SIGN)
@@ -128,10 +129,11 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
     int *slot;
     Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
     Place place = place_at(&fewer, energy->x_n, x, x, false);
+    place.w = E.weight;
     CHECK_STATUS(incremental_potential_pattern(&fewer, &A, &slot), STATUS_OK);
     if (energy->part == TERM_SPRINGS)
-        mass_spring_energy.hessian(NULL, &place, E.weight, FILTER_NONE,
-                                   slot + 2 * fewer.nodes, NULL, A.value);
+        mass_spring_energy.hessian(&place, FILTER_NONE, slot + 2 * fewer.nodes,
+                                   NULL, A.value);
     else if (energy->part == TERM_INERTIA)
         inertia_energy_hessian(fewer.nodes, fewer.m, slot, A.value);
     else

@@ -40,20 +40,19 @@ static double mean_gain(const Pull *hand, const double x_n[2],
     return sum;
 }
 
-static void check_gain_and_bounds(const Term *term, const Place *way,
-                                  const Pull *hand)
+static void check_gain_and_bounds(const Place *way, const Pull *hand)
 {
     const double zero[MAX_SIZE] = {0};
-    CHECK(term->kind->valid(term, way->system));
-    const TermKind *averaged = term->kind->averaged;
+    const TermKind *kind = way->term->kind, *averaged = kind->averaged;
+    CHECK(kind->valid(way));
     Place still = *way;
     still.x = way->x_n;
     still.u = zero;
     int i = 2 * hand->node;
-    CHECK_NEAR(averaged->value(term, way) - averaged->value(term, &still),
+    CHECK_NEAR(averaged->value(way) - averaged->value(&still),
                mean_gain(hand, way->x_n + i, way->u + i), 1e-12 * hand->k);
     double stiffest = 0.5, force = 0;
-    term->kind->bounds(term, way->system, &stiffest, &force);
+    kind->bounds(way, &stiffest, &force);
     CHECK(stiffest == hand->k && force == 0);
 }
 
@@ -72,18 +71,20 @@ static void derivatives_are_those_of_the_formula(void **unused)
                      .target = {random_uniform(&random, -2, 2),
                                 random_uniform(&random, -2, 2)}};
         CHECK_STATUS(pull_set(&system, &hand_energy, &hand), STATUS_OK);
-        const Term *term = system_find_term(&system, &hand_energy);
         for (int i = 0; i < 2 * system.nodes; i++) {
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
         }
-        Place at = place_at(&system, x, u, end, false);
         Place way = place_at(&system, x, u, end, true);
+        way.term = system_find_term(&system, &hand_energy);
+        Place at = way, begin = way;
         int i = 2 * hand.node;
         double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
         double P = hand.k / 2 * (dx * dx + dy * dy);
         CHECK_NEAR(system_energy_of(&system, &hand_energy, end), P, 1e-14 * P);
-        term->kind->gradient(term, &at, 3, g);
+        at.averaged = begin.averaged = false;
+        at.w = 3;
+        hand_energy.gradient(&at, g);
         for (int j = 0; j < 2 * system.nodes; j++) {
             double exact = j == i ? dx : j == i + 1 ? dy : 0;
             CHECK_NEAR(g[j], 3 * hand.k * exact, 1e-13 * hand.k);
@@ -91,28 +92,26 @@ static void derivatives_are_those_of_the_formula(void **unused)
         /* The averaged gradient is the mean over the way: Simpson's rule is
          * exact for a linear function. */
         double mean[MAX_SIZE] = {0};
-        const TermKind *averaged = term->kind->averaged;
-        averaged->gradient(term, &way, 1, mean);
+        hand_energy.averaged->gradient(&way, mean);
         double start = hand.k * (x[i] - hand.target[0]);
         CHECK_NEAR(mean[i], (start + hand.k * dx) / 2, 1e-13 * hand.k);
         /* And u . mean is what P gains from x_n to x_n + u. */
         double gained = P - system_energy_of(&system, &hand_energy, x);
         CHECK_NEAR(mean[i] * u[i] + mean[i + 1] * u[i + 1], gained,
                    1e-12 * hand.k);
-        check_gain_and_bounds(term, &way, &hand);
+        check_gain_and_bounds(&way, &hand);
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
-        Place begin = place_at(&system, x, g, x, false);
-        term->kind->along(term, &begin, u, 1, 1, q);
-        averaged->along(term, &way, u, 1, 1, half);
+        begin.x = x;
+        hand_energy.along(&begin, u, 1, q);
+        hand_energy.averaged->along(&way, u, 1, half);
         double slope =
             start * u[i] + hand.k * (x[i + 1] - hand.target[1]) * u[i + 1];
         CHECK_NEAR(slope + q[0], gained, 1e-12 * hand.k);
         CHECK(half[0] == q[0] / 2 && q[1] == 0 && q[2] == 0);
-        double y[MAX_SIZE] = {0}, d = u[i] * u[i] + u[i + 1] * u[i + 1];
-        term->kind->hessian(term, &begin, 1, FILTER_CLAMP, NULL, u, y);
-        CHECK_NEAR(y[i] * u[i] + y[i + 1] * u[i + 1], 2 * q[0],
-                   1e-13 * hand.k * d);
+        double y[MAX_SIZE] = {0};
+        hand_energy.hessian(&begin, FILTER_CLAMP, NULL, u, y);
+        CHECK_NEAR(y[i] * u[i] + y[i + 1] * u[i + 1], 2 * q[0], 1e-13 * q[0]);
         system_remove_term(&system, &hand_energy);
         CHECK(system_energy_of(&system, &hand_energy, end) == 0 &&
               !hand_energy_of(&system));

@@ -650,43 +650,34 @@ static void observers_can_interrupt(void **unused)
 
 /* A term without any energy, which only exists where x > -0.3 and tells no
  * reach beforehand: as where rounding takes a step into a wall. */
-static double no_value(const Term *term, const Place *at)
+static double no_value(const Place *at)
 {
-    (void)term;
     (void)at;
     return 0;
 }
 
-static void no_gradient(const Term *term, const Place *at, double w, double *g)
+static void no_gradient(const Place *at, double *g)
 {
-    (void)term;
     (void)at;
-    (void)w;
     (void)g;
 }
 
-static long long no_entries(const Term *term, const System *system)
+static long long no_entries(const Place *at)
 {
-    (void)term;
-    (void)system;
+    (void)at;
     return 0;
 }
 
-static void no_pattern(const Term *term, const System *system,
-                       Triplets *triplets)
+static void no_pattern(const Place *at, Triplets *triplets)
 {
-    (void)term;
-    (void)system;
+    (void)at;
     (void)triplets;
 }
 
-static int no_hessian(const Term *term, const Place *at, double w,
-                      Filter filter, const int *slot, const double *q,
-                      double *out)
+static int no_hessian(const Place *at, Filter filter, const int *slot,
+                      const double *q, double *out)
 {
-    (void)term;
     (void)at;
-    (void)w;
     (void)filter;
     (void)slot;
     (void)q;
@@ -694,9 +685,8 @@ static int no_hessian(const Term *term, const Place *at, double w,
     return 0;
 }
 
-static bool right_of_the_wall(const Term *term, const Place *at)
+static bool right_of_the_wall(const Place *at)
 {
-    (void)term;
     return at->x[0] > -0.3;
 }
 
