@@ -35,19 +35,15 @@ void canvas_free(Canvas *canvas)
     *canvas = (Canvas){0};
 }
 
-/* row [count] = colour.  Copies of what is there are faster than pixels one by
- * one. */
+/* row [count] = colour.  White, for one, is four equal bytes, and bytes are set
+ * many at once. */
 static void fill(uint32_t *row, size_t count, uint32_t colour)
 {
-    size_t done = 0;
-    for (; done < count && done < 16; done++)
-        row[done] = colour;
-    while (done < count) {
-        size_t more = count - done < done ? count - done : done;
-        more = more < 2048 ? more : 2048;
-        memcpy(row + done, row, more * sizeof *row);
-        done += more;
-    }
+    if (colour == (colour & 0xff) * 0x01010101u)
+        memset(row, (int)(colour & 0xff), count * sizeof *row);
+    else
+        for (size_t i = 0; i < count; i++)
+            row[i] = colour;
 }
 
 /* pixels = colour, opaque. */
