@@ -143,9 +143,9 @@ long square_pen_springs(const SpringPen *pen, const System *system)
 {
     Paper *paper = pen->paper;
     const BandJob job = {pen, system};
-    long drawn = 0;
-    for (int s = 0; s < system->springs; s++)
-        drawn += !spring_is_broken(system, s);
+    long drawn = system->springs;
+    for (int s = 0; system->breaks && s < system->springs; s++)
+        drawn -= spring_is_broken(system, s);
     if (drawn > BANDED_SPRINGS && !paper->crew)
         paper->crew = crew_create(0);
     if (drawn <= BANDED_SPRINGS || !paper->crew) {

@@ -56,8 +56,9 @@ static double reach_from(const Simulation *simulation, const double *x,
 {
     double need = 1;
     for (int i = 0; i < simulation->system.nodes; i++) {
-        double reach = fmax(fabs(x[2 * i] - from[0]) / half[0],
-                            fabs(x[2 * i + 1] - from[1]) / half[1]);
+        double right = fabs(x[2 * i] - from[0]) / half[0];
+        double up = fabs(x[2 * i + 1] - from[1]) / half[1];
+        double reach = right > up || isnan(up) ? right : up;
         if (isfinite(reach) && reach > need)
             need = reach;
     }
