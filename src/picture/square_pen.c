@@ -101,18 +101,29 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
 }
 
+/* All in one colour, as many at once as no broken one parts. */
+static void draw_plain_springs(const SpringPen *pen, const System *system)
+{
+    for (int s = 0, end; s < system->springs; s = end + 1) {
+        end = s;
+        while (end < system->springs &&
+               !(system->breaks && spring_is_broken(system, end)))
+            end++;
+        canvas_lines(&pen->paper->canvas, pen->at, system->e + 2 * (size_t)s,
+                     end - s, pen->width, COLOUR_X);
+    }
+}
+
 static void draw_whole_springs(const SpringPen *pen, const System *system)
 {
-    if (!system->breaks && !pen->projected && !(pen->range > 0)) {
-        canvas_lines(&pen->paper->canvas, pen->at, system->e, system->springs,
-                     pen->width, COLOUR_X);
-        return;
-    }
-    for (int s = 0; s < system->springs; s++)
-        if (!spring_is_broken(system, s))
-            draw_spring(pen, system->e[2 * (size_t)s],
-                        system->e[2 * (size_t)s + 1], system->l2[s],
-                        pen->ep ? pen->ep[s] : 0);
+    if (!pen->projected && !(pen->range > 0))
+        draw_plain_springs(pen, system);
+    else
+        for (int s = 0; s < system->springs; s++)
+            if (!spring_is_broken(system, s))
+                draw_spring(pen, system->e[2 * (size_t)s],
+                            system->e[2 * (size_t)s + 1], system->l2[s],
+                            pen->ep ? pen->ep[s] : 0);
 }
 
 /* More springs than this are shared by two threads, each in its band of the

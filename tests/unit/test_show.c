@@ -564,6 +564,7 @@ static void contact_is_seen(void **unused)
     Layout layout = show_layout(&stand.show, 1280, 800);
     CHECK(count_colour(&stand, layout.stage, COLOUR_SOLID) > 1000);
     CHECK(count_colour(&stand, layout.stage, COLOUR_FORCE) > 100);
+    stand.simulation.system.breaks = true;
     stand.simulation.system.k[5] = 0;
     count = show_draw(&stand.paper, &stand.show);
     CHECK(count.drawn == stand.simulation.system.springs - 1);
