@@ -564,10 +564,12 @@ static void contact_is_seen(void **unused)
     Layout layout = show_layout(&stand.show, 1280, 800);
     CHECK(count_colour(&stand, layout.stage, COLOUR_SOLID) > 1000);
     CHECK(count_colour(&stand, layout.stage, COLOUR_FORCE) > 100);
+    int blue = count_colour(&stand, layout.stage, COLOUR_X);
     stand.simulation.system.breaks = true;
     stand.simulation.system.k[5] = 0;
     count = show_draw(&stand.paper, &stand.show);
     CHECK(count.drawn == stand.simulation.system.springs - 1);
+    CHECK(count_colour(&stand, layout.stage, COLOUR_X) < blue);
     take_down(&stand);
     stand_up("bend", 0, 1280, 800, &stand);
     show_draw(&stand.paper, &stand.show);
