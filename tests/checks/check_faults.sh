@@ -113,7 +113,7 @@ check_fault() { # kind number all words arguments...
     check_files | sed "s|^|$what: |"
 }
 
-# Each call of a kind in turn; of many, some 24 (LONG: 150) spread over all of
+# Each call of a kind in turn; of many, some 12 (LONG: 150) spread over all of
 # them, for fonts alone make thousands of allocations (FAULTS=all: each).  words:
 # what the one line must say.
 faults_of() { # name kind all words step arguments...
@@ -127,7 +127,7 @@ faults_of() { # name kind all words step arguments...
     run_faulty "$kind" 0 '' --headless --steps 2 --segments 2 --quiet \
         --states s.csv --log l.csv "$@"
     total=$(cat count)
-    most=24
+    most=12
     [ -z "$long" ] || most=150
     [ "$total" -le $((most * stride)) ] || stride=$((total / most + 1))
     [ -z "$all" ] || stride=1

@@ -587,6 +587,7 @@ static void live_changes_are_gone_through_again(void **unused)
 static void a_live_number_is_the_option(void **unused)
 {
     (void)unused;
+    static const int steps[] = {20, 100, 120, 20, 120};
     static const char *const lines[][3] = {
         {"slope", "friction 0.2", "slope --friction 0.2"},
         {"drop --friction 0", "friction 0.4", "drop --friction 0.4"},
@@ -603,7 +604,7 @@ static void a_live_number_is_the_option(void **unused)
         simulation_free(&simulation);
         change(&track, lines[n][1]);
         simulation_from_line(lines[n][2], NULL, NULL, &simulation);
-        for (int i = 0; i < 120; i++) {
+        for (int i = 0; i < steps[n]; i++) {
             CHECK_STATUS(track_step(&track), STATUS_OK);
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         }

@@ -16,6 +16,7 @@
 #include "picture/plot.h"
 #include "play/numbers.h"
 #include "play/player.h"
+#include "play/playing.h"
 #include "play/png_file.h"
 #include "play/recording.h"
 #include "scenes/scene.h"
@@ -493,8 +494,9 @@ static void mask_words(const Canvas *words, const Canvas *plain,
         }
 }
 
-/* The frame of a step as the program makes it, words left out or not. */
-static Canvas program_frame(const char *line, int step, bool words)
+/* The frame of a step as the program makes it; the same without words to
+ * `plain`, unless that is NULL. */
+static Canvas program_frame(const char *line, int step, Canvas *plain)
 {
     static Player player;
     static volatile sig_atomic_t stop;
@@ -502,16 +504,12 @@ static Canvas program_frame(const char *line, int step, bool words)
     char *arguments[32] = {"elasto", "--headless", "--quiet", "--frames",
                            frames,   "--steps",    steps};
     snprintf(frames, sizeof frames, "%s", in_folder("frames"));
-    const char *was = getenv("ELASTO_FONT");
-    char *kept = was ? strdup(was) : NULL;
     int count = 7;
     snprintf(steps, sizeof steps, "%d", step);
     snprintf(copy, sizeof copy, "%s", line);
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         arguments[count++] = word;
     Options options = parsed(count, arguments);
-    if (!words)
-        setenv("ELASTO_FONT", "", 1);
     assert_int_equal(player_create(&options, 1, "elasto", &stop, &player), 0);
     player.attended = true; /* plots know all steps, only two are drawn */
     assert_int_equal(player_draw(&player), 0);
@@ -520,13 +518,18 @@ static Canvas program_frame(const char *line, int step, bool words)
         CHECK(!status || status_is_unconverged(status));
     }
     assert_int_equal(player_draw(&player), 0);
+    if (plain) {
+        Paper paper;
+        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
+        text_free(paper.text);
+        paper.text = NULL;
+        player_paint(&player, &paper);
+        *plain = paper.canvas;
+        paper.canvas = (Canvas){0};
+        paper_free(&paper);
+    }
     assert_int_equal(player_finish(&player), 0);
     player_free(&player);
-    if (kept)
-        setenv("ELASTO_FONT", kept, 1);
-    else
-        unsetenv("ELASTO_FONT");
-    free(kept);
     snprintf(name, sizeof name, "%s/frame_%06d.png", options.frames, step);
     return read_png(name);
 }
@@ -541,8 +544,7 @@ static int count_far_pixels(const char *name, const char *line, int step)
     int far = 0, compared = 0;
     snprintf(file, sizeof file, "tests/data/%s.png", name);
     Canvas reference = read_png(file);
-    Canvas plain = program_frame(line, step, false);
-    Canvas now = program_frame(line, step, true);
+    Canvas plain, now = program_frame(line, step, &plain);
     assert_int_equal(reference.width, FRAME);
     assert_int_equal(reference.height, FRAME);
     mask_words(&reference, &plain, mask);
@@ -588,7 +590,7 @@ static void a_loose_tolerance_is_named(void **unused)
                                         "drop --segments 4 --tolerance 0.01"};
     int red[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
-        Canvas frame = program_frame(lines[k], 0, true);
+        Canvas frame = program_frame(lines[k], 0, NULL);
         for (int i = 0; i < frame.width * frame.height; i++)
             red[k] += pixel_distance(frame.pixels[i], 0xffd00000u) < 60;
         canvas_free(&frame);
