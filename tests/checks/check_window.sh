@@ -40,6 +40,11 @@ find_window() {
     [ -n "$window" ]
 }
 
+# A run of few steps may have closed its window before it was seen.
+has_begun() {
+    find_window "$1" || has_ended "$pid"
+}
+
 # begin SCENE LINE...: a window with this scene, keys go to it.
 side=500
 begin() {
@@ -48,10 +53,9 @@ begin() {
         --log log 2>error &
     pid=$!
     echo $pid >pid
-    until_true find_window "$1" || echo "$1: no window"
+    until_true has_begun "$1" || echo "$1: no window"
     until_true test -s frames/frame_000000.png || echo "$1: no frame"
-    # Making the renderer, SDL may have made the window anew; and a run of few
-    # steps may be over by now.
+    # Making the renderer, SDL may have made the window anew.
     found=$(has_title "$1" | tail -n 1)
     window=${found:-$window}
     timeout $timeout xdotool windowfocus --sync "$window" \
