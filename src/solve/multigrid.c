@@ -22,7 +22,7 @@ static const double STALLS = 0.3;
 
 /* The test is worth conjugate gradients when the gradient's bound is at most
  * so many tolerances, and has halved since they last said no. */
-static const double WORTH_A_TEST = 1000;
+static const double WORTH_A_TEST = 8;
 enum { MAX_TEST_CYCLES = 100 };
 
 /* Single precision can make the remainder smaller by this factor; then it is
@@ -315,7 +315,7 @@ static bool leaves_saddle(Multigrid *mg)
     mg->updated = true;
     mg->windows = false;
     mg->iterations = 0;
-    mg->test_below = WORTH_A_TEST * mg->step.tolerance;
+    mg->test_below = WORTH_A_TEST * mg->step.tolerance * mg->grid.segments;
     mg->saddles++;
     mg->counters.saddles++;
     return true;
@@ -373,7 +373,7 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     mg->last_bound = INFINITY;
     mg->windows = mg->updated = false;
     mg->iterations = mg->saddles = 0;
-    mg->test_below = WORTH_A_TEST * step->tolerance;
+    mg->test_below = WORTH_A_TEST * step->tolerance * mg->grid.segments;
     crew_begin(mg->crew);
     if (!mg->known) {
         grid_set_nodes(grid, step->m, step->pinned);
