@@ -208,6 +208,12 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     }
 }
 
+/* value, limited to 0 ... 1; a call of fmin and fmax would take longer. */
+static inline double limit_part(double value)
+{
+    return value < 0 ? 0 : value > 1 ? 1 : value;
+}
+
 /* Distance of a point to the outline of a box with round corners, < 0 inside
  * (half: half its size). */
 static double card_distance(double x, double y, const double half[2],
@@ -237,8 +243,8 @@ void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
         for (int i = seen.x, past; i < end; i = past) {
             double d = card_distance(i + 0.5 - box.x - half[0],
                                      j + 0.5 - box.y - half[1], half, radius);
-            double out = fmin(fmax(0.5 - d, 0), 1);
-            double in = border ? fmin(fmax(-0.5 - d, 0), 1) : out;
+            double out = limit_part(0.5 - d);
+            double in = border ? limit_part(-0.5 - d) : out;
             past = i >= box.x + rim && i < right ? right : i + 1;
             mix_span(row, i, past, fill, (uint32_t)(in * opacity(fill) + 0.5));
             if (border)
@@ -256,7 +262,7 @@ static double disc_coverage(double d2, double radius)
         return 0;
     if (inner > 0 && d2 <= inner * inner)
         return 1;
-    return fmin(outer - sqrt(d2), 1);
+    return limit_part(outer - sqrt(d2));
 }
 
 /* Pixels by their distance from the centre. */

@@ -91,7 +91,8 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     if (pen->plastic) {
         colour = colour_map_plastic(plastic, pen->range);
     } else if (pen->range > 0) {
-        double strain = hypot(a[0] - b[0], a[1] - b[1]) / sqrt(l2) - 1;
+        double dx = a[0] - b[0], dy = a[1] - b[1];
+        double strain = sqrt((dx * dx + dy * dy) / l2) - 1;
         colour = colour_map_strain(strain, pen->range);
     } else if (pen->projected && spring_projected(a, b, l2)) {
         colour = COLOUR_PROJECT;
@@ -292,9 +293,10 @@ bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
     return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
 }
 
-void square_pen_cells(const SpringPen *pen, const Simulation *simulation,
-                      bool all)
+int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
+                     bool all)
 {
+    int count = 0;
     const SquareMesh *mesh = &simulation->mesh;
     int rows = mesh->rows, row = rows + 1;
     for (int cell = 0; cell < mesh->segments * rows; cell++) {
@@ -305,6 +307,7 @@ void square_pen_cells(const SpringPen *pen, const Simulation *simulation,
         if ((!folded && !all) ||
             square_picture_torn(&simulation->system, mesh, cell))
             continue;
+        count += folded;
         for (int k = 0; k < 4; k++)
             stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
         for (int k = 0; k < 2; k++) {
@@ -314,4 +317,5 @@ void square_pen_cells(const SpringPen *pen, const Simulation *simulation,
                             folded ? 0x38d00000u : 0x180000ffu);
         }
     }
+    return count;
 }

@@ -50,9 +50,9 @@ void square_outline(Paper *paper, const Stage *stage, const SquareMesh *mesh,
 void square_ghost(Paper *paper, const Stage *stage,
                   const Simulation *simulation, const double *x, Colour colour);
 
-/* Cells whose four sides are whole are filled lightly; those that have turned
- * over in another colour. */
-void square_pen_cells(const SpringPen *pen, const Simulation *simulation,
-                      bool all);
+/* Cells whose four sides are whole are filled lightly, if all are asked for;
+ * those that have turned over in another colour.  Returns how many have. */
+int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
+                     bool all);
 
 #endif

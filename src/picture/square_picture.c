@@ -197,8 +197,9 @@ static void draw_hover(const SpringPen *pen, const Show *show)
 
 /* ---- all of it ---------------------------------------------------------- */
 
-/* Below the springs: rest shape, ghosts, cells. */
-static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
+/* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
+ * folded over. */
+static int draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
 {
     const Pane *pane = pen->pane;
     const Simulation *simulation = pane->simulation;
@@ -211,8 +212,8 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
         if (stage->text && stage->pane == 0)
             stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
     }
-    square_pen_cells(pen, simulation,
-                     pen->contact || fracture_of(&simulation->system));
+    int folded = square_pen_cells(
+        pen, simulation, pen->contact || fracture_of(&simulation->system));
     for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
         if (simulation->run[r].system == &simulation->system)
             square_ghost(paper, stage, simulation, simulation->run[r].x,
@@ -229,6 +230,7 @@ static void draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
             stage_legend(paper, stage, legend, COLOUR_X_TILDE,
                          "{xt}, inertia alone");
     }
+    return folded;
 }
 
 /* Nodes without a place: words for what cannot be drawn. */
@@ -247,7 +249,8 @@ static void draw_lost(const SpringPen *pen, Legend *legend)
 }
 
 /* Above them. */
-static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
+static void draw_signs(const SpringPen *pen, const Show *show, int folded,
+                       Legend *legend)
 {
     const Pane *pane = pen->pane;
     const Trace *trace = pane->trace;
@@ -261,7 +264,6 @@ static void draw_signs(const SpringPen *pen, const Show *show, Legend *legend)
     draw_hand(pen, show);
     if (pen->stage->text)
         draw_lost(pen, legend);
-    int folded = pane_folded(pane);
     if (folded > 0 && pen->stage->text)
         stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
                      "%d cell%s folded over", folded, folded == 1 ? "" : "s");
@@ -398,8 +400,7 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
         return count;
     int stride =
         (int)fmin(fmax(ceil(2 / pen.spacing), 1), simulation->mesh.segments);
-    if (!show->bare)
-        draw_ground(&pen, show, &legend);
+    int folded = show->bare ? 0 : draw_ground(&pen, show, &legend);
     if (stride <= 1 || fracture_of(system))
         count.drawn = square_pen_springs(&pen, system);
     else
@@ -410,7 +411,7 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
         return count;
     if (pen.contact)
         draw_forces(&pen, &legend);
-    draw_signs(&pen, show, &legend);
+    draw_signs(&pen, show, folded, &legend);
     if (stage->text && show->numbers && system->nodes <= NUMBERED)
         draw_numbers(&pen, system);
     if (stage->text) {
