@@ -6,6 +6,7 @@
 #ifndef ELASTO_PSD_H
 #define ELASTO_PSD_H
 
+#include <math.h>
 #include <stdbool.h>
 
 /* What is done with the negative eigenvalues of a block. */
@@ -31,9 +32,24 @@ static inline double projected_eigenvalue(Filter filter, double value)
 }
 
 /* Does so with any symmetric 2x2 matrix; one without negative eigenvalues stays
- * as it is, to the last bit.
+ * as it is, to the last bit.  They are mean +- radius; (H - low I)/(high - low)
+ * is the projector on the eigenvector of the higher one.
  *   H  [3] in/out: H_xx, H_xy, H_yy
  * Returns whether one was changed. */
-bool filter_2x2(Filter filter, double H[3]);
+static inline bool filter_2x2(Filter filter, double H[3])
+{
+    double mean = 0.5 * (H[0] + H[2]);
+    double radius = hypot(0.5 * (H[0] - H[2]), H[1]);
+    double low = mean - radius, high = mean + radius;
+    if (low >= 0 || !filter_projects(filter))
+        return false;
+    double new_low = projected_eigenvalue(filter, low);
+    double new_high = projected_eigenvalue(filter, high);
+    double factor = high > low ? (new_high - new_low) / (high - low) : 0;
+    H[0] = new_low + factor * (H[0] - low);
+    H[1] = factor * H[1];
+    H[2] = new_low + factor * (H[2] - low);
+    return true;
+}
 
 #endif

@@ -1,8 +1,8 @@
 /* square_mesh.h - the square of masses and springs (slide square_mesh.py).
  *
- * (segments+1)^2 nodes on a grid centred at the origin.  Node i*(segments+1)+j
- * is column i, row j, counted from the lower left.  Springs, in this order:
- * horizontal, vertical, then the two diagonals of each cell.
+ * (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
+ * i*(rows+1)+j is column i, row j, counted from the lower left.  Springs, in
+ * this order: horizontal, vertical, then the two diagonals of each cell.
  */
 #ifndef ELASTO_SQUARE_MESH_H
 #define ELASTO_SQUARE_MESH_H
@@ -24,16 +24,12 @@ typedef struct SquareMesh {
 } SquareMesh;
 
 /* Builds the mesh.
- *   segments  1 ... SQUARE_MESH_MAX_SEGMENTS
- *   side      m, finite and > 0
- *   mesh      out; free it with square_mesh_free, also after a failure
+ *   columns, rows  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS; equal: the square,
+ *                  else a beam of square cells
+ *   side           m, of all columns, finite and > 0
+ *   mesh           out; free it with square_mesh_free, also after a failure
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-Status square_mesh_create(int segments, double side, SquareMesh *mesh);
-
-/* The same with another number of rows of cells: a beam of squares.  Springs
- * come in the same order; node i*(rows+1)+j is column i, row j. */
-Status square_mesh_create_beam(int columns, int rows, double side,
-                               SquareMesh *mesh);
+Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh);
 
 /* Accepts NULL and a zeroed struct. */
 void square_mesh_free(SquareMesh *mesh);

@@ -42,14 +42,14 @@ Status system_create_pins(System *system);
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);
 
-/* Appends a term, which then owns data if its kind has a free function.
- * Returns the term, or NULL: the list is full. */
-Term *system_add_term(System *system, const TermKind *kind, void *data);
+/* Appends a term, which from now on owns data if its kind has a free function;
+ * after a failure data is freed.  Returns OK, TOO_LARGE (the list is full). */
+Status system_add_term(System *system, const TermKind *kind, void *data);
 
 /* The same at this place of the list, 0 ... terms: sums and steps' ends keep
  * their order, however late a term comes. */
-Term *system_insert_term(System *system, int place, const TermKind *kind,
-                         void *data);
+Status system_insert_term(System *system, int place, const TermKind *kind,
+                          void *data);
 
 /* The first term of this kind, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);

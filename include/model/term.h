@@ -98,7 +98,8 @@ struct TermKind {
 
     /* The same term averaged along the straight way from x_n to x_n + u, for
      * the average vector field methods: its gradient is the integral of
-     * grad P(x_n + t u) over t = 0 ... 1.  NULL: those methods refuse it. */
+     * grad P(x_n + t u) over t = 0 ... 1.  Its entries of the Hessian are
+     * those of the term itself.  NULL: those methods refuse it. */
     const TermKind *averaged;
 
     /* Raises *stiffest to a bound of the curvature's size at rest, J/m^2, and

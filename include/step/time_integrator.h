@@ -27,22 +27,21 @@ typedef struct IntegratorMethod {
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    System *system;   /* not owned; its terms may change it */
-    double h;         /* s */
-    long steps;       /* done so far; t_n = steps * h */
-    long unconverged; /* steps that ended without convergence */
-    Status status;    /* of the last step */
-    double clock;     /* s, sum of all steps */
-    bool moves;       /* whether anything is moved in the present step */
-    double moved;     /* part of its way that moved things went in it */
-    double work;      /* J, done so far by what moves walls and pins */
-    double *x;        /* [2n] m; the arrays below are in the same piece */
-    double *v;        /* [2n] m/s */
-    double *new_x;    /* [2n] m, x at the end of a step; workspace in it */
-    double *new_v;    /* [2n] m/s, v, the same */
-    double *memory;   /* [memory * 2n] what the method remembers */
-    bool remembers;   /* memory holds something */
-    Newton *newton;   /* NULL for explicit methods */
+    System *system; /* not owned; its terms may change it */
+    double h;       /* s */
+    long steps;     /* done so far; t_n = steps * h */
+    Status status;  /* of the last step */
+    double clock;   /* s, sum of all steps */
+    bool moves;     /* whether anything is moved in the present step */
+    double moved;   /* part of its way that moved things went in it */
+    double work;    /* J, done so far by what moves walls and pins */
+    double *x;      /* [2n] m; the arrays below are in the same piece */
+    double *v;      /* [2n] m/s */
+    double *new_x;  /* [2n] m, x at the end of a step; workspace in it */
+    double *new_v;  /* [2n] m/s, v, the same */
+    double *memory; /* [memory * 2n] what the method remembers */
+    bool remembers; /* memory holds something */
+    Newton *newton; /* NULL for explicit methods */
 };
 
 /* The table; it ends with a row whose name is NULL. */

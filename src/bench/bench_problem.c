@@ -139,12 +139,13 @@ static Status run_once(const Problem *problem, const IntegratorMethod *method,
     }
     while (!status && run.steps < result->steps) {
         status = time_integrator_step(&run);
-        if (status_is_unconverged(status))
+        if (status_is_unconverged(status)) {
+            result->unconverged++;
             status = STATUS_OK;
+        }
     }
     result->seconds = bench_cpu() - start;
     result->status = status;
-    result->unconverged = run.unconverged;
     if (run.newton) {
         result->iterations = run.newton->counters.iterations;
         result->factorisations = run.newton->counters.factorisations;

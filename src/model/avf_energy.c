@@ -65,22 +65,6 @@ static void gradient(const Place *at, double *g)
 
 /* (2k/l2) [d d^T + 2/3 (d delta^T + delta d^T) + delta delta^T/2]
  * + k (s + 2B/3 + C/2) I */
-static void average_hessian(const AverageSpring *a, double l2, double k,
-                            double H[3])
-{
-    double factor = 2 * k / l2;
-    double round = k * (a->s + 2 * a->B / 3 + 0.5 * a->C);
-    const double *d = a->d, *delta = a->delta;
-    H[0] = factor * (d[0] * d[0] + 4 * d[0] * delta[0] / 3 +
-                     0.5 * delta[0] * delta[0]) +
-           round;
-    H[1] = factor * (d[0] * d[1] + 2 * (d[0] * delta[1] + delta[0] * d[1]) / 3 +
-                     0.5 * delta[0] * delta[1]);
-    H[2] = factor * (d[1] * d[1] + 4 * d[1] * delta[1] / 3 +
-                     0.5 * delta[1] * delta[1]) +
-           round;
-}
-
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
@@ -88,8 +72,19 @@ static int hessian(const Place *at, Filter filter, const int *slot,
     int projected = 0;
     for (int i = 0; i < system->springs; i++) {
         AverageSpring a = average_spring(at, i);
+        const double *d = a.d, *delta = a.delta;
+        double k = at->w * system->k[i], factor = 2 * k / system->l2[i];
+        double round = k * (a.s + 2 * a.B / 3 + 0.5 * a.C);
+        double mixed = d[0] * delta[1] + delta[0] * d[1];
         double H[3];
-        average_hessian(&a, system->l2[i], at->w * system->k[i], H);
+        H[0] = factor * (d[0] * d[0] + 4 * d[0] * delta[0] / 3 +
+                         0.5 * delta[0] * delta[0]) +
+               round;
+        H[1] =
+            factor * (d[0] * d[1] + 2 * mixed / 3 + 0.5 * delta[0] * delta[1]);
+        H[2] = factor * (d[1] * d[1] + 4 * d[1] * delta[1] / 3 +
+                         0.5 * delta[1] * delta[1]) +
+               round;
         projected += filter_2x2(filter, H);
         mass_spring_add(H, system->e + 2 * i, i, slot, q, out);
     }
@@ -136,11 +131,7 @@ static void concave(const Place *at, double *sum)
 const TermKind avf_energy = {
     .value = value,
     .gradient = gradient,
-    .entries = mass_spring_entries,
-    .pattern = mass_spring_pattern,
     .hessian = hessian,
     .along = along,
-    .bounds = mass_spring_bounds,
     .concave = concave,
-    .internal = true,
 };

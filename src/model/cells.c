@@ -431,16 +431,12 @@ Status cells_add(System *system, int columns, int rows, double step,
     cells->node = calloc(3 * triangles, sizeof *cells->node);
     cells->spring = calloc(3 * triangles, sizeof *cells->spring);
     cells->corner = calloc(triangles, sizeof *cells->corner);
-    Status status = STATUS_OUT_OF_MEMORY;
-    if (cells->node && cells->spring && cells->corner) {
-        for (int i = 0; i < columns; i++)
-            for (int j = 0; j < rows; j++)
-                fill_cell(cells, columns, rows, i, j);
-        status = system_add_term(system, &cell_energy, cells)
-                     ? STATUS_OK
-                     : STATUS_TOO_LARGE;
-    }
-    if (status)
+    if (!cells->node || !cells->spring || !cells->corner) {
         free_cells(cells);
-    return status;
+        return STATUS_OUT_OF_MEMORY;
+    }
+    for (int i = 0; i < columns; i++)
+        for (int j = 0; j < rows; j++)
+            fill_cell(cells, columns, rows, i, j);
+    return system_add_term(system, &cell_energy, cells);
 }

@@ -404,9 +404,8 @@ Status contact_add(System *system, const Barrier *barrier, int obstacles,
                            sizeof *contact->pair);
     if (!contact->pair)
         status = STATUS_OUT_OF_MEMORY;
-    else if (!status && !system_add_term(system, &contact_energy, contact))
-        status = STATUS_TOO_LARGE;
-    if (status)
-        free_contact(contact);
+    if (!status)
+        return system_add_term(system, &contact_energy, contact);
+    free_contact(contact);
     return status;
 }

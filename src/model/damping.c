@@ -61,13 +61,14 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     return false;
 }
 
+/* Those of springs, with the numbers of the last step. */
 static void bounds(const Place *at, double *stiffest, double *force)
 {
     const Damping *data = at->term->data;
-    for (int s = 0; s < at->system->springs; s++) {
-        *stiffest = fmax(*stiffest, data->k[s]);
-        *force = fmax(*force, data->k[s] * sqrt(data->l2[s]));
-    }
+    Place damped = *at;
+    damped.k = data->k;
+    damped.l2 = data->l2;
+    mass_spring_bounds(&damped, stiffest, force);
 }
 
 static void free_damping(void *data)
@@ -104,8 +105,5 @@ Status damping_add(System *system, double eta)
         data->k[s] = system->k[s];
         data->l2[s] = system->l2[s];
     }
-    if (system_insert_term(system, system->terms > 0, &damping, data))
-        return STATUS_OK;
-    free_damping(data);
-    return STATUS_TOO_LARGE;
+    return system_insert_term(system, system->terms > 0, &damping, data);
 }

@@ -135,13 +135,10 @@ Status fracture_add(System *system, double strength, double scatter)
     data->candidate = calloc(springs, sizeof *data->candidate);
     data->load = calloc(springs, sizeof *data->load);
     data->taken = calloc((size_t)system->nodes, sizeof *data->taken);
-    Status status = STATUS_OUT_OF_MEMORY;
-    if (data->candidate && data->load && data->taken)
-        status = system_add_term(system, &fracture, data) ? STATUS_OK
-                                                          : STATUS_TOO_LARGE;
-    if (status)
+    if (!data->candidate || !data->load || !data->taken) {
         free_fracture(data);
-    else
-        system->breaks = true;
-    return status;
+        return STATUS_OUT_OF_MEMORY;
+    }
+    system->breaks = true;
+    return system_add_term(system, &fracture, data);
 }

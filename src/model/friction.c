@@ -237,15 +237,11 @@ Status friction_add(System *system, double slip_speed)
         (size_t)system->nodes * (size_t)(contact ? contact->obstacles + 1 : 1);
     Friction *friction = calloc(1, sizeof *friction);
     Slide *slide = calloc(room, sizeof *slide);
-    if (friction) {
-        friction->slip_speed = slip_speed;
-        friction->slide = slide;
+    if (!friction || !slide) {
+        free(slide);
+        free(friction);
+        return STATUS_OUT_OF_MEMORY;
     }
-    if (friction && slide &&
-        system_insert_term(system, place, &friction_energy, friction))
-        return STATUS_OK;
-    Status status = friction && slide ? STATUS_TOO_LARGE : STATUS_OUT_OF_MEMORY;
-    free(slide);
-    free(friction);
-    return status;
+    *friction = (Friction){.slip_speed = slip_speed, .slide = slide};
+    return system_insert_term(system, place, &friction_energy, friction);
 }

@@ -100,8 +100,8 @@ void mass_spring_pattern(const Place *at, Triplets *triplets)
 void mass_spring_bounds(const Place *at, double *stiffest, double *force)
 {
     for (int s = 0; s < at->system->springs; s++) {
-        *stiffest = fmax(*stiffest, at->system->k[s]);
-        *force = fmax(*force, at->system->k[s] * sqrt(at->system->l2[s]));
+        *stiffest = fmax(*stiffest, at->k[s]);
+        *force = fmax(*force, at->k[s] * sqrt(at->l2[s]));
     }
 }
 

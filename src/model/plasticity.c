@@ -275,11 +275,8 @@ Status plasticity_set(System *system, double yield, double hardening)
         free_plasticity(plasticity);
         return STATUS_OUT_OF_MEMORY;
     }
-    if (elastic)
-        *elastic = (Term){.kind = &plastic_energy, .data = plasticity};
-    else if (!system_add_term(system, &plastic_energy, plasticity)) {
-        free_plasticity(plasticity);
-        return STATUS_TOO_LARGE;
-    }
+    if (!elastic)
+        return system_add_term(system, &plastic_energy, plasticity);
+    *elastic = (Term){.kind = &plastic_energy, .data = plasticity};
     return STATUS_OK;
 }

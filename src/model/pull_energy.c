@@ -115,10 +115,7 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull)
     if (!own)
         return STATUS_OUT_OF_MEMORY;
     *own = *pull;
-    if (term || system_add_term(system, kind, own))
-        return STATUS_OK;
-    free(own);
-    return STATUS_TOO_LARGE;
+    return term ? STATUS_OK : system_add_term(system, kind, own);
 }
 
 Status central_field_set(System *system, double omega2)

@@ -74,13 +74,7 @@ static int dissect_grid(GridPart part, int row, int *order, int next)
     return next;
 }
 
-Status square_mesh_create(int segments, double side, SquareMesh *mesh)
-{
-    return square_mesh_create_beam(segments, segments, side, mesh);
-}
-
-Status square_mesh_create_beam(int columns, int rows, double side,
-                               SquareMesh *mesh)
+Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh)
 {
     *mesh = (SquareMesh){.segments = columns, .rows = rows, .side = side};
     if (columns < 1 || columns > SQUARE_MESH_MAX_SEGMENTS || rows < 1 ||

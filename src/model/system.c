@@ -24,8 +24,7 @@ Status system_create(int nodes, int springs, System *system)
     system->k = calloc(count, sizeof *system->k);
     if (!system->e || !system->l2 || !system->k)
         return STATUS_OUT_OF_MEMORY;
-    system_add_term(system, &mass_spring_energy, NULL);
-    return STATUS_OK;
+    return system_add_term(system, &mass_spring_energy, NULL);
 }
 
 Status system_create_pins(System *system)
@@ -34,10 +33,10 @@ Status system_create_pins(System *system)
     return system->pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
-static void free_data(Term *term)
+static void free_data(const TermKind *kind, void *data)
 {
-    if (term->kind->free)
-        term->kind->free(term->data);
+    if (kind->free)
+        kind->free(data);
 }
 
 void system_free(System *system)
@@ -52,22 +51,24 @@ void system_free(System *system)
     free(system->pin_v);
     free(system->order);
     for (int t = 0; t < system->terms; t++)
-        free_data(&system->term[t]);
+        free_data(system->term[t].kind, system->term[t].data);
     *system = (System){0};
 }
 
-Term *system_insert_term(System *system, int place, const TermKind *kind,
-                         void *data)
+Status system_insert_term(System *system, int place, const TermKind *kind,
+                          void *data)
 {
-    if (system->terms == SYSTEM_MAX_TERMS)
-        return NULL;
+    if (system->terms == SYSTEM_MAX_TERMS) {
+        free_data(kind, data);
+        return STATUS_TOO_LARGE;
+    }
     for (int t = system->terms++; t > place; t--)
         system->term[t] = system->term[t - 1];
     system->term[place] = (Term){.kind = kind, .data = data};
-    return &system->term[place];
+    return STATUS_OK;
 }
 
-Term *system_add_term(System *system, const TermKind *kind, void *data)
+Status system_add_term(System *system, const TermKind *kind, void *data)
 {
     return system_insert_term(system, system->terms, kind, data);
 }
@@ -85,7 +86,7 @@ void system_remove_term(System *system, const TermKind *kind)
     Term *term = system_find_term(system, kind);
     if (!term)
         return;
-    free_data(term);
+    free_data(kind, term->data);
     Term *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];
@@ -168,8 +169,6 @@ double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
     double sum = 0;
-    if (!system_has_gravity(system))
-        return 0;
     for (int i = 0; i < system->nodes; i++)
         sum -= system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
     return sum;

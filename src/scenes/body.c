@@ -47,8 +47,8 @@ static Status take_order(SquareMesh *mesh, System *system)
 Status body_create(const Options *options, int more, SquareMesh *mesh,
                    System *system)
 {
-    Status status = square_mesh_create_beam(
-        options->segments, body_rows(options), options->side, mesh);
+    Status status = square_mesh_create(options->segments, body_rows(options),
+                                       options->side, mesh);
     if (!status)
         status = system_create(mesh->nodes + more, mesh->springs, system);
     if (status)

@@ -22,7 +22,7 @@ typedef struct StateHead {
 
 /* The same for one run. */
 typedef struct RunHead {
-    long steps, unconverged;
+    long steps;
     double clock, moved, work;
     Status status;
     bool remembers;
@@ -172,7 +172,6 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     RunHead head;
     memset(&head, 0, sizeof head);
     head.steps = run->steps;
-    head.unconverged = run->unconverged;
     head.clock = run->clock;
     head.moved = run->moved;
     head.work = run->work;
@@ -188,7 +187,6 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     if (cursor->way != RESTORE)
         return;
     run->steps = head.steps;
-    run->unconverged = head.unconverged;
     run->clock = head.clock;
     run->moved = head.moved;
     run->work = head.work;

@@ -119,7 +119,7 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     slot += 2 * system->nodes;
     for (const TermKind *kind; (kind = next_energy(&place));) {
         projected += kind->hessian(&place, filter, slot, NULL, A->value);
-        slot += kind->entries(&place);
+        slot += place.term->kind->entries(&place);
     }
     return projected;
 }

@@ -98,8 +98,6 @@ Status time_integrator_step(TimeIntegrator *integrator)
     if (system_end(integrator->system, integrator->x, integrator->v,
                    integrator->h))
         time_integrator_forget(integrator, false);
-    if (integrator->status)
-        integrator->unconverged++;
     return integrator->status;
 }
 
@@ -125,7 +123,7 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
 void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
 {
     if (!integrator->newton)
-        integrator->remembers = false;
+        ;
     else if (rebuild)
         newton_rebuild(integrator->newton);
     else

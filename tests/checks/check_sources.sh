@@ -180,9 +180,9 @@ if [ -f README.md ]; then
 else
     verdict the_readme_names_what_there_is "there is no README.md"
 fi
-printf '| slide | `eigh` | `psd.c`: `filter_2x2`, `filter_3x3` |\n' >"$temporary/README"
+printf '| slide | `eigh` | `psd.h`: `filter_2x2`, `filter_3x3` |\n' >"$temporary/README"
 verdict a_wrong_name_in_the_table_is_found \
-    "$([ "$(names_missing "$temporary/README")" = 'psd.c has no filter_3x3' ] ||
+    "$([ "$(names_missing "$temporary/README")" = 'psd.h has no filter_3x3' ] ||
         echo 'not found')"
 
 # Each fault of the list stands in its source exactly once.

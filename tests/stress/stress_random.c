@@ -41,7 +41,7 @@ static void wild_spring(Wild *wild, int i, int j)
 static void wild_square(Wild *wild, int segments)
 {
     SquareMesh mesh;
-    if (square_mesh_create(segments, 1, &mesh) == STATUS_OK) {
+    if (square_mesh_create(segments, segments, 1, &mesh) == STATUS_OK) {
         wild->nodes = mesh.nodes;
         for (int s = 0; s < mesh.springs; s++)
             wild_spring(wild, mesh.e[2 * s], mesh.e[2 * s + 1]);
@@ -213,7 +213,7 @@ static int square_of(const Wild *wild)
     for (int n = 1; (n + 1) * (n + 1) <= WILD_NODES; n++) {
         SquareMesh mesh;
         bool same = wild->nodes == (n + 1) * (n + 1) &&
-                    square_mesh_create(n, 1, &mesh) == STATUS_OK;
+                    square_mesh_create(n, n, 1, &mesh) == STATUS_OK;
         if (!same)
             continue;
         same = wild->springs == mesh.springs &&

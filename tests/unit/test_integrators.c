@@ -335,6 +335,28 @@ static double length_error(const char *method, int steps)
     return error;
 }
 
+/* After a step that ran off, Verlet asks for the acceleration again: what it
+ * remembered was that of a place where it never came to be. */
+static void a_failed_step_is_not_remembered(void **unused)
+{
+    (void)unused;
+    Pair failed, fresh;
+    pair_create("verlet", 1e-3, &failed);
+    pair_create("verlet", 1e-3, &fresh);
+    CHECK_STATUS(time_integrator_step(&failed.run), STATUS_OK);
+    CHECK_STATUS(time_integrator_step(&fresh.run), STATUS_OK);
+    double v = failed.run.v[0];
+    failed.run.v[0] = 1e300;
+    CHECK_STATUS(time_integrator_step(&failed.run), STATUS_NOT_FINITE);
+    failed.run.v[0] = v;
+    CHECK_STATUS(time_integrator_step(&failed.run), STATUS_OK);
+    CHECK_STATUS(time_integrator_step(&fresh.run), STATUS_OK);
+    CHECK(failed.run.x[0] == fresh.run.x[0] &&
+          failed.run.v[0] == fresh.run.v[0]);
+    pair_free(&failed);
+    pair_free(&fresh);
+}
+
 /* Halving h divides the error by 2^order; a quarter of an order is what is
  * left of the next one at these steps. */
 static void orders_are_as_in_the_table(void **unused)
@@ -362,6 +384,7 @@ int main(void)
         cmocka_unit_test(overflow_changes_nothing),
         cmocka_unit_test(bad_starts_are_refused),
         cmocka_unit_test(the_table_is_complete),
+        cmocka_unit_test(a_failed_step_is_not_remembered),
         cmocka_unit_test(orders_are_as_in_the_table),
     };
     return cmocka_run_group_tests_name("integrators", tests, NULL, NULL);

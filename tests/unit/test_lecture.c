@@ -113,7 +113,7 @@ static void the_mesh_is_the_product_s(void **unused)
     for (int n_seg = 1; n_seg <= 20; n_seg++) {
         double side = random_logarithmic(&random, 1e-2, 1e2);
         SquareMesh mesh;
-        CHECK_STATUS(square_mesh_create(n_seg, side, &mesh), STATUS_OK);
+        CHECK_STATUS(square_mesh_create(n_seg, n_seg, side, &mesh), STATUS_OK);
         Solid solid = square(side, n_seg, 7, 3);
         CHECK(solid.nodes == mesh.nodes && solid.springs == mesh.springs);
         CHECK_SAME_BITS(&solid.x->x, mesh.x, 2 * mesh.nodes);

@@ -17,7 +17,7 @@ static void nodes_are_a_centred_grid(void **unused)
 {
     (void)unused;
     SquareMesh mesh;
-    CHECK_STATUS(square_mesh_create(4, 2, &mesh), STATUS_OK);
+    CHECK_STATUS(square_mesh_create(4, 4, 2, &mesh), STATUS_OK);
     CHECK(mesh.nodes == 25 && mesh.segments == 4 && mesh.side == 2);
     for (int i = 0; i <= 4; i++)
         for (int j = 0; j <= 4; j++) {
@@ -39,7 +39,7 @@ static void one_cell_is_as_on_the_slide(void **unused)
                             0, 1, 2, 3, /* vertical */
                             0, 3, 2, 1 /* diagonals */};
     SquareMesh mesh;
-    CHECK_STATUS(square_mesh_create(1, 1, &mesh), STATUS_OK);
+    CHECK_STATUS(square_mesh_create(1, 1, 1, &mesh), STATUS_OK);
     CHECK(mesh.springs == 6);
     for (int i = 0; i < 12; i++)
         CHECK_NEAR(mesh.e[i], expected[i], 0);
@@ -52,7 +52,7 @@ static void springs_come_in_the_order_of_the_slide(void **unused)
     (void)unused;
     enum { N = 3, ROW = N + 1 };
     SquareMesh mesh;
-    CHECK_STATUS(square_mesh_create(N, 1, &mesh), STATUS_OK);
+    CHECK_STATUS(square_mesh_create(N, N, 1, &mesh), STATUS_OK);
     CHECK(mesh.springs == 2 * N * ROW + 2 * N * N);
     for (int s = 0; s < N * ROW; s++) {
         CHECK(mesh.e[2 * s] == s); /* to the right: i + 1 */
@@ -79,7 +79,7 @@ static void springs_have_the_lengths_of_a_cell(void **unused)
     for (int n = 1; n <= 20; n++) {
         SquareMesh mesh;
         double side = 0.7 * n, cell = 0.7;
-        CHECK_STATUS(square_mesh_create(n, side, &mesh), STATUS_OK);
+        CHECK_STATUS(square_mesh_create(n, n, side, &mesh), STATUS_OK);
         int straight = 0, diagonal = 0;
         for (int s = 0; s < mesh.springs; s++) {
             const double *a = mesh.x + 2 * mesh.e[2 * s];
@@ -103,7 +103,7 @@ static void order_is_a_permutation(void **unused)
     for (int n = 1; n <= 70; n++) {
         SquareMesh mesh;
         memset(seen, 0, sizeof seen);
-        CHECK_STATUS(square_mesh_create(n, 1, &mesh), STATUS_OK);
+        CHECK_STATUS(square_mesh_create(n, n, 1, &mesh), STATUS_OK);
         for (int i = 0; i < mesh.nodes; i++) {
             CHECK(mesh.order[i] >= 0 && mesh.order[i] < mesh.nodes);
             CHECK(!seen[mesh.order[i]]);
@@ -149,13 +149,13 @@ static void bad_meshes_are_refused(void **unused)
     const double bad[] = {0, -1, NAN, INFINITY, -INFINITY};
     SquareMesh mesh;
     for (int i = 0; i < 5; i++) {
-        CHECK_STATUS(square_mesh_create(4, bad[i], &mesh),
+        CHECK_STATUS(square_mesh_create(4, 4, bad[i], &mesh),
                      STATUS_INVALID_INPUT);
         square_mesh_free(&mesh);
     }
     const int segments[] = {0, -1, SQUARE_MESH_MAX_SEGMENTS + 1, INT_MAX};
     for (int i = 0; i < 4; i++) {
-        CHECK_STATUS(square_mesh_create(segments[i], 1, &mesh),
+        CHECK_STATUS(square_mesh_create(segments[i], segments[i], 1, &mesh),
                      STATUS_INVALID_INPUT);
         square_mesh_free(&mesh);
     }

@@ -34,7 +34,8 @@ static double *new_array(int count)
 /* The default square: stretch along x, equal masses and springs. */
 static void problem_create(int segments, double stretch, Problem *problem)
 {
-    assert_int_equal(square_mesh_create(segments, 1, &problem->mesh), 0);
+    assert_int_equal(square_mesh_create(segments, segments, 1, &problem->mesh),
+                     0);
     int n = problem->mesh.nodes, springs = problem->mesh.springs;
     problem->m = new_array(n);
     problem->k = new_array(springs);

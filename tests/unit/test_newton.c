@@ -302,7 +302,6 @@ static void check_unconverged_step(Simulation *simulation, Status expected)
         CHECK(isfinite(run->x[i]) && isfinite(run->v[i]));
     CHECK(simulation->steps == steps + 1 && run->steps == steps + 1);
     CHECK(simulation->unconverged == unconverged + 1);
-    CHECK(run->unconverged == unconverged + 1);
     CHECK(status_is_unconverged(expected));
 }
 
@@ -711,7 +710,7 @@ static void steps_into_a_wall_are_halved(void **unused)
                                          .max_iterations = 100};
         CHECK_STATUS(system_create(1, 0, &system), STATUS_OK);
         system.m[0] = 1;
-        CHECK(system_add_term(&system, &wall, NULL) != NULL);
+        CHECK_STATUS(system_add_term(&system, &wall, NULL), STATUS_OK);
         CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
         newton.u_tilde[0] = -1;
         CHECK_STATUS(newton_start(&newton, x, NULL, 1), STATUS_RUNNING);

@@ -294,7 +294,7 @@ static bool spoil(Term *term, System *system, const double *x, const double *v,
 static Status make_nan(TimeIntegrator *run)
 {
     static const TermKind spoiler = {.end = spoil};
-    CHECK(system_add_term(run->system, &spoiler, NULL) != NULL);
+    CHECK(!system_add_term(run->system, &spoiler, NULL));
     return integrator_methods[0].step(run);
 }
 
