@@ -92,12 +92,6 @@ double system_kinetic(const System *system, const double *v);
  * J/m. */
 void system_bounds(const System *system, double *stiffest, double *force);
 
-/* Before a step and after it: begin and end of all terms.  Both return whether
- * arrays have changed. */
-bool system_begin(System *system, const double *x_n, const double *v_n,
-                  double h);
-bool system_end(System *system, const double *x, const double *v, double h);
-
 /* |g|_(M^-1) = sqrt(sum |g_i|^2 / m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);
 

@@ -40,6 +40,10 @@ Place place_at(const System *system, const double *x_n, const double *u,
  * returns the functions that stand for it; after the last one NULL. */
 const TermKind *next_energy(Place *at);
 
+/* A step's begin or end, h in s. */
+typedef bool TermChange(Term *term, System *system, const double *x,
+                        const double *v, double h);
+
 struct TermKind {
     /* Whether its numbers are finite and in their ranges; NULL: always. */
     bool (*valid)(const Place *at);
@@ -91,10 +95,7 @@ struct TermKind {
      * for good (plastic lengths, broken springs); it books what that cost in
      * term->lost.  Both return whether arrays of the system or of a term have
      * changed; factors and bounds that were made with them are then dropped. */
-    bool (*begin)(Term *term, System *system, const double *x_n,
-                  const double *v_n, double h);
-    bool (*end)(Term *term, System *system, const double *x, const double *v,
-                double h);
+    TermChange *begin, *end;
 
     /* The same term averaged along the straight way from x_n to x_n + u, for
      * the average vector field methods: its gradient is the integral of

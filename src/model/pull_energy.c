@@ -3,24 +3,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The coordinates first ... end - 1 are pulled. */
-static int first(const Place *at)
-{
-    const Pull *pull = at->term->data;
-    return pull->node < 0 ? 0 : 2 * pull->node;
-}
-
-static int end(const Place *at)
-{
-    const Pull *pull = at->term->data;
-    return pull->node < 0 ? 2 * at->system->nodes : 2 * pull->node + 2;
-}
-
 /* w c of coordinate i; with a huge omega2, w keeps it below overflow. */
 static double stiffness(const Place *at, double w, int i)
 {
     const Pull *pull = at->term->data;
-    return w * pull->k * (pull->node < 0 ? at->system->m[i / 2] : 1);
+    if (pull->node < 0)
+        return w * pull->k * at->system->m[i / 2];
+    return i / 2 == pull->node ? w * pull->k : 0;
 }
 
 static bool valid(const Place *at)
@@ -37,7 +26,7 @@ static double value(const Place *at)
 {
     const Pull *pull = at->term->data;
     double sum = 0;
-    for (int i = first(at); i < end(at); i++) {
+    for (int i = 0; i < 2 * at->system->nodes; i++) {
         double o = pull->target[i % 2], x = at->x[i] - o;
         double size = at->averaged
                           ? 2 * at->u[i] * (at->x_n[i] - o + 0.25 * at->u[i])
@@ -50,21 +39,21 @@ static double value(const Place *at)
 static void gradient(const Place *at, double *g)
 {
     const Pull *pull = at->term->data;
-    for (int i = first(at); i < end(at); i++) {
+    for (int i = 0; i < 2 * at->system->nodes; i++) {
         double x = at->averaged ? at->x_n[i] + 0.5 * at->u[i] : at->x[i];
         g[i] += stiffness(at, at->w, i) * (x - pull->target[i % 2]);
     }
 }
 
-/* The diagonal of these nodes. */
+/* The diagonal. */
 static long long entries(const Place *at)
 {
-    return end(at) - first(at);
+    return 2LL * at->system->nodes;
 }
 
 static void pattern(const Place *at, Triplets *triplets)
 {
-    for (int i = first(at); i < end(at); i += 2)
+    for (int i = 0; i < 2 * at->system->nodes; i += 2)
         term_add_diagonal(at->system, i / 2, triplets);
 }
 
@@ -74,12 +63,12 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 {
     double part = at->averaged ? 0.5 * at->w : at->w;
     (void)filter;
-    for (int i = first(at); i < end(at); i++) {
+    for (int i = 0; i < 2 * at->system->nodes; i++) {
         double c = stiffness(at, part, i);
         if (q)
             out[i] += c * q[i];
         else
-            out[slot[i - first(at)]] += c;
+            out[slot[i]] += c;
     }
     return 0;
 }
@@ -88,14 +77,14 @@ static void along(const Place *at, const double *p, double reach, double q[3])
 {
     double part = at->averaged ? 0.25 * at->w : 0.5 * at->w;
     (void)reach;
-    for (int i = first(at); i < end(at); i++)
+    for (int i = 0; i < 2 * at->system->nodes; i++)
         q[0] += stiffness(at, part, i) * p[i] * p[i];
 }
 
 static void bounds(const Place *at, double *stiffest, double *force)
 {
     (void)force;
-    for (int i = first(at); i < end(at); i += 2)
+    for (int i = 0; i < 2 * at->system->nodes; i += 2)
         *stiffest = fmax(*stiffest, stiffness(at, 1, i));
 }
 

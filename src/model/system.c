@@ -232,27 +232,6 @@ void system_bounds(const System *system, double *stiffest, double *force)
     }
 }
 
-bool system_begin(System *system, const double *x_n, const double *v_n,
-                  double h)
-{
-    bool changed = false;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->begin)
-            changed |= system->term[t].kind->begin(&system->term[t], system,
-                                                   x_n, v_n, h);
-    return changed;
-}
-
-bool system_end(System *system, const double *x, const double *v, double h)
-{
-    bool changed = false;
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->end)
-            changed |=
-                system->term[t].kind->end(&system->term[t], system, x, v, h);
-    return changed;
-}
-
 void term_add_block(const System *system, int i, int j, Triplets *triplets)
 {
     const int *order = system->order;

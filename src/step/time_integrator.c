@@ -78,13 +78,27 @@ static Status accept(TimeIntegrator *integrator)
     return STATUS_OK;
 }
 
+/* Begin or end of all terms, before a step and after it. */
+static void change_terms(TimeIntegrator *integrator, bool at_end)
+{
+    System *system = integrator->system;
+    bool changed = false;
+    for (int t = 0; t < system->terms; t++) {
+        Term *term = &system->term[t];
+        TermChange *change = at_end ? term->kind->end : term->kind->begin;
+        if (change)
+            changed |= change(term, system, integrator->x, integrator->v,
+                              integrator->h);
+    }
+    if (changed)
+        time_integrator_forget(integrator, false);
+}
+
 Status time_integrator_step(TimeIntegrator *integrator)
 {
     integrator->status = STATUS_OK;
     integrator->moves = prescribed_begin(integrator);
-    if (system_begin(integrator->system, integrator->x, integrator->v,
-                     integrator->h))
-        time_integrator_forget(integrator, false);
+    change_terms(integrator, false);
     Status failure = integrator->method->step(integrator);
     if (!failure)
         failure = accept(integrator);
@@ -95,9 +109,7 @@ Status time_integrator_step(TimeIntegrator *integrator)
     if (integrator->moves)
         integrator->work +=
             prescribed_work(integrator, integrator->newton->at.E.weight);
-    if (system_end(integrator->system, integrator->x, integrator->v,
-                   integrator->h))
-        time_integrator_forget(integrator, false);
+    change_terms(integrator, true);
     return integrator->status;
 }
 

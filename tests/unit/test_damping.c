@@ -27,7 +27,8 @@ static double damped_system(Random *random, bool flows, System *system,
     if (flows)
         CHECK_STATUS(plasticity_set(system, 0.1, 0.3), STATUS_OK);
     CHECK_STATUS(damping_add(system, theta * H), STATUS_OK);
-    CHECK(system_begin(system, x_n, x_n, H));
+    Term *term = system_find_term(system, &damping);
+    CHECK(damping.begin(term, system, x_n, x_n, H));
     for (int i = 0; i < 2 * system->nodes; i++)
         x[i] = x_n[i] + random_uniform(random, -0.2, 0.2);
     return theta;
@@ -209,7 +210,8 @@ static void the_potential_knows_nothing_of_it(void **unused)
         system_acceleration(&system, x, g);
         double a[MAX_SIZE];
         damping_of(&system)->theta = 0;
-        system_begin(&system, x, x, INFINITY); /* theta = 0 */
+        Term *own = system_find_term(&system, &damping);
+        damping.begin(own, &system, x, x, INFINITY); /* theta = 0 */
         system_acceleration(&system, x, a);
         CHECK_SAME_BITS(g, a, 2 * system.nodes);
         system_free(&system);
