@@ -67,9 +67,8 @@ void incremental_potential_product(const Iterate *at, Filter filter,
 
 /* Where each coordinate stands alone in all terms, or there is none: u and x of
  * the minimum, without any matrix.  Writes over g and p.
- *   status  out: OK or NOT_FINITE
- * Returns false, and does nothing, where it is not so. */
-bool incremental_potential_solve(Iterate *at, Status *status);
+ * Returns OK, NOT_FINITE; RUNNING where it is not so: nothing was done. */
+Status incremental_potential_solve(Iterate *at);
 
 /* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
  * none. */

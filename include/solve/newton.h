@@ -90,10 +90,9 @@ typedef struct Rounding {
                         the nodes are */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
     bool held;       /* to what E really is */
-    double start, energy; /* J s^2, E at the start and at the iterate */
-    double margin;        /* J s^2, E may seem to rise by; these if held */
-    double best;          /* m/s, smallest residual of this minimisation */
-    int stagnant;         /* iterations since it was the smallest */
+    double most;     /* J s^2, E at the start but for rounding; if held */
+    double best;     /* m/s, smallest residual of this minimisation */
+    int stagnant;    /* iterations since it was the smallest */
 } Rounding;
 
 typedef struct Newton {
@@ -108,7 +107,7 @@ typedef struct Newton {
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
     double *u_trial, *x_trial; /* [2n] m, where a step may lead; workspaces */
     SearchDirection search;    /* the Hessian and its factor */
-    int age;         /* updates since that was made; < 0: none to use */
+    bool factored;             /* it has one, of this iterate or one before */
     int clamps;      /* iterations that on-demand projection still clamps */
     int saddles;     /* that this minimisation has left */
     bool bends_down; /* the test is passed, but at no minimum */

@@ -37,7 +37,7 @@ static Status factor_as(Newton *newton, Filter filter)
     assembled = clock_now();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
-    newton->age = status ? -1 : 0;
+    newton->factored = !status;
     newton->record.factorised = true;
     newton->record.projected = projected;
     newton->record.shift = newton->search.shift;
@@ -74,15 +74,15 @@ static Status newton_solve(Newton *newton)
     return status;
 }
 
-/* Whether the factor of the iterate before is worth a try: it may decide that
+/* Whether the factor of an iterate before is worth a try: it may decide that
  * the test is passed, which is likely in a step after one without updates, and
  * after a direction that was nearly short enough. */
 static bool factor_may_serve(const Newton *newton)
 {
     const SearchDirection *search = &newton->search;
-    if (newton->settings.filter == FILTER_NONE || newton->age < 0 ||
-        newton->age > 1 || search->kind == CHOLESKY_INDEFINITE ||
-        search->shift > 0 || newton->rounding.blurred)
+    if (newton->settings.filter == FILTER_NONE || !newton->factored ||
+        search->kind == CHOLESKY_INDEFINITE || search->shift > 0 ||
+        newton->rounding.blurred)
         return false;
     return newton->record.iteration < 0
                ? newton->resting
@@ -204,7 +204,7 @@ static Status look_for_minimum(Newton *newton, double times)
     if (status)
         return status;
     search_direction_add_masses(search, times - 1);
-    newton->age = -1;
+    newton->factored = false;
     newton->counters.factorisations++;
     status = cholesky_factor(search->cholesky);
     return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM

@@ -210,12 +210,12 @@ double incremental_potential_concave(const Iterate *at, double *sum)
 
 /* From u_tilde each coordinate alone has its Newton step g/H, and H g tells H:
  * it is exact where E is quadratic. */
-bool incremental_potential_solve(Iterate *at, Status *status)
+Status incremental_potential_solve(Iterate *at)
 {
     const System *system = at->E.system;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->value && !system->term[t].kind->diagonal)
-            return false;
+            return STATUS_RUNNING;
     for (int i = 0; i < 2 * system->nodes; i++) {
         if (!system->pinned || !system->pinned[i / 2])
             at->u[i] = at->E.u_tilde[i];
@@ -227,7 +227,6 @@ bool incremental_potential_solve(Iterate *at, Status *status)
         at->u[i] -= at->g[i] == 0 ? 0 : at->g[i] * (at->g[i] / at->p[i]);
         at->x[i] = at->E.x_n[i] + at->u[i];
     }
-    *status = all_finite(at->x, 2 * (size_t)system->nodes) ? STATUS_OK
-                                                           : STATUS_NOT_FINITE;
-    return true;
+    return all_finite(at->x, 2 * (size_t)system->nodes) ? STATUS_OK
+                                                        : STATUS_NOT_FINITE;
 }

@@ -38,13 +38,13 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
     rounding_start(newton);
-    if (incremental_potential_solve(at, &newton->status)) {
-        newton->residual = 0;
-        return newton->status;
-    }
-    return newton->status = newton_takes_multigrid(newton)
-                                ? newton_multigrid_start(newton)
-                                : direction_first(newton);
+    newton->residual = 0;
+    newton->status = incremental_potential_solve(at);
+    if (newton->status == STATUS_RUNNING)
+        newton->status = newton_takes_multigrid(newton)
+                             ? newton_multigrid_start(newton)
+                             : direction_first(newton);
+    return newton->status;
 }
 
 /* u += alpha p, x = x_n + u, as they were tried.  Changes neither where the
@@ -62,33 +62,25 @@ static Status newton_update(Newton *newton)
     memcpy(at->u, newton->u_trial, size * sizeof *at->u);
     memcpy(at->x, newton->x_trial, size * sizeof *at->x);
     newton->counters.iterations++;
-    if (newton->age >= 0)
-        newton->age++;
     return STATUS_OK;
 }
-
-/* Without a line search nothing makes E fall, and updates may go round in
- * circles: this many without a smaller residual, and they do.  (Of 1100 steps
- * with contact one converged after more.) */
-enum { CIRCLING_ITERATIONS = 500 };
 
 /* What ends the loop besides the test: rounding, and the number of iterations.
  * Without a line search an end above the start is no success. */
 static Status newton_limits(Newton *newton, Status status)
 {
-    bool searches = newton->settings.search != LINE_SEARCH_NONE;
     if (status == STATUS_RUNNING)
         status = rounding_stagnation(newton);
     if (status == STATUS_RUNNING &&
-        (newton->record.iteration + 1 >= newton->settings.max_iterations ||
-         (!searches && newton->rounding.stagnant >= CIRCLING_ITERATIONS)))
+        newton->record.iteration + 1 >= newton->settings.max_iterations)
         status = STATUS_ITERATION_LIMIT;
     if (newton->bends_down &&
         (status == STATUS_ROUNDING_LIMIT || status == STATUS_LINE_SEARCH_LIMIT))
         status = STATUS_NOT_A_MINIMUM;
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
-    if (ended && !searches && rounding_sees_rise(newton))
+    if (ended && newton->settings.search == LINE_SEARCH_NONE &&
+        rounding_sees_rise(newton))
         status = STATUS_DIVERGED;
     return status;
 }
@@ -209,7 +201,7 @@ void newton_free(Newton *newton)
 void newton_forget(Newton *newton)
 {
     rounding_bounds(newton);
-    newton->age = -1;
+    newton->factored = false;
     newton->clamps = 0;
     multigrid_forget(newton->multigrid);
 }

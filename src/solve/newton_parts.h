@@ -51,12 +51,13 @@ void rounding_start(Newton *newton);
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
 bool rounding_hides(const Newton *newton, double change);
 
-/* Whether E is as low at u_trial as the line search says it is; always true
- * where the minimisation is not held to it. */
-bool rounding_allows(Newton *newton);
+/* Whether E at u_trial is as low as at the start; always true where the
+ * minimisation is not held to it. */
+bool rounding_allows(const Newton *newton);
 
-/* After an iteration that did not converge: RUNNING, or ROUNDING_LIMIT where
- * the residual has not become smaller for long and E does not fall. */
+/* After an iteration that did not converge: RUNNING, or, where the residual has
+ * not become smaller for long, ROUNDING_LIMIT if E does not fall any more, and
+ * ITERATION_LIMIT if no line search makes it fall. */
 Status rounding_stagnation(Newton *newton);
 
 /* Whether a minimisation that is held to E has ended above its start. */
