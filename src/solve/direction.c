@@ -8,8 +8,9 @@
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
 /* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
-static double newton_residual(const Newton *newton, const double *p)
+static double newton_residual(const Newton *newton)
 {
+    const double *p = newton->at.p;
     double largest = 0;
     for (int i = 0; i < 2 * newton->system->nodes; i += 2) {
         double sum = fabs(p[i]) + fabs(p[i + 1]);
@@ -108,7 +109,7 @@ static Status newton_solve_and_test(Newton *newton)
     Status status = newton_solve(newton);
     if (status)
         return status;
-    newton->residual = newton_residual(newton, newton->at.p);
+    newton->residual = newton_residual(newton);
     if (!isfinite(newton->residual))
         return STATUS_NOT_FINITE;
     status = newton_test(newton, 0);
@@ -140,7 +141,7 @@ static bool old_factor_passes(Newton *newton)
         0.5 * left / residual_per_norm(newton), &error, &solves);
     newton->counters.solves += solves;
     newton->counters.seconds_solve += clock_now() - start;
-    newton->residual = newton_residual(newton, newton->at.p);
+    newton->residual = newton_residual(newton);
     return !status && newton_test(newton, error) == STATUS_OK;
 }
 

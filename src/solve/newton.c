@@ -15,9 +15,7 @@
  *         alpha: backtracking line search        (step_length.c)
  *         x = x + alpha p
  *         p = -H^-1 grad E
- *
- * newton_minimise is the loop; above it are its parts: newton_start,
- * newton_iterate, newton_finish. */
+ */
 
 /* From u = 0 or another displacement; then p there, and the test. */
 Status newton_start(Newton *newton, const double *x_n, const double *u,

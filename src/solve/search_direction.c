@@ -53,34 +53,30 @@ void search_direction_free(SearchDirection *search)
 
 /* Pattern and symbolic analysis: once, and again only when another kind of
  * factor is wanted. */
-static Status analyse(SearchDirection *search, CholeskyKind kind)
+static Status analyse(SearchDirection *search)
 {
-    if (search->cholesky && search->kind == kind)
-        return STATUS_OK;
     search_direction_rebuild(search);
-    search->kind = kind;
     Status status = incremental_potential_pattern(search->system, &search->A,
                                                   &search->slot);
-    if (!status)
-        status = cholesky_create(
-            &search->A, kind, search->system->order != NULL, &search->cholesky);
-    if (status)
-        search_direction_rebuild(search);
-    return status;
+    return status ? status
+                  : cholesky_create(&search->A, search->kind,
+                                    search->system->order != NULL,
+                                    &search->cholesky);
 }
 
 Status search_direction_assemble(SearchDirection *search, const Iterate *at,
                                  Filter filter, int *projected)
 {
-    *projected = 0;
-    Status status = analyse(search, filter == FILTER_NONE ? CHOLESKY_INDEFINITE
-                                                          : CHOLESKY_DEFINITE);
-    if (status)
-        return status;
+    CholeskyKind kind =
+        filter == FILTER_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
+    bool known = search->cholesky && search->kind == kind;
+    search->kind = kind;
     search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
-    *projected = incremental_potential_hessian(at, search->filter, search->slot,
-                                               &search->A);
-    return STATUS_OK;
+    Status status = known ? STATUS_OK : analyse(search);
+    *projected = status ? 0
+                        : incremental_potential_hessian(
+                              at, search->filter, search->slot, &search->A);
+    return status;
 }
 
 /* The largest entry of the diagonal; its slots come first. */
@@ -250,9 +246,9 @@ static void random_numbers(const System *system, double *r)
     uint64_t state = 1;
     for (int i = 0; i < 2 * system->nodes; i++) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        bool moves = !system->pinned || !system->pinned[i / 2];
-        r[i] = moves ? (double)(int64_t)state / 9223372036854775808.0 : 0;
+        r[i] = (double)(int64_t)state / 9223372036854775808.0;
     }
+    system_clear_pinned(system, r);
 }
 
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,

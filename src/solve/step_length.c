@@ -19,9 +19,10 @@ static bool try_step(Newton *newton, double alpha)
 
 /* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
  * p) > E(x) and while the terms do not allow the place. */
-static Status search_line(Newton *newton)
+Status step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
+    double start = clock_now();
     record->alpha = incremental_potential_reach(&newton->at);
     Along along = incremental_potential_along(&newton->at, record->alpha);
     Status status = STATUS_OK;
@@ -40,14 +41,6 @@ static Status search_line(Newton *newton)
             status = STATUS_LINE_SEARCH_LIMIT;
     }
     record->change = along_difference(&along, record->alpha);
-    return status;
-}
-
-Status step_length(Newton *newton)
-{
-    NewtonRecord *record = &newton->record;
-    double start = clock_now();
-    Status status = search_line(newton);
     newton->counters.trials += record->trials;
     newton->counters.seconds_search += clock_now() - start;
     if (!status)
