@@ -28,6 +28,7 @@ typedef struct IntegratorMethod {
 struct TimeIntegrator {
     const IntegratorMethod *method;
     System *system; /* not owned; its terms may change it */
+    size_t size;    /* 2n, of the arrays below */
     double h;       /* s */
     long steps;     /* done so far; t_n = steps * h */
     Status status;  /* of the last step */

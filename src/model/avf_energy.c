@@ -15,6 +15,8 @@
 
 /* What all integrals of one spring are made of. */
 typedef struct AverageSpring {
+    const int *e;          /* [2] its nodes */
+    double l2, k;          /* m^2, J/m^2 */
     double d[2], delta[2]; /* m */
     double s, B, C;        /* strain s + t B + t^2 C */
 } AverageSpring;
@@ -23,22 +25,23 @@ static AverageSpring average_spring(const Place *at, int spring)
 {
     const int *e = at->system->e + 2 * spring;
     const double *ui = at->u + 2 * e[0], *uj = at->u + 2 * e[1];
-    double l2 = at->system->l2[spring];
-    AverageSpring a = {.delta = {ui[0] - uj[0], ui[1] - uj[1]}};
-    a.s = spring_strain(e, l2, at->x_n, a.d);
-    a.B = 2 * (a.d[0] * a.delta[0] + a.d[1] * a.delta[1]) / l2;
-    a.C = (a.delta[0] * a.delta[0] + a.delta[1] * a.delta[1]) / l2;
+    AverageSpring a = {.e = e,
+                       .l2 = at->l2[spring],
+                       .k = at->k[spring],
+                       .delta = {ui[0] - uj[0], ui[1] - uj[1]}};
+    a.s = spring_strain(e, a.l2, at->x_n, a.d);
+    a.B = 2 * (a.d[0] * a.delta[0] + a.d[1] * a.delta[1]) / a.l2;
+    a.C = (a.delta[0] * a.delta[0] + a.delta[1] * a.delta[1]) / a.l2;
     return a;
 }
 
 /* sum l2 k/2 [2 s B + (B^2 + 2 s C)/2 + 2 B C/3 + C^2/4] */
 static double value(const Place *at)
 {
-    const System *system = at->system;
     double sum = 0;
-    for (int i = 0; i < system->springs; i++) {
+    for (int i = 0; i < at->system->springs; i++) {
         AverageSpring a = average_spring(at, i);
-        sum += system->l2[i] * 0.5 * system->k[i] *
+        sum += a.l2 * 0.5 * a.k *
                (2 * a.s * a.B + 0.5 * (a.B * a.B + 2 * a.s * a.C) +
                 2 * a.B * a.C / 3 + 0.25 * a.C * a.C);
     }
@@ -49,16 +52,15 @@ static double value(const Place *at)
  * k [(2 s + B + 2C/3) d + (s + 2B/3 + C/2) delta] */
 static void gradient(const Place *at, double *g)
 {
-    const System *system = at->system;
-    for (int i = 0; i < system->springs; i++) {
+    for (int i = 0; i < at->system->springs; i++) {
         AverageSpring a = average_spring(at, i);
-        double k = at->w * system->k[i];
+        double k = at->w * a.k;
         double along_d = k * (2 * a.s + a.B + 2 * a.C / 3);
         double along_delta = k * (a.s + 2 * a.B / 3 + 0.5 * a.C);
         for (int c = 0; c < 2; c++) {
             double f = along_d * a.d[c] + along_delta * a.delta[c];
-            g[2 * system->e[2 * i] + c] += f;
-            g[2 * system->e[2 * i + 1] + c] -= f;
+            g[2 * a.e[0] + c] += f;
+            g[2 * a.e[1] + c] -= f;
         }
     }
 }
@@ -68,25 +70,22 @@ static void gradient(const Place *at, double *g)
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
-    const System *system = at->system;
     int projected = 0;
-    for (int i = 0; i < system->springs; i++) {
+    for (int i = 0; i < at->system->springs; i++) {
         AverageSpring a = average_spring(at, i);
         const double *d = a.d, *delta = a.delta;
-        double k = at->w * system->k[i], factor = 2 * k / system->l2[i];
+        double k = at->w * a.k, factor = 2 * k / a.l2;
         double round = k * (a.s + 2 * a.B / 3 + 0.5 * a.C);
         double mixed = d[0] * delta[1] + delta[0] * d[1];
         double H[3];
-        H[0] = factor * (d[0] * d[0] + 4 * d[0] * delta[0] / 3 +
-                         0.5 * delta[0] * delta[0]) +
-               round;
         H[1] =
             factor * (d[0] * d[1] + 2 * mixed / 3 + 0.5 * delta[0] * delta[1]);
-        H[2] = factor * (d[1] * d[1] + 4 * d[1] * delta[1] / 3 +
-                         0.5 * delta[1] * delta[1]) +
-               round;
+        for (int c = 0; c < 2; c++)
+            H[2 * c] = factor * (d[c] * d[c] + 4 * d[c] * delta[c] / 3 +
+                                 0.5 * delta[c] * delta[c]) +
+                       round;
         projected += filter_2x2(filter, H);
-        mass_spring_add(H, system->e + 2 * i, i, slot, q, out);
+        mass_spring_add(H, a.e, i, slot, q, out);
     }
     return projected;
 }
@@ -95,14 +94,12 @@ static int hessian(const Place *at, Filter filter, const int *slot,
  * c1 = 2 delta.q/l2, c2 = |q|^2/l2, q = p_i - p_j, put into Phi. */
 static void along(const Place *at, const double *p, double reach, double q[3])
 {
-    const System *system = at->system;
     (void)reach;
-    for (int i = 0; i < system->springs; i++) {
+    for (int i = 0; i < at->system->springs; i++) {
         AverageSpring a = average_spring(at, i);
-        const double *pi = p + 2 * system->e[2 * i];
-        const double *pj = p + 2 * system->e[2 * i + 1];
-        double q0 = pi[0] - pj[0], q1 = pi[1] - pj[1], l2 = system->l2[i];
-        double factor = at->w * l2 * 0.5 * system->k[i];
+        const double *pi = p + 2 * a.e[0], *pj = p + 2 * a.e[1];
+        double q0 = pi[0] - pj[0], q1 = pi[1] - pj[1], l2 = a.l2;
+        double factor = at->w * l2 * 0.5 * a.k;
         double b = 2 * (a.d[0] * q0 + a.d[1] * q1) / l2;
         double c1 = 2 * (a.delta[0] * q0 + a.delta[1] * q1) / l2;
         double c2 = (q0 * q0 + q1 * q1) / l2;
@@ -117,14 +114,13 @@ static void along(const Place *at, const double *p, double reach, double q[3])
  * length is at most half of what it lacks where it is shortest on its way. */
 static void concave(const Place *at, double *sum)
 {
-    const System *system = at->system;
-    for (int s = 0; s < system->springs; s++) {
+    for (int s = 0; s < at->system->springs; s++) {
         AverageSpring a = average_spring(at, s);
         double t = a.C > 0 ? fmin(fmax(-a.B / (2 * a.C), 0), 1) : 0;
         double missing = -(a.s + t * (a.B + t * a.C));
-        double c = 2 * at->w * system->k[s] * fmax(missing, 0);
-        sum[system->e[2 * s]] += c;
-        sum[system->e[2 * s + 1]] += c;
+        double c = 2 * at->w * a.k * fmax(missing, 0);
+        sum[a.e[0]] += c;
+        sum[a.e[1]] += c;
     }
 }
 

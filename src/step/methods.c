@@ -12,14 +12,14 @@ static void kick(TimeIntegrator *integrator)
 {
     double *new_v = integrator->new_v;
     system_acceleration(integrator->system, integrator->x, new_v);
-    for (int i = 0; i < 2 * integrator->system->nodes; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         new_v[i] = integrator->v[i] + integrator->h * new_v[i];
 }
 
 /* x_(n+1) = x_n + h v */
 static void drift(TimeIntegrator *integrator, const double *v)
 {
-    for (int i = 0; i < 2 * integrator->system->nodes; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         integrator->new_x[i] = integrator->x[i] + integrator->h * v[i];
 }
 
@@ -46,15 +46,14 @@ static Status verlet_step(TimeIntegrator *integrator)
 {
     double *a = integrator->memory, h = integrator->h;
     double *new_x = integrator->new_x, *new_v = integrator->new_v;
-    int size = 2 * integrator->system->nodes;
     if (!integrator->remembers)
         system_acceleration(integrator->system, integrator->x, a);
-    for (int i = 0; i < size; i++) {
+    for (size_t i = 0; i < integrator->size; i++) {
         new_v[i] = integrator->v[i] + 0.5 * h * a[i];
         new_x[i] = integrator->x[i] + h * new_v[i];
     }
     system_acceleration(integrator->system, new_x, a);
-    for (int i = 0; i < size; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         new_v[i] += 0.5 * h * a[i];
     integrator->remembers = true;
     return STATUS_OK;
@@ -70,14 +69,13 @@ static Status backward_euler_step(TimeIntegrator *integrator)
 {
     Newton *newton = integrator->newton;
     double h = integrator->h;
-    int size = 2 * integrator->system->nodes;
-    for (int i = 0; i < size; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         newton->u_tilde[i] = h * integrator->v[i];
     Status status = time_integrator_minimise(integrator, integrator->x, h * h);
     if (status)
         return status;
-    memcpy(integrator->new_x, newton->at.x, (size_t)size * sizeof(double));
-    for (int i = 0; i < size; i++)
+    memcpy(integrator->new_x, newton->at.x, integrator->size * sizeof(double));
+    for (size_t i = 0; i < integrator->size; i++)
         integrator->new_v[i] = newton->at.u[i] / h;
     return STATUS_OK;
 }
@@ -90,26 +88,25 @@ static Status bdf2_step(TimeIntegrator *integrator)
 {
     Newton *newton = integrator->newton;
     double h = integrator->h, *v = integrator->v;
-    int size = 2 * integrator->system->nodes;
-    double *du = integrator->memory, *v_old = du + size;
+    double *du = integrator->memory, *v_old = du + integrator->size;
     if (!integrator->remembers) {
         Status status = backward_euler_step(integrator);
         if (status)
             return status;
     } else {
-        for (int i = 0; i < size; i++)
+        for (size_t i = 0; i < integrator->size; i++)
             newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
         Status status =
             time_integrator_minimise(integrator, integrator->x, 4 * h * h / 9);
         if (status)
             return status;
-        for (int i = 0; i < size; i++) {
+        for (size_t i = 0; i < integrator->size; i++) {
             integrator->new_x[i] = newton->at.x[i];
             integrator->new_v[i] = (3 * newton->at.u[i] - du[i]) / (2 * h);
         }
     }
-    memcpy(du, newton->at.u, (size_t)size * sizeof *du);
-    memcpy(v_old, v, (size_t)size * sizeof *v_old);
+    memcpy(du, newton->at.u, integrator->size * sizeof *du);
+    memcpy(v_old, v, integrator->size * sizeof *v_old);
     integrator->remembers = true;
     return STATUS_OK;
 }
@@ -121,14 +118,13 @@ static Status midpoint_step(TimeIntegrator *integrator)
 {
     Newton *newton = integrator->newton;
     double h = integrator->h;
-    int size = 2 * integrator->system->nodes;
-    for (int i = 0; i < size; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         newton->u_tilde[i] = 0.5 * h * integrator->v[i];
     Status status =
         time_integrator_minimise(integrator, integrator->x, 0.25 * h * h);
     if (status)
         return status;
-    for (int i = 0; i < size; i++) {
+    for (size_t i = 0; i < integrator->size; i++) {
         integrator->new_x[i] = integrator->x[i] + 2 * newton->at.u[i];
         integrator->new_v[i] = 4 * newton->at.u[i] / h - integrator->v[i];
     }
@@ -147,14 +143,13 @@ static Status sdirk2_step(TimeIntegrator *integrator)
     double h = integrator->h, gh = g * h, rest = (1 - g) * h;
     const double *v = integrator->v;
     double *s = integrator->new_v;
-    int size = 2 * integrator->system->nodes;
-    for (int i = 0; i < size; i++)
+    for (size_t i = 0; i < integrator->size; i++)
         newton->u_tilde[i] = gh * v[i];
     Status status =
         time_integrator_minimise(integrator, integrator->x, gh * gh);
     if (status)
         return status;
-    for (int i = 0; i < size; i++) {
+    for (size_t i = 0; i < integrator->size; i++) {
         s[i] = newton->at.u[i] / gh;
         double a = (s[i] - v[i]) / gh;
         newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
@@ -162,7 +157,7 @@ static Status sdirk2_step(TimeIntegrator *integrator)
     status = time_integrator_minimise(integrator, integrator->x, gh * gh);
     if (status)
         return status;
-    for (int i = 0; i < size; i++) {
+    for (size_t i = 0; i < integrator->size; i++) {
         integrator->new_x[i] = newton->at.x[i];
         integrator->new_v[i] = (newton->at.u[i] - rest * s[i]) / gh;
     }
@@ -180,17 +175,16 @@ static Status avf_compose(TimeIntegrator *integrator, const double *share,
 {
     Newton *newton = integrator->newton;
     double *x = integrator->new_x, *v = integrator->new_v;
-    int size = 2 * integrator->system->nodes;
-    memcpy(x, integrator->x, (size_t)size * sizeof *x);
-    memcpy(v, integrator->v, (size_t)size * sizeof *v);
+    memcpy(x, integrator->x, integrator->size * sizeof *x);
+    memcpy(v, integrator->v, integrator->size * sizeof *v);
     for (int part = 0; part < count; part++) {
         double h = share[part] * integrator->h;
-        for (int i = 0; i < size; i++)
+        for (size_t i = 0; i < integrator->size; i++)
             newton->u_tilde[i] = h * v[i];
         Status status = time_integrator_minimise(integrator, x, 0.5 * h * h);
         if (status)
             return status;
-        for (int i = 0; i < size; i++) {
+        for (size_t i = 0; i < integrator->size; i++) {
             x[i] += newton->at.u[i];
             v[i] = 2 * newton->at.u[i] / h - v[i];
         }

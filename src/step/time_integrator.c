@@ -30,9 +30,9 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *integrator)
 {
-    *integrator =
-        (TimeIntegrator){.method = method, .system = system, .h = settings->h};
     size_t size = 2 * (size_t)system->nodes;
+    *integrator = (TimeIntegrator){
+        .method = method, .system = system, .size = size, .h = settings->h};
     if (system_check(system, x) || !all_finite(v, size) ||
         !isfinite(settings->h) || !(settings->h > 0) ||
         !(settings->tolerance > 0) ||
@@ -69,12 +69,12 @@ void time_integrator_free(TimeIntegrator *integrator)
 /* x = new_x, v = new_v, unless one is not finite. */
 static Status accept(TimeIntegrator *integrator)
 {
-    size_t size = 2 * (size_t)integrator->system->nodes;
-    if (!all_finite(integrator->new_x, 2 * size)) { /* and new_v behind it */
+    size_t both = 2 * integrator->size;
+    if (!all_finite(integrator->new_x, both)) { /* new_v is behind it */
         integrator->remembers = false;
         return STATUS_NOT_FINITE;
     }
-    memcpy(integrator->x, integrator->new_x, 2 * size * sizeof(double));
+    memcpy(integrator->x, integrator->new_x, both * sizeof(double));
     return STATUS_OK;
 }
 
@@ -118,7 +118,7 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
 {
     const System *system = integrator->system;
     if (system_has_gravity(system))
-        for (int i = 0; i < 2 * system->nodes; i++)
+        for (size_t i = 0; i < integrator->size; i++)
             integrator->newton->u_tilde[i] += weight * system->gravity[i % 2];
     integrator->newton->step = integrator->steps + 1;
     Status status =
