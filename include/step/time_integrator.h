@@ -30,7 +30,7 @@ struct TimeIntegrator {
     System *system; /* not owned; its terms may change it */
     size_t size;    /* 2n, of the arrays below */
     double h;       /* s */
-    long steps;     /* done so far; t_n = steps * h */
+    long steps;     /* done so far */
     Status status;  /* of the last step */
     double clock;   /* s, sum of all steps */
     bool moves;     /* whether anything is moved in the present step */

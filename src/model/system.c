@@ -250,7 +250,6 @@ void term_add_diagonal(const System *system, int i, Triplets *triplets)
     triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }
 
-/* sum m_i |v_i|^2 / 2 */
 double system_kinetic(const System *system, const double *v)
 {
     double sum = 0;

@@ -8,6 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/damping.h"
+#include "model/fracture.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
 #include "play/track.h"
 
@@ -117,6 +123,30 @@ static void derivatives_are_those_of_the_formula(void **unused)
               !hand_energy_of(&system));
         system_free(&system);
     }
+}
+
+/* A full list takes no more terms, and what they brought is freed; without
+ * leaks and twice freed memory only where that is looked for. */
+static void a_full_list_refuses_terms(void **unused)
+{
+    (void)unused;
+    System system;
+    double x[MAX_SIZE];
+    Random random = {12};
+    random_system(&random, SPRINGS_MIXED, &system, x);
+    while (system.terms < SYSTEM_MAX_TERMS)
+        CHECK_STATUS(system_add_term(&system, &mass_spring_energy, NULL),
+                     STATUS_OK);
+    const Pull hand = {.node = 0, .k = 1};
+    const Barrier barrier = {.d_hat = 0.1, .c = 1};
+    CHECK_STATUS(pull_set(&system, &hand_energy, &hand), STATUS_TOO_LARGE);
+    CHECK_STATUS(damping_add(&system, 0.1), STATUS_TOO_LARGE);
+    CHECK_STATUS(fracture_add(&system, 0.1, 0), STATUS_TOO_LARGE);
+    CHECK_STATUS(contact_add(&system, &barrier, 0, NULL), STATUS_TOO_LARGE);
+    CHECK_STATUS(friction_add(&system, 0.1), STATUS_TOO_LARGE);
+    CHECK_STATUS(cells_add(&system, 1, 1, 1, 1), STATUS_TOO_LARGE);
+    CHECK(system.terms == SYSTEM_MAX_TERMS && !contact_of(&system));
+    system_free(&system);
 }
 
 /* Averaged vector field conserves energy exactly, so all that is there was
@@ -328,6 +358,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives_are_those_of_the_formula),
+        cmocka_unit_test(a_full_list_refuses_terms),
         cmocka_unit_test(work_is_what_energy_gains),
         cmocka_unit_test(the_node_follows),
         cmocka_unit_test(drags_are_repeated),
