@@ -89,8 +89,7 @@ typedef struct Rounding {
     double concave;  /* 1/s^2, incremental_potential_concave for w = 1, wherever
                         the nodes are */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
-    bool held;       /* to what E really is */
-    double most;     /* J s^2, E at the start but for rounding; if held */
+    double most;     /* J s^2, E may be, as at the start; INFINITY: any */
     double best;     /* m/s, smallest residual of this minimisation */
     int stagnant;    /* iterations since it was the smallest */
 } Rounding;

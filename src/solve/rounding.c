@@ -50,9 +50,9 @@ void rounding_start(Newton *newton)
     rounding->stagnant = 0;
     double stiffness = at->E.weight * rounding->stiffest;
     rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
-    rounding->held = newton->settings.search == LINE_SEARCH_NONE ||
-                     stiffness > HIDDEN_MASSES * rounding->lightest;
-    if (!rounding->held)
+    rounding->most = INFINITY;
+    if (newton->settings.search != LINE_SEARCH_NONE &&
+        stiffness <= HIDDEN_MASSES * rounding->lightest)
         return;
     rounding->most = incremental_potential_value(&at->E, at->u, at->x) +
                      MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
@@ -65,23 +65,24 @@ bool rounding_hides(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-/* Whether E is not above where the minimisation began. */
+/* Whether E is not above where the minimisation began, if it is held to that.
+ */
 static bool is_low(const Newton *newton, const double *u, const double *x)
 {
-    return incremental_potential_value(&newton->at.E, u, x) <=
-           newton->rounding.most;
+    double most = newton->rounding.most;
+    return most == INFINITY ||
+           incremental_potential_value(&newton->at.E, u, x) <= most;
 }
 
 bool rounding_allows(const Newton *newton)
 {
-    return !newton->rounding.held ||
-           newton->settings.search == LINE_SEARCH_NONE ||
+    return newton->settings.search == LINE_SEARCH_NONE ||
            is_low(newton, newton->u_trial, newton->x_trial);
 }
 
 bool rounding_sees_rise(const Newton *newton)
 {
-    return newton->rounding.held && !is_low(newton, newton->at.u, newton->at.x);
+    return !is_low(newton, newton->at.u, newton->at.x);
 }
 
 Status rounding_stagnation(Newton *newton)
