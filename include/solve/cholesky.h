@@ -1,7 +1,7 @@
 /* cholesky.h - sparse Cholesky factorisation (slide: spsolve), by CHOLMOD.
  *
- * Analyse once, then factor and solve as often as the values change.  Nothing
- * is allocated after the first solve.  CHOLMOD's types stay inside cholesky.c.
+ * Analyse once, then factor and solve as often as the values change.  Solves
+ * allocate nothing.  CHOLMOD's types stay inside cholesky.c.
  */
 #ifndef ELASTO_CHOLESKY_H
 #define ELASTO_CHOLESKY_H
@@ -33,8 +33,8 @@ Status cholesky_factor(Cholesky *cholesky);
 /* Solves A x = b with the last factor.  b [size] in, x [size] out; both may
  * be the same array.  INDEFINITE refines the solution with A, which must still
  * hold the values that were factored.
- * Returns OK, OUT_OF_MEMORY, NOT_FINITE (the result overflows), SINGULAR (no
- * solution within 1e-8 of b; only INDEFINITE looks). */
+ * Returns OK, NOT_FINITE (the result overflows), SINGULAR (no solution within
+ * 1e-8 of b; only INDEFINITE looks). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
 /* Entries of the factor, and bytes that CHOLMOD held at most. */

@@ -52,14 +52,14 @@ Status search_direction_factor(SearchDirection *search, int *tries);
 
 /* at->p = -H^-1 at->g with the last factor.  Where that has a shift, E, u and x
  * must be those it was assembled for.
- * Returns OK, NOT_FINITE, SINGULAR, OUT_OF_MEMORY. */
+ * Returns OK, NOT_FINITE, SINGULAR. */
 Status search_direction_solve(SearchDirection *search, const Iterate *at);
 
 /* Looks for negative curvature: conjugate gradients on the Hessian at u, x as
  * it is, from random numbers, preconditioned with the last factor.  Writes over
  * p.
  *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
- * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
+ * Returns OK, NOT_FINITE. */
 Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
                                    bool *found);
 
@@ -81,7 +81,7 @@ Status search_direction_judge(SearchDirection *search, const Iterate *at,
  *   at      p is in/out
  *   error   out, kg^(1/2) m
  *   solves  out
- * Returns OK, NOT_FINITE, OUT_OF_MEMORY. */
+ * Returns OK, NOT_FINITE. */
 Status search_direction_refine(SearchDirection *search, const Iterate *at,
                                Filter filter, int most, double enough,
                                double *error, int *solves);
