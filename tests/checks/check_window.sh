@@ -22,14 +22,14 @@ if [ "$missing" ]; then
 fi
 start_screen 1000x1000
 
-# What a screen shows is made by Mesa here, which takes a window 0.2 s: most of
-# the tests leave it to SDL's software renderer (LONG: none).
-leave_mesa() {
+# A window first looks whether an OpenGL serves it, which takes it 0.2 s here:
+# most of the tests go without (LONG: none).
+look_for_opengl() {
+    unset SDL_RENDER_DRIVER SDL_FRAMEBUFFER_ACCELERATION
+}
+without_opengl() {
     [ -z "${LONG:-}" ] || return
     export SDL_RENDER_DRIVER=software SDL_FRAMEBUFFER_ACCELERATION=0
-}
-take_mesa() {
-    unset SDL_RENDER_DRIVER SDL_FRAMEBUFFER_ACCELERATION
 }
 
 has_title() {
@@ -175,9 +175,10 @@ square_keys() {
     end 0
 }
 verdict keys_work_in_square "$(square_keys)"
-leave_mesa
 
+# The renderer that a graphics card has.
 circle_keys() {
+    export SDL_RENDER_DRIVER=opengl
     begin circle
     frame 3
     key space
@@ -187,6 +188,7 @@ circle_keys() {
     awk -F, 'NR > 1 && $3 > 2 { print "node " $3 }' states
 }
 verdict keys_work_in_circle "$(circle_keys)"
+without_opengl
 
 # Scenes that explain wait at step 0; switching the line search takes the last
 # iteration again.
@@ -702,7 +704,7 @@ fi
 
 # From one pixel to more than the screen, and back; it goes on in all of them.
 any_size() {
-    take_mesa
+    look_for_opengl
     begin square --segments 32
     last=0
     large=1500
@@ -743,7 +745,7 @@ verdict a_window_ends_in_the_middle_of_a_step "$(in_a_step)"
 
 # SDL takes another renderer, or the program says that there is none.
 no_renderer() {
-    take_mesa
+    look_for_opengl
     export SDL_RENDER_DRIVER=nonsense
     begin square
     frame 5
