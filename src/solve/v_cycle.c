@@ -20,6 +20,11 @@ enum { V_SLACK = 128 };
 /* Nanoseconds that a row takes for each of its nodes, about. */
 static const double V_LIGHT = 0.4, V_HEAVY = 1.5;
 
+/* Where a level is larger than the cache that is near, loops that follow each
+ * other go through it in panels, whose tensors have so many bytes; at least so
+ * many rows, an even number. */
+enum { PANEL_BYTES = 1 << 18, LEAST_ROWS = 8 };
+
 struct VCycle {
     const Grid *grid;
     const VKernels *kernels;
@@ -27,7 +32,9 @@ struct VCycle {
     int levels;
     double length, mass; /* units, powers of two: 1/m, 1/kg */
     double unit;         /* of r */
-    double now;          /* r.z of the last cycle */
+    const void *z;       /* of the last cycle */
+    double now;          /* its r.z */
+    double beta;         /* d = z + beta d is the next direction */
     double *sums;        /* [rows * V_SUMS] */
 };
 
@@ -104,27 +111,46 @@ void v_cycle_free(VCycle *cycle)
 typedef struct VCall {
     VKernel *kernel;
     const VJob *job;
+    int first;
 } VCall;
 
 static void call_v_kernel(const void *call, int first, int end)
 {
     const VCall *c = call;
-    c->kernel(c->job, first, end);
+    c->kernel(c->job, c->first + first, c->first + end);
 }
 
-/* All rows of the level that the kernel writes to.
+/* Rows first ... end - 1 of the level that the kernel writes to.
  *   cost  nanoseconds a node */
-static void run_rows(const VCycle *cycle, VKernel *kernel, VJob job,
-                     const VLevel *writes, double cost)
+static void run_panel(const VCycle *cycle, VKernel *kernel, VJob job,
+                      const VLevel *writes, int first, int end, double cost)
 {
+    if (first >= end)
+        return;
     job.grid = cycle->grid;
     job.length = cycle->length;
     job.mass = cycle->mass;
     job.sums = cycle->sums;
-    VCall call = {kernel, &job};
-    int rows = writes->layout.nodes;
-    crew_run(cycle->grid->crew, call_v_kernel, &call, rows,
-             cost * rows * (double)rows);
+    VCall call = {kernel, &job, first};
+    crew_run(cycle->grid->crew, call_v_kernel, &call, end - first,
+             cost * (end - first) * writes->layout.nodes);
+}
+
+/* All its rows. */
+static void run_rows(const VCycle *cycle, VKernel *kernel, VJob job,
+                     const VLevel *writes, double cost)
+{
+    run_panel(cycle, kernel, job, writes, 0, writes->layout.nodes, cost);
+}
+
+/* How far a panel reaches that begins at this row: what one loop leaves there
+ * is still near when the next one reads it.  An even row, or past the last. */
+static int panel_end(const VCycle *cycle, const VLevel *level, int first)
+{
+    size_t row = (size_t)level->layout.pitch * cycle->kernels->real;
+    int rows = 2 * (int)(PANEL_BYTES / (2 * SPRING_KINDS * V_TENSOR * row));
+    int end = first + (rows > LEAST_ROWS ? rows : LEAST_ROWS);
+    return end < level->layout.nodes ? end : level->layout.nodes;
 }
 
 /* A power of two near 1/a. */
@@ -148,16 +174,22 @@ void v_cycle_set_nodes(VCycle *cycle)
 void v_cycle_set_up(VCycle *cycle)
 {
     const VKernels *kernels = cycle->kernels;
-    VLevel *level = cycle->level;
     cycle->length = unit_of(sqrt(cycle->grid->rest[SPRING_DIAGONAL]));
-    run_rows(cycle, kernels->tensors, (VJob){.level = level}, level,
-             4 * V_HEAVY);
-    for (int l = 0; l < cycle->levels; l++, level++) {
-        VJob job = {.level = level, .coarse = level + 1};
-        run_rows(cycle, kernels->invert, job, level, V_HEAVY);
-        if (l + 1 < cycle->levels)
-            run_rows(cycle, kernels->coarsen_tensors, job, level + 1,
-                     4 * V_HEAVY);
+    for (int l = 0; l < cycle->levels; l++) {
+        const VLevel *level = &cycle->level[l], *coarse = level + 1;
+        VJob job = {.level = level, .coarse = coarse};
+        int nodes = level->layout.nodes;
+        for (int first = 0, end; first < nodes; first = end) {
+            end = panel_end(cycle, level, first);
+            if (l == 0)
+                run_panel(cycle, kernels->tensors, job, level, first, end,
+                          4 * V_HEAVY);
+            run_panel(cycle, kernels->invert, job, level, first, end, V_HEAVY);
+            if (l + 1 < cycle->levels)
+                run_panel(
+                    cycle, kernels->coarsen_tensors, job, coarse, first / 2,
+                    end < nodes ? end / 2 : coarse->layout.nodes, 4 * V_HEAVY);
+        }
     }
 }
 
@@ -195,8 +227,16 @@ static void *v_descend(const VCycle *cycle, int l)
         return v_smooth(cycle, level, COARSEST_SMOOTHINGS - 1);
     run_rows(cycle, kernels->descend, job, coarse, 5 * V_HEAVY);
     job.in = v_descend(cycle, l + 1);
-    run_rows(cycle, kernels->prolong, job, level, V_LIGHT);
-    return v_smooth(cycle, level, 1);
+    VJob smooth = {.level = level, .in = level->x, .out = level->r};
+    int nodes = level->layout.nodes, done = 0;
+    for (int first = 0, end; first < nodes; first = end) {
+        end = panel_end(cycle, level, first);
+        run_panel(cycle, kernels->prolong, job, level, first, end, V_LIGHT);
+        int ready = end < nodes ? end - 1 : nodes; /* with the row after */
+        run_panel(cycle, kernels->smooth, smooth, level, done, ready, V_HEAVY);
+        done = ready;
+    }
+    return level->r;
 }
 
 /* Takes s r as b of the finest level, and smooths once. */
@@ -228,16 +268,28 @@ void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
     give(cycle, v_descend(cycle, 0), z);
 }
 
-/* z = B b, d = z + beta d with the beta of b.z, the last one being `last`; 0:
- * there is none. */
-static double aim(VCycle *cycle, double last)
+/* z = B b; returns b.z. */
+static double precondition(VCycle *cycle)
 {
+    cycle->z = v_descend(cycle, 0);
+    return cycle->now = sum_rows(cycle, V_DOT);
+}
+
+/* d = z + beta d, y = H d; returns d.y. */
+static double aim_and_multiply(const VCycle *cycle)
+{
+    const VKernels *kernels = cycle->kernels;
     const VLevel *level = cycle->level;
-    VJob job = {.level = level, .in = v_descend(cycle, 0)};
-    cycle->now = sum_rows(cycle, V_DOT);
-    job.factor = last > 0 ? cycle->now / last : 0;
-    run_rows(cycle, cycle->kernels->aim, job, level, V_LIGHT);
-    return cycle->now;
+    VJob job = {.level = level, .in = cycle->z, .factor = cycle->beta};
+    int nodes = level->layout.nodes, done = 0;
+    for (int first = 0, end; first < nodes; first = end) {
+        end = panel_end(cycle, level, first);
+        run_panel(cycle, kernels->aim, job, level, first, end, V_LIGHT);
+        int ready = end < nodes ? end - 1 : nodes; /* with the row after */
+        run_panel(cycle, kernels->multiply, job, level, done, ready, V_HEAVY);
+        done = ready;
+    }
+    return sum_rows(cycle, V_DOT);
 }
 
 double v_solve_begin(VCycle *cycle, double s, const double *r, double size)
@@ -245,15 +297,15 @@ double v_solve_begin(VCycle *cycle, double s, const double *r, double size)
     const VLevel *level = cycle->level;
     take(cycle, s, r, size);
     memset(level->p, 0, 2 * (size_t)level->layout.plane * cycle->kernels->real);
-    return aim(cycle, 0);
+    cycle->beta = 0;
+    return precondition(cycle);
 }
 
 bool v_solve_step(VCycle *cycle, VRemainder *remainder)
 {
     const VLevel *level = cycle->level;
     VJob job = {.level = level, .judged = remainder != NULL};
-    run_rows(cycle, cycle->kernels->multiply, job, level, V_HEAVY);
-    double bend = sum_rows(cycle, V_DOT);
+    double bend = aim_and_multiply(cycle);
     job.factor = cycle->now / bend;
     if (!(bend > 0) || !isfinite(job.factor))
         return false;
@@ -271,7 +323,10 @@ bool v_solve_step(VCycle *cycle, VRemainder *remainder)
 
 double v_solve_next(VCycle *cycle)
 {
-    return aim(cycle, cycle->now);
+    double last = cycle->now;
+    precondition(cycle);
+    cycle->beta = last > 0 ? cycle->now / last : 0;
+    return cycle->now;
 }
 
 void v_solve_end(const VCycle *cycle, double *p)
