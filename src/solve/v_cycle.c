@@ -153,6 +153,21 @@ static int panel_end(const VCycle *cycle, const VLevel *level, int first)
     return end < level->layout.nodes ? end : level->layout.nodes;
 }
 
+/* Two kernels on all of a level, panel by panel; the second one may read a row
+ * beyond its own of what the first one writes. */
+static void run_both(const VCycle *cycle, const VLevel *level, VKernel *before,
+                     VJob job, VKernel *then, VJob next)
+{
+    int nodes = level->layout.nodes, done = 0;
+    for (int first = 0, end; first < nodes; first = end) {
+        end = panel_end(cycle, level, first);
+        run_panel(cycle, before, job, level, first, end, V_LIGHT);
+        int ready = end < nodes ? end - 1 : nodes;
+        run_panel(cycle, then, next, level, done, ready, V_HEAVY);
+        done = ready;
+    }
+}
+
 /* A power of two near 1/a. */
 static double unit_of(double a)
 {
@@ -228,14 +243,7 @@ static void *v_descend(const VCycle *cycle, int l)
     run_rows(cycle, kernels->descend, job, coarse, 5 * V_HEAVY);
     job.in = v_descend(cycle, l + 1);
     VJob smooth = {.level = level, .in = level->x, .out = level->r};
-    int nodes = level->layout.nodes, done = 0;
-    for (int first = 0, end; first < nodes; first = end) {
-        end = panel_end(cycle, level, first);
-        run_panel(cycle, kernels->prolong, job, level, first, end, V_LIGHT);
-        int ready = end < nodes ? end - 1 : nodes; /* with the row after */
-        run_panel(cycle, kernels->smooth, smooth, level, done, ready, V_HEAVY);
-        done = ready;
-    }
+    run_both(cycle, level, kernels->prolong, job, kernels->smooth, smooth);
     return level->r;
 }
 
@@ -244,11 +252,9 @@ static void take(VCycle *cycle, double s, const double *r, double size)
 {
     const VLevel *level = cycle->level;
     cycle->unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
-    run_rows(cycle, cycle->kernels->take,
-             (VJob){.level = level, .in = r, .factor = s * cycle->unit}, level,
-             V_LIGHT);
-    run_rows(cycle, cycle->kernels->begin, (VJob){.level = level}, level,
-             V_LIGHT);
+    VJob job = {.level = level, .in = r, .factor = s * cycle->unit};
+    run_both(cycle, level, cycle->kernels->take, job, cycle->kernels->begin,
+             job);
 }
 
 /* Gives what has the units of B r. */
@@ -281,14 +287,7 @@ static double aim_and_multiply(const VCycle *cycle)
     const VKernels *kernels = cycle->kernels;
     const VLevel *level = cycle->level;
     VJob job = {.level = level, .in = cycle->z, .factor = cycle->beta};
-    int nodes = level->layout.nodes, done = 0;
-    for (int first = 0, end; first < nodes; first = end) {
-        end = panel_end(cycle, level, first);
-        run_panel(cycle, kernels->aim, job, level, first, end, V_LIGHT);
-        int ready = end < nodes ? end - 1 : nodes; /* with the row after */
-        run_panel(cycle, kernels->multiply, job, level, done, ready, V_HEAVY);
-        done = ready;
-    }
+    run_both(cycle, level, kernels->aim, job, kernels->multiply, job);
     return sum_rows(cycle, V_DOT);
 }
 
