@@ -18,7 +18,7 @@ struct System {
     int nodes;             /* n */
     int springs;           /* 0: no springs */
     int *e;                /* [2 springs] nodes of each spring */
-    double *m;             /* [n] kg, > 0 */
+    double *m;             /* [n] kg, > 0; l2 and k are in the same piece */
     double *l2;            /* [springs] m^2, rest length squared, > 0 */
     double *k;             /* [springs] J/m^2, stiffness, > 0 */
     double gravity[2];     /* m/s^2, acceleration of every node */

@@ -7,17 +7,20 @@
 
 #include "solve/newton.h"
 
+/* f(x), f'(x), f''(x) */
+typedef struct ScalarValues {
+    double value, first, second;
+} ScalarValues;
+
 typedef struct ScalarFunction {
-    double (*value)(const void *data, double x);
-    double (*first)(const void *data, double x);  /* f' */
-    double (*second)(const void *data, double x); /* f'' */
+    ScalarValues (*at)(const void *data, double x);
     const void *data; /* what f depends on beside x, or NULL */
 } ScalarFunction;
 
-/* f, f' and f'' at x. */
-double scalar_value(const ScalarFunction *f, double x);
-double scalar_first(const ScalarFunction *f, double x);
-double scalar_second(const ScalarFunction *f, double x);
+static inline ScalarValues scalar_at(const ScalarFunction *f, double x)
+{
+    return f->at(f->data, x);
+}
 
 typedef struct ScalarNewton {
     ScalarFunction f;

@@ -58,13 +58,12 @@ static void number_slots(const Triplets *triplets, const int *sorted, Sparse *A,
         int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
         if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
             A->row[A->entries++] = row[t];
-            A->start[column[t] + 1] = A->entries;
+            A->start[column[t] + 1]++;
         }
         slot[t] = A->entries - 1;
     }
-    for (int c = 0; c < A->size; c++) /* columns without entries */
-        if (A->start[c + 1] < A->start[c])
-            A->start[c + 1] = A->start[c];
+    for (int c = 0; c < A->size; c++)
+        A->start[c + 1] += A->start[c];
 }
 
 Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)

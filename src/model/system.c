@@ -14,17 +14,14 @@ Status system_create(int nodes, int springs, System *system)
         springs > INT_MAX / SPRING_ENTRIES)
         return STATUS_INVALID_INPUT;
     size_t n = (size_t)nodes, count = (size_t)springs;
-    system->m = calloc(n, sizeof *system->m);
-    if (!system->m)
+    system->m = calloc(n + 2 * count, sizeof *system->m);
+    system->e = calloc(2 * count + 1, sizeof *system->e);
+    if (!system->m || !system->e)
         return STATUS_OUT_OF_MEMORY;
-    if (springs == 0)
-        return STATUS_OK;
-    system->e = calloc(2 * count, sizeof *system->e);
-    system->l2 = calloc(count, sizeof *system->l2);
-    system->k = calloc(count, sizeof *system->k);
-    if (!system->e || !system->l2 || !system->k)
-        return STATUS_OUT_OF_MEMORY;
-    return system_add_term(system, &mass_spring_energy, NULL);
+    system->l2 = system->m + n;
+    system->k = system->l2 + count;
+    return springs > 0 ? system_add_term(system, &mass_spring_energy, NULL)
+                       : STATUS_OK;
 }
 
 Status system_create_pins(System *system)
@@ -45,8 +42,6 @@ void system_free(System *system)
         return;
     free(system->m);
     free(system->e);
-    free(system->l2);
-    free(system->k);
     free(system->pinned);
     free(system->pin_v);
     free(system->order);
@@ -128,11 +123,10 @@ const TermKind *next_energy(Place *at)
 {
     const System *system = at->system;
     const Term *end = system->term + system->terms;
-    at->term = at->term ? at->term + 1 : system->term;
-    while (at->term < end && !at->term->kind->value)
-        at->term++;
-    if (at->term == end)
-        at->term = NULL;
+    const Term *term = at->term ? at->term + 1 : system->term;
+    while (term < end && !term->kind->value)
+        term++;
+    at->term = term < end ? term : NULL;
     if (!at->term)
         return NULL;
     return at->averaged ? at->term->kind->averaged : at->term->kind;
@@ -141,23 +135,19 @@ const TermKind *next_energy(Place *at)
 Status system_check(const System *system, const double *x)
 {
     Place at = place_at(system, x, NULL, x, false);
-    if (!isfinite(system->gravity[0]) || !isfinite(system->gravity[1]))
-        return STATUS_INVALID_INPUT;
-    for (int i = 0; i < system->nodes; i++)
-        if (!is_positive(system->m[i]) || !isfinite(x[2 * i]) ||
-            !isfinite(x[2 * i + 1]))
-            return STATUS_INVALID_INPUT;
-    for (int s = 0; s < system->springs; s++)
-        if (!spring_is_valid(system, s))
-            return STATUS_INVALID_INPUT;
-    for (int t = 0; t < system->terms; t++) {
+    bool valid = all_finite(system->gravity, 2) &&
+                 all_finite(x, 2 * (size_t)system->nodes);
+    for (int i = 0; valid && i < system->nodes; i++)
+        valid = is_positive(system->m[i]);
+    for (int s = 0; valid && s < system->springs; s++)
+        valid = spring_is_valid(system, s);
+    for (int t = 0; valid && t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
         at.term = &system->term[t];
-        if ((kind->valid && !kind->valid(&at)) ||
-            (kind->allowed && !kind->allowed(&at)))
-            return STATUS_INVALID_INPUT;
+        valid = (!kind->valid || kind->valid(&at)) &&
+                (!kind->allowed || kind->allowed(&at));
     }
-    return STATUS_OK;
+    return valid ? STATUS_OK : STATUS_INVALID_INPUT;
 }
 
 bool system_has_gravity(const System *system)

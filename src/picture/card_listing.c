@@ -80,7 +80,7 @@ static const Listing *find_listing(const Simulation *simulation)
 {
     const Listing *row = listings;
     const IntegratorMethod *method = simulation->run[0].method;
-    if (simulation->descent.scalar.f.value)
+    if (simulation->descent.scalar.f.at)
         return &scalar_listing;
     if (!method) /* a minimisation without time */
         return &listings[0];
@@ -150,7 +150,7 @@ static void line_value(char *value, const Simulation *simulation,
 {
     double h = simulation->options.timestep;
     double tolerance = simulation->options.tolerance;
-    bool scalar = simulation->descent.scalar.f.value != NULL;
+    bool scalar = simulation->descent.scalar.f.at != NULL;
     char a[32], b[32];
     value[0] = '\0';
     if (line == LINE_PROJECT)

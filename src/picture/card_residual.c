@@ -112,7 +112,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
 static const char *residual_title(const Show *show)
 {
     bool scalar =
-        show->pane[show->active].simulation->descent.scalar.f.value != NULL;
+        show->pane[show->active].simulation->descent.scalar.f.at != NULL;
     return scalar ? "Residual |{p}|"
                   : "Residual \u2016{p}\u2016_{\u221e}/h, m/s";
 }

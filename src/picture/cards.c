@@ -20,7 +20,7 @@ static double descent_difference(const void *function, double alpha)
     double x = space->from[0] + alpha * space->p[0];
     double y = space->from[1] + alpha * space->p[1];
     double value =
-        f->value ? scalar_value(f, x) : landscape_value(simulation, x, y);
+        f->at ? scalar_at(f, x).value : landscape_value(simulation, x, y);
     return value - space->value;
 }
 
@@ -44,13 +44,13 @@ static const Trace *descent_trace(const Simulation *simulation,
         space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
                            : descent->direction[k];
     }
-    if (f->value)
+    if (f->at)
         space->from[1] = space->p[1] = 0;
     if (space->p[0] == 0 && space->p[1] == 0)
         return trace;
     space->value =
-        f->value ? scalar_value(f, space->from[0])
-                 : landscape_value(simulation, space->from[0], space->from[1]);
+        f->at ? scalar_at(f, space->from[0]).value
+              : landscape_value(simulation, space->from[0], space->from[1]);
     trace->difference = descent_difference;
     trace->function = space;
     trace->slope = made ? record->slope : descent->slope;

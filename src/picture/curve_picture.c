@@ -47,9 +47,9 @@ static ModelUpdate last_update(const Descent *descent)
         if (record->alpha > 0)
             update.p = (record->to[0] - record->from[0]) / record->alpha;
     }
-    update.f = scalar_value(&scalar->f, update.x0);
-    update.first = scalar_first(&scalar->f, update.x0);
-    update.second = scalar_second(&scalar->f, update.x0);
+    update.f = scalar_at(&scalar->f, update.x0).value;
+    update.first = scalar_at(&scalar->f, update.x0).first;
+    update.second = scalar_at(&scalar->f, update.x0).second;
     return update;
 }
 
@@ -68,7 +68,7 @@ static void draw_function(Paper *paper, const Plot *plot,
     double x[CURVE_POINTS + 1], y[CURVE_POINTS + 1], low = plot->x.low;
     for (int i = 0; i <= CURVE_POINTS; i++) {
         x[i] = low + (plot->x.high - low) * i / CURVE_POINTS;
-        y[i] = model ? model_value(model, x[i]) : scalar_value(f, x[i]);
+        y[i] = model ? model_value(model, x[i]) : scalar_at(f, x[i]).value;
     }
     plot_curve(paper, plot, CURVE_POINTS + 1, x, y, width, colour);
 }
@@ -80,7 +80,7 @@ static void draw_model_minimum(Paper *paper, const Plot *plot,
 {
     double x1 = model->x0 + model->p, at[2];
     const double low[2] = {x1, model_value(model, x1)};
-    const double high[2] = {x1, scalar_value(f, x1)};
+    const double high[2] = {x1, scalar_at(f, x1).value};
     bool right = x1 > plot->x.high;
     char number[48];
     if (plot_disc(paper, plot, low, 6, COLOUR_P))
@@ -103,7 +103,7 @@ static void draw_refused(Paper *paper, const Plot *plot,
     double alpha = 1;
     for (int i = 0; i < update->refused; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * update->p;
-        const double at[2] = {x, scalar_value(f, x)};
+        const double at[2] = {x, scalar_at(f, x).value};
         if (plot_disc(paper, plot, at, 5, COLOUR_WARNING))
             plot_disc(paper, plot, at, 3.2, COLOUR_WHITE);
     }
@@ -133,7 +133,7 @@ static void draw_iterates(Paper *paper, const Plot *plot,
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = last ? descent->scalar.x : descent->record[i].from[0];
-        const double point[2] = {x, scalar_value(&descent->scalar.f, x)};
+        const double point[2] = {x, scalar_at(&descent->scalar.f, x).value};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         double at[2];
         plot_place(plot, point[0], point[1], at);

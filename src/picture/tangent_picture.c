@@ -37,9 +37,9 @@ static TangentUpdate tangent_update(const Descent *descent)
         update.x0 = descent->record[last].from[0];
         update.made = true;
     }
-    update.E = scalar_value(f, update.x0);
-    update.g = scalar_first(f, update.x0);
-    update.slope = scalar_second(f, update.x0);
+    update.E = scalar_at(f, update.x0).value;
+    update.g = scalar_at(f, update.x0).first;
+    update.slope = scalar_at(f, update.x0).second;
     update.x1 = update.x0 - update.g / update.slope;
     return update;
 }
@@ -53,8 +53,8 @@ static void tangent_range(const Descent *descent, double *g, double *E)
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = last ? descent->scalar.x : descent->record[i].from[0];
-        *g = fmax(*g, fabs(scalar_first(f, x)));
-        *E = fmax(*E, scalar_value(f, x));
+        *g = fmax(*g, fabs(scalar_at(f, x).first));
+        *E = fmax(*E, scalar_at(f, x).value);
     }
     *g = plot_round_axis(fmin(*g, 1e12));
     *E = plot_round_axis(fmin(*E, 1e12));
@@ -99,9 +99,9 @@ static void tangent_curve(Paper *paper, const Plot *plot,
             plot->x.low + (plot->x.high - plot->x.low) * i / TANGENT_POINTS;
         double d = x - update->x0;
         const double to[2] = {
-            x, which == 0 ? scalar_first(f, x)
+            x, which == 0 ? scalar_at(f, x).first
                : which == 1
-                   ? scalar_value(f, x)
+                   ? scalar_at(f, x).value
                    : update->E + d * (update->g + 0.5 * d * update->slope)};
         if (i > 0)
             plot_line(paper, plot, from, to, width, colour);
@@ -133,8 +133,8 @@ static void tangent_iterates(Paper *paper, const Plot plot[2],
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = last ? descent->scalar.x : descent->record[i].from[0];
-        const double g[2] = {x, scalar_first(f, x)};
-        const double E[2] = {x, scalar_value(f, x)};
+        const double g[2] = {x, scalar_at(f, x).first};
+        const double E[2] = {x, scalar_at(f, x).value};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         double at[2];
         bool inside = plot_disc(paper, &plot[0], g, last ? 7 : 5, colour);
@@ -257,7 +257,7 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
               update.x1 - update.x0);
     lines_add(&lines, COLOUR_X, "x^{%d} = %.8g", number + 1, update.x1);
     lines_add(&lines, COLOUR_TEXT, "E: %.8g \u2192 %.8g", update.E,
-              scalar_value(&simulation->descent.scalar.f, update.x1));
+              scalar_at(&simulation->descent.scalar.f, update.x1).value);
     if (update.slope <= 0)
         lines_add(&lines, COLOUR_WARNING,
                   "E\u2033 < 0: the parabola has a highest point");

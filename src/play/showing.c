@@ -113,7 +113,7 @@ static void value_text(const Number *number, const Options *options,
     char value[COMMAND_TEXT_SIZE];
     const char *unit = number->unit;
     if (strcmp(number->option, "tolerance") == 0 &&
-        simulation->descent.scalar.f.value)
+        simulation->descent.scalar.f.at)
         unit = NULL; /* of a function of a number */
     number_value(number, options, value);
     if (strcmp(number->option, "integrator") == 0)

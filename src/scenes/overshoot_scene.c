@@ -2,29 +2,18 @@
 
 #include <math.h>
 
-/* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow */
-static double log_two_cosh(const void *unused, double x)
-{
-    (void)unused;
-    return fabs(x) + log1p(exp(-2 * fabs(x)));
-}
-
-static double tanh_of(const void *unused, double x)
-{
-    (void)unused;
-    return tanh(x);
-}
-
-/* tanh' = 1/cosh^2 */
-static double inverse_cosh_squared(const void *unused, double x)
+/* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow; its
+ * derivatives are tanh and 1/cosh^2. */
+static ScalarValues log_two_cosh(const void *unused, double x)
 {
     (void)unused;
     double c = cosh(x);
-    return 1 / (c * c);
+    return (ScalarValues){.value = fabs(x) + log1p(exp(-2 * fabs(x))),
+                          .first = tanh(x),
+                          .second = 1 / (c * c)};
 }
 
-const ScalarFunction overshoot_function = {log_two_cosh, tanh_of,
-                                           inverse_cosh_squared, NULL};
+const ScalarFunction overshoot_function = {log_two_cosh, NULL};
 
 void overshoot_defaults(Options *options)
 {
@@ -39,12 +28,12 @@ static void show_iterate(Simulation *simulation)
     Descent *descent = &simulation->descent;
     double x = descent->scalar.x, p = descent->scalar.p;
     bool ends = simulation->done || !isfinite(p);
-    descent->value = scalar_value(&descent->scalar.f, x);
+    ScalarValues f = scalar_at(&descent->scalar.f, x);
+    descent->value = f.value;
     descent->point[0] = simulation->run[0].x[0] = x;
     descent->point[1] = simulation->run[0].x[1] = descent->value;
     descent->direction[0] = ends ? 0 : p;
-    descent->slope =
-        scalar_first(&descent->scalar.f, x) * descent->direction[0];
+    descent->slope = f.first * descent->direction[0];
 }
 
 void scalar_scene_restart(Simulation *simulation, double x)

@@ -89,7 +89,7 @@ int simulation_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
     bool single = simulation->system.nodes == 1 || simulation->scene->aim;
-    bool scalar = simulation->descent.scalar.f.value;
+    bool scalar = simulation->descent.scalar.f.at;
     if (!single || !run->x)
         return 0;
     at[0] = run->x[0];
@@ -488,8 +488,7 @@ bool simulation_has_filter(const Simulation *simulation)
 /* Newton with springs, or in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
-    return simulation_has_filter(simulation) ||
-           simulation->descent.scalar.f.value;
+    return simulation_has_filter(simulation) || simulation->descent.scalar.f.at;
 }
 
 bool simulation_projects_springs(const Simulation *simulation)

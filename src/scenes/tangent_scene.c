@@ -9,26 +9,15 @@ static const double TANGENT_STIFFNESS = 10; /* J/m^2 */
 static const double TANGENT_LENGTH = 1;     /* m, at rest */
 static const double TANGENT_TARGET = 2;     /* m, x_tilde */
 
-static double line_value(const void *data, double x)
+static ScalarValues line_energy(const void *data, double x)
 {
     const LineEnergy *line = data;
-    double d = x - line->target, s = x * x / line->l2 - 1;
-    return 0.5 * line->m * d * d +
-           line->h * line->h * line->l2 * 0.5 * line->k * s * s;
-}
-
-static double line_gradient(const void *data, double x)
-{
-    const LineEnergy *line = data;
-    return line->m * (x - line->target) +
-           2 * line->h * line->h * line->k * x * (x * x / line->l2 - 1);
-}
-
-static double line_hessian(const void *data, double x)
-{
-    const LineEnergy *line = data;
-    return line->m +
-           2 * line->h * line->h * line->k * (3 * x * x / line->l2 - 1);
+    double m = line->m, l2 = line->l2, k = line->k, h = line->h;
+    double d = x - line->target, s = x * x / l2 - 1;
+    return (ScalarValues){.value =
+                              0.5 * m * d * d + h * h * l2 * 0.5 * k * s * s,
+                          .first = m * d + 2 * h * h * k * x * s,
+                          .second = m + 2 * h * h * k * (3 * x * x / l2 - 1)};
 }
 
 void tangent_defaults(Options *options)
@@ -47,7 +36,7 @@ Status create_tangent(Simulation *simulation, const NewtonSettings *settings)
                          .l2 = TANGENT_LENGTH * TANGENT_LENGTH,
                          .h = simulation->options.timestep,
                          .target = TANGENT_TARGET};
-    const ScalarFunction E = {line_value, line_gradient, line_hessian, line};
+    const ScalarFunction E = {line_energy, line};
     return scalar_scene_create(simulation, settings, &E);
 }
 

@@ -14,33 +14,28 @@ static Place place_of(const IncrementalPotential *E, const double *u,
     return at;
 }
 
-/* Inertia plus w times the sum of the terms' energies, or of their sizes. */
-static double sum_of(const IncrementalPotential *E, const double *u,
-                     const double *x, bool sizes)
-{
-    Place at = place_of(E, u, x);
-    double sum = 0;
-    for (const TermKind *kind; (kind = next_energy(&at));) {
-        double P = kind->value(&at);
-        sum += sizes ? fabs(P) : P;
-    }
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * sum;
-}
-
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    return sum_of(E, u, x, false);
+    Place at = place_of(E, u, x);
+    double P = 0;
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        P += kind->value(&at);
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * P;
 }
 
 /* Terms as they are, not averaged: an averaged energy is 0 for u = 0. */
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    IncrementalPotential plain = *E;
-    plain.averaged = false;
-    return sum_of(&plain, u, x, true);
+    Place at = place_of(E, u, x);
+    double P = 0;
+    at.averaged = false;
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        P += fabs(kind->value(&at));
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * P;
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,
@@ -71,22 +66,19 @@ static Status create_triplets(const System *system, Triplets *triplets)
     return status;
 }
 
-/* Slots of the terms' entries in rows or columns of pinned nodes. */
-static Status drop_pinned(const System *system, const Triplets *triplets,
-                          const Sparse *A, int *slot)
+/* Slots of the terms' entries in rows or columns of pinned nodes.  A column
+ * begins with its diagonal, which is 1 here, for a while, where it is pinned.
+ */
+static void drop_pinned(const System *system, const Triplets *triplets,
+                        const Sparse *A, int *slot)
 {
-    if (!system->pinned)
-        return STATUS_OK;
-    bool *pinned = calloc((size_t)system->nodes, sizeof *pinned);
-    if (!pinned)
-        return STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < system->nodes; i++)
-        pinned[system->order ? system->order[i] : i] = system->pinned[i];
-    for (int t = 2 * system->nodes; t < triplets->count; t++)
-        if (pinned[triplets->row[t] / 2] || pinned[triplets->column[t] / 2])
+    int masses = 2 * system->nodes;
+    for (int t = 0; system->pinned && t < masses; t++)
+        A->value[slot[t]] = system->pinned[t / 2];
+    for (int t = masses; system->pinned && t < triplets->count; t++)
+        if (A->value[A->start[triplets->row[t]]] != 0 ||
+            A->value[A->start[triplets->column[t]]] != 0)
             slot[t] = A->entries;
-    free(pinned);
-    return STATUS_OK;
 }
 
 Status incremental_potential_pattern(const System *system, Sparse *A,
@@ -102,7 +94,7 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
             *slot ? sparse_create(&triplets, A, *slot) : STATUS_OUT_OF_MEMORY;
     }
     if (!status)
-        status = drop_pinned(system, &triplets, A, *slot);
+        drop_pinned(system, &triplets, A, *slot);
     triplets_free(&triplets);
     return status;
 }

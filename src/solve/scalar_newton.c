@@ -2,26 +2,11 @@
 
 #include <math.h>
 
-double scalar_value(const ScalarFunction *f, double x)
-{
-    return f->value(f->data, x);
-}
-
-double scalar_first(const ScalarFunction *f, double x)
-{
-    return f->first(f->data, x);
-}
-
-double scalar_second(const ScalarFunction *f, double x)
-{
-    return f->second(f->data, x);
-}
-
 /* p = -f'(x)/f''(x), and the test */
 Status scalar_newton_start(ScalarNewton *newton)
 {
-    newton->p = -scalar_first(&newton->f, newton->x) /
-                scalar_second(&newton->f, newton->x);
+    ScalarValues f = scalar_at(&newton->f, newton->x);
+    newton->p = -f.first / f.second;
     newton->status = STATUS_RUNNING;
     if (!isfinite(newton->p))
         newton->status = STATUS_DIVERGED;
@@ -34,22 +19,23 @@ Status scalar_newton_start(ScalarNewton *newton)
 static double scalar_difference(const void *function, double alpha)
 {
     const ScalarNewton *newton = function;
-    return scalar_value(&newton->f, newton->x + alpha * newton->p) -
-           scalar_value(&newton->f, newton->x);
+    return scalar_at(&newton->f, newton->x + alpha * newton->p).value -
+           scalar_at(&newton->f, newton->x).value;
 }
 
 Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
 {
     if (newton->status != STATUS_RUNNING)
         return newton->status;
+    ScalarValues f = scalar_at(&newton->f, newton->x);
     *record = (NewtonRecord){
         .step = newton->iterations + 1,
         .iteration = newton->iterations,
         .residual = fabs(newton->p),
         .alpha = 1,
-        .slope = scalar_first(&newton->f, newton->x) * newton->p,
+        .slope = f.first * newton->p,
         .factorised = true,
-        .from = {newton->x, scalar_value(&newton->f, newton->x)},
+        .from = {newton->x, f.value},
     };
     Status status = STATUS_OK;
     if (newton->search == LINE_SEARCH_BACKTRACK)
@@ -65,7 +51,7 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
         scalar_newton_start(newton);
     }
     record->to[0] = newton->x;
-    record->to[1] = scalar_value(&newton->f, newton->x);
+    record->to[1] = scalar_at(&newton->f, newton->x).value;
     record->status = newton->status;
     return newton->status;
 }

@@ -62,22 +62,29 @@ static Status verlet_step(TimeIntegrator *integrator)
 /* ---- implicit methods: min |u - u_tilde|_M^2 / 2 + w P(x_n + u), u = x - x_n,
  * each with its own target, weight and velocity. */
 
+/* Minimises with u_tilde = h v: as far as v leads in the time h. */
+static Status minimise_ahead(TimeIntegrator *integrator, const double *x_n,
+                             double h, const double *v, double weight)
+{
+    for (size_t i = 0; i < integrator->size; i++)
+        integrator->newton->u_tilde[i] = h * v[i];
+    return time_integrator_minimise(integrator, x_n, weight);
+}
+
 /* The implicit Euler step of the slides (Algorithm 3): u_tilde = h v_n,
  * w = h^2, v_(n+1) = u/h.  Order 1; damps, never gains:
  * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0). */
 static Status backward_euler_step(TimeIntegrator *integrator)
 {
-    Newton *newton = integrator->newton;
+    const Iterate *end = &integrator->newton->at;
     double h = integrator->h;
-    for (size_t i = 0; i < integrator->size; i++)
-        newton->u_tilde[i] = h * integrator->v[i];
-    Status status = time_integrator_minimise(integrator, integrator->x, h * h);
-    if (status)
-        return status;
-    memcpy(integrator->new_x, newton->at.x, integrator->size * sizeof(double));
-    for (size_t i = 0; i < integrator->size; i++)
-        integrator->new_v[i] = newton->at.u[i] / h;
-    return STATUS_OK;
+    Status status =
+        minimise_ahead(integrator, integrator->x, h, integrator->v, h * h);
+    for (size_t i = 0; !status && i < integrator->size; i++) {
+        integrator->new_x[i] = end->x[i];
+        integrator->new_v[i] = end->u[i] / h;
+    }
+    return status;
 }
 
 /* BDF2 (Gear 1971): (3 x_(n+1) - 4 x_n + x_(n-1)) / (2h) = v_(n+1), the same
@@ -89,21 +96,17 @@ static Status bdf2_step(TimeIntegrator *integrator)
     Newton *newton = integrator->newton;
     double h = integrator->h, *v = integrator->v;
     double *du = integrator->memory, *v_old = du + integrator->size;
-    if (!integrator->remembers) {
-        Status status = backward_euler_step(integrator);
-        if (status)
-            return status;
-    } else {
-        for (size_t i = 0; i < integrator->size; i++)
-            newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
-        Status status =
-            time_integrator_minimise(integrator, integrator->x, 4 * h * h / 9);
-        if (status)
-            return status;
-        for (size_t i = 0; i < integrator->size; i++) {
-            integrator->new_x[i] = newton->at.x[i];
-            integrator->new_v[i] = (3 * newton->at.u[i] - du[i]) / (2 * h);
-        }
+    bool first = !integrator->remembers;
+    for (size_t i = 0; !first && i < integrator->size; i++)
+        newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
+    Status status = first ? backward_euler_step(integrator)
+                          : time_integrator_minimise(integrator, integrator->x,
+                                                     4 * h * h / 9);
+    if (status)
+        return status;
+    for (size_t i = 0; !first && i < integrator->size; i++) {
+        integrator->new_x[i] = newton->at.x[i];
+        integrator->new_v[i] = (3 * newton->at.u[i] - du[i]) / (2 * h);
     }
     memcpy(du, newton->at.u, integrator->size * sizeof *du);
     memcpy(v_old, v, integrator->size * sizeof *v_old);
@@ -116,19 +119,15 @@ static Status bdf2_step(TimeIntegrator *integrator)
  * Order 2; conserves quadratic invariants, damps nothing. */
 static Status midpoint_step(TimeIntegrator *integrator)
 {
-    Newton *newton = integrator->newton;
+    const double *u = integrator->newton->at.u;
+    const double *x = integrator->x, *v = integrator->v;
     double h = integrator->h;
-    for (size_t i = 0; i < integrator->size; i++)
-        newton->u_tilde[i] = 0.5 * h * integrator->v[i];
-    Status status =
-        time_integrator_minimise(integrator, integrator->x, 0.25 * h * h);
-    if (status)
-        return status;
-    for (size_t i = 0; i < integrator->size; i++) {
-        integrator->new_x[i] = integrator->x[i] + 2 * newton->at.u[i];
-        integrator->new_v[i] = 4 * newton->at.u[i] / h - integrator->v[i];
+    Status status = minimise_ahead(integrator, x, 0.5 * h, v, 0.25 * h * h);
+    for (size_t i = 0; !status && i < integrator->size; i++) {
+        integrator->new_x[i] = x[i] + 2 * u[i];
+        integrator->new_v[i] = 4 * u[i] / h - v[i];
     }
-    return STATUS_OK;
+    return status;
 }
 
 /* Two stages of a diagonally implicit Runge-Kutta method, L-stable (Alexander
@@ -141,27 +140,21 @@ static Status sdirk2_step(TimeIntegrator *integrator)
     const double g = 0.29289321881345248; /* 1 - 1/sqrt(2) */
     Newton *newton = integrator->newton;
     double h = integrator->h, gh = g * h, rest = (1 - g) * h;
-    const double *v = integrator->v;
+    const double *x = integrator->x, *v = integrator->v;
     double *s = integrator->new_v;
-    for (size_t i = 0; i < integrator->size; i++)
-        newton->u_tilde[i] = gh * v[i];
-    Status status =
-        time_integrator_minimise(integrator, integrator->x, gh * gh);
-    if (status)
-        return status;
-    for (size_t i = 0; i < integrator->size; i++) {
+    Status status = minimise_ahead(integrator, x, gh, v, gh * gh);
+    for (size_t i = 0; !status && i < integrator->size; i++) {
         s[i] = newton->at.u[i] / gh;
         double a = (s[i] - v[i]) / gh;
         newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
     }
-    status = time_integrator_minimise(integrator, integrator->x, gh * gh);
-    if (status)
-        return status;
-    for (size_t i = 0; i < integrator->size; i++) {
+    if (!status)
+        status = time_integrator_minimise(integrator, x, gh * gh);
+    for (size_t i = 0; !status && i < integrator->size; i++) {
         integrator->new_x[i] = newton->at.x[i];
         integrator->new_v[i] = (newton->at.u[i] - rest * s[i]) / gh;
     }
-    return STATUS_OK;
+    return status;
 }
 
 /* ---- average vector field: conserves energy exactly; what Newton's tolerance
@@ -173,23 +166,20 @@ static Status sdirk2_step(TimeIntegrator *integrator)
 static Status avf_compose(TimeIntegrator *integrator, const double *share,
                           int count)
 {
-    Newton *newton = integrator->newton;
+    const double *u = integrator->newton->at.u;
     double *x = integrator->new_x, *v = integrator->new_v;
+    Status status = STATUS_OK;
     memcpy(x, integrator->x, integrator->size * sizeof *x);
     memcpy(v, integrator->v, integrator->size * sizeof *v);
-    for (int part = 0; part < count; part++) {
+    for (int part = 0; part < count && !status; part++) {
         double h = share[part] * integrator->h;
-        for (size_t i = 0; i < integrator->size; i++)
-            newton->u_tilde[i] = h * v[i];
-        Status status = time_integrator_minimise(integrator, x, 0.5 * h * h);
-        if (status)
-            return status;
-        for (size_t i = 0; i < integrator->size; i++) {
-            x[i] += newton->at.u[i];
-            v[i] = 2 * newton->at.u[i] / h - v[i];
+        status = minimise_ahead(integrator, x, h, v, 0.5 * h * h);
+        for (size_t i = 0; i < integrator->size && !status; i++) {
+            x[i] += u[i];
+            v[i] = 2 * u[i] / h - v[i];
         }
     }
-    return STATUS_OK;
+    return status;
 }
 
 /* Order 2. */

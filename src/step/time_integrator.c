@@ -66,18 +66,6 @@ void time_integrator_free(TimeIntegrator *integrator)
     *integrator = (TimeIntegrator){0};
 }
 
-/* x = new_x, v = new_v, unless one is not finite. */
-static Status accept(TimeIntegrator *integrator)
-{
-    size_t both = 2 * integrator->size;
-    if (!all_finite(integrator->new_x, both)) { /* new_v is behind it */
-        integrator->remembers = false;
-        return STATUS_NOT_FINITE;
-    }
-    memcpy(integrator->x, integrator->new_x, both * sizeof(double));
-    return STATUS_OK;
-}
-
 /* Begin or end of all terms, before a step and after it. */
 static void change_terms(TimeIntegrator *integrator, bool at_end)
 {
@@ -96,14 +84,18 @@ static void change_terms(TimeIntegrator *integrator, bool at_end)
 
 Status time_integrator_step(TimeIntegrator *integrator)
 {
+    size_t both = 2 * integrator->size; /* v is behind x, new_v behind new_x */
     integrator->status = STATUS_OK;
     integrator->moves = prescribed_begin(integrator);
     change_terms(integrator, false);
     Status failure = integrator->method->step(integrator);
-    if (!failure)
-        failure = accept(integrator);
+    if (!failure && !all_finite(integrator->new_x, both)) {
+        integrator->remembers = false;
+        failure = STATUS_NOT_FINITE;
+    }
     if (failure)
         return integrator->status = failure;
+    memcpy(integrator->x, integrator->new_x, both * sizeof(double));
     integrator->steps++;
     integrator->clock += integrator->h;
     if (integrator->moves)
@@ -134,10 +126,9 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
 /* Verlet remembers the acceleration; the others' memory is of motion alone. */
 void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
 {
-    if (!integrator->newton)
-        ;
-    else if (rebuild)
-        newton_rebuild(integrator->newton);
-    else
-        newton_forget(integrator->newton);
+    Newton *newton = integrator->newton;
+    if (newton && rebuild)
+        newton_rebuild(newton);
+    if (newton && !rebuild)
+        newton_forget(newton);
 }

@@ -119,9 +119,9 @@ static void tangent_derivatives_are_right(void **unused)
     for (double x = -2; x <= 2.5; x += 0.125) {
         long double by_E = (line_E(line, x + e) - line_E(line, x - e)) / 2 / e;
         long double by_g = (line_g(line, x + e) - line_g(line, x - e)) / 2 / e;
-        CHECK_NEAR(scalar_value(f, x), line_E(line, x), 1e-13);
-        CHECK_NEAR(scalar_first(f, x), by_E, 2e-9);
-        CHECK_NEAR(scalar_second(f, x), by_g, 2e-9);
+        CHECK_NEAR(scalar_at(f, x).value, line_E(line, x), 1e-13);
+        CHECK_NEAR(scalar_at(f, x).first, by_E, 2e-9);
+        CHECK_NEAR(scalar_at(f, x).second, by_g, 2e-9);
     }
     simulation_free(&simulation);
 }
@@ -135,7 +135,7 @@ static void tangent_follows_tangents(void **unused)
     const LineEnergy *line = &simulation.exhibit.line;
     while (!simulation.done) {
         double x = simulation.descent.point[0];
-        double slope = scalar_second(&simulation.descent.scalar.f, x);
+        double slope = scalar_at(&simulation.descent.scalar.f, x).second;
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         long double zero = x - line_g(line, x) / slope;
         CHECK_NEAR(simulation.descent.point[0], zero, 1e-14);
