@@ -132,11 +132,12 @@ $(CONFIG): Makefile
 	ttf || missing="$$missing libsdl2-ttf-dev"; \
 	font || missing="$$missing fonts-dejavu-core"; \
 	png || missing="$$missing libpng-dev"; \
-	cholmod_flags >/dev/null || \
+	cholmod=$$(cholmod_flags) || \
 	  missing="$$missing libsuitesparse-dev libopenblas0"; \
-	if [ "$$missing" ]; then install_packages "$$missing" || exit 1; fi; \
-	sdl && ttf && png && cholmod=$$(cholmod_flags) || \
-	  { cat build/try.log; exit 1; }; \
+	if [ "$$missing" ]; then \
+	  install_packages "$$missing" || exit 1; \
+	  sdl && ttf && png && cholmod=$$(cholmod_flags) || \
+	    { cat build/try.log; exit 1; }; fi; \
 	flags="$$(blas) $$cholmod $$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
 	flags="$$flags $$(pc SDL2_ttf -lSDL2_ttf) $$(pc libpng -lpng)"; \
 	c=; l=; for f in $$flags; do \
@@ -147,8 +148,8 @@ $(CONFIG): Makefile
 
 build/config-test.mk: $(CONFIG)
 	@$(deps_functions); \
-	cmocka || install_packages libcmocka-dev || exit 1; \
-	cmocka || { cat build/try.log; exit 1; }; \
+	cmocka || { install_packages libcmocka-dev || exit 1; \
+	  cmocka || { cat build/try.log; exit 1; }; }; \
 	echo "TEST_LIBS := $$(pc cmocka -lcmocka)" >$@.new; \
 	rm -f build/try build/try.log; mv $@.new $@
 
@@ -249,8 +250,9 @@ figures:
 	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
 
 # ---- tests -----------------------------------------------------------------
-# The tests' own sources are compiled sooner: their speed matters little.
-$(B)/tests/%.o: private CFLAGS := $(CFLAGS:-O2=-O1)
+# The tests' own sources are compiled sooner: their speed matters little, and
+# what a debugger knows of them are their lines.
+$(B)/tests/%.o: private CFLAGS := $(patsubst -g,-g1,$(CFLAGS:-O2=-O1))
 
 $(B)/tests/%.o: tests/%.c $(B)/flags
 	$(call say,CC,$<)

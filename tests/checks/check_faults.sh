@@ -249,7 +249,7 @@ kills() {
     done
     [ $((2 * caught)) -ge "$1" ] || echo "only $caught of $1 had written"
 }
-rounds=6
+rounds=4
 [ -z "$long" ] || rounds=50
 [ -z "$all" ] || rounds=500
 verdict kills_leave_no_half_file "$rounds" "$(kills "$rounds" 2>/dev/null)"
@@ -321,8 +321,12 @@ fi
 
 # ---- command lines ----------------------------------------------------------
 lines=0
+given=0
 : >reasons
+# One of three; LONG: all.
 bad_line() { # words: each must be in the one line; then -- arguments...
+    given=$((given + 1))
+    [ "$long" ] || [ $((given % 3)) = 0 ] || return 0
     words=
     while [ "$1" != -- ]; do
         words="$words$1

@@ -158,7 +158,7 @@ closes() {
     "$lecture" states=seen >out 2>err &
     pid=$!
     until_true find_window || echo 'no window'
-    sleep 1.3
+    sleep 0.5
     window=$(xdotool search --name '^lecture$' | tail -n 1)
     "$@" "$window" || echo "$1 failed"
     until_true has_ended "$pid" || {
