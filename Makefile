@@ -196,7 +196,7 @@ $(B)/%.o: src/%.c $(B)/flags
 
 # ---- the lecture's listings -------------------------------------------------
 # The text of these sources is compiled into the program as a table of lines.
-LISTED = src/lecture.c src/solve/scalar_newton.c src/scenes/circle_scene.c \
+LISTED = src/lecture.c src/scenes/scalar_newton.c src/scenes/circle_scene.c \
          src/scenes/dial_scene.c src/scenes/race_scene.c \
          src/scenes/envelope_scene.c src/model/contact.c \
          src/model/friction.c src/model/plasticity.c src/model/fracture.c

@@ -7,7 +7,7 @@
 #define ELASTO_SIMULATION_H
 
 #include "scenes/options.h"
-#include "solve/scalar_newton.h"
+#include "scenes/scalar_newton.h"
 #include "model/square_mesh.h"
 
 #include "scenes/exhibit.h"

@@ -167,7 +167,7 @@ const LecturePage lecture_pages[] = {
              "update doubles the number of correct digits.",
      .touch = "Drag the start or x̃. Click where the next iterate will be, "
               "then press N.",
-     .file = "src/solve/scalar_newton.c",
+     .file = "src/scenes/scalar_newton.c",
      .function = "scalar_newton_start",
      .lit = "newton->p =",
      .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
@@ -203,7 +203,7 @@ const LecturePage lecture_pages[] = {
              "and the next one beyond 3·10⁹.",
      .touch = "Drag the start: below 1.0886 it converges, above it flies away. "
               "L turns the line search on.",
-     .file = "src/solve/scalar_newton.c",
+     .file = "src/scenes/scalar_newton.c",
      .function = "scalar_newton_iterate",
      .lit = "newton->x +=",
      .claim = "From 2 the first update leads to −11.645 and the next beyond "

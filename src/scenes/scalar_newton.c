@@ -1,4 +1,4 @@
-#include "solve/scalar_newton.h"
+#include "scenes/scalar_newton.h"
 
 #include <math.h>
 
@@ -42,7 +42,6 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
         status = line_search_backtrack(scalar_difference, newton,
                                        &record->alpha, &record->trials);
     if (status) {
-        record->alpha = 0;
         newton->status = record->slope > 0 ? STATUS_NOT_DESCENT : status;
     } else {
         record->change = scalar_difference(newton, record->alpha);

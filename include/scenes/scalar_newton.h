@@ -1,6 +1,6 @@
 /* scalar_newton.h - Newton's method in one variable (slides: Algorithm 1),
  * with Algorithm 2 if wanted: p = -f'(x)/f''(x), x += alpha p until
- * |p| <= tolerance.
+ * |p| <= tolerance.  Some scenes show nothing else.
  */
 #ifndef ELASTO_SCALAR_NEWTON_H
 #define ELASTO_SCALAR_NEWTON_H
