@@ -1,11 +1,10 @@
 /* system.h - what is simulated: masses, springs, gravity, pins, and the list
  * of energy terms.
  *
- * Its potential is P(x) = sum of the terms in its list (term.h); one that a
- * scene lacks costs nothing.  Gravity is none of them: an implicit step takes
- * it into its target u_tilde, an explicit one adds it to the acceleration, and
- * so free fall is exact in both.  Arrays change only between steps, in a term's
- * begin and end.
+ * Its potential is P(x) = sum of the terms in its list (term.h).  Gravity is
+ * none of them: an implicit step takes it into its target u_tilde, an explicit
+ * one adds it to the acceleration, and so free fall is exact in both.  Arrays
+ * change only between steps, in a term's begin and end.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H

@@ -32,9 +32,9 @@ typedef struct Place {
                              system, or what damping makes of them */
 } Place;
 
-/* No term yet; w = 1. */
+/* No term yet; w = 1, not averaged. */
 Place place_at(const System *system, const double *x_n, const double *u,
-               const double *x, bool averaged);
+               const double *x);
 
 /* Goes on to the next term with an energy, after NULL the first one, and
  * returns the functions that stand for it; after the last one NULL. */

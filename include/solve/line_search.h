@@ -1,10 +1,9 @@
 /* line_search.h - step length along a search direction (slide: Algorithm 2,
  * backtracking line search).
  *
- * The slides halve alpha while E(x + alpha p) > E(x).  Here the difference
- * q(alpha) = E(x + alpha p) - E(x) is asked for, which for this energy is a
- * polynomial of degree 4 without constant term: exact, O(1) a trial, and no
- * rounding of two large energies that hides a small decrease.
+ * The slides halve alpha while E(x + alpha p) > E(x).  Here the difference of
+ * the two is asked for, so that no rounding of large energies hides a small
+ * decrease (incremental_potential_along).
  */
 #ifndef ELASTO_LINE_SEARCH_H
 #define ELASTO_LINE_SEARCH_H
@@ -17,18 +16,16 @@ typedef enum LineSearch {
     LINE_SEARCH_COUNT
 } LineSearch;
 
-/* The energy difference along the direction, as line_search calls it. */
+/* E(x + alpha p) - E(x); NaN counts as "not lower". */
 typedef double (*EnergyDifference)(const void *function, double alpha);
 
 /* Halvings after which alpha is below 2^-64: then no step lowers E. */
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
 
 /* Algorithm 2: while E(x + alpha p) > E(x), alpha = alpha/2.
- *   difference  E(x + alpha p) - E(x), called with function and alpha; NaN
- *               counts as "not lower"
- *   alpha       in: where to start, 1 or what contact leaves of it; out: that,
- *               1/2, 1/4, ... of it; 0 after a failure
- *   trials      out, energies looked at
+ *   alpha   in: where to start, 1 or what contact leaves of it; out: that,
+ *           1/2, 1/4, ... of it; 0 after a failure
+ *   trials  out, energies looked at
  * Returns OK, LINE_SEARCH_LIMIT. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials);

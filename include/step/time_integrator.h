@@ -1,10 +1,9 @@
 /* time_integrator.h - one step forward in time (slide time_integrator.py).
  *
- * One table: name, order, step function (methods.c).  A step function reads x
- * and v, those of t_n, and fills new_x and new_v, those of t_n + h, which
- * become x and v unless it fails or one of them is not finite.  Those of
- * implicit methods fill u_tilde and call time_integrator_minimise, those of
- * explicit ones never touch Newton.
+ * A method's step function (methods.c) reads x and v, those of t_n, and fills
+ * new_x and new_v, those of t_n + h, which become x and v unless it fails or
+ * one of them is not finite.  Implicit ones fill u_tilde and call
+ * time_integrator_minimise.
  */
 #ifndef ELASTO_TIME_INTEGRATOR_H
 #define ELASTO_TIME_INTEGRATOR_H

@@ -16,8 +16,7 @@ static bool valid(const Place *at)
 {
     const Pull *pull = at->term->data;
     return pull->node < at->system->nodes && pull->k >= 0 &&
-           isfinite(pull->k) && isfinite(pull->target[0]) &&
-           isfinite(pull->target[1]);
+           isfinite(pull->k) && all_finite(pull->target, 2);
 }
 
 /* c/2 |x - o|^2.  Averaged along the way from x_n the gradient is the one half

@@ -105,7 +105,7 @@ static bool spring_is_valid(const System *system, int s)
 }
 
 Place place_at(const System *system, const double *x_n, const double *u,
-               const double *x, bool averaged)
+               const double *x)
 {
     const Damping *damping = u ? damping_of(system) : NULL;
     return (Place){.system = system,
@@ -113,7 +113,6 @@ Place place_at(const System *system, const double *x_n, const double *u,
                    .x_n = x_n,
                    .u = u,
                    .x = x,
-                   .averaged = averaged,
                    .damping = damping,
                    .k = damping ? damping->k : system->k,
                    .l2 = damping ? damping->l2 : system->l2};
@@ -134,7 +133,7 @@ const TermKind *next_energy(Place *at)
 
 Status system_check(const System *system, const double *x)
 {
-    Place at = place_at(system, x, NULL, x, false);
+    Place at = place_at(system, x, NULL, x);
     bool valid = all_finite(system->gravity, 2) &&
                  all_finite(x, 2 * (size_t)system->nodes);
     for (int i = 0; valid && i < system->nodes; i++)
@@ -167,14 +166,14 @@ double system_gravity_potential(const System *system, const double *x)
 double system_energy_of(const System *system, const TermKind *kind,
                         const double *x)
 {
-    Place at = place_at(system, x, NULL, x, false);
+    Place at = place_at(system, x, NULL, x);
     at.term = system_find_term(system, kind);
     return at.term ? kind->value(&at) : 0;
 }
 
 double system_potential(const System *system, const double *x)
 {
-    Place at = place_at(system, x, NULL, x, false);
+    Place at = place_at(system, x, NULL, x);
     double sum = 0;
     for (const TermKind *kind; (kind = next_energy(&at));)
         sum += kind->value(&at);
@@ -200,7 +199,7 @@ bool system_is_free(const System *system)
 
 void system_acceleration(const System *system, const double *x, double *a)
 {
-    Place at = place_at(system, x, NULL, x, false);
+    Place at = place_at(system, x, NULL, x);
     at.w = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
@@ -213,7 +212,7 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 void system_bounds(const System *system, double *stiffest, double *force)
 {
-    Place at = place_at(system, NULL, NULL, NULL, false);
+    Place at = place_at(system, NULL, NULL, NULL);
     *stiffest = *force = 0;
     for (int t = 0; t < system->terms; t++) {
         at.term = &system->term[t];

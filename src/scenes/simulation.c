@@ -314,7 +314,7 @@ bool simulation_is_pinned(const Simulation *simulation, int node)
  * what it can do: it bends the square, and does not tear nodes out of it. */
 static double hand_stiffness(const Simulation *simulation, int node)
 {
-    Place at = place_at(&simulation->system, NULL, NULL, NULL, false);
+    Place at = place_at(&simulation->system, NULL, NULL, NULL);
     double k = 0, force = 0;
     mass_spring_bounds(&at, &k, &force);
     return k > 0 ? 0.25 * k : 100 * simulation->system.m[node];

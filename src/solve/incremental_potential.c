@@ -9,8 +9,9 @@
 static Place place_of(const IncrementalPotential *E, const double *u,
                       const double *x)
 {
-    Place at = place_at(E->system, E->x_n, u, x, E->averaged);
+    Place at = place_at(E->system, E->x_n, u, x);
     at.w = E->weight;
+    at.averaged = E->averaged;
     return at;
 }
 
@@ -54,7 +55,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 /* The masses on the diagonal, then the terms one after the other. */
 static Status create_triplets(const System *system, Triplets *triplets)
 {
-    Place at = place_at(system, NULL, NULL, NULL, false);
+    Place at = place_at(system, NULL, NULL, NULL);
     long long count = 2LL * system->nodes;
     for (const TermKind *kind; (kind = next_energy(&at));)
         count += kind->entries(&at);

@@ -3,12 +3,11 @@
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {
-    for (*trials = 1; *trials <= LINE_SEARCH_MAX_HALVINGS + 1; ++*trials) {
+    for (*trials = 0; *trials <= LINE_SEARCH_MAX_HALVINGS; *alpha /= 2) {
+        ++*trials;
         if (difference(function, *alpha) <= 0)
             return STATUS_OK;
-        *alpha /= 2;
     }
-    --*trials;
     *alpha = 0;
     return STATUS_LINE_SEARCH_LIMIT;
 }

@@ -136,8 +136,7 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
 {
     const System *system = integrator->system;
     const Newton *newton = integrator->newton;
-    Place at =
-        place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x, false);
+    Place at = place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x);
     double sum = 0;
     at.w = weight;
     if (!system->pin_v || !system->pinned)

@@ -40,9 +40,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         (system->pin_v && !method->at_end))
         return STATUS_INVALID_INPUT;
     integrator->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
-    integrator->newton =
-        method->implicit ? calloc(1, sizeof *integrator->newton) : NULL;
-    if (!integrator->x || (method->implicit && !integrator->newton))
+    if (!integrator->x)
         return STATUS_OUT_OF_MEMORY;
     integrator->v = integrator->x + size;
     integrator->new_x = integrator->v + size;
@@ -50,10 +48,13 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     integrator->memory = integrator->new_v + size;
     memcpy(integrator->x, x, size * sizeof *x);
     memcpy(integrator->v, v, size * sizeof *v);
+    if (!method->implicit)
+        return STATUS_OK;
     NewtonSettings own = *settings;
     own.averaged = method->averaged;
-    return method->implicit ? newton_create(system, &own, integrator->newton)
-                            : STATUS_OK;
+    integrator->newton = calloc(1, sizeof *integrator->newton);
+    return integrator->newton ? newton_create(system, &own, integrator->newton)
+                              : STATUS_OUT_OF_MEMORY;
 }
 
 void time_integrator_free(TimeIntegrator *integrator)

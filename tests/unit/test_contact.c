@@ -232,7 +232,7 @@ static void flow_is_booked(void **unused)
     Term *term = &system.term[0];
     for (int i = 0; i < 2; i++) {
         double x[4] = {-0.5, 0, 0.6 + 0.1 * i, 0};
-        Place at = place_at(&system, x, NULL, x, false);
+        Place at = place_at(&system, x, NULL, x);
         at.term = term;
         double before = term->kind->value(&at) + term->lost;
         CHECK(term->kind->end(term, &system, x, x, 1));
@@ -254,8 +254,8 @@ static void flow_is_exact_along_lines(void **unused)
         double x[4] = {-0.5, 0, 0.5 + 0.006 * i, 0}, p[4] = {0, 0, 0.01, 0.02};
         double to[4] = {x[0], x[1], x[2] + p[2], x[3] + p[3]};
         double q[3] = {0}, g[4] = {0};
-        Place at = place_at(&system, x, NULL, x, false);
-        Place end = place_at(&system, to, NULL, to, false);
+        Place at = place_at(&system, x, NULL, x);
+        Place end = place_at(&system, to, NULL, to);
         at.term = end.term = term;
         term->kind->gradient(&at, g);
         term->kind->along(&at, p, 1, q);
@@ -284,8 +284,8 @@ static void cells_are_exact_along_lines(void **unused)
         p[i] = i % 2 ? -0.7 * x[i] : 0;
         to[i] = x[i] + p[i];
     }
-    Place at = place_at(system, x, NULL, x, false);
-    Place end = place_at(system, to, NULL, to, false);
+    Place at = place_at(system, x, NULL, x);
+    Place end = place_at(system, to, NULL, to);
     at.term = end.term = term;
     double pressed = term->kind->value(&end);
     CHECK(pressed > 0 && term->kind->value(&at) == 0);
@@ -305,8 +305,8 @@ static void contacts_are_exact_along_lines(void **unused)
                  up[2] = {0.1, 0.13};
     make_point(n, 0, 0, 0, 0.1, 1e3, 0.01, high, zero, &point);
     Term *term = system_find_term(&point.system, &contact_energy);
-    Place there = place_at(&point.system, high, NULL, high, false);
-    Place here = place_at(&point.system, low, NULL, low, false);
+    Place there = place_at(&point.system, high, NULL, high);
+    Place here = place_at(&point.system, low, NULL, low);
     there.term = here.term = term;
     double q[3] = {0}, g[2] = {0}, pressed = term->kind->value(&here);
     CHECK(pressed > 0 && term->kind->value(&there) == 0);
@@ -332,7 +332,7 @@ static void concavity_is_made_up_for(void **unused)
     for (int i = 0; i < 2; i++) {
         double x[4] = {-0.5, 0, i ? 0.49 : 0.51, 0}, sum[2] = {0};
         double g[4] = {0};
-        Place at = place_at(&system, x, NULL, x, false);
+        Place at = place_at(&system, x, NULL, x);
         at.term = term;
         term->kind->concave(&at, sum);
         term->kind->gradient(&at, g);             /* 2 k tau d */
@@ -447,7 +447,7 @@ static void nothing_penetrates_or_turns_over(void **unused)
 /* grad P at x, all terms but friction, pins not left out. */
 static void potential_gradient(const System *system, const double *x, double *g)
 {
-    Place at = place_at(system, x, NULL, x, false);
+    Place at = place_at(system, x, NULL, x);
     memset(g, 0, 2 * (size_t)system->nodes * sizeof *g);
     for (const TermKind *kind; (kind = next_energy(&at));)
         if (kind != &friction_energy)

@@ -91,7 +91,7 @@ static void make_case(Random *random, bool flows, Case *c)
         c->p[i] = random_uniform(random, -1, 1);
     }
     c->term = &system->term[0];
-    c->at = place_at(system, c->x_n, c->u, c->x, false);
+    c->at = place_at(system, c->x_n, c->u, c->x);
     c->at.term = c->term;
     c->term->kind->gradient(&c->at, c->g);
 }
@@ -231,8 +231,8 @@ static void turning_costs_nothing(void **unused)
         double plain[MAX_SIZE] = {0}, sum[3] = {0}, size = 0;
         double theta = damped_system(&random, false, &system, x_n, x);
         Term *term = &system.term[0];
-        Place at = place_at(&system, x_n, u, x, false);
-        Place undamped = place_at(&system, x, NULL, x, false);
+        Place at = place_at(&system, x_n, u, x);
+        Place undamped = place_at(&system, x, NULL, x);
         at.term = undamped.term = term;
         term->kind->gradient(&at, g);
         for (int i = 0; i < 2 * system.nodes; i++) {

@@ -51,7 +51,7 @@ typedef struct Kernel {
 static double energy_value(const Energy *energy, const double *x)
 {
     const System *system = &energy->system;
-    Place at = place_at(system, energy->x_n, x, x, false);
+    Place at = place_at(system, energy->x_n, x, x);
     double value = 0;
     if (energy->part == TERM_INERTIA)
         value =
@@ -74,7 +74,7 @@ static void energy_gradient(const Energy *energy, const double *x, double *g)
     IncrementalPotential E = energy->E;
     E.system = &fewer;
     fewer.springs -= energy->fault == FAULT_MISSING_SPRING;
-    Place at = place_at(&fewer, energy->x_n, x, x, false);
+    Place at = place_at(&fewer, energy->x_n, x, x);
     at.term = system_find_term(system, &central_field);
     at.w = E.weight;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -128,7 +128,7 @@ static void sum_hessian(const Energy *energy, const double *x, double *H)
     Sparse A;
     int *slot;
     Iterate at = {.E = E, .u = (double *)x, .x = (double *)x};
-    Place place = place_at(&fewer, energy->x_n, x, x, false);
+    Place place = place_at(&fewer, energy->x_n, x, x);
     place.w = E.weight;
     CHECK_STATUS(incremental_potential_pattern(&fewer, &A, &slot), STATUS_OK);
     if (energy->part == TERM_SPRINGS)

@@ -81,14 +81,14 @@ static void derivatives_are_those_of_the_formula(void **unused)
             u[i] = random_uniform(&random, -1, 1);
             end[i] = x[i] + u[i];
         }
-        Place way = place_at(&system, x, u, end, true);
+        Place way = place_at(&system, x, u, end);
         way.term = system_find_term(&system, &hand_energy);
         Place at = way, begin = way;
+        way.averaged = true;
         int i = 2 * hand.node;
         double dx = end[i] - hand.target[0], dy = end[i + 1] - hand.target[1];
         double P = hand.k / 2 * (dx * dx + dy * dy);
         CHECK_NEAR(system_energy_of(&system, &hand_energy, end), P, 1e-14 * P);
-        at.averaged = begin.averaged = false;
         at.w = 3;
         hand_energy.gradient(&at, g);
         for (int j = 0; j < 2 * system.nodes; j++) {

@@ -144,7 +144,7 @@ static void the_energies_are_the_product_s(void **unused)
         const System *system = &pair.system;
         int size = 2 * system->nodes;
         const Vec2 *x = pair.solid.x, *x_tilde = (const Vec2 *)pair.x_tilde;
-        Place at = place_at(system, pair.x, pair.zero, pair.x, false);
+        Place at = place_at(system, pair.x, pair.zero, pair.x);
         double P = mass_spring_energy.value(&at);
         double I = inertia_energy_value(system->nodes, pair.x, pair.x_tilde,
                                         system->m);

@@ -262,7 +262,7 @@ static void plain_triplets_sum_to_the_same(void **unused)
         CHECK_STATUS(
             triplets_create(size, SPRING_ENTRIES * system->springs, &triplets),
             STATUS_OK);
-        Place at = place_at(system, a.x, NULL, a.x, false);
+        Place at = place_at(system, a.x, NULL, a.x);
         mass_spring_pattern(&at, &triplets);
         int plain[SPRING_ENTRIES * MAX_SPRINGS];
         for (int t = 0; t < SPRING_ENTRIES * system->springs; t++)
