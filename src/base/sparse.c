@@ -54,6 +54,7 @@ static void number_slots(const Triplets *triplets, const int *sorted, Sparse *A,
                          int *slot)
 {
     const int *row = triplets->row, *column = triplets->column;
+    memset(A->start, 0, ((size_t)A->size + 1) * sizeof *A->start);
     for (int i = 0; i < triplets->count; i++) {
         int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
         if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
@@ -71,17 +72,15 @@ Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
     int count = triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     *A = (Sparse){.size = size};
-    A->start = calloc((size_t)size + 1, sizeof *A->start);
+    A->start = malloc(((size_t)size + 1) * sizeof *A->start);
     A->row = malloc(bytes);
-    int *start = malloc(((size_t)size + 1) * sizeof *start);
     int *by_row = malloc(bytes), *sorted = malloc(bytes);
-    if (A->start && A->row && start && by_row && sorted) {
-        counting_sort(count, size, triplets->row, NULL, start, by_row);
-        counting_sort(count, size, triplets->column, by_row, start, sorted);
+    if (A->start && A->row && by_row && sorted) {
+        counting_sort(count, size, triplets->row, NULL, A->start, by_row);
+        counting_sort(count, size, triplets->column, by_row, A->start, sorted);
         number_slots(triplets, sorted, A, slot);
         A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
     }
-    free(start);
     free(by_row);
     free(sorted);
     return A->value ? STATUS_OK : STATUS_OUT_OF_MEMORY;
