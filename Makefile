@@ -33,7 +33,8 @@ SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
 ALL_CPPFLAGS = -D_GNU_SOURCE -DELASTO_ONE_THREAD=$(ONE_THREAD) \
                -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
-ALL_CFLAGS   = -std=c11 -ffp-contract=off -Wall -Wextra $(CFLAGS) $(SANITIZER)
+ALL_CFLAGS   = -std=c11 -pipe -ffp-contract=off -Wall -Wextra $(CFLAGS) \
+               $(SANITIZER)
 ALL_LDFLAGS  = $(LDFLAGS) $(SANITIZER)
 SANITIZER    = $(if $(SANITIZE),-fsanitize=$(SANITIZE) \
                -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -281,9 +282,10 @@ $(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
 suites: $(SUITES)
 .PHONY: suites
 
-# test: every promise once, in a minute.  long-test: also all variations.  What
-# was tested is then in build/, ready to be used.
-test long-test: $(SUITES) $(B)/elasto $(B)/elasto-bench $(B)/lecture \
+# test: every promise once, in a minute.  long-test: also all variations, and
+# the benchmark.  What was tested is then in build/, ready to be used.
+long-test: $(B)/elasto-bench
+test long-test: $(SUITES) $(B)/elasto $(B)/lecture \
                 $(if $(SANITIZE),,build/elasto build/lecture)
 	@$(CHECK_ENVIRONMENT) LONG=$(filter long-test,$@) \
 	  sh tests/checks/run.sh $(SUITES)

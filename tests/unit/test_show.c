@@ -162,6 +162,8 @@ static void every_size_is_drawn(void **unused)
     for (const Scene *scene = scenes; scene->name; scene++)
         for (int i = 0; i < count; i++)
             for (int mode = 0; mode < 4; mode++) {
+                if (!tests_are_long() && (scene - scenes + i + mode) % 2)
+                    continue;
                 stand_up(scene->name, mode, sizes[i][0], sizes[i][1], &stand);
                 Show *show = &stand.show;
                 show->strain = mode & 1;
