@@ -123,8 +123,8 @@ else
     echo 'skipped scripts_in_a_window: no Xvfb'
 fi
 
-# One of each kind: steps, contact, a page's scene.
-with_window=' square drop dial '
+# Steps, and a page's scene.
+with_window=' square dial '
 in_window() { # scene
     [ "$screen" ] || return 1
     case ${LONG:+all}$with_window in

@@ -560,10 +560,10 @@ hand() {
     done
     grep -q ' set ' session || echo 'no number was changed'
 }
-every_scene() { # LONG: all; else one that draws itself and one with contact
+every_scene() { # LONG: all; else one with contact
     side=900
     while read -r scene rest; do
-        case ${LONG:+all}' landscape drop ' in
+        case ${LONG:+all}' drop ' in
         all* | *" $scene "*) ;;
         *) continue ;;
         esac
