@@ -50,12 +50,6 @@ report() { # name passed failed skipped
     skipped=$((skipped + $4))
 }
 
-# The longest begin first; some of them wait most of the time, for windows and
-# signals, so that one job more than there are processors runs.
-slow="$checks/check_scripts.sh
-$checks/check_window.sh
-$checks/check_pages.sh
-$checks/check_faults.sh"
 # All checks; that of the benchmark with LONG alone.
 all_checks() {
     for check in "$checks"/check_*.sh; do
@@ -63,7 +57,17 @@ all_checks() {
         echo "$check"
     done
 }
-jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + 1))}
+
+# The longest begin first; some of them wait most of the time, for windows and
+# signals, so that two jobs more than there are processors run; one with LONG,
+# where windows have more to do.
+slow="$checks/check_scripts.sh
+$checks/check_window.sh
+$checks/check_pages.sh
+$checks/check_faults.sh"
+more=2
+[ -z "${LONG:-}" ] || more=1
+jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + more))}
 
 # A worker goes through all of them and runs those that no other has taken.
 work() { # suites...
