@@ -21,7 +21,8 @@ enum { GLOBAL_STEPS = 2 };
 static const double STALLS = 0.3;
 
 /* The test is worth conjugate gradients when the gradient's bound is at most
- * so many tolerances, and has halved since they last said no. */
+ * so many tolerances for each segment, and has halved since they last said no.
+ */
 static const double WORTH_A_TEST = 8;
 enum { MAX_TEST_CYCLES = 100 };
 
@@ -290,6 +291,14 @@ static void random_remainder(Multigrid *mg)
             }
 }
 
+/* At the start of a step, and of what follows a saddle. */
+static void begin_iterations(Multigrid *mg)
+{
+    mg->windows = false;
+    mg->iterations = 0;
+    mg->test_below = WORTH_A_TEST * mg->step.tolerance * mg->grid.segments;
+}
+
 /* Goes along a direction in which E bends down, if there is one.  Returns
  * whether it has. */
 static bool leaves_saddle(Multigrid *mg)
@@ -313,9 +322,7 @@ static bool leaves_saddle(Multigrid *mg)
     grid_combine(grid, NULL, alpha, mg->d, 0, mg->r);
     mg->record.change += quartic_value(&along, alpha);
     mg->updated = true;
-    mg->windows = false;
-    mg->iterations = 0;
-    mg->test_below = WORTH_A_TEST * mg->step.tolerance * mg->grid.segments;
+    begin_iterations(mg);
     mg->saddles++;
     mg->counters.saddles++;
     return true;
@@ -371,9 +378,9 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     mg->step = *step;
     mg->record = (MultigridRecord){0};
     mg->last_bound = INFINITY;
-    mg->windows = mg->updated = false;
-    mg->iterations = mg->saddles = 0;
-    mg->test_below = WORTH_A_TEST * step->tolerance * mg->grid.segments;
+    mg->updated = false;
+    mg->saddles = 0;
+    begin_iterations(mg);
     crew_begin(mg->crew);
     if (!mg->known) {
         grid_set_nodes(grid, step->m, step->pinned);

@@ -208,18 +208,16 @@ void v_cycle_set_up(VCycle *cycle)
     }
 }
 
-/* Smoothings from x to r and back, so many; returns where the result is. */
-static void *v_smooth(const VCycle *cycle, const VLevel *level, int times)
+/* The coarsest level: from x to r and back, until x is smooth. */
+static void smooth_coarsest(const VCycle *cycle, const VLevel *level)
 {
-    void *from = level->x, *to = level->r;
-    for (int i = 0; i < times; i++) {
-        run_rows(cycle, cycle->kernels->smooth,
-                 (VJob){.level = level, .in = from, .out = to}, level, V_HEAVY);
-        void *swap = from;
-        from = to;
-        to = swap;
+    VKernel *smooth = cycle->kernels->smooth;
+    VJob to_r = {.level = level, .in = level->x, .out = level->r};
+    VJob to_x = {.level = level, .in = level->r, .out = level->x};
+    for (int i = 1; i < COARSEST_SMOOTHINGS; i += 2) {
+        run_rows(cycle, smooth, to_r, level, V_HEAVY);
+        run_rows(cycle, smooth, to_x, level, V_HEAVY);
     }
-    return from;
 }
 
 /* What the last kernel has summed up in the rows of the finest level. */
@@ -238,8 +236,10 @@ static void *v_descend(const VCycle *cycle, int l)
     const VKernels *kernels = cycle->kernels;
     const VLevel *level = &cycle->level[l], *coarse = level + 1;
     VJob job = {.level = level, .coarse = coarse};
-    if (l == cycle->levels - 1)
-        return v_smooth(cycle, level, COARSEST_SMOOTHINGS - 1);
+    if (l == cycle->levels - 1) {
+        smooth_coarsest(cycle, level);
+        return level->x;
+    }
     run_rows(cycle, kernels->descend, job, coarse, 5 * V_HEAVY);
     job.in = v_descend(cycle, l + 1);
     VJob smooth = {.level = level, .in = level->x, .out = level->r};
