@@ -12,7 +12,7 @@
 
 /* Newton's directions: the remainder falls to this share of its norm, in at
  * most so many V-cycles; between windows one cycle is enough. */
-static const double CG_ENOUGH = 0.1;
+static const double CG_ENOUGH = 0.2;
 enum { MAX_CYCLES = 30, CYCLES_BETWEEN_WINDOWS = 1 };
 
 /* After so many directions windows may be worth it, and they are once the
@@ -138,13 +138,15 @@ static double size_of(const Multigrid *mg, double square)
  *   most  V-cycles */
 static void find_direction(Multigrid *mg, int most)
 {
+    VRemainder remainder;
     set_up_cycle(mg);
-    double start = v_solve_begin(mg->cycle, -1, mg->g, size_of(mg, mg->norm2));
-    mg->counters.cycles++;
-    for (int i = 1; v_solve_step(mg->cycle, NULL) && i < most; i++) {
+    v_solve_begin(mg->cycle, -1, mg->g, size_of(mg, mg->norm2));
+    for (int i = 1;; i++) {
         mg->counters.cycles++;
-        if (!(v_solve_next(mg->cycle) > CG_ENOUGH * CG_ENOUGH * start))
+        if (!v_solve_step(mg->cycle, &remainder) || i == most ||
+            remainder.square <= CG_ENOUGH * CG_ENOUGH * mg->norm2)
             break;
+        v_solve_next(mg->cycle);
     }
     v_solve_end(mg->cycle, mg->p);
 }

@@ -23,6 +23,7 @@ static const double V_LIGHT = 0.4, V_HEAVY = 1.5;
 /* Where a level is larger than the cache that is near, loops that follow each
  * other go through it in panels, whose tensors have so many bytes; at least so
  * many rows, an even number. */
+enum { V_MAX_STAGES = 3 };
 enum { PANEL_BYTES = 1 << 18, LEAST_ROWS = 8 };
 
 struct VCycle {
@@ -33,8 +34,9 @@ struct VCycle {
     double length, mass; /* units, powers of two: 1/m, 1/kg */
     double unit;         /* of r */
     const void *z;       /* of the last cycle */
-    double now;          /* its r.z */
-    double beta;         /* d = z + beta d is the next direction */
+    double now, bend;    /* its r.z and z.H z */
+    double beta, alpha;  /* d = z + beta d, p += alpha d */
+    bool first;          /* no step yet: p is 0, and d nothing */
     double *sums;        /* [rows * V_SUMS] */
 };
 
@@ -46,11 +48,12 @@ static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
     struct {
         void **array;
         int planes;
-    } arrays[10 + SPRING_KINDS * V_TENSOR] = {
+    } arrays[11 + SPRING_KINDS * V_TENSOR] = {
         {&level->m, 1},      {&level->free, 1},   {&level->D, 3},
         {&level->b, 2},      {&level->x, 2},      {&level->r, 2},
-        {&level->p, finest}, {&level->d, finest}, {&level->y, finest}};
-    int count = 9, planes = 0;
+        {&level->p, finest}, {&level->d, finest}, {&level->y, finest},
+        {&level->w, finest}};
+    int count = 10, planes = 0;
     for (int kind = 0; kind < SPRING_KINDS; kind++)
         for (int t = 0; t < V_TENSOR; t++, count++) {
             arrays[count].array = &level->K[kind][t];
@@ -153,18 +156,27 @@ static int panel_end(const VCycle *cycle, const VLevel *level, int first)
     return end < level->layout.nodes ? end : level->layout.nodes;
 }
 
-/* Two kernels on all of a level, panel by panel; the second one may read a row
- * beyond its own of what the first one writes. */
-static void run_both(const VCycle *cycle, const VLevel *level, VKernel *before,
-                     VJob job, VKernel *then, VJob next)
+/* A loop over all rows of a level, one of several that follow each other. */
+typedef struct VStage {
+    VKernel *kernel;
+    VJob job;
+    double cost;
+} VStage;
+
+/* Does them panel by panel; each may read a row beyond its own of what the one
+ * before it writes. */
+static void run_stages(const VCycle *cycle, const VLevel *level,
+                       const VStage *stage, int stages)
 {
-    int nodes = level->layout.nodes, done = 0;
-    for (int first = 0, end; first < nodes; first = end) {
-        end = panel_end(cycle, level, first);
-        run_panel(cycle, before, job, level, first, end, V_LIGHT);
-        int ready = end < nodes ? end - 1 : nodes;
-        run_panel(cycle, then, next, level, done, ready, V_HEAVY);
-        done = ready;
+    int nodes = level->layout.nodes, done[V_MAX_STAGES] = {0};
+    for (int end; done[0] < nodes;) {
+        end = panel_end(cycle, level, done[0]);
+        for (int s = 0; s < stages; s++) {
+            int ready = end < nodes ? end - s : nodes;
+            run_panel(cycle, stage[s].kernel, stage[s].job, level, done[s],
+                      ready, stage[s].cost);
+            done[s] = ready;
+        }
     }
 }
 
@@ -230,8 +242,8 @@ static double sum_rows(const VCycle *cycle, int which)
 }
 
 /* From level->b and the first smoothing, level->x; returns where the result is.
- */
-static void *v_descend(const VCycle *cycle, int l)
+ *   multiplied  level->w is A times it */
+static void *v_descend(const VCycle *cycle, int l, bool multiplied)
 {
     const VKernels *kernels = cycle->kernels;
     const VLevel *level = &cycle->level[l], *coarse = level + 1;
@@ -241,9 +253,13 @@ static void *v_descend(const VCycle *cycle, int l)
         return level->x;
     }
     run_rows(cycle, kernels->descend, job, coarse, 5 * V_HEAVY);
-    job.in = v_descend(cycle, l + 1);
+    job.in = v_descend(cycle, l + 1, false);
     VJob smooth = {.level = level, .in = level->x, .out = level->r};
-    run_both(cycle, level, kernels->prolong, job, kernels->smooth, smooth);
+    VJob multiply = {.level = level, .in = level->r, .out = level->w};
+    VStage stage[] = {{kernels->prolong, job, V_LIGHT},
+                      {kernels->smooth, smooth, V_HEAVY},
+                      {kernels->multiply, multiply, V_HEAVY}};
+    run_stages(cycle, level, stage, multiplied ? 3 : 2);
     return level->r;
 }
 
@@ -253,8 +269,9 @@ static void take(VCycle *cycle, double s, const double *r, double size)
     const VLevel *level = cycle->level;
     cycle->unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
     VJob job = {.level = level, .in = r, .factor = s * cycle->unit};
-    run_both(cycle, level, cycle->kernels->take, job, cycle->kernels->begin,
-             job);
+    VStage stage[] = {{cycle->kernels->take, job, V_LIGHT},
+                      {cycle->kernels->begin, job, V_LIGHT}};
+    run_stages(cycle, level, stage, 2);
 }
 
 /* Gives what has the units of B r. */
@@ -271,46 +288,40 @@ static void give(const VCycle *cycle, const void *x, double *out)
 void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
 {
     take(cycle, 1, r, size);
-    give(cycle, v_descend(cycle, 0), z);
+    give(cycle, v_descend(cycle, 0, false), z);
 }
 
-/* z = B b; returns b.z. */
-static double precondition(VCycle *cycle)
+/* z = B b, w = H z, and their products. */
+static void precondition(VCycle *cycle)
 {
-    cycle->z = v_descend(cycle, 0);
-    return cycle->now = sum_rows(cycle, V_DOT);
+    cycle->z = v_descend(cycle, 0, true);
+    cycle->now = sum_rows(cycle, V_DOT);
+    cycle->bend = sum_rows(cycle, V_BEND);
 }
 
-/* d = z + beta d, y = H d; returns d.y. */
-static double aim_and_multiply(const VCycle *cycle)
+void v_solve_begin(VCycle *cycle, double s, const double *r, double size)
 {
-    const VKernels *kernels = cycle->kernels;
-    const VLevel *level = cycle->level;
-    VJob job = {.level = level, .in = cycle->z, .factor = cycle->beta};
-    run_both(cycle, level, kernels->aim, job, kernels->multiply, job);
-    return sum_rows(cycle, V_DOT);
-}
-
-double v_solve_begin(VCycle *cycle, double s, const double *r, double size)
-{
-    const VLevel *level = cycle->level;
     take(cycle, s, r, size);
-    memset(level->p, 0, 2 * (size_t)level->layout.plane * cycle->kernels->real);
-    cycle->beta = 0;
-    return precondition(cycle);
+    cycle->first = true;
+    precondition(cycle);
 }
 
 bool v_solve_step(VCycle *cycle, VRemainder *remainder)
 {
     const VLevel *level = cycle->level;
-    VJob job = {.level = level, .judged = remainder != NULL};
-    double bend = aim_and_multiply(cycle);
-    job.factor = cycle->now / bend;
-    if (!(bend > 0) || !isfinite(job.factor))
+    double bend = cycle->bend; /* d.H d */
+    if (!cycle->first)
+        bend -= cycle->beta * cycle->now / cycle->alpha;
+    cycle->alpha = cycle->now / bend;
+    if (!(bend > 0) || !isfinite(cycle->alpha))
         return false;
+    VJob job = {.level = level,
+                .in = cycle->z,
+                .factor = cycle->alpha,
+                .beta = cycle->beta,
+                .first = cycle->first};
     run_rows(cycle, cycle->kernels->update, job, level, V_LIGHT);
-    if (!remainder)
-        return true;
+    cycle->first = false;
     double largest = 0, units = cycle->mass / cycle->unit;
     for (int i = 0; i < level->layout.nodes; i++)
         largest = fmax(largest, cycle->sums[i * V_SUMS + V_LARGEST]);
@@ -320,15 +331,18 @@ bool v_solve_step(VCycle *cycle, VRemainder *remainder)
     return true;
 }
 
-double v_solve_next(VCycle *cycle)
+void v_solve_next(VCycle *cycle)
 {
     double last = cycle->now;
     precondition(cycle);
-    cycle->beta = last > 0 ? cycle->now / last : 0;
-    return cycle->now;
+    cycle->beta = cycle->now / last;
 }
 
 void v_solve_end(const VCycle *cycle, double *p)
 {
-    give(cycle, cycle->level->p, p);
+    const VLevel *level = cycle->level;
+    if (cycle->first)
+        memset(level->p, 0,
+               2 * (size_t)level->layout.plane * cycle->kernels->real);
+    give(cycle, level->p, p);
 }

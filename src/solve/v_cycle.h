@@ -36,10 +36,13 @@ void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z);
 
 /* ---- conjugate gradients for H p = s r, in the precision of the cycle and
  * with the tensors of its finest level: exact to some 6 digits of r, where a
- * new begin with the remainder goes on. */
+ * new begin with the remainder goes on.
+ *
+ * H B b is computed for each remainder b, in the loops of the cycle itself,
+ * where tensors are near; H d follows from it (Chronopoulos and Gear, 1989). */
 
-/* p = 0, d = s B r.  Returns r.B r (units of its own: only ratios matter). */
-double v_solve_begin(VCycle *cycle, double s, const double *r, double size);
+/* p = 0, d = s B r. */
+void v_solve_begin(VCycle *cycle, double s, const double *r, double size);
 
 /* What a step leaves. */
 typedef struct VRemainder {
@@ -47,12 +50,12 @@ typedef struct VRemainder {
     double largest; /* max over nodes of |p_x| + |p_y| */
 } VRemainder;
 
-/* p is the lowest point along d.  remainder  out, or NULL.
+/* p is the lowest point along d.
  * Returns false, and p is what it was, where that point does not exist. */
 bool v_solve_step(VCycle *cycle, VRemainder *remainder);
 
-/* The next d.  Returns what is left of r.B r, as v_solve_begin does. */
-double v_solve_next(VCycle *cycle);
+/* The next d. */
+void v_solve_next(VCycle *cycle);
 
 /* p, out [2 planes]. */
 void v_solve_end(const VCycle *cycle, double *p);

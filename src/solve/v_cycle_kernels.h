@@ -21,13 +21,13 @@ typedef struct VLevel {
     void *free;                      /* [plane] 1: moves; 0 as above */
     void *D;                         /* [3 planes] inverse diagonal blocks */
     void *b, *x, *r;                 /* [2 planes] */
-    void *p, *d, *y; /* [2 planes] of conjugate gradients; finest level */
-    void *line;      /* [rows of the coarser level * V_LINES * pitch] */
+    void *p, *d, *y, *w; /* [2 planes] of conjugate gradients; finest level */
+    void *line;          /* [rows of the coarser level * V_LINES * pitch] */
 } VLevel;
 
 /* What kernels sum up in each row, or find the largest of. */
-enum { V_SUMS = 3 };
-enum { V_DOT, V_SQUARE, V_LARGEST };
+enum { V_SUMS = 4 };
+enum { V_DOT, V_BEND, V_SQUARE, V_LARGEST };
 
 /* Partial sums of a row. */
 enum { V_PARTIAL = 16 };
@@ -39,7 +39,8 @@ typedef struct VJob {
     const void *in;               /* [2 planes] */
     void *out;                    /* [2 planes] */
     double factor;
-    bool judged;  /* V_SQUARE and V_LARGEST are wanted */
+    double beta;
+    bool first;   /* of conjugate gradients: d, y and p hold nothing yet */
     double *sums; /* [rows * V_SUMS] */
 } VJob;
 
@@ -58,10 +59,10 @@ typedef struct VKernels {
     VKernel *prolong;  /* x += P in, in on the coarse level */
     VKernel *smooth;   /* out = in + omega D (b - A in), DOT b.out */
     VKernel *give;     /* out = factor in, doubles */
-    VKernel *aim;      /* d = in + factor d */
-    VKernel *multiply; /* y = A d, DOT d.y */
-    VKernel *update;   /* p += factor d, b -= factor y, x = omega D b; SQUARE
-                          |b|_(m^-1)^2, LARGEST of p */
+    VKernel *multiply; /* out = A in, BEND in.out */
+    VKernel *update;   /* d = in + beta d, y = w + beta y, p += factor d,
+                          b -= factor y, x = omega D b; SQUARE |b|_(m^-1)^2,
+                          LARGEST of p */
 } VKernels;
 
 /* Those for a grid's lanes.  precise: double precision. */
