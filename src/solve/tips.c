@@ -41,7 +41,8 @@ Status tips_create(const Grid *grid, Tips *tips)
     tips->first = grid->layout.nodes;
     tips->D = grid_piece(grid, 9, &tips->memory);
     if (!tips->activity || !tips->row || !tips->mark || !tips->D ||
-        grid_region_create(grid, &tips->inside))
+        grid_region_create(grid, &tips->inside) ||
+        grid_region_create(grid, &tips->starts))
         return STATUS_OUT_OF_MEMORY;
     tips->z = tips->D + 3 * grid->layout.plane;
     tips->p = tips->z + 2 * grid->layout.plane;
@@ -58,6 +59,7 @@ void tips_free(Tips *tips)
     free(tips->mark);
     free(tips->memory);
     free(tips->inside.run);
+    free(tips->starts.run);
     free(tips->around.run);
     *tips = (Tips){0};
 }
@@ -96,6 +98,18 @@ static void take_marks(Tips *tips, GridRegion *region)
     }
     tips->first = layout->nodes;
     tips->end = 0;
+}
+
+/* Marks a run, the block before it, and those below, up to one further; where
+ * `after` is 1 the block after it and those above too. */
+static void mark_beside(Tips *tips, GridRun run, int after)
+{
+    const GridLayout *layout = &tips->grid->layout;
+    int i = grid_row(layout, run);
+    int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
+    int end = b + run.blocks;
+    mark_blocks(tips, i - 1, b - 1, i, end + 1);
+    mark_blocks(tips, i, b - 1, i + 1 + after, end + after);
 }
 
 /* g and the activity of all blocks, which have changed in this region (NULL:
@@ -144,13 +158,12 @@ static bool choose_windows(Tips *tips)
     if (grid->segments >= TIP_SMALL_SQUARE &&
         tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
         return false;
-    for (int r = 0; r < tips->inside.runs; r++) {
-        GridRun run = tips->inside.run[r];
-        int i = grid_row(layout, run);
-        int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
-        mark_blocks(tips, i - 1, b - 1, i + 2, b + run.blocks + 1);
-    }
+    for (int r = 0; r < tips->inside.runs; r++)
+        mark_beside(tips, tips->inside.run[r], 1);
     take_marks(tips, &tips->around);
+    for (int r = 0; r < tips->inside.runs; r++)
+        mark_beside(tips, tips->inside.run[r], 0);
+    take_marks(tips, &tips->starts);
     return true;
 }
 
@@ -179,7 +192,7 @@ static double minimise_windows(Tips *tips, double *g)
             slope = grid_direction(grid, inside, tips->z, 0, g, tips->p,
                                    tips->old_g, &inertia);
         Quartic along;
-        grid_along(grid, &tips->around, tips->p, slope, inertia, along.q);
+        grid_along(grid, &tips->starts, tips->p, slope, inertia, along.q);
         double alpha = quartic_first_minimum(&along);
         if (!(alpha > 0))
             break;

@@ -24,6 +24,7 @@ typedef struct Tips {
     unsigned char *mark; /* [rows * blocks] 0, but while regions are made */
     int first, end;      /* rows with marks */
     GridRegion inside;   /* nodes that move */
+    GridRegion starts;   /* where springs start that they change */
     GridRegion around;   /* and their neighbours */
     void *memory;        /* of these vectors */
     double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
