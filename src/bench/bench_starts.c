@@ -1,5 +1,6 @@
 #include "bench/bench_starts.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +14,8 @@ enum { STARTS = 9, START_STEPS = 10 };
 static const double all_starts = 40;
 enum { LONGER_NEXT = 16 };
 
-/* A step buckles that needs so many times the iterations of the first one. */
+/* A step buckles that needs more than so many times the iterations of the
+ * easiest one before it. */
 enum { BUCKLING_RATIO = 2 };
 
 typedef struct Variant {
@@ -44,6 +46,13 @@ static void move_start(Options *options, int start)
     options->stretch += 1e-9 * start;
 }
 
+/* least  iterations of the easiest step up to now, in/out */
+static bool step_buckles(long made, long *least)
+{
+    *least = made < *least ? made : *least;
+    return made > BUCKLING_RATIO * *least;
+}
+
 static Options start_options(const Variant *variant, int segments, int start)
 {
     Options options = slides_options(segments);
@@ -59,7 +68,7 @@ static Status run_start(const Options *options, int steps, StartRun *run)
     *run = (StartRun){0};
     Status status = simulation_create(options, NULL, NULL, &simulation);
     double energy = status ? 0 : simulation_energies(&simulation, 0).total;
-    long first = 0;
+    long least = LONG_MAX;
     for (int i = 0; i < steps && !status; i++) {
         long before = simulation_counters(&simulation).iterations;
         double start = bench_cpu();
@@ -68,8 +77,7 @@ static Status run_start(const Options *options, int steps, StartRun *run)
         long made = simulation_counters(&simulation).iterations - before;
         if (status_is_unconverged(status))
             status = STATUS_OK;
-        first = i == 0 ? made : first;
-        bool buckles = made > BUCKLING_RATIO * first;
+        bool buckles = step_buckles(made, &least);
         *(buckles ? &run->buckling : &run->smooth) += spent;
         ++*(buckles ? &run->buckling_steps : &run->smooth_steps);
         run->total += spent;
@@ -269,7 +277,7 @@ static Status play_match(Match *match, int steps, Verdicts verdicts[VARIANTS])
 {
     const TimeIntegrator *from = &match->simulation[0].run[0];
     size_t size = 2 * (size_t)from->system->nodes;
-    long first = 0;
+    long least = LONG_MAX;
     Status status = STATUS_OK;
     for (int i = 0; i < steps && !status; i++) {
         for (int v = 1; v < VARIANTS; v++) {
@@ -287,9 +295,9 @@ static Status play_match(Match *match, int steps, Verdicts verdicts[VARIANTS])
             status = status ? status : match->end[v].status;
         }
         long made = from->newton->counters.iterations - before;
-        first = i == 0 ? made : first;
+        bool buckles = step_buckles(made, &least);
         if (i >= FIRST_JUDGED && !status)
-            compare_ends(match, made > BUCKLING_RATIO * first, verdicts);
+            compare_ends(match, buckles, verdicts);
     }
     return status;
 }

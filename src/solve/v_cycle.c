@@ -7,8 +7,8 @@
 #include "solve/grid_kernels.h"
 #include "solve/v_cycle_kernels.h"
 
-/* The coarsest level has at most so many cells a side, and this many
- * smoothings, an odd number. */
+/* The coarsest of two levels or more has at most so many cells a side, and
+ * this many smoothings, an odd number. */
 enum { COARSEST = 8, COARSEST_SMOOTHINGS = 7 };
 
 /* Up to so many segments the cycle is in double precision. */
@@ -90,7 +90,7 @@ VCycle *v_cycle_create(const Grid *grid)
         return NULL;
     }
     for (bool more = true; more; n = (n + 1) / 2) {
-        more = n > COARSEST;
+        more = n > COARSEST || cycle->levels == 0;
         if (!create_v_level(cycle, n + 1, &cycle->level[cycle->levels++])) {
             v_cycle_free(cycle);
             return NULL;

@@ -445,7 +445,7 @@ static void check_solution(VCycle *cycle, const Grid *grid, const double *a,
     v_solve_begin(cycle, -1, a, 1);
     for (int i = 0; i < 15; i++) {
         CHECK(v_solve_step(cycle, &left));
-        CHECK(v_solve_next(cycle) >= 0);
+        v_solve_next(cycle);
     }
     v_solve_end(cycle, p);
     grid_stiffen(grid);
