@@ -72,14 +72,13 @@ static Status create_grid_arrays(Grid *grid)
     struct {
         double **array;
         int planes;
-    } arrays[6 + 3 * SPRING_KINDS] = {{&grid->x, 2}, {&grid->x_n, 2},
+    } arrays[6 + 2 * SPRING_KINDS] = {{&grid->x, 2}, {&grid->x_n, 2},
                                       {&grid->u, 2}, {&grid->u_tilde, 2},
                                       {&grid->m, 1}, {&grid->per_mass, 1}};
     int count = 6, planes = 0;
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
-        double **springs[] = {&grid->c[kind], &grid->l2[kind],
-                              &grid->along[kind]};
-        for (int i = 0; i < 3; i++, count++) {
+        double **springs[] = {&grid->c[kind], &grid->l2[kind]};
+        for (int i = 0; i < 2; i++, count++) {
             arrays[count].array = springs[i];
             arrays[count].planes = 1;
         }
@@ -253,12 +252,6 @@ double grid_gradient(const Grid *grid, const GridRegion *region, double *g)
     run_kernel(grid->kernels->gradient, (GridJob){.out = {g}}, grid, region,
                GRID_HEAVY, 1, &sum);
     return sum;
-}
-
-void grid_stiffen(const Grid *grid)
-{
-    run_kernel(grid->kernels->stiffen, (GridJob){0}, grid, NULL, GRID_HEAVY, 0,
-               NULL);
 }
 
 double grid_product(const Grid *grid, bool clamped, const double *q, double *y)

@@ -77,7 +77,6 @@ typedef struct Grid {
     GridLayout layout;
     double *c[SPRING_KINDS];       /* [plane] kg/m^2; 0: no spring */
     double *l2[SPRING_KINDS];      /* [plane] m^2 */
-    double *along[SPRING_KINDS];   /* [plane] of clamped Hessians at x */
     double rest[SPRING_KINDS];     /* m^2, l2 where all of a kind are equal */
     bool uniform;                  /* they are, in each kind */
     double *m;                     /* [plane] kg; 0 outside */
@@ -130,9 +129,6 @@ void grid_unpack(const Grid *grid, const double *from, double *to);
 
 /* g = grad E; returns |g|_(M^-1)^2. */
 double grid_gradient(const Grid *grid, const GridRegion *region, double *g);
-
-/* Prepares products with the clamped Hessian at x. */
-void grid_stiffen(const Grid *grid);
 
 /* y = H q, H clamped to be positive semi-definite (psd.h) or as it is; returns
  * q.y. */

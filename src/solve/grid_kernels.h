@@ -23,8 +23,7 @@ typedef void GridKernel(const GridJob *job, int first, int end);
 /* in and out in the order of grid.h's arguments. */
 struct GridKernels {
     int lanes;
-    GridKernel *gradient, *stiffen, *product, *diagonal, *precondition,
-        *direction;
+    GridKernel *gradient, *product, *diagonal, *precondition, *direction;
     GridKernel *along, *in_plane, *move, *activity;
     GridKernel *dot, *inverse_mass_square, *largest, *combine;
 };

@@ -134,11 +134,11 @@ static double size_of(const Multigrid *mg, double square)
     return sqrt(square * mg->grid.lightest);
 }
 
-/* p = -H^-1 g, about.
+/* p = -H^-1 g, about, and its residual.
  *   most  V-cycles */
 static void find_direction(Multigrid *mg, int most)
 {
-    VRemainder remainder;
+    VRemainder remainder = {0, 0};
     set_up_cycle(mg);
     v_solve_begin(mg->cycle, -1, mg->g, size_of(mg, mg->norm2));
     for (int i = 1;; i++) {
@@ -149,6 +149,7 @@ static void find_direction(Multigrid *mg, int most)
         v_solve_next(mg->cycle);
     }
     v_solve_end(mg->cycle, mg->p);
+    mg->residual = remainder.largest / mg->step.h;
 }
 
 /* Whether a direction with this residual and remainder decides the test. */
@@ -190,8 +191,9 @@ static bool refine_direction(Multigrid *mg, double square, bool first,
         if (more)
             v_solve_next(mg->cycle);
     }
-    v_solve_end(mg->cycle, mg->z);
-    grid_combine(grid, NULL, 1, mg->z, first ? 0 : 1, mg->p);
+    v_solve_end(mg->cycle, first ? mg->p : mg->z);
+    if (!first)
+        grid_combine(grid, NULL, 1, mg->z, 1, mg->p);
     mg->residual = grid_largest(grid, mg->p) / mg->step.h;
     return true;
 }
@@ -203,7 +205,6 @@ static bool decide_test(Multigrid *mg)
     double square = mg->norm2, last;
     int left = MAX_TEST_CYCLES;
     set_up_cycle(mg);
-    grid_stiffen(&mg->grid);
     do {
         last = square;
         if (!refine_direction(mg, square, left == MAX_TEST_CYCLES, &left))
@@ -271,10 +272,10 @@ static void centre_mass(Multigrid *mg)
         for (int i = 0; i < layout->nodes; i++) {
             int q = grid_at(layout, i, 0);
             for (int past = q + layout->nodes; q < past; q++)
-                mg->d[c * layout->plane + q] = missing / mass;
+                mg->z[c * layout->plane + q] = missing / mass;
         }
     }
-    grid_move(grid, NULL, 1, mg->d, 0, NULL);
+    grid_move(grid, NULL, 1, mg->z, 0, NULL);
 }
 
 /* Random numbers of -1 ... 1 for every node, the same ones always. */
@@ -451,10 +452,8 @@ Status multigrid_iterate(Multigrid *mg)
 {
     const Grid *grid = &mg->grid;
     decide_windows(mg);
-    if (!mg->directed) {
+    if (!mg->directed)
         find_direction(mg, mg->windows ? CYCLES_BETWEEN_WINDOWS : MAX_CYCLES);
-        mg->residual = grid_largest(grid, mg->p) / mg->step.h;
-    }
     mg->record.residual = mg->residual;
     double at[2];
     Status status = search_step(mg, at);
@@ -469,10 +468,9 @@ Status multigrid_iterate(Multigrid *mg)
         return multigrid_test(mg);
     }
     long phases = mg->tips.phases, local = mg->tips.iterations;
-    grid_combine(grid, NULL, 1, grid->u, 0, mg->z);
+    grid_combine(grid, NULL, -1, grid->u, 1, mg->r);
     mg->record.change += tips_minimise(&mg->tips, mg->record.change, mg->g);
     grid_combine(grid, NULL, 1, grid->u, 1, mg->r);
-    grid_combine(grid, NULL, -1, mg->z, 1, mg->r);
     mg->counters.windows += mg->tips.phases - phases;
     mg->counters.local += mg->tips.iterations - local;
     mg->counters.gradients++;

@@ -48,12 +48,11 @@ static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
     struct {
         void **array;
         int planes;
-    } arrays[11 + SPRING_KINDS * V_TENSOR] = {
-        {&level->m, 1},      {&level->free, 1},   {&level->D, 3},
-        {&level->b, 2},      {&level->x, 2},      {&level->r, 2},
-        {&level->p, finest}, {&level->d, finest}, {&level->y, finest},
-        {&level->w, finest}};
-    int count = 10, planes = 0;
+    } arrays[10 + SPRING_KINDS * V_TENSOR] = {
+        {&level->m, 1},      {&level->D, 3},      {&level->b, 2},
+        {&level->x, 2},      {&level->r, 2},      {&level->p, finest},
+        {&level->d, finest}, {&level->y, finest}, {&level->w, finest}};
+    int count = 9, planes = 0;
     for (int kind = 0; kind < SPRING_KINDS; kind++)
         for (int t = 0; t < V_TENSOR; t++, count++) {
             arrays[count].array = &level->K[kind][t];

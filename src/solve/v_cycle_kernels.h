@@ -18,7 +18,6 @@ typedef struct VLevel {
     void *memory;                    /* all of these */
     void *K[SPRING_KINDS][V_TENSOR]; /* [plane] xx, xy, yy of springs */
     void *m;                         /* [plane] masses; 0: pinned or outside */
-    void *free;                      /* [plane] 1: moves; 0 as above */
     void *D;                         /* [3 planes] inverse diagonal blocks */
     void *b, *x, *r;                 /* [2 planes] */
     void *p, *d, *y, *w; /* [2 planes] of conjugate gradients; finest level */
@@ -50,7 +49,7 @@ typedef void VKernel(const VJob *job, int first, int end);
 
 typedef struct VKernels {
     size_t real;                        /* bytes of a number */
-    VKernel *set_nodes, *coarsen_nodes; /* m and free */
+    VKernel *set_nodes, *coarsen_nodes; /* m */
     VKernel *tensors, *coarsen_tensors; /* K */
     VKernel *invert;                    /* D */
     VKernel *take;     /* b = factor in, doubles of the grid's layout */

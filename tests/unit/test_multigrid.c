@@ -294,7 +294,6 @@ static void check_gradient_and_product(Random *random, const Problem *problem,
     CHECK_NEAR(norm2, sum, 1e-13L * sum);
 
     double *on_grid = random_vector(random, problem, grid, p);
-    grid_stiffen(grid);
     for (int clamped = 0; clamped < 2; clamped++) {
         reference_product(problem, problem->u, clamped, p, y);
         double bend = grid_product(grid, clamped, on_grid, out);
@@ -449,7 +448,6 @@ static void check_solution(VCycle *cycle, const Grid *grid, const double *a,
         CHECK(v_solve_step(cycle, &left));
     }
     v_solve_end(cycle, p);
-    grid_stiffen(grid);
     grid_product(grid, true, p, y);
     grid_combine(grid, NULL, -1, a, -1, y);
     CHECK_NEAR(sqrt(left.square), sqrt(grid_inverse_mass_square(grid, y)),
