@@ -91,8 +91,12 @@ static Status create_grid_arrays(Grid *grid)
         next += arrays[i].planes * grid->layout.plane;
     }
     size_t runs = (size_t)grid->layout.nodes * (size_t)grid->layout.blocks;
+    size_t rows = (size_t)grid->layout.nodes + 2; /* with ghosts */
     grid->sums = malloc(runs * GRID_MAX_SUMS * sizeof *grid->sums);
-    return next && grid->sums ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    grid->node_shift = calloc(rows, 2 * sizeof *grid->node_shift);
+    grid->spring_shift = grid->node_shift ? grid->node_shift + rows : NULL;
+    return next && grid->sums && grid->node_shift ? STATUS_OK
+                                                  : STATUS_OUT_OF_MEMORY;
 }
 
 Status grid_create(int segments, int lanes, Grid *grid)
@@ -121,6 +125,7 @@ void grid_free(Grid *grid)
     free(grid->memory);
     free(grid->all.run);
     free(grid->sums);
+    free(grid->node_shift);
     *grid = (Grid){0};
 }
 
@@ -132,14 +137,31 @@ Status grid_region_create(const Grid *grid, GridRegion *region)
     return region->run ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
+/* Row i has written its numbers to the row `at`: where they are those of the
+ * row before, the next one may write there.  Returns where that one writes. */
+static int share_row(const Grid *grid, double *const *array, int arrays, int i,
+                     int at, int *shift)
+{
+    const GridLayout *layout = &grid->layout;
+    bool alike = at > 0;
+    for (int a = 0; a < arrays; a++) {
+        const double *row = array[a] + grid_at(layout, at, 0);
+        alike = alike && !memcmp(row, row - layout->pitch,
+                                 (size_t)layout->nodes * sizeof *row);
+    }
+    shift[i + 1] = (at - alike - i) * layout->pitch;
+    return at + !alike;
+}
+
 void grid_set_nodes(Grid *grid, const double *m, const unsigned char *pinned)
 {
     const GridLayout *layout = &grid->layout;
+    double *const arrays[] = {grid->m, grid->per_mass};
     grid->lightest = INFINITY;
     grid->pinned = false;
-    for (int i = 0; i < layout->nodes; i++)
+    for (int i = 0, at = 0; i < layout->nodes; i++) {
         for (int j = 0; j < layout->nodes; j++) {
-            int node = i * layout->nodes + j, q = grid_at(layout, i, j);
+            int node = i * layout->nodes + j, q = grid_at(layout, at, j);
             bool held = pinned && pinned[node];
             grid->m[q] = m[node];
             grid->per_mass[q] = held ? 0 : 1 / m[node];
@@ -147,42 +169,77 @@ void grid_set_nodes(Grid *grid, const double *m, const unsigned char *pinned)
             if (!held && m[node] < grid->lightest)
                 grid->lightest = m[node];
         }
+        at = share_row(grid, arrays, 2, i, at, grid->node_shift);
+    }
 }
 
-/* One spring; *k and *l2 move on to the next. */
-static void set_spring(Grid *grid, int kind, int i, int j, const double **k,
-                       const double **l2, double weight)
+/* Of the springs of a kind, in the order of square_mesh.h: the one that starts
+ * at node (i, j), or -1. */
+static int spring_at(int n, int kind, int i, int j)
 {
-    int q = grid_at(&grid->layout, i, j);
-    double c = 2 * weight * *(*k)++ / **l2;
-    grid->c[kind][q] = c;
-    grid->l2[kind][q] = **l2;
-    grid->stiffest = fmax(grid->stiffest, c * **l2);
-    grid->uniform = grid->uniform && **l2 == grid->rest[kind];
-    ++*l2;
+    int cell = 2 * n * (n + 1) + 2 * (i * n + j);
+    if (i == n && kind != SPRING_UP)
+        return -1;
+    switch (kind) {
+    case SPRING_RIGHT:
+        return i * (n + 1) + j;
+    case SPRING_UP:
+        return j < n ? n * (n + 1) + i * n + j : -1;
+    case SPRING_DIAGONAL:
+        return j < n ? cell : -1;
+    default:
+        return j > 0 ? cell - 1 : -1;
+    }
+}
+
+/* The springs that start at (i, j); their numbers go to the row `at`. */
+static void set_springs_of(Grid *grid, const double *k, const double *l2,
+                           double weight, int i, int j, int at)
+{
+    int q = grid_at(&grid->layout, at, j);
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
+        int s = spring_at(grid->segments, kind, i, j);
+        grid->c[kind][q] = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
+        if (!grid->uniform)
+            grid->l2[kind][q] = s < 0 ? 0 : l2[s];
+        if (s >= 0)
+            grid->stiffest = fmax(grid->stiffest, grid->c[kind][q] * l2[s]);
+    }
+}
+
+/* Whether all springs of a kind are equally long. */
+static bool is_uniform(const Grid *grid, const double *l2)
+{
+    int n = grid->segments;
+    for (int kind = 0; kind < SPRING_KINDS; kind++)
+        for (int i = 0; i <= n; i++)
+            for (int j = 0; j <= n; j++) {
+                int s = spring_at(n, kind, i, j);
+                if (s >= 0 && l2[s] != grid->rest[kind])
+                    return false;
+            }
+    return true;
 }
 
 void grid_set_springs(Grid *grid, const double *k, const double *l2,
                       double weight)
 {
-    int n = grid->segments, row = n + 1;
+    int n = grid->segments;
+    double *arrays[2 * SPRING_KINDS];
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
+        int first = spring_at(n, kind, 0, kind == SPRING_ANTIDIAGONAL);
+        grid->rest[kind] = l2[first];
+        arrays[kind] = grid->c[kind];
+        arrays[SPRING_KINDS + kind] = grid->l2[kind];
+    }
     grid->stiffest = 0;
-    grid->uniform = true;
-    grid->rest[SPRING_RIGHT] = l2[0];
-    grid->rest[SPRING_UP] = l2[n * row];
-    grid->rest[SPRING_DIAGONAL] = l2[2 * n * row];
-    grid->rest[SPRING_ANTIDIAGONAL] = l2[2 * n * row + 1];
-    for (int i = 0; i < n; i++)
+    grid->uniform = is_uniform(grid, l2);
+    int count = grid->uniform ? SPRING_KINDS : 2 * SPRING_KINDS;
+    for (int i = 0, at = 0; i <= n; i++) {
         for (int j = 0; j <= n; j++)
-            set_spring(grid, SPRING_RIGHT, i, j, &k, &l2, weight);
-    for (int i = 0; i <= n; i++)
-        for (int j = 0; j < n; j++)
-            set_spring(grid, SPRING_UP, i, j, &k, &l2, weight);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            set_spring(grid, SPRING_DIAGONAL, i, j, &k, &l2, weight);
-            set_spring(grid, SPRING_ANTIDIAGONAL, i, j + 1, &k, &l2, weight);
-        }
+            set_springs_of(grid, k, l2, weight, i, j, at);
+        at = share_row(grid, arrays, count, i, at, grid->spring_shift);
+    }
 }
 
 void grid_pack(const Grid *grid, const double *from, double *to)

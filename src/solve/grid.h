@@ -75,22 +75,30 @@ typedef struct GridKernels GridKernels;
 typedef struct Grid {
     int segments; /* n */
     GridLayout layout;
-    double *c[SPRING_KINDS];       /* [plane] kg/m^2; 0: no spring */
-    double *l2[SPRING_KINDS];      /* [plane] m^2 */
-    double rest[SPRING_KINDS];     /* m^2, l2 where all of a kind are equal */
-    bool uniform;                  /* they are, in each kind */
-    double *m;                     /* [plane] kg; 0 outside */
-    double *per_mass;              /* [plane] 1/kg; 0 outside and for pins */
-    bool pinned;                   /* some node never moves */
-    double lightest;               /* kg, of the nodes that move */
-    double stiffest;               /* kg, the largest c l2 = 2 w k */
-    double *x_n, *u, *x, *u_tilde; /* [2 planes] m */
-    void *memory;                  /* all of these */
+    /* Numbers of rows that are alike stand only in the first of these. */
+    int *node_shift, *spring_shift; /* [nodes + 2] grid_shift */
+    double *c[SPRING_KINDS];        /* [plane] kg/m^2; 0: no spring */
+    double *l2[SPRING_KINDS];       /* [plane] m^2; not where all are equal */
+    double rest[SPRING_KINDS];      /* m^2, l2 where all of a kind are equal */
+    bool uniform;                   /* they are, in each kind */
+    double *m;                      /* [plane] kg; 0 outside */
+    double *per_mass;               /* [plane] 1/kg; 0 outside and for pins */
+    bool pinned;                    /* some node never moves */
+    double lightest;                /* kg, of the nodes that move */
+    double stiffest;                /* kg, the largest c l2 = 2 w k */
+    double *x_n, *u, *x, *u_tilde;  /* [2 planes] m */
+    void *memory;                   /* all of these */
     GridRegion all;
     double *sums; /* [nodes * GRID_MAX_SUMS] of the runs */
     const GridKernels *kernels;
     Crew *crew; /* who works; not owned, NULL: the caller alone */
 } Grid;
+
+/* How far from the places of row i its numbers stand. */
+static inline int grid_shift(const int *shift, int i)
+{
+    return shift[i + 1];
+}
 
 /* Allocates for segments x segments cells.
  *   lanes  numbers at once: 2, 4, 8, or 0 for the most this processor has

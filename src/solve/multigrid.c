@@ -264,9 +264,10 @@ static void centre_mass(Multigrid *mg)
         double mass = 0, missing = 0;
         for (int i = 0; i < layout->nodes; i++) {
             int q = grid_at(layout, i, 0);
+            const double *m = grid->m + grid_shift(grid->node_shift, i);
             for (int past = q + layout->nodes; q < past; q++) {
-                mass += grid->m[q];
-                missing += grid->m[q] * (u_tilde[q] - u[q]);
+                mass += m[q];
+                missing += m[q] * (u_tilde[q] - u[q]);
             }
         }
         for (int i = 0; i < layout->nodes; i++) {
@@ -289,7 +290,8 @@ static void random_remainder(Multigrid *mg)
                 int q = grid_at(layout, i, j);
                 state = state * 6364136223846793005u + 1442695040888963407u;
                 double number = (double)(int64_t)state / 9223372036854775808.0;
-                bool moves = mg->grid.per_mass[q] > 0;
+                int shift = grid_shift(mg->grid.node_shift, i);
+                bool moves = mg->grid.per_mass[q + shift] > 0;
                 mg->rest[c * layout->plane + q] = moves ? number : 0;
             }
 }
