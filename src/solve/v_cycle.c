@@ -33,7 +33,6 @@ struct VCycle {
     int levels;
     double length, mass; /* units, powers of two: 1/m, 1/kg */
     double unit;         /* of r */
-    const void *z;       /* of the last cycle */
     double now, bend;    /* its r.z and z.H z */
     double beta, alpha;  /* d = z + beta d, p += alpha d */
     bool first;          /* no step yet: p is 0, and d nothing */
@@ -293,7 +292,7 @@ void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
 /* z = B b, w = H z, and their products. */
 static void precondition(VCycle *cycle)
 {
-    cycle->z = v_descend(cycle, 0, true);
+    v_descend(cycle, 0, true);
     cycle->now = sum_rows(cycle, V_DOT);
     cycle->bend = sum_rows(cycle, V_BEND);
 }
@@ -305,9 +304,17 @@ void v_solve_begin(VCycle *cycle, double s, const double *r, double size)
     precondition(cycle);
 }
 
+/* What was new is the last one. */
+static void swap(void **now, void **last)
+{
+    void *was = *last;
+    *last = *now;
+    *now = was;
+}
+
 bool v_solve_step(VCycle *cycle, VRemainder *remainder)
 {
-    const VLevel *level = cycle->level;
+    VLevel *level = cycle->level;
     double bend = cycle->bend; /* d.H d */
     if (!cycle->first)
         bend -= cycle->beta * cycle->now / cycle->alpha;
@@ -315,11 +322,12 @@ bool v_solve_step(VCycle *cycle, VRemainder *remainder)
     if (!(bend > 0) || !isfinite(cycle->alpha))
         return false;
     VJob job = {.level = level,
-                .in = cycle->z,
                 .factor = cycle->alpha,
                 .beta = cycle->beta,
                 .first = cycle->first};
     run_rows(cycle, cycle->kernels->update, job, level, V_LIGHT);
+    swap(&level->r, &level->d);
+    swap(&level->w, &level->y);
     cycle->first = false;
     double largest = 0, units = cycle->mass / cycle->unit;
     for (int i = 0; i < level->layout.nodes; i++)

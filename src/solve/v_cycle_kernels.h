@@ -20,7 +20,8 @@ typedef struct VLevel {
     void *m;                         /* [plane] masses; 0: pinned or outside */
     void *D;                         /* [3 planes] inverse diagonal blocks */
     void *b, *x, *r;                 /* [2 planes] */
-    void *p, *d, *y, *w; /* [2 planes] of conjugate gradients; finest level */
+    void *p, *d, *y, *w; /* [2 planes] of conjugate gradients on the finest
+                            level: r is z = B b, w = A z, y = A d */
     void *line;          /* [rows of the coarser level * V_LINES * pitch] */
 } VLevel;
 
@@ -39,7 +40,7 @@ typedef struct VJob {
     void *out;                    /* [2 planes] */
     double factor;
     double beta;
-    bool first;   /* of conjugate gradients: d, y and p hold nothing yet */
+    bool first;   /* of conjugate gradients: d, y and p hold nothing */
     double *sums; /* [rows * V_SUMS] */
 } VJob;
 
@@ -59,8 +60,8 @@ typedef struct VKernels {
     VKernel *smooth;   /* out = in + omega D (b - A in), DOT b.out */
     VKernel *give;     /* out = factor in, doubles */
     VKernel *multiply; /* out = A in, BEND in.out */
-    VKernel *update;   /* d = in + beta d, y = w + beta y, p += factor d,
-                          b -= factor y, x = omega D b; SQUARE |b|_(m^-1)^2,
+    VKernel *update;   /* r += beta d, w += beta y, p += factor r,
+                          b -= factor w, x = omega D b; SQUARE |b|_(m^-1)^2,
                           LARGEST of p */
 } VKernels;
 
