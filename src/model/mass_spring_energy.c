@@ -76,7 +76,7 @@ static void concave(const Place *at, double *sum)
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         double d[2], strain = spring_strain(e, at->l2[s], at->x, d);
-        double c = at->w * 4 * at->k[s] * fmax(-strain, 0);
+        double c = at->w * 4 * at->k[s] * (strain < 0 ? -strain : 0);
         sum[e[0]] += c;
         sum[e[1]] += c;
     }
@@ -100,8 +100,9 @@ void mass_spring_pattern(const Place *at, Triplets *triplets)
 void mass_spring_bounds(const Place *at, double *stiffest, double *force)
 {
     for (int s = 0; s < at->system->springs; s++) {
-        *stiffest = fmax(*stiffest, at->k[s]);
-        *force = fmax(*force, at->k[s] * sqrt(at->l2[s]));
+        double pull = at->k[s] * sqrt(at->l2[s]);
+        *stiffest = at->k[s] > *stiffest ? at->k[s] : *stiffest;
+        *force = pull > *force ? pull : *force;
     }
 }
 

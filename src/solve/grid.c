@@ -202,8 +202,8 @@ static void set_springs_of(Grid *grid, const double *k, const double *l2,
         grid->c[kind][q] = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
         if (!grid->uniform)
             grid->l2[kind][q] = s < 0 ? 0 : l2[s];
-        if (s >= 0)
-            grid->stiffest = fmax(grid->stiffest, grid->c[kind][q] * l2[s]);
+        if (s >= 0 && grid->c[kind][q] * l2[s] > grid->stiffest)
+            grid->stiffest = grid->c[kind][q] * l2[s];
     }
 }
 
