@@ -202,8 +202,6 @@ static void set_springs_of(Grid *grid, const double *k, const double *l2,
         grid->c[kind][q] = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
         if (!grid->uniform)
             grid->l2[kind][q] = s < 0 ? 0 : l2[s];
-        if (s >= 0 && grid->c[kind][q] * l2[s] > grid->stiffest)
-            grid->stiffest = grid->c[kind][q] * l2[s];
     }
 }
 
@@ -232,7 +230,6 @@ void grid_set_springs(Grid *grid, const double *k, const double *l2,
         arrays[kind] = grid->c[kind];
         arrays[SPRING_KINDS + kind] = grid->l2[kind];
     }
-    grid->stiffest = 0;
     grid->uniform = is_uniform(grid, l2);
     int count = grid->uniform ? SPRING_KINDS : 2 * SPRING_KINDS;
     for (int i = 0, at = 0; i <= n; i++) {

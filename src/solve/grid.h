@@ -85,7 +85,6 @@ typedef struct Grid {
     double *per_mass;               /* [plane] 1/kg; 0 outside and for pins */
     bool pinned;                    /* some node never moves */
     double lightest;                /* kg, of the nodes that move */
-    double stiffest;                /* kg, the largest c l2 = 2 w k */
     double *x_n, *u, *x, *u_tilde;  /* [2 planes] m */
     void *memory;                   /* all of these */
     GridRegion all;
