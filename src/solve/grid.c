@@ -337,10 +337,10 @@ double grid_precondition(const Grid *grid, const GridRegion *region,
 
 double grid_direction(const Grid *grid, const GridRegion *region,
                       const double *z, double beta, const double *g, double *p,
-                      double *old_g, double *inertia)
+                      double *inertia)
 {
     double sum[2];
-    GridJob job = {.in = {z, g}, .out = {p, old_g}, .factor = {beta}};
+    GridJob job = {.in = {z, g}, .out = {p}, .factor = {beta}};
     run_kernel(grid->kernels->direction, job, grid, region, GRID_LIGHT, 2, sum);
     *inertia = sum[1];
     return sum[0];

@@ -75,8 +75,9 @@ typedef struct GridKernels GridKernels;
 typedef struct Grid {
     int segments; /* n */
     GridLayout layout;
-    /* Numbers of rows that are alike stand only in the first of these. */
-    int *node_shift, *spring_shift; /* [nodes + 2] grid_shift */
+    /* m and per_mass, c and l2: rows with the same numbers share one place.
+     * Those of node (i, j) stand at grid_at(i, j) + grid_shift(shift, i). */
+    int *node_shift, *spring_shift; /* [nodes + 2] */
     double *c[SPRING_KINDS];        /* [plane] kg/m^2; 0: no spring */
     double *l2[SPRING_KINDS];       /* [plane] m^2; not where all are equal */
     double rest[SPRING_KINDS];      /* m^2, l2 where all of a kind are equal */
@@ -93,7 +94,7 @@ typedef struct Grid {
     Crew *crew; /* who works; not owned, NULL: the caller alone */
 } Grid;
 
-/* How far from the places of row i its numbers stand. */
+/* How far from its places the numbers of row i stand; i is -1 for ghosts. */
 static inline int grid_shift(const int *shift, int i)
 {
     return shift[i + 1];
@@ -150,10 +151,10 @@ double grid_precondition(const Grid *grid, const GridRegion *region,
                          const double *D, const double *old_g, double *g,
                          double *z, double *old);
 
-/* p = beta p - z, old_g = g; returns g.p and, in *inertia, |p|_M^2. */
+/* p = beta p - z; returns g.p and, in *inertia, |p|_M^2. */
 double grid_direction(const Grid *grid, const GridRegion *region,
                       const double *z, double beta, const double *g, double *p,
-                      double *old_g, double *inertia);
+                      double *inertia);
 
 /* E(x + a p) - E(x) = slope a + q[1] a^2 + q[2] a^3 + q[3] a^4.
  *   region   all springs of nodes that p moves start in it

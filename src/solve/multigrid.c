@@ -317,7 +317,7 @@ static bool leaves_saddle(Multigrid *mg)
     double inertia, slope = grid_dot(grid, mg->g, mg->d);
     double sign = slope > 0 ? -1 : 1;
     grid_combine(grid, NULL, -sign, mg->d, 0, mg->z);
-    slope = grid_direction(grid, NULL, mg->z, 0, mg->g, mg->d, mg->y, &inertia);
+    slope = grid_direction(grid, NULL, mg->z, 0, mg->g, mg->d, &inertia);
     Quartic along;
     grid_along(grid, NULL, mg->d, slope, inertia, along.q);
     double alpha = quartic_first_minimum(&along);

@@ -39,14 +39,15 @@ Status tips_create(const Grid *grid, Tips *tips)
     tips->row = malloc(rows * sizeof *tips->row);
     tips->mark = calloc(blocks, 1);
     tips->first = grid->layout.nodes;
-    tips->D = grid_piece(grid, 9, &tips->memory);
+    tips->D = grid_piece(grid, 11, &tips->memory);
     if (!tips->activity || !tips->row || !tips->mark || !tips->D ||
         grid_region_create(grid, &tips->inside) ||
         grid_region_create(grid, &tips->starts))
         return STATUS_OUT_OF_MEMORY;
     tips->z = tips->D + 3 * grid->layout.plane;
     tips->p = tips->z + 2 * grid->layout.plane;
-    tips->old_g = tips->p + 2 * grid->layout.plane;
+    tips->g = tips->p + 2 * grid->layout.plane;
+    tips->old_g = tips->g + 2 * grid->layout.plane;
     return grid_region_create(grid, &tips->around);
 }
 
@@ -168,8 +169,8 @@ static bool choose_windows(Tips *tips)
 }
 
 /* Nonlinear conjugate gradients (Polak and Ribiere, beta >= 0) in the windows,
- * from g at x.  Returns by how much E has changed. */
-static double minimise_windows(Tips *tips, double *g)
+ * at x.  Returns by how much E has changed. */
+static double minimise_windows(Tips *tips)
 {
     const Grid *grid = tips->grid;
     const GridRegion *inside = &tips->inside;
@@ -178,19 +179,22 @@ static double minimise_windows(Tips *tips, double *g)
         if (i % TIP_DIAGONAL_EVERY == 0)
             grid_diagonal(grid, inside, tips->D);
         double old, inertia, beta = 0;
-        double now = grid_precondition(grid, inside, tips->D, tips->old_g, g,
-                                       tips->z, &old);
+        double now = grid_precondition(grid, inside, tips->D, tips->old_g,
+                                       tips->g, tips->z, &old);
         if (i == 0)
             start = now;
         else if (now > old)
             beta = (now - old) / last;
         if (!(now > TIP_ENOUGH * start) && i > 0)
             break;
-        double slope = grid_direction(grid, inside, tips->z, beta, g, tips->p,
-                                      tips->old_g, &inertia);
+        double slope = grid_direction(grid, inside, tips->z, beta, tips->g,
+                                      tips->p, &inertia);
         if (!(slope < 0))
-            slope = grid_direction(grid, inside, tips->z, 0, g, tips->p,
-                                   tips->old_g, &inertia);
+            slope = grid_direction(grid, inside, tips->z, 0, tips->g, tips->p,
+                                   &inertia);
+        double *g = tips->g; /* is the old one at the next x */
+        tips->g = tips->old_g;
+        tips->old_g = g;
         Quartic along;
         grid_along(grid, &tips->starts, tips->p, slope, inertia, along.q);
         double alpha = quartic_first_minimum(&along);
@@ -216,7 +220,7 @@ double tips_minimise(Tips *tips, double global, double *g)
             return change;
         changed = &tips->around;
         long before = tips->iterations;
-        double by = minimise_windows(tips, g);
+        double by = minimise_windows(tips);
         change += by;
         lowered = TIP_MEMORY * lowered + by;
         work = TIP_MEMORY * work + WORK_LOOK * changed->blocks +

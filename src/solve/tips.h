@@ -27,8 +27,9 @@ typedef struct Tips {
     GridRegion starts;   /* where springs start that they change */
     GridRegion around;   /* and their neighbours */
     void *memory;        /* of these vectors */
-    double *D, *z, *p, *old_g; /* [3 planes], [2 planes] */
-    long phases, iterations;   /* done so far */
+    double *D, *z, *p;   /* [3 planes], [2 planes] */
+    double *g, *old_g; /* [2 planes] in the windows, and before the last move */
+    long phases, iterations; /* done so far */
 } Tips;
 
 /* For this grid, which must outlive it.  Returns OK, OUT_OF_MEMORY; free it in

@@ -23,8 +23,10 @@ static const double V_LIGHT = 0.4, V_HEAVY = 1.5;
 /* Where a level is larger than the cache that is near, loops that follow each
  * other go through it in panels, whose tensors have so many bytes; at least so
  * many rows, an even number. */
-enum { V_MAX_STAGES = 3 };
 enum { PANEL_BYTES = 1 << 18, LEAST_ROWS = 8 };
+
+/* Loops that follow each other at most. */
+enum { V_MAX_STAGES = 3 };
 
 struct VCycle {
     const Grid *grid;
