@@ -5,9 +5,8 @@
 
 #include "solve/plane_search.h"
 
-/* Iterations of a phase at most, and those between new diagonal blocks; phases
- * at most. */
-enum { TIP_ITERATIONS = 20, TIP_DIAGONAL_EVERY = 10, TIP_PHASES = 1000 };
+/* Iterations of a phase at most; phases at most. */
+enum { TIP_ITERATIONS = 20, TIP_PHASES = 1000 };
 
 /* A phase ends when g.D g fell to this share. */
 static const double TIP_ENOUGH = 0.3;
@@ -175,9 +174,8 @@ static double minimise_windows(Tips *tips)
     const Grid *grid = tips->grid;
     const GridRegion *inside = &tips->inside;
     double change = 0, start = 0, last = 0;
+    grid_diagonal(grid, inside, tips->D);
     for (int i = 0; i < TIP_ITERATIONS; i++) {
-        if (i % TIP_DIAGONAL_EVERY == 0)
-            grid_diagonal(grid, inside, tips->D);
         double old, inertia, beta = 0;
         double now = grid_precondition(grid, inside, tips->D, tips->old_g,
                                        tips->g, tips->z, &old);
