@@ -470,6 +470,7 @@ Status multigrid_iterate(Multigrid *mg)
         return multigrid_test(mg);
     }
     long phases = mg->tips.phases, local = mg->tips.iterations;
+    /* The last update takes in what windows move. */
     grid_combine(grid, NULL, -1, grid->u, 1, mg->r);
     mg->record.change += tips_minimise(&mg->tips, mg->record.change, mg->g);
     grid_combine(grid, NULL, 1, grid->u, 1, mg->r);

@@ -100,16 +100,20 @@ static void take_marks(Tips *tips, GridRegion *region)
     tips->end = 0;
 }
 
-/* Marks a run, the block before it, and those below, up to one further; where
- * `after` is 1 the block after it and those above too. */
-static void mark_beside(Tips *tips, GridRun run, int after)
+/* The windows, and the blocks before and below them where springs start that
+ * end there; beyond: those after and above too, all neighbours. */
+static void take_beside(Tips *tips, int beyond, GridRegion *region)
 {
     const GridLayout *layout = &tips->grid->layout;
-    int i = grid_row(layout, run);
-    int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
-    int end = b + run.blocks;
-    mark_blocks(tips, i - 1, b - 1, i, end + 1);
-    mark_blocks(tips, i, b - 1, i + 1 + after, end + after);
+    for (int r = 0; r < tips->inside.runs; r++) {
+        GridRun run = tips->inside.run[r];
+        int i = grid_row(layout, run);
+        int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
+        int end = b + run.blocks;
+        mark_blocks(tips, i - 1, b - 1, i, end + 1);
+        mark_blocks(tips, i, b - 1, i + 1 + beyond, end + beyond);
+    }
+    take_marks(tips, region);
 }
 
 /* g and the activity of all blocks, which have changed in this region (NULL:
@@ -158,12 +162,8 @@ static bool choose_windows(Tips *tips)
     if (grid->segments >= TIP_SMALL_SQUARE &&
         tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
         return false;
-    for (int r = 0; r < tips->inside.runs; r++)
-        mark_beside(tips, tips->inside.run[r], 1);
-    take_marks(tips, &tips->around);
-    for (int r = 0; r < tips->inside.runs; r++)
-        mark_beside(tips, tips->inside.run[r], 0);
-    take_marks(tips, &tips->starts);
+    take_beside(tips, 1, &tips->around);
+    take_beside(tips, 0, &tips->starts);
     return true;
 }
 

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "solve/grid_kernels.h"
 #include "solve/v_cycle_kernels.h"
@@ -49,7 +48,7 @@ static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
     struct {
         void **array;
         int planes;
-    } arrays[10 + SPRING_KINDS * V_TENSOR] = {
+    } arrays[9 + SPRING_KINDS * V_TENSOR] = {
         {&level->m, 1},      {&level->D, 3},      {&level->b, 2},
         {&level->x, 2},      {&level->r, 2},      {&level->p, finest},
         {&level->d, finest}, {&level->y, finest}, {&level->w, finest}};
@@ -349,9 +348,8 @@ void v_solve_next(VCycle *cycle)
 
 void v_solve_end(const VCycle *cycle, double *p)
 {
-    const VLevel *level = cycle->level;
     if (cycle->first)
-        memset(level->p, 0,
-               2 * (size_t)level->layout.plane * cycle->kernels->real);
-    give(cycle, level->p, p);
+        grid_clear(cycle->grid, p);
+    else
+        give(cycle, cycle->level->p, p);
 }
