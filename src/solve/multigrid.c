@@ -12,7 +12,8 @@
 
 /* Newton's directions: the remainder falls to this share of its norm, in at
  * most so many V-cycles; between windows one cycle is enough. */
-static const double CG_ENOUGH = 0.2;
+static const double CG_ENOUGH = 0.3;
+
 enum { MAX_CYCLES = 30, CYCLES_BETWEEN_WINDOWS = 1 };
 
 /* After so many directions windows may be worth it, and they are once the

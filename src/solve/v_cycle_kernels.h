@@ -23,6 +23,7 @@ typedef struct VLevel {
     void *p, *d, *y, *w; /* [2 planes] of conjugate gradients on the finest
                             level: r is z = B b, w = A z, y = A d */
     void *line;          /* [rows of the coarser level * V_LINES * pitch] */
+    double omega[2];     /* share of a block Jacobi step, by smoothing */
 } VLevel;
 
 /* What kernels sum up in each row, or find the largest of. */
@@ -54,14 +55,14 @@ typedef struct VKernels {
     VKernel *tensors, *coarsen_tensors; /* K */
     VKernel *invert;                    /* D */
     VKernel *take;     /* b = factor in, doubles of the grid's layout */
-    VKernel *begin;    /* x = omega D b */
-    VKernel *descend;  /* coarse->b = P^T (b - A x), and there x = omega D b */
-    VKernel *prolong;  /* x += P in, in on the coarse level */
-    VKernel *smooth;   /* out = in + omega D (b - A in), DOT b.out */
+    VKernel *begin;    /* x = omega[0] D b */
+    VKernel *descend;  /* coarse->b = P^T (b - A in), and there begin */
+    VKernel *prolong;  /* out += P in, in on the coarse level */
+    VKernel *smooth;   /* out = in + factor D (b - A in), DOT b.out */
     VKernel *give;     /* out = factor in, doubles */
     VKernel *multiply; /* out = A in, BEND in.out */
     VKernel *update;   /* r += beta d, w += beta y, p += factor r,
-                          b -= factor w, x = omega D b; SQUARE |b|_(m^-1)^2,
+                          b -= factor w, and begin; SQUARE |b|_(m^-1)^2,
                           LARGEST of p */
 } VKernels;
 
