@@ -187,22 +187,25 @@ void crew_begin(Crew *crew)
     crew->waited = 0;
 }
 
-/* Until the second thread has done all that it took. */
-static void wait_for_items(Crew *crew, int items)
+/* Until the second thread has done all that it took.  Returns for how long that
+ * has been waited, in seconds. */
+static double wait_for_items(Crew *crew, int items)
 {
     for (int i = 0; i < PAUSES; i++) {
         if (atomic_load(&crew->done) == items)
-            return;
+            return 0;
         pause_shortly();
     }
     double start = clock_seconds(CLOCK_MONOTONIC);
     while (atomic_load(&crew->done) != items)
         sched_yield();
-    crew->waited += clock_seconds(CLOCK_MONOTONIC) - start;
+    return clock_seconds(CLOCK_MONOTONIC) - start;
 }
 
-void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
-              double cost)
+/*   chunk   items taken at once
+ *   uneven  waiting for the last of them is no time lost */
+static void run_chunks(Crew *crew, CrewWork *work, const void *job, int count,
+                       int chunk, bool uneven, double cost)
 {
     if (!crew || cost < WORTH_SHARING || count < 2 ||
         (crew->alone_until > 0 &&
@@ -222,15 +225,29 @@ void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
     atomic_store(&crew->work, work);
     atomic_store(&crew->job, job);
     atomic_store(&crew->count, count);
-    atomic_store(&crew->chunk, (count + CHUNKS - 1) / CHUNKS);
+    atomic_store(&crew->chunk, chunk);
     atomic_store(&crew->done, 0);
     loop++;
     atomic_store(&crew->ticket, (uint_least64_t)loop << 32);
     if (cost > WORTH_WAKING && atomic_load(&crew->asleep))
         wake_crew(crew);
     int mine = take_chunks(crew, loop, false);
-    wait_for_items(crew, count - mine);
+    double waited = wait_for_items(crew, count - mine);
+    crew->waited += uneven ? 0 : waited;
     crew_look(crew);
+}
+
+void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
+              double cost)
+{
+    int chunk = (count + CHUNKS - 1) / CHUNKS;
+    run_chunks(crew, work, job, count, chunk, false, cost);
+}
+
+void crew_run_uneven(Crew *crew, CrewWork *work, const void *job, int count,
+                     double cost)
+{
+    run_chunks(crew, work, job, count, 1, true, cost);
 }
 
 int crew_threads(const Crew *crew)

@@ -50,7 +50,7 @@ static inline int grid_at(const GridLayout *layout, int i, int j)
     return (i + 1) * layout->pitch + GRID_LEAD + j;
 }
 
-/* Some nodes: runs of whole blocks, in the order of their places. */
+/* Some nodes: runs of whole blocks. */
 typedef struct GridRun {
     int start;  /* place of the first node */
     int blocks; /* so many blocks of 8 */

@@ -46,9 +46,9 @@ struct Multigrid {
     Tips tips;
     MultigridCounters counters;
     MultigridRecord record;
-    MultigridStep step;       /* arrays are not looked at after the start */
-    double *g, *p;            /* [2 planes] grad E and direction at x */
-    double *r;                /* [2 planes] the last update */
+    MultigridStep step; /* arrays are not looked at after the start */
+    double *g, *p;      /* [2 planes] grad E and direction at x */
+    double *r; /* [2 planes] the last update, but for what windows move */
     double *rest, *z, *d, *y; /* [2 planes] of conjugate gradients */
     void *memory;             /* of these vectors */
     double norm2;             /* |g|_(M^-1)^2 */
@@ -471,10 +471,7 @@ Status multigrid_iterate(Multigrid *mg)
         return multigrid_test(mg);
     }
     long phases = mg->tips.phases, local = mg->tips.iterations;
-    /* The last update takes in what windows move. */
-    grid_combine(grid, NULL, -1, grid->u, 1, mg->r);
     mg->record.change += tips_minimise(&mg->tips, mg->record.change, mg->g);
-    grid_combine(grid, NULL, 1, grid->u, 1, mg->r);
     mg->counters.windows += mg->tips.phases - phases;
     mg->counters.local += mg->tips.iterations - local;
     mg->counters.gradients++;

@@ -18,6 +18,9 @@ static const double TIP_STANDS_OUT = 20, TIP_ACTIVE = 0.6,
                     TIP_LARGEST_SHARE = 0.5;
 enum { TIP_ROWS = 8, TIP_BLOCKS = 1 };
 
+/* Nanoseconds that a phase takes for a block, about. */
+static const double TIP_COST = 1e3;
+
 /* Below so many segments windows may be all of it: directions of the whole
  * square are no better there. */
 enum { TIP_SMALL_SQUARE = 48 };
@@ -38,9 +41,11 @@ Status tips_create(const Grid *grid, Tips *tips)
     tips->row = malloc(rows * sizeof *tips->row);
     tips->mark = calloc(blocks, 1);
     tips->first = grid->layout.nodes;
+    tips->window = malloc(blocks * sizeof *tips->window);
+    tips->sums = malloc(2 * blocks * GRID_MAX_SUMS * sizeof *tips->sums);
     tips->D = grid_piece(grid, 11, &tips->memory);
-    if (!tips->activity || !tips->row || !tips->mark || !tips->D ||
-        grid_region_create(grid, &tips->inside) ||
+    if (!tips->activity || !tips->row || !tips->mark || !tips->window ||
+        !tips->sums || !tips->D || grid_region_create(grid, &tips->inside) ||
         grid_region_create(grid, &tips->starts))
         return STATUS_OUT_OF_MEMORY;
     tips->z = tips->D + 3 * grid->layout.plane;
@@ -57,12 +62,16 @@ void tips_free(Tips *tips)
     free(tips->activity);
     free(tips->row);
     free(tips->mark);
+    free(tips->window);
+    free(tips->sums);
     free(tips->memory);
     free(tips->inside.run);
     free(tips->starts.run);
     free(tips->around.run);
     *tips = (Tips){0};
 }
+
+/* ---- regions ---- */
 
 /* Marks the blocks from row and block (i, b) to just before (end_i, end_b). */
 static void mark_blocks(Tips *tips, int i, int b, int end_i, int end_b)
@@ -78,43 +87,124 @@ static void mark_blocks(Tips *tips, int i, int b, int end_i, int end_b)
         memset(tips->mark + i * width + b, 1, (size_t)(end_b - b));
 }
 
-/* The blocks that are marked; none is afterwards. */
-static void take_marks(Tips *tips, GridRegion *region)
+/* Adds the run of marked blocks that block b of row i is in to a region, and
+ * removes their marks. */
+static void take_run(Tips *tips, int i, int b, GridRegion *region)
 {
     const GridLayout *layout = &tips->grid->layout;
-    region->runs = region->blocks = 0;
-    for (int i = tips->first; i < tips->end; i++) {
-        unsigned char *mark = tips->mark + i * layout->blocks;
-        for (int b = 0; b < layout->blocks; b++) {
-            int first = b;
-            while (b < layout->blocks && mark[b])
-                mark[b++] = 0;
-            if (b == first)
-                continue;
-            region->run[region->runs++] =
-                (GridRun){grid_at(layout, i, GRID_BLOCK * first), b - first};
-            region->blocks += b - first;
-        }
-    }
-    tips->first = layout->nodes;
+    unsigned char *mark = tips->mark + i * layout->blocks;
+    while (b > 0 && mark[b - 1])
+        b--;
+    int first = b;
+    while (b < layout->blocks && mark[b])
+        mark[b++] = 0;
+    region->run[region->runs++] =
+        (GridRun){grid_at(layout, i, GRID_BLOCK * first), b - first};
+    region->blocks += b - first;
+}
+
+/* The same for all marked blocks. */
+static void take_marks(Tips *tips, GridRegion *region)
+{
+    int width = tips->grid->layout.blocks;
+    for (int i = tips->first; i < tips->end; i++)
+        for (int b = 0; b < width; b++)
+            if (tips->mark[i * width + b])
+                take_run(tips, i, b, region);
+    tips->first = tips->grid->layout.nodes;
     tips->end = 0;
 }
 
-/* The windows, and the blocks before and below them where springs start that
- * end there; beyond: those after and above too, all neighbours. */
-static void take_beside(Tips *tips, int beyond, GridRegion *region)
+/* The number of a run's first block in its row. */
+static int first_block(const GridLayout *layout, GridRun run)
+{
+    int i = grid_row(layout, run);
+    return (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
+}
+
+/* Adds these blocks to a region, and those before and below them where springs
+ * start that end there; beyond: those after and above too, all neighbours. */
+static void take_beside(Tips *tips, const GridRegion *these, int beyond,
+                        GridRegion *region)
 {
     const GridLayout *layout = &tips->grid->layout;
-    for (int r = 0; r < tips->inside.runs; r++) {
-        GridRun run = tips->inside.run[r];
-        int i = grid_row(layout, run);
-        int b = (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
+    for (int r = 0; r < these->runs; r++) {
+        GridRun run = these->run[r];
+        int i = grid_row(layout, run), b = first_block(layout, run);
         int end = b + run.blocks;
         mark_blocks(tips, i - 1, b - 1, i, end + 1);
         mark_blocks(tips, i, b - 1, i + 1 + beyond, end + beyond);
     }
     take_marks(tips, region);
 }
+
+/* Adds the runs of marked blocks that are near its own, and those near these:
+ * with less than two blocks between, in the same row or the next. */
+static void take_near(Tips *tips, GridRegion *region)
+{
+    const GridLayout *layout = &tips->grid->layout;
+    int width = layout->blocks;
+    for (int r = 0; r < region->runs; r++) {
+        GridRun run = region->run[r];
+        int i = grid_row(layout, run), b = first_block(layout, run);
+        int first = b > 2 ? b - 2 : 0, end = b + run.blocks + 2;
+        int last = i + 1 < layout->nodes ? i + 1 : i;
+        for (int row = i > 0 ? i - 1 : 0; row <= last; row++)
+            for (b = first; b < end && b < width; b++)
+                if (tips->mark[row * width + b])
+                    take_run(tips, row, b, region);
+    }
+}
+
+/* An empty region behind this one. */
+static GridRegion region_behind(const GridRegion *region)
+{
+    return (GridRegion){0, 0, region->run + region->runs};
+}
+
+/* Takes in what has been added to the region behind it. */
+static void join_region(GridRegion *region, const GridRegion *behind)
+{
+    region->runs += behind->runs;
+    region->blocks += behind->blocks;
+}
+
+/* Every part of the marks becomes a window. */
+static void make_windows(Tips *tips)
+{
+    int width = tips->grid->layout.blocks;
+    tips->windows = 0;
+    tips->inside.runs = tips->inside.blocks = 0;
+    for (int i = tips->first; i < tips->end; i++)
+        for (int b = 0; b < width; b++) {
+            if (!tips->mark[i * width + b])
+                continue;
+            TipWindow *window = &tips->window[tips->windows++];
+            *window = (TipWindow){.inside = region_behind(&tips->inside)};
+            take_run(tips, i, b, &window->inside);
+            take_near(tips, &window->inside);
+            join_region(&tips->inside, &window->inside);
+        }
+}
+
+/* Where their springs start, and what is around them all. */
+static void look_around(Tips *tips)
+{
+    tips->starts.runs = tips->starts.blocks = 0;
+    tips->around.runs = tips->around.blocks = 0;
+    double *sums = tips->sums;
+    for (int w = 0; w < tips->windows; w++) {
+        TipWindow *window = &tips->window[w];
+        window->starts = region_behind(&tips->starts);
+        take_beside(tips, &window->inside, 0, &window->starts);
+        join_region(&tips->starts, &window->starts);
+        window->sums = sums;
+        sums += (window->inside.runs + window->starts.runs) * GRID_MAX_SUMS;
+    }
+    take_beside(tips, &tips->inside, 1, &tips->around);
+}
+
+/* ---- phases ---- */
 
 /* g and the activity of all blocks, which have changed in this region (NULL:
  * everywhere) since the last look.  D may be older there: it only weighs. */
@@ -158,53 +248,63 @@ static bool choose_windows(Tips *tips)
             if (tips->activity[i * width + b] >= TIP_ACTIVE * most)
                 mark_blocks(tips, i - TIP_ROWS, b - TIP_BLOCKS,
                             i + TIP_ROWS + 1, b + TIP_BLOCKS + 1);
-    take_marks(tips, &tips->inside);
+    make_windows(tips);
     if (grid->segments >= TIP_SMALL_SQUARE &&
         tips->inside.blocks > TIP_LARGEST_SHARE * blocks)
         return false;
-    take_beside(tips, 1, &tips->around);
-    take_beside(tips, 0, &tips->starts);
+    look_around(tips);
     return true;
 }
 
-/* Nonlinear conjugate gradients (Polak and Ribiere, beta >= 0) in the windows,
- * at x.  Returns by how much E has changed. */
-static double minimise_windows(Tips *tips)
+/* Nonlinear conjugate gradients (Polak and Ribiere, beta >= 0) in a window, at
+ * x. */
+static void minimise_window(const Tips *tips, const Grid *grid,
+                            TipWindow *window)
 {
-    const Grid *grid = tips->grid;
-    const GridRegion *inside = &tips->inside;
-    double change = 0, start = 0, last = 0;
+    const GridRegion *inside = &window->inside;
+    double start = 0, last = 0, *g = tips->g, *old_g = tips->old_g;
     grid_diagonal(grid, inside, tips->D);
     for (int i = 0; i < TIP_ITERATIONS; i++) {
         double old, inertia, beta = 0;
-        double now = grid_precondition(grid, inside, tips->D, tips->old_g,
-                                       tips->g, tips->z, &old);
+        double now =
+            grid_precondition(grid, inside, tips->D, old_g, g, tips->z, &old);
         if (i == 0)
             start = now;
         else if (now > old)
             beta = (now - old) / last;
         if (!(now > TIP_ENOUGH * start) && i > 0)
             break;
-        double slope = grid_direction(grid, inside, tips->z, beta, tips->g,
-                                      tips->p, &inertia);
+        double slope =
+            grid_direction(grid, inside, tips->z, beta, g, tips->p, &inertia);
         if (!(slope < 0))
-            slope = grid_direction(grid, inside, tips->z, 0, tips->g, tips->p,
-                                   &inertia);
-        double *g = tips->g; /* is the old one at the next x */
-        tips->g = tips->old_g;
-        tips->old_g = g;
+            slope =
+                grid_direction(grid, inside, tips->z, 0, g, tips->p, &inertia);
+        double *next = old_g; /* g is the old one at the next x */
+        old_g = g;
+        g = next;
         Quartic along;
-        grid_along(grid, &tips->starts, tips->p, slope, inertia, along.q);
+        grid_along(grid, &window->starts, tips->p, slope, inertia, along.q);
         double alpha = quartic_first_minimum(&along);
         if (!(alpha > 0))
             break;
         grid_move(grid, inside, alpha, tips->p, 0, NULL);
-        change += quartic_value(&along, alpha);
+        window->change += quartic_value(&along, alpha);
         last = now;
-        tips->iterations++;
+        window->iterations++;
     }
     grid_region_clear(grid, inside, tips->p);
-    return change;
+}
+
+/* Windows first ... end - 1.  Of several, each is one thread's. */
+static void minimise_windows(const void *job, int first, int end)
+{
+    const Tips *tips = job;
+    Grid grid = *tips->grid;
+    grid.crew = tips->windows == 1 ? grid.crew : NULL;
+    for (int w = first; w < end; w++) {
+        grid.sums = tips->window[w].sums;
+        minimise_window(tips, &grid, &tips->window[w]);
+    }
 }
 
 double tips_minimise(Tips *tips, double global, double *g)
@@ -217,12 +317,17 @@ double tips_minimise(Tips *tips, double global, double *g)
         if (!choose_windows(tips))
             return change;
         changed = &tips->around;
-        long before = tips->iterations;
-        double by = minimise_windows(tips);
-        change += by;
-        lowered = TIP_MEMORY * lowered + by;
-        work = TIP_MEMORY * work + WORK_LOOK * changed->blocks +
-               (double)(tips->iterations - before) * tips->inside.blocks;
+        crew_run_uneven(tips->grid->crew, minimise_windows, tips, tips->windows,
+                        TIP_COST * tips->inside.blocks);
+        lowered *= TIP_MEMORY;
+        work = TIP_MEMORY * work + WORK_LOOK * changed->blocks;
+        for (int w = 0; w < tips->windows; w++) {
+            const TipWindow *window = &tips->window[w];
+            change += window->change;
+            lowered += window->change;
+            work += (double)window->iterations * window->inside.blocks;
+            tips->iterations += window->iterations;
+        }
         tips->phases++;
         if (!(lowered < pace * work))
             break;

@@ -17,19 +17,32 @@ typedef struct TipRow {
     double sum, most;
 } TipRow;
 
+/* Nodes that move together.  Windows are so far from each other that neither
+ * changes what the other computes. */
+typedef struct TipWindow {
+    GridRegion inside; /* nodes that move */
+    GridRegion starts; /* where springs start that they change */
+    double *sums;      /* [runs of both * GRID_MAX_SUMS] */
+    double change;     /* of E */
+    int iterations;
+} TipWindow;
+
 typedef struct Tips {
     const Grid *grid;
     double *activity;    /* [rows * blocks] g.D g of each block */
     TipRow *row;         /* [rows] */
     unsigned char *mark; /* [rows * blocks] 0, but while regions are made */
     int first, end;      /* rows with marks */
-    GridRegion inside;   /* nodes that move */
-    GridRegion starts;   /* where springs start that they change */
-    GridRegion around;   /* and their neighbours */
-    void *memory;        /* of these vectors */
-    double *D, *z, *p;   /* [3 planes], [2 planes] */
-    double *g, *old_g; /* [2 planes] in the windows, and before the last move */
-    long phases, iterations; /* done so far */
+    TipWindow *window;   /* [windows] of a phase */
+    int windows;
+    GridRegion inside, starts; /* of all of them, one after the other */
+    GridRegion around;         /* what is inside, and all neighbours */
+    double *sums;              /* of all windows */
+    void *memory;              /* of these vectors */
+    double *D, *z, *p;         /* [3 planes], [2 planes] */
+    double *g,
+        *old_g; /* [2 planes] in the windows, by turns: last two grad E */
+    long phases, iterations; /* done so far, all windows' */
 } Tips;
 
 /* For this grid, which must outlive it.  Returns OK, OUT_OF_MEMORY; free it in
