@@ -387,6 +387,7 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     mg->updated = false;
     mg->saddles = 0;
     begin_iterations(mg);
+    mg->tips.weighed = false;
     crew_begin(mg->crew);
     if (!mg->known) {
         grid_set_nodes(grid, step->m, step->pinned);

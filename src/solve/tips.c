@@ -207,14 +207,16 @@ static void look_around(Tips *tips)
 /* ---- phases ---- */
 
 /* g and the activity of all blocks, which have changed in this region (NULL:
- * everywhere) since the last look.  D may be older there: it only weighs. */
+ * everywhere) since the last look.  D may be older, but of this step: it only
+ * weighs. */
 static void look(Tips *tips, const GridRegion *changed, double *g)
 {
     const Grid *grid = tips->grid;
     int width = grid->layout.blocks;
     grid_gradient(grid, changed, g);
-    if (!changed)
+    if (!tips->weighed)
         grid_diagonal(grid, NULL, tips->D);
+    tips->weighed = true;
     grid_activity(grid, changed, tips->D, g, tips->activity);
     changed = changed ? changed : &grid->all;
     for (int r = 0; r < changed->runs; r++) {

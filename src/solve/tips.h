@@ -33,6 +33,7 @@ typedef struct Tips {
     TipRow *row;         /* [rows] */
     unsigned char *mark; /* [rows * blocks] 0, but while regions are made */
     int first, end;      /* rows with marks */
+    bool weighed;        /* D is of this step; the owner sets it to false */
     TipWindow *window;   /* [windows] of a phase */
     int windows;
     GridRegion inside, starts; /* of all of them, one after the other */
