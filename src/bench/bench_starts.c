@@ -136,24 +136,35 @@ static void report_start(Bench *bench, const Variant *variant, int segments,
                   row->buckling, row->energy, row->unconverged);
 }
 
+Status starts_compare(const Options *options, int sorts, int starts, int steps,
+                      StartRow *row)
+{
+    StartRun runs[2][STARTS];
+    int count = 0;
+    double longest[2] = {0}, all = 0;
+    while (count < starts && count < STARTS && all < sorts * all_starts) {
+        for (int s = 0; s < sorts; s++) {
+            Options moved = options[s];
+            move_start(&moved, count);
+            Status status = run_start(&moved, steps, &runs[s][count]);
+            if (status)
+                return status;
+            longest[s] = fmax(longest[s], runs[s][count].total);
+            all += runs[s][count].total;
+        }
+        count++;
+    }
+    for (int s = 0; s < sorts; s++) {
+        row[s] = summarise(runs[s], count, steps);
+        row[s].longest = longest[s];
+    }
+    return STATUS_OK;
+}
+
 Status starts_measure(const Options *options, int starts, int steps,
                       StartRow *row)
 {
-    StartRun runs[STARTS];
-    int count = 0;
-    double longest = 0, all = 0;
-    while (count < starts && count < STARTS && all < all_starts) {
-        Options moved = *options;
-        move_start(&moved, count);
-        Status status = run_start(&moved, steps, &runs[count]);
-        if (status)
-            return status;
-        longest = fmax(longest, runs[count].total);
-        all += runs[count++].total;
-    }
-    *row = summarise(runs, count, steps);
-    row->longest = longest;
-    return STATUS_OK;
+    return starts_compare(options, 1, starts, steps, row);
 }
 
 Status bench_starts(Bench *bench)

@@ -23,6 +23,12 @@ typedef struct StartRow {
 Status starts_measure(const Options *options, int starts, int steps,
                       StartRow *row);
 
+/* The same for one or two sorts of runs, by turns: what slows the machine for a
+ * while slows both.
+ *   options  [sorts]; row [sorts] out */
+Status starts_compare(const Options *options, int sorts, int starts, int steps,
+                      StartRow *row);
+
 /* Processor time, iterations and energy of every solver at 16 ... 512 segments,
  * with and without the look for negative curvature, and how its steps grow with
  * the nodes.  Which fold a minimisation takes is decided by rounding; so there
