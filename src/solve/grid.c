@@ -112,8 +112,7 @@ Status grid_create(int segments, int lanes, Grid *grid)
         return status;
     GridRegion *all = &grid->all;
     for (all->runs = 0; all->runs < layout->nodes; all->runs++)
-        all->run[all->runs] =
-            (GridRun){grid_at(layout, all->runs, 0), layout->blocks};
+        all->run[all->runs] = (GridRun){all->runs, 0, layout->blocks};
     all->blocks = layout->nodes * layout->blocks;
     return STATUS_OK;
 }
@@ -390,8 +389,9 @@ void grid_region_clear(const Grid *grid, const GridRegion *region, double *a)
 {
     for (int r = 0; r < region->runs; r++)
         for (int c = 0; c < 2; c++)
-            memset(a + c * grid->layout.plane + region->run[r].start, 0,
-                   GRID_BLOCK * (size_t)region->run[r].blocks * sizeof *a);
+            memset(a + c * grid->layout.plane +
+                       grid_start(&grid->layout, region->run[r]),
+                   0, GRID_BLOCK * (size_t)region->run[r].blocks * sizeof *a);
 }
 
 double grid_dot(const Grid *grid, const double *a, const double *b)

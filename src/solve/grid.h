@@ -52,8 +52,8 @@ static inline int grid_at(const GridLayout *layout, int i, int j)
 
 /* Some nodes: runs of whole blocks. */
 typedef struct GridRun {
-    int start;  /* place of the first node */
-    int blocks; /* so many blocks of 8 */
+    int row, first; /* block of 8 nodes */
+    int blocks;     /* so many */
 } GridRun;
 
 typedef struct GridRegion {
@@ -61,10 +61,10 @@ typedef struct GridRegion {
     GridRun *run;
 } GridRegion;
 
-/* The row of nodes that a run is in. */
-static inline int grid_row(const GridLayout *layout, GridRun run)
+/* The place of a run's first node. */
+static inline int grid_start(const GridLayout *layout, GridRun run)
 {
-    return run.start / layout->pitch - 1;
+    return grid_at(layout, run.row, GRID_BLOCK * run.first);
 }
 
 typedef struct GridKernels GridKernels;

@@ -98,8 +98,7 @@ static void take_run(Tips *tips, int i, int b, GridRegion *region)
     int first = b;
     while (b < layout->blocks && mark[b])
         mark[b++] = 0;
-    region->run[region->runs++] =
-        (GridRun){grid_at(layout, i, GRID_BLOCK * first), b - first};
+    region->run[region->runs++] = (GridRun){i, first, b - first};
     region->blocks += b - first;
 }
 
@@ -115,23 +114,14 @@ static void take_marks(Tips *tips, GridRegion *region)
     tips->end = 0;
 }
 
-/* The number of a run's first block in its row. */
-static int first_block(const GridLayout *layout, GridRun run)
-{
-    int i = grid_row(layout, run);
-    return (run.start - grid_at(layout, i, 0)) / GRID_BLOCK;
-}
-
 /* Adds these blocks to a region, and those before and below them where springs
  * start that end there; beyond: those after and above too, all neighbours. */
 static void take_beside(Tips *tips, const GridRegion *these, int beyond,
                         GridRegion *region)
 {
-    const GridLayout *layout = &tips->grid->layout;
     for (int r = 0; r < these->runs; r++) {
         GridRun run = these->run[r];
-        int i = grid_row(layout, run), b = first_block(layout, run);
-        int end = b + run.blocks;
+        int i = run.row, b = run.first, end = b + run.blocks;
         mark_blocks(tips, i - 1, b - 1, i, end + 1);
         mark_blocks(tips, i, b - 1, i + 1 + beyond, end + beyond);
     }
@@ -146,13 +136,13 @@ static void take_near(Tips *tips, GridRegion *region)
     int width = layout->blocks;
     for (int r = 0; r < region->runs; r++) {
         GridRun run = region->run[r];
-        int i = grid_row(layout, run), b = first_block(layout, run);
-        int first = b > 2 ? b - 2 : 0, end = b + run.blocks + 2;
-        int last = i + 1 < layout->nodes ? i + 1 : i;
-        for (int row = i > 0 ? i - 1 : 0; row <= last; row++)
-            for (b = first; b < end && b < width; b++)
-                if (tips->mark[row * width + b])
-                    take_run(tips, row, b, region);
+        int first = run.first > 2 ? run.first - 2 : 0;
+        int end = run.first + run.blocks + 2;
+        int last = run.row + 1 < layout->nodes ? run.row + 1 : run.row;
+        for (int i = run.row > 0 ? run.row - 1 : 0; i <= last; i++)
+            for (int b = first; b < end && b < width; b++)
+                if (tips->mark[i * width + b])
+                    take_run(tips, i, b, region);
     }
 }
 
@@ -220,7 +210,7 @@ static void look(Tips *tips, const GridRegion *changed, double *g)
     grid_activity(grid, changed, tips->D, g, tips->activity);
     changed = changed ? changed : &grid->all;
     for (int r = 0; r < changed->runs; r++) {
-        int i = grid_row(&grid->layout, changed->run[r]);
+        int i = changed->run[r].row;
         TipRow *row = &tips->row[i];
         *row = (TipRow){0, 0};
         for (int b = 0; b < width; b++) {
