@@ -23,8 +23,8 @@ static const double STALLS = 0.3;
 
 /* The test is worth conjugate gradients when the gradient's bound is at most
  * so many tolerances for each segment, and has halved since they last said no.
- */
-static const double WORTH_A_TEST = 8;
+ * Where windows are minimised, the bound falls slowly and these take long. */
+static const double WORTH_A_TEST = 8, WORTH_BETWEEN_WINDOWS = 2;
 enum { MAX_TEST_CYCLES = 100 };
 
 /* Single precision can make the remainder smaller by this factor; then it is
@@ -54,7 +54,7 @@ struct Multigrid {
     double norm2;             /* |g|_(M^-1)^2 */
     double bound;             /* m/s, of the residual */
     double last_bound;        /* m/s, an iteration before */
-    double test_below;        /* m/s, bound at which the test is worth it */
+    double test_below;        /* m/s, half the bound when it said no */
     double residual;          /* m/s */
     bool known;               /* the grid has the system's numbers */
     bool directed;            /* p is a direction at x */
@@ -302,7 +302,7 @@ static void begin_iterations(Multigrid *mg)
 {
     mg->windows = false;
     mg->iterations = 0;
-    mg->test_below = WORTH_A_TEST * mg->step.tolerance * mg->grid.segments;
+    mg->test_below = INFINITY;
 }
 
 /* Goes along a direction in which E bends down, if there is one.  Returns
@@ -355,7 +355,9 @@ static Status multigrid_test(Multigrid *mg)
 {
     if (!isfinite(mg->norm2))
         return STATUS_NOT_FINITE;
-    if (mg->bound > mg->test_below)
+    double worth = mg->windows ? WORTH_BETWEEN_WINDOWS : WORTH_A_TEST;
+    worth *= mg->step.tolerance * mg->grid.segments;
+    if (mg->bound > fmin(worth, mg->test_below))
         return STATUS_RUNNING;
     if (mg->bound > mg->step.tolerance) {
         if (mg->step.is_free) {
