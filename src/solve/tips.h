@@ -5,7 +5,8 @@
  * only windows around such tips move, by a nonlinear conjugate gradient method
  * with exact line search, preconditioned by the Hessian's diagonal blocks
  * (nonlinear elimination).  Nodes outside stay, so that E falls as much as the
- * windows say.
+ * windows say; and windows that are apart are minimised each by itself, by two
+ * threads.
  */
 #ifndef ELASTO_TIPS_H
 #define ELASTO_TIPS_H

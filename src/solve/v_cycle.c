@@ -10,12 +10,12 @@
  * this many smoothings, an odd number. */
 enum { COARSEST = 8, COARSEST_SMOOTHINGS = 7 };
 
-/* Shares of a block Jacobi step.  D A has no eigenvalue above 2, since a
- * spring's energy is at most twice what it has with one end held, and the
- * coarser level takes care of those below 1/2, about.  The finest level has one
- * smoothing before it goes to the coarser one and one after.  The others,
- * which cost little, have two, so that their result is nearly the exact one:
- * the roots of Chebyshev's polynomial of this interval. */
+/* Shares of a block Jacobi step.  No eigenvalue of D A is above 2, since
+ * d.K d <= 2 (a.K a + b.K b) for d = a - b; the coarser level takes care of
+ * those below 1/2, about.  The finest level smooths once before it goes to the
+ * coarser one, and once after.  The others, which cost little, smooth twice, so
+ * that their result is nearly the exact one; their shares are 1 over the roots
+ * of Chebyshev's polynomial of degree 2 for eigenvalues 1/2 ... 2. */
 static const double OMEGA_FINEST = 0.7, OMEGA[2] = {0.5617, 1.389};
 
 /* Up to so many segments the cycle is in double precision. */

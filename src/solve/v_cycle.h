@@ -1,13 +1,14 @@
-/* v_cycle.h - a geometric multigrid V(1,1)-cycle for the clamped Hessian of
- * grid.h: the preconditioner of conjugate gradients.
+/* v_cycle.h - a geometric multigrid V-cycle for the clamped Hessian of grid.h:
+ * the preconditioner of conjugate gradients.
  *
  * Each spring's Hessian is a symmetric 2x2 tensor K (the block of its nodes is
  * [[K, -K], [-K, K]]).  The next coarser level has every second node; its
  * springs have the mean tensor of the four finer ones that each stands for
  * (in two dimensions stiffness does not change with the length), its masses
  * are P^T m.  P is bilinear interpolation, P^T the restriction, and a damped
- * block Jacobi iteration smooths, once before and once after.  All that is
- * symmetric, so the cycle is a symmetric positive definite matrix.
+ * block Jacobi iteration smooths: once before and once after on the finest
+ * level, twice on the coarser ones.  All that is symmetric, so the cycle is a
+ * symmetric positive definite matrix.
  *
  * Its numbers are of single precision, and so are the conjugate gradients that
  * it has beside it: they find directions, and what a test needs to know of them
