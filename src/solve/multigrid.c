@@ -24,7 +24,7 @@ static const double STALLS = 0.3;
 /* The test is worth conjugate gradients when the gradient's bound is at most
  * so many tolerances for each segment, and has halved since they last said no.
  * Where windows are minimised, the bound falls slowly and these take long. */
-static const double WORTH_A_TEST = 8, WORTH_BETWEEN_WINDOWS = 2;
+static const double WORTH_A_TEST = 8, WORTH_BETWEEN_WINDOWS = 4;
 enum { MAX_TEST_CYCLES = 100 };
 
 /* Single precision can make the remainder smaller by this factor; then it is
