@@ -220,7 +220,8 @@ static void shifts_are_small(void **unused)
 }
 
 /* A square that only flies and turns: forces that the masses alone resist,
- * while the shift is some 1e12 masses. */
+ * while the shift is some 1e12 masses.  1e-8: of p, 1e-3, what is left when
+ * rounding of products with the springs' 1e30 ends the solves. */
 static void shifted_solves_find_the_masses(void **unused)
 {
     (void)unused;
@@ -242,7 +243,7 @@ static void shifted_solves_find_the_masses(void **unused)
     CHECK(wide_factor(N, H, &negative) && negative == 0);
     wide_solve(N, H, g);
     for (int i = 0; i < N; i++)
-        CHECK_NEAR(newton->at.p[i], -(long double)g[i], 1e-9);
+        CHECK_NEAR(newton->at.p[i], -(long double)g[i], 1e-8);
     simulation_free(&simulation);
 }
 
