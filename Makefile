@@ -6,7 +6,6 @@ CC      ?= cc
 CFLAGS  ?= -O2 -g
 PREFIX  ?= /usr/local
 SANITIZE ?=
-ONE_THREAD ?= 1
 V       ?= 0
 ARGS    ?=
 
@@ -31,8 +30,7 @@ OBJECTS := $(SOURCES:src/%.c=$(B)/%.o) $(B)/listing_text.o
 BENCH_OBJECTS := $(BENCH_SOURCES:src/%.c=$(B)/%.o)
 SUITES  := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/unit/test_*.c))
 
-ALL_CPPFLAGS = -D_GNU_SOURCE -DELASTO_ONE_THREAD=$(ONE_THREAD) \
-               -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
+ALL_CPPFLAGS = -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) $(CPPFLAGS)
 ALL_CFLAGS   = -std=c11 -pipe -ffp-contract=off -Wall -Wextra $(CFLAGS) \
                $(SANITIZER)
 ALL_LDFLAGS  = $(LDFLAGS) $(SANITIZER)
@@ -73,9 +71,8 @@ endif
 endif
 
 # $(call try,FLAGS,HEADER,CALL): does this compile and link?
-# A symbol is looked for in one library after the other when a program starts:
-# so those with most symbols come first, BLAS and LAPACK, which CHOLMOD uses
-# (28 instead of 52 million instructions).
+# CHOLMOD is linked as an archive where there is one: src/solve/blas.c answers
+# its calls of BLAS, and a program that has it loads no library of BLAS.
 define deps_functions
 try() { { printf '#include <%b>\n' stddef.h stdio.h "$$2"; \
     echo "int main(void) { return (int)(size_t)($$3); }"; } | \
@@ -93,24 +90,27 @@ cmocka() { \
   try "$$(pc cmocka -lcmocka)" "$$headers\n#include <cmocka.h" \
     '&_cmocka_run_group_tests'; }; \
 cholmod_flags() { \
+  alone="-I/usr/include/suitesparse -l:libcholmod.a -l:libcolamd.a"; \
+  alone="$$alone -l:libccolamd.a -l:libcamd.a -l:libamd.a"; \
+  alone="$$alone -l:libsuitesparseconfig.a -l:libmetis.so.5 -lgomp"; \
+  if try "$$alone -lblas -llapack -lm" cholmod.h '&cholmod_solve2'; then \
+    echo "$$alone"; return 0; fi; \
   found=$$(pkg-config --cflags --libs CHOLMOD 2>/dev/null); \
   for f in "$$found" -lcholmod "-I/usr/include/suitesparse -lcholmod" \
     "-I/usr/local/include/suitesparse -L/usr/local/lib -lcholmod" \
     "-I/opt/homebrew/include/suitesparse -L/opt/homebrew/lib -lcholmod"; do \
   if try "$$f" cholmod.h '&cholmod_solve2'; then \
     echo "$$f"; return 0; fi; done; return 1; }; \
-blas() { all="-Wl,--no-as-needed -lblas -llapack -Wl,--as-needed"; \
-  try "$$all" stddef.h 0 && echo "$$all"; }; \
 install_packages() { \
   echo "elasto needs these packages: $$1"; \
   if ! command -v apt-get >/dev/null 2>&1; then \
     echo "Please install them:"; \
     echo "  Fedora:  dnf install SDL2-devel SDL2_ttf-devel \\"; \
     echo "             dejavu-sans-fonts dejavu-sans-mono-fonts \\"; \
-    echo "             suitesparse-devel openblas-devel libpng-devel \\"; \
+    echo "             suitesparse-devel libpng-devel \\"; \
     echo "             libcmocka-devel pkgconf"; \
     echo "  Arch:    pacman -S sdl2 sdl2_ttf ttf-dejavu suitesparse \\"; \
-    echo "             openblas libpng cmocka pkgconf"; \
+    echo "             libpng cmocka pkgconf"; \
     echo "  macOS:   brew install sdl2 sdl2_ttf font-dejavu \\"; \
     echo "             suite-sparse libpng cmocka pkg-config"; \
     return 1; fi; \
@@ -134,17 +134,19 @@ $(CONFIG): Makefile
 	font || missing="$$missing fonts-dejavu-core"; \
 	png || missing="$$missing libpng-dev"; \
 	cholmod=$$(cholmod_flags) || \
-	  missing="$$missing libsuitesparse-dev libopenblas0"; \
+	  missing="$$missing libsuitesparse-dev"; \
 	if [ "$$missing" ]; then \
 	  install_packages "$$missing" || exit 1; \
 	  sdl && ttf && png && cholmod=$$(cholmod_flags) || \
 	    { cat build/try.log; exit 1; }; fi; \
-	flags="$$(blas) $$cholmod $$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
+	flags="$$cholmod $$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
 	flags="$$flags $$(pc SDL2_ttf -lSDL2_ttf) $$(pc libpng -lpng)"; \
 	c=; l=; for f in $$flags; do \
 	  case "$$c $$l " in *" $$f "*) continue;; esac; \
 	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \
-	{ echo "DEP_CFLAGS :=$$c"; echo "DEP_LIBS :=$$l -ldl -lm"; } >$@.new; \
+	case $$l in *libcholmod.a*) blas='-lblas -llapack';; *) blas=;; esac; \
+	{ echo "DEP_CFLAGS :=$$c"; echo "DEP_LIBS :=$$l -ldl -lm"; \
+	  echo "BLAS_LIBS := $$blas"; } >$@.new; \
 	rm -f build/try build/try.log; mv $@.new $@
 
 build/config-test.mk: $(CONFIG)
@@ -180,7 +182,8 @@ build/lecture: $(B)/lecture FORCE
 
 $(B)/lecture: $(B)/lecture.o
 	$(call say,LINK,$@)
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(BLAS_LIBS) \
+	  $(LDLIBS)
 
 # Objects are made again when the compiler or its flags change.
 $(B)/flags: FORCE
@@ -232,7 +235,8 @@ build/elasto-bench: $(B)/elasto-bench FORCE
 
 $(B)/elasto-bench: $(BENCH_OBJECTS) $(B)/bench/bench.o $(LIBRARY)
 	$(call say,LINK,$@)
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(LDLIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS) $(BLAS_LIBS) \
+	  $(LDLIBS)
 
 $(B)/bench/bench_report.o: src/bench/bench_report.c $(B)/flags
 	$(call say,CC,$<)
@@ -263,7 +267,7 @@ $(B)/tests/%.o: tests/%.c $(B)/flags
 $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o $(LIBRARY)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LINKED) -o $@ $(TEST_LIBS) \
-	  $(DEP_LIBS) $(LDLIBS)
+	  $(DEP_LIBS) $(BLAS_LIBS) $(LDLIBS)
 
 # Archives come last.
 LINKED = $(filter %.o,$^) $(filter %.a,$^)
@@ -344,7 +348,7 @@ $(B)/stress-tests: $(B)/tests/stress/stress.o $(STRESS_OBJECTS) \
              $(B)/tests/unit/testing.o $(LIBRARY)
 	$(call say,LINK,$@)
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) $(LINKED) -o $@ $(TEST_LIBS) \
-	  $(DEP_LIBS) $(LDLIBS)
+	  $(DEP_LIBS) $(BLAS_LIBS) $(LDLIBS)
 
 build/stress: $(B)/stress-tests FORCE
 	@cmp -s $< $@ || cp -f $< $@

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/one_thread.h"
+#include "solve/blas.h"
 #include "solve/supernodes.h"
 
 struct Cholesky {
@@ -73,7 +73,7 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
     Cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky)
         return STATUS_OUT_OF_MEMORY;
-    one_thread();
+    blas_start();
     cholmod_start(&cholesky->common);
     set_parameters(&cholesky->common, kind, ordered);
     cholesky->kind = kind;

@@ -7,8 +7,6 @@
 # What each printed is shown in one piece afterwards.  The last line counts what
 # passed, failed and was skipped.
 set -u
-# The threads of OpenBLAS, which have nothing to do here, sleep at once.
-export OPENBLAS_THREAD_TIMEOUT=4
 passed=0
 failed=0
 skipped=0

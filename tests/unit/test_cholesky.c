@@ -290,6 +290,102 @@ static void dropped_values_are_not_read(void **unused)
     cholesky_free(NULL);
 }
 
+/* ---- CHOLMOD's calls of BLAS: every entry is one sum, in one order ------- */
+
+void dgemm_(const char *, const char *, const int *, const int *, const int *,
+            const double *, const double *, const int *, const double *,
+            const int *, const double *, double *, const int *);
+void dsyrk_(const char *, const char *, const int *, const int *,
+            const double *, const double *, const int *, const double *,
+            double *, const int *);
+void dtrsm_(const char *, const char *, const char *, const char *, const int *,
+            const int *, const double *, const double *, const int *, double *,
+            const int *);
+void dpotrf_(const char *, const int *, double *, const int *, int *);
+
+enum { MOST = 21, LD = MOST + 2 };
+
+static void fill(Random *random, double *A)
+{
+    for (int i = 0; i < LD * MOST; i++)
+        A[i] = random_uniform(random, -1, 1);
+}
+
+/* sum_p A[i, p] B[j, p], p = 0 ... k - 1 */
+static double product(const double *A, const double *B, int i, int j, int k)
+{
+    double sum = 0;
+    for (int p = 0; p < k; p++)
+        sum += A[p * LD + i] * B[p * LD + j];
+    return sum;
+}
+
+/* Equal to the bit, whatever the width of the lanes; nothing else is written,
+ * but by dsyrk right of the triangle. */
+static void products_have_one_order_of_sums(void **unused)
+{
+    (void)unused;
+    Random random = {71};
+    const int ld = LD;
+    const double one = 1, zero = 0;
+    double A[LD * MOST], B[LD * MOST], C[LD * MOST], S[LD * MOST];
+    for (int m = 1; m <= MOST; m++)
+        for (int n = 1; n <= 9; n++) {
+            int k = (m * n) % MOST;
+            fill(&random, A);
+            fill(&random, B);
+            for (int i = 0; i < LD * MOST; i++)
+                C[i] = S[i] = 7;
+            dgemm_("N", "C", &m, &n, &k, &one, A, &ld, B, &ld, &zero, C, &ld);
+            dsyrk_("L", "N", &m, &k, &one, A, &ld, &zero, S, &ld);
+            for (int j = 0; j < MOST; j++)
+                for (int i = 0; i < LD; i++) {
+                    double made = C[j * LD + i];
+                    CHECK(made ==
+                          (i < m && j < n ? product(A, B, i, j, k) : 7));
+                    if (i >= j && i < m && j < m)
+                        CHECK(S[j * LD + i] == product(A, A, i, j, k));
+                    else if (i >= m || j >= m)
+                        CHECK(S[j * LD + i] == 7);
+                }
+        }
+}
+
+/* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums' sizes: pivots
+ * are 2 at least, the other entries at most 1. */
+static void factors_and_divisions_are_exact_to_rounding(void **unused)
+{
+    (void)unused;
+    Random random = {72};
+    const int ld = LD;
+    const double one = 1;
+    double A[LD * MOST], L[LD * MOST], B[LD * MOST], X[LD * MOST];
+    for (int n = 1; n <= MOST; n++) {
+        int info = -1, m = 1 + (5 * n) % MOST;
+        fill(&random, A);
+        for (int i = 0; i < n; i++)
+            A[i * LD + i] = 4 + n;
+        memcpy(L, A, sizeof A);
+        dpotrf_("L", &n, L, &ld, &info);
+        CHECK(info == 0);
+        fill(&random, B);
+        memcpy(X, B, sizeof B);
+        dtrsm_("R", "L", "C", "N", &m, &n, &one, L, &ld, X, &ld);
+        for (int j = 0; j < n; j++) {
+            for (int i = j; i < n; i++)
+                CHECK_AT_MOST(fabs(product(L, L, i, j, j + 1) - A[j * LD + i]),
+                              8 * DBL_EPSILON * (4 + n));
+            for (int i = 0; i < m; i++)
+                CHECK_AT_MOST(fabs(product(X, L, i, j, j + 1) - B[j * LD + i]),
+                              8 * DBL_EPSILON * (4 + n));
+        }
+        int last = n - 1;
+        A[last * LD + last] = -1;
+        dpotrf_("L", &n, A, &ld, &info);
+        CHECK(info == n);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +398,8 @@ int main(void)
         cmocka_unit_test(numbers_that_are_not_finite_are_reported),
         cmocka_unit_test(overflowing_solutions_are_reported),
         cmocka_unit_test(dropped_values_are_not_read),
+        cmocka_unit_test(products_have_one_order_of_sums),
+        cmocka_unit_test(factors_and_divisions_are_exact_to_rounding),
     };
     return cmocka_run_group_tests_name("cholesky", tests, NULL, NULL);
 }
