@@ -21,7 +21,7 @@
 typedef struct StepRow {
     int updates;     /* of Newton, in all runs */
     Status status;   /* how the step ended */
-    double change;   /* of E, J s^2, summed over the updates */
+    double change;   /* E at the end - E at the start, J s^2 */
     double residual; /* m/s, at the end */
     double extent;   /* m, the largest coordinate of run 0 after it */
 } StepRow;

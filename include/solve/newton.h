@@ -89,6 +89,7 @@ typedef struct Rounding {
     double concave;  /* 1/s^2, incremental_potential_concave for w = 1, wherever
                         the nodes are */
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
+    double first;    /* J s^2, E at the start; NAN: it can only fall */
     double most;     /* J s^2, E may be, as at the start; INFINITY: any */
     double best;     /* m/s, smallest residual of this minimisation */
     int stagnant;    /* iterations since it was the smallest */
@@ -116,6 +117,10 @@ typedef struct Newton {
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */
     double first_change;  /* J s^2, the largest of this step by multigrid */
+    double sum, size;     /* J s^2, of the changes in this minimisation; and of
+                             their sizes */
+    double change; /* J s^2, E at the end - E at the start, of all minimisations
+                      since somebody has set it to 0 */
 } Newton;
 
 /* Allocates for this system, which must outlive the object.

@@ -9,9 +9,9 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* What the step that was just made did to E, summed over its updates. */
+/* What the step that was just made did. */
 typedef struct Outcome {
-    double change; /* J s^2 */
+    double change; /* E at its end - E at its start, J s^2 */
     int updates;
     Status status;
     double extent; /* m */

@@ -38,7 +38,7 @@ static bool watch(void *user, const NewtonRecord *record)
 {
     Track *track = user;
     track->now.updates += record->iteration >= 0;
-    track->now.change += record->change;
+    track->now.change = record->change; /* where an update is a step */
     track->now.residual = record->residual;
     if (!track->observer)
         return true;
@@ -441,6 +441,18 @@ void track_forget(Track *track)
 
 /* ---- going on ----------------------------------------------------------- */
 
+/* What a step in time did to E, in all runs. */
+static void sum_up(Track *track)
+{
+    const Simulation *simulation = &track->simulation;
+    if (simulation->scene->step)
+        return;
+    track->now.change = 0;
+    for (int i = 0; i < simulation->runs; i++)
+        if (simulation->run[i].newton)
+            track->now.change += simulation->run[i].newton->change;
+}
+
 /* The row of the step that was just made. */
 static Status add_row(Track *track, Status status)
 {
@@ -469,6 +481,7 @@ Status track_step(Track *track)
     track->remembers =
         track->remembers || simulation_remembers(&track->simulation);
     Status status = simulation_step(&track->simulation);
+    sum_up(track);
     if (track_step_shown(track) == before)
         return status;
     if (!track->keeps)

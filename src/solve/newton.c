@@ -33,6 +33,7 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
         at->x[i] += u[i];
     }
     newton->saddles = 0;
+    newton->sum = newton->size = 0;
     newton->resting = newton->record.iteration < 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
@@ -127,6 +128,7 @@ static void move_centre(Newton *newton)
     if (newton->working == SOLVER_MULTIGRID && most <= DBL_EPSILON * size)
         return;
     double by[2] = {missing[0] / mass, missing[1] / mass};
+    newton->sum -= 0.5 * (by[0] * missing[0] + by[1] * missing[1]);
     for (int i = 0; i < system->nodes; i++)
         for (int c = 0; c < 2; c++) {
             u[2 * i + c] += by[c];
@@ -140,7 +142,7 @@ static void move_centre(Newton *newton)
  * move removes the rounding errors of the first, which is long where springs
  * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
  * make the centre's way from x_n instead. */
-void newton_finish(Newton *newton)
+static void finish(Newton *newton)
 {
     Status before = newton->status;
     if (before && !status_is_unconverged(before))
@@ -153,6 +155,7 @@ void newton_finish(Newton *newton)
                 newton->at.u[i] = 0;
             move_centre(newton);
             newton->status = STATUS_ROUNDING_LIMIT;
+            newton->size = INFINITY; /* the sum is that of another way */
         }
     }
     if (newton->record.iteration >= 0 && newton->status == before)
@@ -162,6 +165,26 @@ void newton_finish(Newton *newton)
                         .residual = newton->residual,
                         .status = newton->status};
     newton->status = newton_tell(newton, &end);
+}
+
+/* E at the end - E at the start: the sum of the changes, each of which is exact
+ * along its line; or the difference of both E, where E was so high in between
+ * that the sum has lost more digits. */
+static double change_of_all(const Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    double first = newton->rounding.first;
+    if (isnan(first))
+        return newton->sum;
+    double last = incremental_potential_value(&at->E, at->u, at->x);
+    return newton->size <= fabs(first) + fabs(last) ? newton->sum
+                                                    : last - first;
+}
+
+void newton_finish(Newton *newton)
+{
+    finish(newton);
+    newton->change += change_of_all(newton);
 }
 
 Status newton_minimise(Newton *newton, const double *x_n, const double *u,
@@ -221,6 +244,8 @@ void newton_rebuild(Newton *newton)
 Status newton_tell(Newton *newton, const NewtonRecord *record)
 {
     const NewtonSettings *settings = &newton->settings;
+    newton->sum += record->change;
+    newton->size += fabs(record->change);
     if (settings->observer && !settings->observer(settings->user, record))
         return STATUS_INTERRUPTED;
     return record->status;

@@ -51,10 +51,12 @@ void rounding_start(Newton *newton)
     double stiffness = at->E.weight * rounding->stiffest;
     rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
     rounding->most = INFINITY;
+    rounding->first = NAN;
     if (newton->settings.search != LINE_SEARCH_NONE &&
         stiffness <= HIDDEN_MASSES * rounding->lightest)
         return;
-    rounding->most = incremental_potential_value(&at->E, at->u, at->x) +
+    rounding->first = incremental_potential_value(&at->E, at->u, at->x);
+    rounding->most = rounding->first +
                      MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
 }
 

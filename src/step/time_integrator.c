@@ -87,6 +87,8 @@ Status time_integrator_step(TimeIntegrator *integrator)
 {
     size_t both = 2 * integrator->size; /* v is behind x, new_v behind new_x */
     integrator->status = STATUS_OK;
+    if (integrator->newton)
+        integrator->newton->change = 0;
     integrator->moves = prescribed_begin(integrator);
     change_terms(integrator, false);
     Status failure = integrator->method->step(integrator);

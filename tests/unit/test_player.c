@@ -107,6 +107,61 @@ static void a_toggle_tells_both_outcomes(void **unused)
     }
 }
 
+/* E of a step from x_n with v_n where springs alone act, at x, J s^2. */
+static double step_energy(const Simulation *simulation, const double *x_n,
+                          const double *v_n, const double *x)
+{
+    const System *system = &simulation->system;
+    long double h = simulation->options.timestep, sum = 0;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        long double off = (long double)x[i] - x_n[i] - h * v_n[i];
+        sum += system->m[i / 2] / 2 * off * off;
+    }
+    for (int s = 0; s < system->springs; s++) {
+        const double *a = x + 2 * (size_t)system->e[2 * s];
+        const double *b = x + 2 * (size_t)system->e[2 * s + 1];
+        long double dx = (long double)a[0] - b[0];
+        long double dy = (long double)a[1] - b[1];
+        long double strain = (dx * dx + dy * dy) / system->l2[s] - 1;
+        sum += h * h * system->l2[s] * system->k[s] / 2 * strain * strain;
+    }
+    return (double)sum;
+}
+
+/* What a step is told to have done to E is E at its end less E at its start:
+ * also where E was 2e16 in between, and where no update but the centre of mass
+ * moved the square.  The last line: strains of 1e-6 have ten digits. */
+static void e_is_told_as_it_is(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        double digits; /* of E */
+    } rows[] = {{"explosion", 1e-12},
+                {"square --segments 1 --timestep 0.05 --stretch 0.5 --filter "
+                 "none --line-search none",
+                 1e-12},
+                {"square --stretch 1.4", 1e-12},
+                {"square --stretch 1 --velocity 0.3,0.2 --tolerance 1", 1e-12},
+                {"square --stretch 1.000001 --tolerance 1e-9", 1e-9}};
+    for (int i = 0; i < 5; i++) {
+        double x[64], v[64];
+        begin(rows[i].line);
+        const Simulation *simulation = player_simulation(&player);
+        size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof *x;
+        CHECK(bytes <= sizeof x);
+        memcpy(x, simulation->run[0].x, bytes);
+        memcpy(v, simulation->run[0].v, bytes);
+        double before = step_energy(simulation, x, v, x);
+        CHECK_STATUS(obey("next"), STATUS_OK);
+        double after = step_energy(simulation, x, v, simulation->run[0].x);
+        CHECK(after != before);
+        CHECK_NEAR(track_row(&lane(0)->track, 1)->change, after - before,
+                   rows[i].digits * (before + after));
+        end();
+    }
+}
+
 /* Runs until it pauses by itself, as it must within some hundred steps. */
 static void run_until_it_pauses(void)
 {
@@ -870,6 +925,7 @@ int main(void)
         cmocka_unit_test(every_command_has_one_deed),
         cmocka_unit_test(the_explosion_is_seen_and_tamed),
         cmocka_unit_test(a_toggle_tells_both_outcomes),
+        cmocka_unit_test(e_is_told_as_it_is),
         cmocka_unit_test(at_rest_it_says_so_and_stops),
         cmocka_unit_test(a_free_square_drifts_and_says_so),
         cmocka_unit_test(rigid_motion_deforms_nothing),
