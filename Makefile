@@ -80,8 +80,8 @@ try() { { printf '#include <%b>\n' stddef.h stdio.h "$$2"; \
 pc() { pkg-config --cflags --libs $$1 2>/dev/null || echo "$$2"; }; \
 sdl() { try "$$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')" SDL.h \
     '&SDL_RenderGeometry'; }; \
-ttf() { try "$$(pc SDL2_ttf '-I/usr/include/SDL2 -lSDL2_ttf -lSDL2')" \
-    SDL_ttf.h '&TTF_RenderGlyph32_Blended'; }; \
+freetype() { try "$$(pc freetype2 '-I/usr/include/freetype2 -lfreetype')" \
+    'ft2build.h>\n#include <freetype/freetype.h' '&FT_Init_FreeType'; }; \
 font() { [ "$$ELASTO_FONT" ] || ! command -v apt-get >/dev/null 2>&1 || \
   [ -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf ]; }; \
 png() { try "$$(pc libpng -lpng)" png.h '&png_image_write_to_stdio'; }; \
@@ -105,13 +105,13 @@ install_packages() { \
   echo "elasto needs these packages: $$1"; \
   if ! command -v apt-get >/dev/null 2>&1; then \
     echo "Please install them:"; \
-    echo "  Fedora:  dnf install SDL2-devel SDL2_ttf-devel \\"; \
+    echo "  Fedora:  dnf install SDL2-devel freetype-devel \\"; \
     echo "             dejavu-sans-fonts dejavu-sans-mono-fonts \\"; \
     echo "             suitesparse-devel libpng-devel \\"; \
     echo "             libcmocka-devel pkgconf"; \
-    echo "  Arch:    pacman -S sdl2 sdl2_ttf ttf-dejavu suitesparse \\"; \
+    echo "  Arch:    pacman -S sdl2 freetype2 ttf-dejavu suitesparse \\"; \
     echo "             libpng cmocka pkgconf"; \
-    echo "  macOS:   brew install sdl2 sdl2_ttf font-dejavu \\"; \
+    echo "  macOS:   brew install sdl2 freetype font-dejavu \\"; \
     echo "             suite-sparse libpng cmocka pkg-config"; \
     return 1; fi; \
   as=; [ "$$(id -u)" = 0 ] || as=sudo; \
@@ -130,17 +130,18 @@ $(CONFIG): Makefile
 	missing=; \
 	command -v pkg-config >/dev/null 2>&1 || missing="$$missing pkg-config"; \
 	sdl || missing="$$missing libsdl2-dev"; \
-	ttf || missing="$$missing libsdl2-ttf-dev"; \
+	freetype || missing="$$missing libfreetype-dev"; \
 	font || missing="$$missing fonts-dejavu-core"; \
 	png || missing="$$missing libpng-dev"; \
 	cholmod=$$(cholmod_flags) || \
 	  missing="$$missing libsuitesparse-dev"; \
 	if [ "$$missing" ]; then \
 	  install_packages "$$missing" || exit 1; \
-	  sdl && ttf && png && cholmod=$$(cholmod_flags) || \
+	  sdl && freetype && png && cholmod=$$(cholmod_flags) || \
 	    { cat build/try.log; exit 1; }; fi; \
 	flags="$$cholmod $$(pc sdl2 '-I/usr/include/SDL2 -lSDL2')"; \
-	flags="$$flags $$(pc SDL2_ttf -lSDL2_ttf) $$(pc libpng -lpng)"; \
+	flags="$$flags $$(pc freetype2 '-I/usr/include/freetype2 -lfreetype')"; \
+	flags="$$flags $$(pc libpng -lpng)"; \
 	c=; l=; for f in $$flags; do \
 	  case "$$c $$l " in *" $$f "*) continue;; esac; \
 	  case $$f in -I*|-D*) c="$$c $$f";; *) l="$$l $$f";; esac; done; \

@@ -1,4 +1,4 @@
-/* text.h - words and formulas: SDL2_ttf with DejaVu Sans.
+/* text.h - words and formulas: FreeType with DejaVu Sans.
  *
  * Fonts are opened and letters drawn once for each size; after that a letter
  * costs as much as its pixels.  Texts are UTF-8.  Marks such as U+0303 stand

@@ -1,6 +1,7 @@
 #include "picture/text.h"
 
-#include <SDL_ttf.h>
+#include <ft2build.h>
+#include FT_FREETYPE_H
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,12 +37,12 @@ typedef struct Glyph {
 typedef struct OpenFont {
     Face face;
     int size;
-    TTF_Font *font;
+    FT_Face font;
 } OpenFont;
 
 struct Text {
+    FT_Library library;
     char file[FACE_COUNT][TEXT_NAME];
-    bool bold_by_style, began; /* no bold file; TTF_Init succeeded */
     int fonts, glyphs;
     OpenFont font[TEXT_FONTS];
     Glyph glyph[TEXT_GLYPHS]; /* hashed by key */
@@ -105,11 +106,9 @@ static bool find_fonts(Text *text)
     }
     if (!text->file[FACE_REGULAR][0])
         return false;
-    text->bold_by_style = !text->file[FACE_BOLD][0];
-    if (text->bold_by_style)
-        strcpy(text->file[FACE_BOLD], text->file[FACE_REGULAR]);
-    if (!text->file[FACE_MONO][0])
-        strcpy(text->file[FACE_MONO], text->file[FACE_REGULAR]);
+    for (int face = 0; face < FACE_COUNT; face++)
+        if (!text->file[face][0])
+            strcpy(text->file[face], text->file[FACE_REGULAR]);
     return true;
 }
 
@@ -120,8 +119,7 @@ Status text_create(Text **text)
     if (!made)
         return STATUS_OUT_OF_MEMORY;
     bool found = find_fonts(made);
-    made->began = found && TTF_Init() == 0;
-    if (made->began)
+    if (found && FT_Init_FreeType(&made->library) == 0)
         *text = made;
     else
         free(made);
@@ -142,100 +140,67 @@ void text_free(Text *text)
         return;
     forget_glyphs(text);
     for (int i = 0; i < text->fonts; i++)
-        TTF_CloseFont(text->font[i].font);
-    if (text->began)
-        TTF_Quit();
+        FT_Done_Face(text->font[i].font);
+    FT_Done_FreeType(text->library);
     free(text);
 }
 
 /* ---- letters ------------------------------------------------------------ */
 
 /* The font of this face and size, opened if it is not; NULL: it cannot be. */
-static TTF_Font *open_font(Text *text, Face face, int size)
+static FT_Face open_font(Text *text, Face face, int size)
 {
     for (int i = 0; i < text->fonts; i++)
         if (text->font[i].face == face && text->font[i].size == size)
             return text->font[i].font;
     if (text->fonts == TEXT_FONTS) /* many sizes were used: the oldest goes */
     {
-        TTF_CloseFont(text->font[0].font);
+        FT_Done_Face(text->font[0].font);
         memmove(text->font, text->font + 1,
                 (TEXT_FONTS - 1) * sizeof *text->font);
         text->fonts--;
     }
-    TTF_Font *font = TTF_OpenFont(text->file[face], size);
-    if (!font)
+    FT_Face font;
+    if (FT_New_Face(text->library, text->file[face], 0, &font))
         return NULL;
-    TTF_SetFontHinting(font, TTF_HINTING_LIGHT);
-    if (face == FACE_BOLD && text->bold_by_style)
-        TTF_SetFontStyle(font, TTF_STYLE_BOLD);
+    if (FT_Set_Char_Size(font, 0, size * 64, 0, 0)) {
+        FT_Done_Face(font);
+        return NULL;
+    }
     text->font[text->fonts++] = (OpenFont){face, size, font};
     return font;
 }
 
-/* Rows and columns of the surface that hold ink. */
-static SDL_Rect ink_of(const SDL_Surface *surface)
+/* Keeps the coverage of the letter's pixels as the mask of the glyph. */
+static void keep_mask(Glyph *glyph, const FT_Bitmap *map)
 {
-    int left = surface->w, right = 0, top = surface->h, bottom = 0;
-    for (int j = 0; j < surface->h; j++) {
-        const uint8_t *row =
-            (const uint8_t *)surface->pixels + (size_t)j * surface->pitch;
-        for (int i = 0; i < surface->w; i++) {
-            uint32_t pixel;
-            memcpy(&pixel, row + 4 * (size_t)i, sizeof pixel);
-            if (!(pixel >> 24))
-                continue;
-            left = i < left ? i : left;
-            right = i + 1 > right ? i + 1 : right;
-            top = j < top ? j : top;
-            bottom = j + 1;
-        }
-    }
-    return (SDL_Rect){left, top, right - left, bottom - top};
-}
-
-/* Keeps the opacity of the surface's ink as the mask of the glyph. */
-static void keep_mask(Glyph *glyph, const SDL_Surface *surface, int ascent)
-{
-    SDL_Rect ink = ink_of(surface);
-    if (ink.w <= 0 || ink.h <= 0)
+    size_t width = map->width, rows = map->rows;
+    if (width * rows == 0 || map->pixel_mode != FT_PIXEL_MODE_GRAY)
         return;
-    glyph->mask = malloc((size_t)ink.w * (size_t)ink.h);
+    glyph->mask = malloc(width * rows);
     if (!glyph->mask)
         return;
-    glyph->width = ink.w;
-    glyph->height = ink.h;
-    glyph->top = ink.y - ascent;
-    for (int j = 0; j < ink.h; j++)
-        for (int i = 0; i < ink.w; i++) {
-            uint32_t pixel;
-            memcpy(&pixel,
-                   (const uint8_t *)surface->pixels +
-                       (size_t)(ink.y + j) * surface->pitch +
-                       4 * (size_t)(ink.x + i),
-                   sizeof pixel);
-            glyph->mask[(size_t)j * (size_t)ink.w + (size_t)i] =
-                (uint8_t)(pixel >> 24);
-        }
+    glyph->width = (int)width;
+    glyph->height = (int)rows;
+    for (size_t j = 0; j < rows; j++)
+        memcpy(glyph->mask + j * width, map->buffer + (ptrdiff_t)j * map->pitch,
+               width);
 }
 
 /* Draws the letter.  One that cannot be drawn keeps its room. */
 static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(GUESSED_WIDTH * size)};
-    TTF_Font *font = open_font(text, face, size);
-    int left = 0, right = 0, bottom = 0, top = 0;
-    if (!font || TTF_GlyphMetrics32(font, letter, &left, &right, &bottom, &top,
-                                    &glyph.advance))
+    FT_Face font = open_font(text, face, size);
+    if (!font || FT_Load_Char(font, letter, FT_LOAD_TARGET_LIGHT))
         return glyph;
-    glyph.left = left;
-    SDL_Surface *drawn = TTF_RenderGlyph32_Blended(
-        font, letter, (SDL_Color){255, 255, 255, 255});
-    if (!drawn)
+    FT_GlyphSlot slot = font->glyph;
+    glyph.advance = (int)((slot->metrics.horiAdvance + 63) >> 6);
+    if (FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL))
         return glyph;
-    if (drawn->format->BytesPerPixel == 4)
-        keep_mask(&glyph, drawn, TTF_FontAscent(font));
-    SDL_FreeSurface(drawn);
+    glyph.left = slot->bitmap_left;
+    glyph.top = -slot->bitmap_top;
+    keep_mask(&glyph, &slot->bitmap);
     return glyph;
 }
 
