@@ -2,14 +2,16 @@
 
 #include <math.h>
 
+#include "base/mathematics.h"
+
 double barrier_value(double s)
 {
-    return s < 1 ? (s - 1) * log(s) : 0;
+    return s < 1 ? (s - 1) * math_log(s) : 0;
 }
 
 double barrier_slope(double s)
 {
-    return s < 1 ? log(s) + 1 - 1 / s : 0;
+    return s < 1 ? math_log(s) + 1 - 1 / s : 0;
 }
 
 double barrier_curvature(double s)
@@ -22,7 +24,7 @@ double barrier_curvature(double s)
 double log1p_minus(double z)
 {
     if (!(fabs(z) < 0.25))
-        return log1p(z) - z;
+        return math_log1p(z) - z;
     double r = z / (2 + z), q = r * r;
     double series = 1.0 / 15 + q * (1.0 / 17 + q / 19);
     series = 1.0 / 9 + q * (1.0 / 11 + q * (1.0 / 13 + q * series));
@@ -39,9 +41,9 @@ double barrier_remainder(double s, double t)
         return INFINITY;
     if (s < 1 && end < 1) {
         double z = t / s;
-        return (s - 1) * log1p_minus(z) + t * log1p(z);
+        return (s - 1) * log1p_minus(z) + t * math_log1p(z);
     }
     if (s < 1)
-        return -(end - 1) * log(s) + (1 - s) * t / s;
-    return end < 1 ? (end - 1) * log(end) : 0;
+        return -(end - 1) * math_log(s) + (1 - s) * t / s;
+    return end < 1 ? (end - 1) * math_log(end) : 0;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathematics.h"
 #include "model/barrier.h"
 #include "model/contact.h"
 
@@ -44,7 +45,7 @@ void cell_gradient(const Corner *corner, double g[6])
 /* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */
 static double make_unit(double v[4], const double instead[4])
 {
-    double length = hypot(hypot(v[0], v[1]), hypot(v[2], v[3]));
+    double length = math_hypot(math_hypot(v[0], v[1]), math_hypot(v[2], v[3]));
     for (int i = 0; i < 4; i++)
         v[i] = length > 0 ? v[i] / length : instead[i];
     return length;

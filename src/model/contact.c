@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mathematics.h"
 #include "model/barrier.h"
 #include "model/mass_spring_energy.h"
 
@@ -30,7 +31,7 @@ Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
     if (obstacle->kind == OBSTACLE_WALL)
         return (Gap){
             n[0] * D[0] + n[1] * D[1] - radius, {n[0], n[1]}, INFINITY};
-    double r = hypot(D[0], D[1]);
+    double r = math_hypot(D[0], D[1]);
     return (Gap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
 }
 
@@ -88,7 +89,7 @@ double contact_remainder(const Barrier *barrier, const Gap *gap,
     double s = gap->d / barrier->d_hat;
     if (isfinite(gap->r)) {
         double pt = n[0] * P[1] - n[1] * P[0], r = gap->r + pn;
-        double length = hypot(r, pt);
+        double length = math_hypot(r, pt);
         k = r > 0 ? pt * pt / (length + r) : length - r;
     }
     return barrier->c * (barrier_slope(s) * k / barrier->d_hat +
@@ -173,7 +174,7 @@ static bool valid(const Place *at)
                isfinite(it->v[0]) && isfinite(it->v[1]) &&
                isfinite(it->friction) && it->friction >= 0 &&
                it->node < at->system->nodes &&
-               (wall ? fabs(hypot(it->n[0], it->n[1]) - 1) < 1e-12
+               (wall ? fabs(math_hypot(it->n[0], it->n[1]) - 1) < 1e-12
                      : isfinite(it->radius) && it->radius > 0);
     }
     return good;
@@ -279,7 +280,7 @@ static double pair_motion(const Contact *contact, ContactPair pair,
     for (int c = 0; c < 2; c++)
         P[c] =
             scale * (p[2 * pair.node + c] - (ball < 0 ? 0 : p[2 * ball + c]));
-    return hypot(P[0], P[1]);
+    return math_hypot(P[0], P[1]);
 }
 
 static double reach(const Place *at, const double *p)

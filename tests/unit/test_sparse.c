@@ -4,10 +4,12 @@
 #include "model/pull_energy.h"
 #include "testing.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathematics.h"
 #include "model/mass_spring_energy.h"
 
 enum { SIZE = 9, TRIPLETS = 60 };
@@ -311,6 +313,65 @@ static void pinned_nodes_are_dropped(void **unused)
     }
 }
 
+/* ---- base/mathematics.h -------------------------------------------------- */
+
+/* Units in the last place between a double and the same in extended precision.
+ */
+static double ulps(double got, long double exact)
+{
+    double nearest = (double)exact;
+    if (!isfinite(nearest))
+        return got == nearest || (isnan(got) && isnan(nearest)) ? 0 : INFINITY;
+    double unit = nextafter(fabs(nearest), INFINITY) - fabs(nearest);
+    return (double)(fabsl(got - exact) / unit);
+}
+
+/* 1.5 units: what mathematics.h promises. */
+static void logarithms_are_right_to_the_last_place(void **unused)
+{
+    (void)unused;
+    static const double edges[] = {
+        0,       1,       -1,       0.70710678118654752, INFINITY,       NAN,
+        DBL_MIN, DBL_MAX, 4.9e-324, 1 - DBL_EPSILON,     1 + DBL_EPSILON};
+    Random random = {81};
+    double worst = 0;
+    for (int i = 0; i < 300000; i++) {
+        double x = i % 3 == 0   ? random_logarithmic(&random, 1e-300, 1e300)
+                   : i % 3 == 1 ? random_uniform(&random, 0.5, 2)
+                                : 1 + random_uniform(&random, -1e-6, 1e-6);
+        double z = i % 2 ? random_uniform(&random, -0.999, 3)
+                         : random_logarithmic(&random, 1e-20, 1e20);
+        worst = fmax(worst, ulps(math_log(x), logl(x)));
+        worst = fmax(worst, ulps(math_log1p(z), log1pl(z)));
+    }
+    for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
+        worst = fmax(worst, ulps(math_log(edges[i]), logl(edges[i])));
+        worst = fmax(worst, ulps(math_log1p(edges[i]), log1pl(edges[i])));
+    }
+    CHECK_AT_MOST(worst, 1.5);
+}
+
+static void lengths_are_right_to_the_last_place(void **unused)
+{
+    (void)unused;
+    static const double edges[] = {0,       1,       -3,       INFINITY, NAN,
+                                   DBL_MIN, DBL_MAX, 4.9e-324, 1e-200,   1e200};
+    const int count = sizeof edges / sizeof *edges;
+    Random random = {82};
+    double worst = 0;
+    for (int i = 0; i < 100000; i++) {
+        double x = random_logarithmic(&random, 1e-300, 1e300);
+        double y = i % 2 ? x * random_uniform(&random, -2, 2)
+                         : -random_logarithmic(&random, 1e-300, 1e300);
+        worst = fmax(worst, ulps(math_hypot(x, y), hypotl(x, y)));
+    }
+    for (int i = 0; i < count * count; i++) {
+        double x = edges[i / count], y = edges[i % count];
+        worst = fmax(worst, ulps(math_hypot(x, y), hypotl(x, y)));
+    }
+    CHECK_AT_MOST(worst, 1.5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +383,8 @@ int main(void)
         cmocka_unit_test(assembly_is_the_formula),
         cmocka_unit_test(plain_triplets_sum_to_the_same),
         cmocka_unit_test(pinned_nodes_are_dropped),
+        cmocka_unit_test(logarithms_are_right_to_the_last_place),
+        cmocka_unit_test(lengths_are_right_to_the_last_place),
     };
     return cmocka_run_group_tests_name("sparse", tests, NULL, NULL);
 }
