@@ -160,22 +160,28 @@ static void a_start_is_stretched_turned_and_moved(void **unused)
     simulation_free(&simulation);
 }
 
-/* 2 segments: nodes 0 1 2 are the left column from below. */
+/* Nodes 0 ... rows are the left column from below. */
 static void the_words_of_pin_name_their_nodes(void **unused)
 {
     (void)unused;
     static const struct {
+        int columns, rows;
         const char *text, *pinned;
     } cases[] = {
-        {"top-corners", "001000001"}, {"top", "001001001"},
-        {"bottom", "100100100"},      {"left", "111000000"},
-        {"right", "000000111"},       {"4", "000010000"},
-        {"0,8,left", "111000001"},    {"8,8", "000000001"},
+        {2, 2, "top-corners", "001000001"}, {2, 2, "top", "001001001"},
+        {2, 2, "bottom", "100100100"},      {2, 2, "left", "111000000"},
+        {2, 2, "right", "000000111"},       {2, 2, "4", "000010000"},
+        {2, 2, "0,8,left", "111000001"},    {2, 2, "8,8", "000000001"},
+        {3, 1, "top-corners", "01000001"},  {3, 1, "top", "01010101"},
+        {3, 1, "bottom", "10101010"},       {3, 1, "left", "11000000"},
+        {3, 1, "right,2", "00100011"},      {1, 3, "top-corners", "00010001"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char pinned[9] = {0};
-        CHECK_STATUS(pins_read(cases[i].text, 2, 2, pinned), STATUS_OK);
-        for (int node = 0; node < 9; node++)
+        CHECK_STATUS(
+            pins_read(cases[i].text, cases[i].columns, cases[i].rows, pinned),
+            STATUS_OK);
+        for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }
     static const char *const bad[] = {

@@ -188,6 +188,23 @@ static void what_is_symmetric_stays_so(void **unused)
     simulation_free(&simulation);
 }
 
+/* The three blocks of the slope begin as high above their grounds, whatever
+ * their size.  1e-15: rounding of coordinates of size 1. */
+static void blocks_begin_alike(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("slope --side 0.3", NULL, NULL, &simulation);
+    const TimeIntegrator *run = simulation.run;
+    double gap = smallest_gap(run[0].system, run[0].x);
+    CHECK(gap > 0 && simulation.runs == 3);
+    for (int r = 1; r < 3; r++) {
+        CHECK_NEAR(smallest_gap(run[r].system, run[r].x), gap, 1e-15);
+        CHECK_NEAR(run[0].x[1] - run[r].x[1], r * 2.6 * 0.3, 1e-15);
+    }
+    simulation_free(&simulation);
+}
+
 /* The arrows on the blocks of the slope: on the one that holds they add up to
  * its weight, straight up, and all sticks; on those that slide they take the
  * same part of it normal to the slope, and mu times that along it. */
@@ -395,6 +412,7 @@ int main(void)
         cmocka_unit_test(a_pin_set_by_hand_stays),
         cmocka_unit_test(a_saddle_may_be_the_first_thing),
         cmocka_unit_test(what_is_symmetric_stays_so),
+        cmocka_unit_test(blocks_begin_alike),
         cmocka_unit_test(arrows_are_the_forces),
         cmocka_unit_test(friction_stays_in_its_cone),
         cmocka_unit_test(the_curves_are_the_ledger),

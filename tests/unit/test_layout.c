@@ -120,13 +120,24 @@ static void sizes_fold(void **unused)
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
+    wish.setting_letters[0] = 400; /* wider than the window: the first line */
+    Layout wide = layout_create(900, 900, &wish);
+    CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
+    CHECK(wide.setting[0].y < wide.row.y + wide.em);
     wish.bare = true;
     Layout bare = layout_create(900, 900, &wish);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
     CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
 }
 
-/* The middle of every box is hit as that box. */
+static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
+{
+    Hit hit = layout_hit(layout, x, y);
+    return hit.zone == zone && hit.index == index;
+}
+
+/* Every box is hit at its middle and its first and last pixels, and not beside
+ * them (a card's upper right corner closes it). */
 static void hits_are_what_is_there(void **unused)
 {
     (void)unused;
@@ -139,10 +150,17 @@ static void hits_are_what_is_there(void **unused)
     const Zone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < counts[k]; i++) {
-            const Box *box = &lists[k][i];
-            Hit hit = layout_hit(&l, box->x + 0.5 * box->width,
-                                 box->y + 0.5 * box->height);
-            CHECK(hit.zone == zones[k] && hit.index == i);
+            Box box = lists[k][i];
+            int right = box.x + box.width, low = box.y + box.height;
+            double middle = box.x + 0.5 * box.width;
+            CHECK(hits(&l, middle, box.y + 0.5 * box.height, zones[k], i));
+            CHECK(hits(&l, box.x, box.y, zones[k], i));
+            CHECK(hits(&l, box.x, low - 1, zones[k], i));
+            CHECK(k == 1 || hits(&l, right - 1, box.y, zones[k], i));
+            CHECK(!hits(&l, box.x - 1, box.y, zones[k], i));
+            CHECK(!hits(&l, right, low - 1, zones[k], i));
+            CHECK(!hits(&l, middle, box.y - 1, zones[k], i));
+            CHECK(!hits(&l, middle, low, zones[k], i));
         }
     CHECK(l.card[1].height < l.card[0].height);
     for (int i = 0; i < l.cards; i++) {

@@ -123,6 +123,8 @@ static void a_canvas_has_limits(void **unused)
     CHECK_STATUS(canvas_create(5, -1, &canvas), STATUS_INVALID_INPUT);
     CHECK_STATUS(canvas_create(CANVAS_MAX_SIZE + 1, 5, &canvas),
                  STATUS_INVALID_INPUT);
+    CHECK_STATUS(canvas_create(5, CANVAS_MAX_SIZE + 1, &canvas),
+                 STATUS_INVALID_INPUT);
     canvas_free(&canvas);
     canvas_free(NULL);
     CHECK_STATUS(canvas_create(1, 1, &canvas), STATUS_OK);
@@ -329,6 +331,77 @@ static void axes_end_at_round_numbers(void **unused)
         CHECK_NEAR(plot_round_up(from[i]) / to[i], 1, 1e-9);
     CHECK_NEAR(plot_round_axis(103), 150, 1e-9);
     CHECK_NEAR(plot_round_axis(40), 40, 1e-9);
+}
+
+/* The darkness of a box alone. */
+static double ink_in(const Canvas *canvas, Box box)
+{
+    double sum = 0;
+    for (int j = box.y; j < box.y + box.height; j++)
+        for (int i = box.x; i < box.x + box.width; i++)
+            sum +=
+                1 - (double)(canvas->pixels[canvas->width * j + i] >> 8 & 255) /
+                        255;
+    return sum;
+}
+
+/* Beside each value that an axis names there is as much ink as its number has
+ * elsewhere, all other ink is a line across, and 0 has the darkest of them. */
+static void axes_name_their_values(void **unused)
+{
+    (void)unused;
+    enum { SIZE = 700 };
+    static const struct {
+        bool upright;
+        Axis axis;
+        double value[6]; /* NAN ends them */
+    } rows[] = {
+        {true, {0, 10, false, false, NULL}, {0, 5, 10, NAN}},
+        {true, {-1, 3, false, false, NULL}, {-1, 0, 1, 2, 3, NAN}},
+        {true, {0.3, 1.1, false, false, NULL}, {0.4, 0.6, 0.8, 1, NAN}},
+        {true, {0, 2, false, true, NULL}, {0, 1, 2, NAN}},
+        {true, {1e-3, 1, true, false, NULL}, {1e-3, 0.01, 0.1, 1, NAN}},
+        {true, {2e-9, 5, true, false, NULL}, {1e-8, 1e-6, 1e-4, 0.01, 1, NAN}},
+        {false, {0, 0.85, false, false, NULL}, {0, 0.2, 0.4, 0.6, 0.8, NAN}},
+        {false, {0.5, 2e4, true, false, NULL}, {1, 10, 100, 1000, 1e4, NAN}},
+    };
+    const Axis plain = {0.05, 0.95, false, false, NULL};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        Paper paper, one;
+        double sum = 0;
+        int count = 0;
+        bool up = rows[r].upright;
+        assert_int_equal(paper_create(SIZE, SIZE, &paper), 0);
+        assert_int_equal(paper_create(SIZE, SIZE, &one), 0);
+        const Plot plot = {{100, 100, 500, 500},
+                           up ? plain : rows[r].axis,
+                           up ? rows[r].axis : plain};
+        int wide = paper_pixels(&paper, 1), lines = 0;
+        plot_axes(&paper, &plot);
+        for (; !isnan(rows[r].value[count]); count++) {
+            char number[48];
+            double place[2], value = rows[r].value[count];
+            plot_number(number, sizeof number, value);
+            canvas_clear(&one.canvas, COLOUR_WHITE);
+            paper_write(&one, FACE_REGULAR, 0.82, COLOUR_FAINT, 99, 99,
+                        ALIGN_LEFT, "%s", number);
+            plot_place(&plot, up ? 0 : value, up ? value : 0, place);
+            int x = (int)place[0], y = (int)place[1];
+            Box there = up ? (Box){0, y - wide, 95, 2 * wide}
+                           : (Box){x - 2 * wide, 601, 4 * wide, 99};
+            CHECK_NEAR(ink_in(&paper.canvas, there), ink(&one.canvas), 1e-9);
+            sum += ink(&one.canvas);
+            Colour line = paper.canvas.pixels[SIZE * y + 350];
+            CHECK(!up || line == (value == 0 ? COLOUR_BORDER : COLOUR_GRID));
+        }
+        for (int y = 0; y < SIZE; y++)
+            lines += paper.canvas.pixels[SIZE * y + 350] != COLOUR_WHITE;
+        CHECK(!up || lines == count);
+        Box margin = up ? (Box){0, 0, 95, 600 + wide} : (Box){0, 601, SIZE, 99};
+        CHECK_NEAR(ink_in(&paper.canvas, margin), sum, 1e-9);
+        paper_free(&paper);
+        paper_free(&one);
+    }
 }
 
 /* Three digits, and a power of ten only where zeros would be many. */
@@ -959,6 +1032,7 @@ int main(void)
         cmocka_unit_test(strain_has_its_colours),
         cmocka_unit_test(history_spans_the_run),
         cmocka_unit_test(axes_end_at_round_numbers),
+        cmocka_unit_test(axes_name_their_values),
         cmocka_unit_test(numbers_are_read),
         cmocka_unit_test(printed_numbers_become_markup),
         cmocka_unit_test(words_keep_off_lines_and_words),

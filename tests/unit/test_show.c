@@ -850,6 +850,36 @@ static void a_legend_leaves_room_for_curves(void **unused)
     take_down(&stand);
 }
 
+/* Above the diagonal are the springs, below it what a factor has: eliminating a
+ * node joins all its later neighbours. */
+static void the_pattern_is_that_of_the_factor(void **unused)
+{
+    (void)unused;
+    enum { N = 81, SIDE = 10 * N };
+    static Stand stand;
+    static bool matrix[N][N], factor[N][N];
+    stand_up("square --segments 8", 0, SIDE, SIDE, &stand);
+    const System *system = &stand.simulation.system;
+    CHECK(system->nodes == N);
+    for (int s = 0; s < system->springs; s++) {
+        int i = system->order[system->e[2 * s]];
+        int j = system->order[system->e[2 * s + 1]];
+        matrix[i][j] = matrix[j][i] = factor[i][j] = factor[j][i] = true;
+    }
+    for (int k = 0; k < N; k++)
+        for (int i = k + 1; i < N; i++)
+            for (int j = k + 1; j < N; j++)
+                factor[i][j] = factor[i][j] || (factor[i][k] && factor[k][j]);
+    card_spy.draw(&stand.paper, (Box){0, 0, SIDE, SIDE}, &stand.show);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            bool there = i == j || (i < j ? matrix : factor)[i][j];
+            CHECK(there ==
+                  (pixel(&stand, 10 * j + 5, 10 * i + 5) != COLOUR_WHITE));
+        }
+    take_down(&stand);
+}
+
 /* Every card of every picture has a name of its own, and they fit. */
 static void cards_have_names(void **unused)
 {
@@ -934,6 +964,7 @@ int main(void)
         cmocka_unit_test(numbers_of_axes_have_room),
         cmocka_unit_test(explicit_methods_promise_no_updates),
         cmocka_unit_test(a_legend_leaves_room_for_curves),
+        cmocka_unit_test(the_pattern_is_that_of_the_factor),
         cmocka_unit_test(cards_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

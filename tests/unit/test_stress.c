@@ -198,6 +198,32 @@ static void refining_with_the_right_factor_is_one_step(void **unused)
     simulation_free(&simulation);
 }
 
+/* A direction that bends down leads downhill, and nothing is left over of the
+ * one that was found before. */
+static void bends_are_found_afresh(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("--segments 3 --stretch 0.3", NULL, NULL, &simulation);
+    Newton *newton = simulation.run[0].newton;
+    double p[2][2 * 16], slope = 0;
+    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 0.01),
+                 STATUS_RUNNING);
+    for (int i = 0; i < 2; i++) {
+        bool found;
+        CHECK_STATUS(
+            search_direction_bends_down(&newton->search, &newton->at, &found),
+            STATUS_OK);
+        CHECK(found);
+        memcpy(p[i], newton->at.p, sizeof p[i]);
+    }
+    CHECK_SAME_BITS(p[1], p[0], 2 * 16);
+    for (int i = 0; i < 2 * 16; i++)
+        slope += newton->at.g[i] * p[0][i];
+    CHECK(slope < 0);
+    simulation_free(&simulation);
+}
+
 /* The largest shift of all records. */
 static bool keep_shift(void *user, const NewtonRecord *record)
 {
@@ -512,6 +538,7 @@ int main(void)
         cmocka_unit_test(averaged_formulas_agree),
         cmocka_unit_test(products_are_those_of_the_matrix),
         cmocka_unit_test(refining_with_the_right_factor_is_one_step),
+        cmocka_unit_test(bends_are_found_afresh),
         cmocka_unit_test(shifts_are_small),
         cmocka_unit_test(shifted_solves_find_the_masses),
         cmocka_unit_test(light_nodes_are_not_overlooked),
