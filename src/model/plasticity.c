@@ -12,16 +12,21 @@ static double beyond(SpringLaw law, double e)
     return fmax(fabs(e) - law.yield, 0);
 }
 
+/* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
+ * the same: so Y and what is beyond are looked at apart. */
 double spring_law_value(SpringLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
-    double sum = 0.5 * (e * e - law.flow * over * over);
+    double within = fmin(fabs(e), law.yield);
+    double sum = within * (fabs(e) - 0.5 * within) +
+                 0.5 * (1 - law.flow) * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
 double spring_law_slope(SpringLaw law, double e)
 {
-    double tau = e - copysign(law.flow * beyond(law, e), e);
+    double within = fmin(fabs(e), law.yield);
+    double tau = copysign(within + (1 - law.flow) * beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
 
@@ -35,20 +40,16 @@ double spring_law_flow(SpringLaw law, double e)
     return law.flow * beyond(law, e);
 }
 
-/* The remainder of (r)_+^2/2 on the way from r to r + t. */
-static double ramp_remainder(double r, double t)
-{
-    double end = r + t;
-    if (r > 0)
-        return end > 0 ? 0.5 * t * t : r * (0.5 * r - end);
-    return end > 0 ? 0.5 * end * end : 0;
-}
-
+/* The integral of (t - s) V''(e + s) over s = 0 ... t, mirrored so that t >= 0:
+ * V'' is 1 - flow + theta everywhere, and flow more where the spring is
+ * elastic.  Nothing is subtracted but ends of the way. */
 double spring_law_remainder(SpringLaw law, double e, double t)
 {
-    return 0.5 * (1 + law.theta) * t * t -
-           law.flow * (ramp_remainder(e - law.yield, t) +
-                       ramp_remainder(-e - law.yield, -t));
+    double start = copysign(1, t) * e, way = fabs(t);
+    double from = fmax(-law.yield - start, 0);
+    double to = fmin(law.yield - start, way);
+    double elastic = fmax(to - from, 0) * (way - to + 0.5 * (to - from));
+    return 0.5 * (1 - law.flow + law.theta) * t * t + law.flow * elastic;
 }
 
 /* d is an eigenvector, with (2k/l2) (2 tau' q + l2 tau); across it is
