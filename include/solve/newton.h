@@ -91,6 +91,8 @@ typedef struct Rounding {
     bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
     double first;    /* J s^2, E at the start; NAN: it can only fall */
     double most;     /* J s^2, E may be, as at the start; INFINITY: any */
+    double E;        /* J s^2, at the iterate; NAN: not asked for yet */
+    double E_trial;  /* J s^2, where a step may lead */
     double best;     /* m/s, smallest residual of this minimisation */
     int stagnant;    /* iterations since it was the smallest */
 } Rounding;

@@ -18,8 +18,8 @@ double spring_law_value(SpringLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
     double within = fmin(fabs(e), law.yield);
-    double sum = within * (fabs(e) - 0.5 * within) +
-                 0.5 * (1 - law.flow) * over * over;
+    double sum =
+        within * (fabs(e) - 0.5 * within) + 0.5 * (1 - law.flow) * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
 }
 
@@ -48,7 +48,8 @@ double spring_law_remainder(SpringLaw law, double e, double t)
     double start = copysign(1, t) * e, way = fabs(t);
     double from = fmax(-law.yield - start, 0);
     double to = fmin(law.yield - start, way);
-    double elastic = fmax(to - from, 0) * (way - to + 0.5 * (to - from));
+    double within = from > 0 && to < way ? 2 * law.yield : to - from;
+    double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
     return 0.5 * (1 - law.flow + law.theta) * t * t + law.flow * elastic;
 }
 

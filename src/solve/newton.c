@@ -61,6 +61,7 @@ static Status newton_update(Newton *newton)
     }
     memcpy(at->u, newton->u_trial, size * sizeof *at->u);
     memcpy(at->x, newton->x_trial, size * sizeof *at->x);
+    newton->rounding.E = newton->rounding.E_trial;
     newton->counters.iterations++;
     return STATUS_OK;
 }

@@ -94,6 +94,7 @@ static void fetch(Newton *newton)
 static Status take_back(Newton *newton)
 {
     newton->working = newton->record.solver = SOLVER_NEWTON;
+    newton->rounding.E = NAN;
     newton->counters.taken_back++;
     return direction_first(newton);
 }

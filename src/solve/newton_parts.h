@@ -51,6 +51,11 @@ void rounding_start(Newton *newton);
 /* Whether a change of E, J s^2, is at most a few units in its last place. */
 bool rounding_hides(const Newton *newton, double change);
 
+/* Whether E at u_trial, as large as it is, agrees that it has changed by
+ * record.change or fallen more; true where rounding_allows decides, or nothing
+ * has to fall. */
+bool rounding_confirms(Newton *newton);
+
 /* Whether E at u_trial is as low as at the start; always true where the
  * minimisation is not held to it. */
 bool rounding_allows(const Newton *newton);

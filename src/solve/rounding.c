@@ -21,6 +21,11 @@ static const double BLURRED_MASSES = 1e10, HIDDEN_MASSES = 1e16;
 /* E may seem to rise by this part of its size. */
 static const double MARGIN = 1e-12;
 
+/* A change along a line is contradicted where E is above it by this part of its
+ * size, and by this many times what rounding of the coordinates does to E: one
+ * sample of that may be far smaller than another. */
+static const double AGREED = 1e-10, BLURS = 100;
+
 /* A spring bends down most where its ends meet: so in a system of internal
  * forces alone with all nodes in one point. */
 void rounding_bounds(Newton *newton)
@@ -48,6 +53,7 @@ void rounding_start(Newton *newton)
     Rounding *rounding = &newton->rounding;
     rounding->best = INFINITY;
     rounding->stagnant = 0;
+    rounding->E = NAN;
     double stiffness = at->E.weight * rounding->stiffest;
     rounding->blurred = stiffness > BLURRED_MASSES * rounding->lightest;
     rounding->most = INFINITY;
@@ -65,6 +71,42 @@ bool rounding_hides(const Newton *newton, double change)
     const Iterate *at = &newton->at;
     double E = incremental_potential_scale(&at->E, at->u, at->x);
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
+}
+
+/* How far E moves when each coordinate moves by some units in its last place.
+ */
+static double blur(Newton *newton, const double *u, const double *x, double E)
+{
+    double *near_u = newton->search.r, *near_x = newton->search.b;
+    for (int i = 0; i < 2 * newton->system->nodes; i++) {
+        double part = 16 * (fmod(0.6180339887 * (i + 1), 1) - 0.5);
+        near_u[i] = u[i] * (1 + part * DBL_EPSILON);
+        near_x[i] = x[i] * (1 + part * DBL_EPSILON);
+    }
+    return fabs(incremental_potential_value(&newton->at.E, near_u, near_x) - E);
+}
+
+/* What E may be away from the line's change: its own digits, and what those of
+ * the coordinates do to it.  Asked only where a first look says no. */
+bool rounding_confirms(Newton *newton)
+{
+    Rounding *rounding = &newton->rounding;
+    const Iterate *at = &newton->at;
+    const double *u = newton->u_trial, *x = newton->x_trial;
+    if (newton->settings.search == LINE_SEARCH_NONE ||
+        rounding->most < INFINITY)
+        return true;
+    if (isnan(rounding->E))
+        rounding->E = incremental_potential_value(&at->E, at->u, at->x);
+    double E = rounding->E_trial = incremental_potential_value(&at->E, u, x);
+    double above = E - rounding->E - newton->record.change;
+    if (above <= AGREED * (fabs(rounding->E) + fabs(E)))
+        return true;
+    double size = incremental_potential_scale(&at->E, at->u, at->x) +
+                  incremental_potential_scale(&at->E, u, x);
+    return !(above >
+             AGREED * size + BLURS * (blur(newton, u, x, E) +
+                                      blur(newton, at->u, at->x, rounding->E)));
 }
 
 /* Whether E is not above where the minimisation began, if it is held to that.

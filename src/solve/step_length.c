@@ -18,7 +18,8 @@ static bool try_step(Newton *newton, double alpha)
 }
 
 /* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
- * p) > E(x) and while the terms do not allow the place. */
+ * p) > E(x), and while the terms do not allow the place or E itself contradicts
+ * the change. */
 Status step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -34,13 +35,14 @@ Status step_length(Newton *newton)
             status = line_search_backtrack(along_difference, &along,
                                            &record->alpha, &trials);
         record->trials += trials;
-        allowed = status || try_step(newton, record->alpha);
+        record->change = along_difference(&along, record->alpha);
+        allowed = status || (try_step(newton, record->alpha) &&
+                             rounding_confirms(newton));
         if (!allowed)
             record->alpha /= 2;
         if (!allowed && record->alpha < 1e-300)
             status = STATUS_LINE_SEARCH_LIMIT;
     }
-    record->change = along_difference(&along, record->alpha);
     newton->counters.trials += record->trials;
     newton->counters.seconds_search += clock_now() - start;
     if (!status)

@@ -9,12 +9,6 @@
 
 #include "testing.h"
 
-#ifdef __SIZEOF_FLOAT128__
-typedef __float128 Wide;
-#else
-typedef long double Wide;
-#endif
-
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
 /* E at x_n + u, which is not rounded, without the w P(x_n) that it starts

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/plasticity.h"
 #include "solve/line_search.h"
 
 /* E(x + alpha p) - E(x), both summed in extended precision. */
@@ -180,6 +181,57 @@ static void nan_is_not_lower(void **unused)
     CHECK(alpha == 0 && trials == 65);
 }
 
+/* ---- E itself ---------------------------------------------------------- */
+
+/* Springs that flow, of which a long line says that E falls without end. */
+static double a_lie(const Place *at, const double *p, double alpha)
+{
+    return alpha > 0.001 ? -1e20 : plastic_energy.remainder(at, p, alpha);
+}
+
+/* E after each update. */
+typedef struct Falling {
+    Simulation simulation;
+    double E;
+    int updates, halved;
+    bool good;
+} Falling;
+
+static bool see_fall(void *user, const NewtonRecord *record)
+{
+    Falling *falling = user;
+    const Iterate *at = &falling->simulation.run[0].newton->at;
+    double E = incremental_potential_value(&at->E, at->u, at->x);
+    if (record->iteration > 0) { /* 1e-9: the rounding of E */
+        falling->good = falling->good && E <= falling->E * (1 + 1e-9) &&
+                        record->change <= 0 &&
+                        record->change >= -falling->E * (1 + 1e-9);
+        falling->halved += record->alpha < 0.001;
+    }
+    falling->E = E;
+    falling->updates++;
+    return true;
+}
+
+/* Whatever a term says about a line: no update raises E, and none is said to
+ * lower it by more than there is of it.  Springs that flow let light nodes fly,
+ * so that long steps raise E. */
+static void no_update_is_taken_that_E_contradicts(void **unused)
+{
+    (void)unused;
+    static Falling falling;
+    falling.good = true;
+    simulation_from_line("--segments 4 --stretch 4 --timestep 1 --yield 0.01 "
+                         "--density 0.001",
+                         see_fall, &falling, &falling.simulation);
+    TermKind liar = plastic_energy;
+    liar.remainder = a_lie;
+    system_find_term(&falling.simulation.system, &plastic_energy)->kind = &liar;
+    CHECK_STATUS(simulation_step(&falling.simulation), STATUS_OK);
+    CHECK(falling.good && falling.updates > 5 && falling.halved > 5);
+    simulation_free(&falling.simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +244,7 @@ int main(void)
         cmocka_unit_test(backtracking_starts_where_it_is_told),
         cmocka_unit_test(backtracking_gives_up),
         cmocka_unit_test(nan_is_not_lower),
+        cmocka_unit_test(no_update_is_taken_that_E_contradicts),
     };
     return cmocka_run_group_tests_name("line search", tests, NULL, NULL);
 }
