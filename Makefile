@@ -280,6 +280,9 @@ $(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
 $(B)/tests/unit/test_memory: TEST_LIBS += -Wl,--wrap=malloc,--wrap=calloc \
   -lsuitesparseconfig
 
+# This one reads what is written and plotted on a frame.
+$(B)/tests/unit/test_show: TEST_LIBS += -Wl,--wrap=text_draw,--wrap=plot_line
+
 # This one counts calls of CHOLMOD.
 $(B)/tests/unit/test_explicit: TEST_LIBS += -Wl,--wrap=cholmod_start \
   -Wl,--wrap=cholmod_analyze,--wrap=cholmod_factorize

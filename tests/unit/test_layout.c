@@ -281,6 +281,39 @@ static void markup_is_set(void **unused)
     text_free(text);
 }
 
+/* A mark stands just above its letter, a low one or a tall one. */
+static void marks_stand_above_letters(void **unused)
+{
+    (void)unused;
+    enum { SIZE = 20, HIGH = 40, WIDE = 40 };
+    static const char *const pairs[][2] = {{"x", "x\u0303"}, {"E", "E\u0303"}};
+    Text *text = NULL;
+    Canvas with, plain;
+    TextStyle style = {FACE_REGULAR, SIZE, 0xff000000};
+    assert_int_equal(text_create(&text), 0);
+    assert_int_equal(canvas_create(WIDE, HIGH, &with), 0);
+    assert_int_equal(canvas_create(WIDE, HIGH, &plain), 0);
+    for (int k = 0; k < 2 && text; k++) {
+        int letter = HIGH, top = HIGH, low = 0; /* rows */
+        canvas_clear(&with, 0xffffffff);
+        canvas_clear(&plain, 0xffffffff);
+        text_draw(text, &plain, &style, 9, 9, ALIGN_LEFT, pairs[k][0]);
+        text_draw(text, &with, &style, 9, 9, ALIGN_LEFT, pairs[k][1]);
+        for (int i = HIGH * WIDE - 1; i >= 0; i--) {
+            if (plain.pixels[i] != 0xffffffff)
+                letter = i / WIDE;
+            if (with.pixels[i] == plain.pixels[i])
+                continue;
+            top = i / WIDE;
+            low = low ? low : top;
+        }
+        CHECK(top <= low && low < letter - 1 && low > letter - SIZE / 3);
+    }
+    canvas_free(&with);
+    canvas_free(&plain);
+    text_free(text);
+}
+
 /* Clipped at every edge; wrong UTF-8 and sizes that cannot be are harmless. */
 static void texts_are_clipped(void **unused)
 {
@@ -342,6 +375,7 @@ int main(void)
         cmocka_unit_test(cards_share_the_column),
         cmocka_unit_test(lenses_keep_the_point),
         cmocka_unit_test(markup_is_set),
+        cmocka_unit_test(marks_stand_above_letters),
         cmocka_unit_test(texts_are_clipped),
         cmocka_unit_test(no_font_is_no_failure),
     };

@@ -528,6 +528,210 @@ static void hovers_are_seen(void **unused)
     take_down(&stand);
 }
 
+/* ---- what is written and plotted ---------------------------------------- */
+
+/* Every text of a frame, and how far down it is. */
+static struct Writing {
+    char text[160];
+    double y;
+} written[500];
+static int writings;
+
+int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup);
+int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup);
+
+int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup)
+{
+    if (writings < 500) {
+        snprintf(written[writings].text, sizeof written->text, "%s", markup);
+        written[writings++].y = y;
+    }
+    return __real_text_draw(text, canvas, style, x, y, align, markup);
+}
+
+/* Every line of a plot in the units of its axes. */
+static struct Stroke {
+    double a[2], b[2];
+    Colour colour;
+} plotted[4000];
+static int lines;
+
+void __real_plot_line(Paper *paper, const Plot *plot, const double *a,
+                      const double *b, double width, Colour colour);
+void __wrap_plot_line(Paper *paper, const Plot *plot, const double *a,
+                      const double *b, double width, Colour colour);
+
+void __wrap_plot_line(Paper *paper, const Plot *plot, const double *a,
+                      const double *b, double width, Colour colour)
+{
+    if (lines < 4000)
+        plotted[lines++] = (struct Stroke){{a[0], a[1]}, {b[0], b[1]}, colour};
+    __real_plot_line(paper, plot, a, b, width, colour);
+}
+
+/* The place of a text in the frame that is drawn now; fails where it is not. */
+static int drawn_text(Stand *stand, const char *text)
+{
+    writings = lines = 0;
+    show_draw(&stand->paper, &stand->show);
+    for (int i = 0; i < writings; i++)
+        if (strcmp(written[i].text, text) == 0)
+            return i;
+    print_error("not written: %s\n", text);
+    fail();
+    return -1;
+}
+
+static void check_number(int at, long double value)
+{
+    char number[48];
+    plot_number(number, sizeof number, (double)value);
+    assert_string_equal(written[at].text, number);
+}
+
+/* Position, velocity, force and x_tilde of a node. */
+static void notes_of_nodes_are_right(void **unused)
+{
+    (void)unused;
+    enum { N = 25, NODE = 7 };
+    static Stand stand;
+    stand_up("square --stretch 0.5 --turn 10 --velocity 1,2", 2, 1280, 800,
+             &stand);
+    const TimeIntegrator *run = &stand.simulation.run[0];
+    const IncrementalPotential E = {&stand.simulation.system, 1, run->x, NULL,
+                                    false};
+    long double g[2 * N];
+    exact_derivatives(&E, NULL, run->x, g, NULL);
+    double line[4][2];
+    for (int k = 0; k < 2; k++) {
+        double x = run->x[2 * NODE + k], v = run->v[2 * NODE + k];
+        double values[4] = {x, v, (double)-g[2 * NODE + k], x + 0.004 * v};
+        for (int i = 0; i < 4; i++)
+            line[i][k] = values[i];
+    }
+    static const char *const name[4] = {"{x}", "v", "f", "{xt}"};
+    static const char *const unit[4] = {"m", "m/s", "N", "m"};
+    stand.show.hover = (Pick){PICK_NODE, 0, NODE, {0, 0}};
+    int first = drawn_text(&stand, "node 7");
+    assert_string_equal(written[first + 1].text, "m = 40 kg");
+    for (int i = 0; i < 4; i++) {
+        char x[48], y[48], text[160];
+        plot_number(x, sizeof x, line[i][0]);
+        plot_number(y, sizeof y, line[i][1]);
+        snprintf(text, sizeof text, "%s = (%s, %s) %s", name[i], x, y, unit[i]);
+        assert_string_equal(written[first + 2 + i].text, text);
+    }
+    take_down(&stand);
+}
+
+/* The block of a spring and its eigenvalues, and bars as long as these are. */
+static void notes_of_springs_are_right(void **unused)
+{
+    (void)unused;
+    enum { N = 25, SPRING = 12, MOST = 40 };
+    static Stand stand;
+    static long double g[2 * N], H[4 * N * N];
+    stand_up("square --stretch 0.5 --turn 10", 0, 1280, 800, &stand);
+    text_free(stand.paper.text);
+    stand.paper.text = NULL;
+    const System *system = &stand.simulation.system;
+    const IncrementalPotential E = {system, 1, stand.simulation.run[0].x, NULL,
+                                    false};
+    exact_derivatives(&E, NULL, E.x_n, g, H);
+    int node[2] = {system->e[2 * SPRING], system->e[2 * SPRING + 1]};
+    long double B[3];
+    for (int k = 0; k < 3; k++) /* of two nodes: minus the spring's */
+        B[k] = -H[2 * N * (2 * node[0] + k / 2) + 2 * node[1] + (k + 1) / 2];
+    stand.show.hover = (Pick){PICK_SPRING, 0, SPRING, {0, 0}};
+    int at = drawn_text(&stand, "its block of \u2207\u00b2P, J/m\u00b2") + 1;
+    for (int i = 0; i < 16; i++)
+        check_number(at + i,
+                     B[i / 4 % 2 + i % 2] * (i / 8 == i % 4 / 2 ? 1 : -1));
+    long double middle = B[0] + B[2], apart = hypotl(B[0] - B[2], 2 * B[1]);
+    long double value[4] = {0, 0, middle - apart, middle + apart};
+    for (int i = 0; i < 4; i++)
+        check_number(at + 17 + i, value[i]);
+    CHECK(value[3] < 0); /* hollow bars for both, none of them in the words */
+    int bars = 0, tall[MOST] = {0}, last = 0;
+    for (int x = 0; x < 1280 && bars < MOST - 1; x++) {
+        int high = count_colour(&stand, (Box){x, 0, 1, 800}, COLOUR_PROJECT);
+        bars += high != tall[bars];
+        tall[bars] = high;
+        last += count_colour(&stand, (Box){x, (int)written[at + 17].y, 1, 20},
+                             COLOUR_PROJECT);
+    }
+    CHECK(bars == 4 && last == 0);
+    CHECK_NEAR(tall[1] / (double)value[2], tall[3] / (double)value[3],
+               1 / -(double)value[3]);
+    CHECK(tall[1] > 10);
+    take_down(&stand);
+}
+
+/* The tangent of g is 0 where the update goes, and the parabola, which E has in
+ * common with it at the start, is lowest there. */
+static void tangents_lead_to_the_next_iterate(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("tangent", 0, 1280, 800, &stand);
+    const Descent *descent = &stand.simulation.descent;
+    const double x = descent->point[0];
+    const double E = scalar_at(&descent->scalar.f, x).value;
+    char text[80];
+    Simulation after;
+    simulation_from_line("tangent", NULL, NULL, &after);
+    CHECK_STATUS(simulation_step(&after), STATUS_OK);
+    const double next = after.descent.point[0];
+    simulation_free(&after);
+    snprintf(text, sizeof text, "x^{1} = %.8g", next);
+    drawn_text(&stand, text);
+    int first = 0;
+    while (first < lines && plotted[first].colour != COLOUR_P)
+        first++;
+    const double *a = plotted[first].a, *b = plotted[first].b;
+    CHECK_NEAR(a[0] - a[1] * (b[0] - a[0]) / (b[1] - a[1]), next, 1e-12);
+    const double *near = NULL, *low = NULL;
+    for (int i = first + 1; i < lines && plotted[i].colour == COLOUR_P; i++) {
+        const double *end = plotted[i].b;
+        near = !near || fabs(end[0] - x) < fabs(near[0] - x) ? end : near;
+        low = !low || end[1] < low[1] ? end : low;
+    }
+    const double pace = plotted[first + 1].b[0] - plotted[first + 1].a[0];
+    double slope = scalar_at(&descent->scalar.f, x).first;
+    CHECK_NEAR(low[0], next, 0.51 * pace);
+    CHECK_NEAR(near[1], E + slope * (near[0] - x), 10 * pace * pace);
+    take_down(&stand);
+}
+
+/* The first, second, third time, and so on. */
+static void times_are_counted_in_words(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int time;
+        const char *word;
+    } rows[] = {{1, "1st"},   {2, "2nd"},   {3, "3rd"},    {4, "4th"},
+                {11, "11th"}, {12, "12th"}, {13, "13th"},  {21, "21st"},
+                {22, "22nd"}, {23, "23rd"}, {111, "111th"}};
+    static Stand stand;
+    stand_up("square", 0, 400, 300, &stand);
+    Trace trace = {.line = LINE_DO};
+    stand.show.pane[0].trace = &trace;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char sentence[80];
+        trace.iteration = rows[i].time - 1;
+        stand.show.sentence[0] = '\0';
+        show_describe(&stand.show);
+        snprintf(sentence, sizeof sentence,
+                 "line 2: the loop begins for the %s time", rows[i].word);
+        assert_string_equal(stand.show.sentence, sentence);
+    }
+    take_down(&stand);
+}
+
 /* Code stands in the place of the cards, its lines at work lit. */
 static void pages_light_their_lines(void **unused)
 {
@@ -954,6 +1158,10 @@ int main(void)
         cmocka_unit_test(bars_are_steps),
         cmocka_unit_test(a_trace_is_seen),
         cmocka_unit_test(hovers_are_seen),
+        cmocka_unit_test(notes_of_nodes_are_right),
+        cmocka_unit_test(notes_of_springs_are_right),
+        cmocka_unit_test(tangents_lead_to_the_next_iterate),
+        cmocka_unit_test(times_are_counted_in_words),
         cmocka_unit_test(pages_light_their_lines),
         cmocka_unit_test(contact_is_seen),
         cmocka_unit_test(contacts_slide_or_hold),
