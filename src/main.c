@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +28,7 @@ enum ExitCode {
 
 static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */
+static bool main_begun;    /* and it was created */
 
 /* SIGINT, SIGTERM, SIGHUP: end after the present Newton iteration.  A second
  * one ends at once, whatever the program waits for: a library, a screen.
@@ -46,6 +48,14 @@ static void on_signal(int number)
         raise(number);
     }
     main_stop = 1;
+    alarm(1);
+}
+
+/* A second after it: whoever still waits for a screen waits in vain. */
+static void on_alarm(int number)
+{
+    (void)number;
+    view_let_go();
 }
 
 /* Signals that end the run; and those of pipes without a reader and of files
@@ -58,16 +68,12 @@ static void handle_signals(void)
     sigaction(SIGTERM, &action, NULL);
     if (sigaction(SIGHUP, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL); /* not so under nohup */
+    action.sa_handler = on_alarm;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &action, NULL);
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
     sigaction(SIGXFSZ, &action, NULL);
-}
-
-/* Xlib ends the program by itself when its server is gone: the files are then
- * finished here.  After an orderly end there is nothing left to do. */
-static void save_files(void)
-{
-    recording_close(&main_player.recording);
 }
 
 /* Standard streams that are closed must not become those of other files:
@@ -81,20 +87,32 @@ static void hold_standard_streams(void)
         close(file);
 }
 
-/* Whether everything printed so far arrived. */
-static int check_output(void)
+/* The one line about what went wrong, fit for a terminal. */
+static void tell(const char *format, ...)
 {
-    errno = 0;
+    char line[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    one_line(line, line, sizeof line);
+    fprintf(stderr, "elasto: %s\n", line);
+}
+
+/* Whether everything printed arrived; errno was 0 before.  what: for the one
+ * line if it did not. */
+static int check_output(const char *what)
+{
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
-    fprintf(stderr, "elasto: standard output: %s\n",
-            strerror(errno ? errno : EIO));
+    tell("cannot write %s: %s", what, output_reason(errno));
     return EXIT_FAILED;
 }
 
 /* --help, --version, --list. */
 static int print_information(const Options *options)
 {
+    errno = 0;
     if (options->help)
         fputs(options_help(), stdout);
     else if (options->version)
@@ -106,7 +124,9 @@ static int print_information(const Options *options)
     else
         for (const Scene *scene = scenes; scene->name; scene++)
             printf("%-12s %s\n", scene->name, scene->sentence);
-    return check_output();
+    return check_output(options->help      ? "the help"
+                        : options->version ? "the version"
+                                           : "the list");
 }
 
 /* What a user can do about a failure. */
@@ -151,22 +171,15 @@ static void report_failure(const Player *player, Status status)
         view_failure(reason, sizeof reason);
     one_line(recording->failed, name, sizeof name);
     if (player->message[0] || recording->message[0])
-        fprintf(stderr, "elasto: %s\n",
-                player->message[0] ? player->message : recording->message);
-    else if (recording->reason == ENOTSUP)
-        fprintf(stderr,
-                "elasto: %s: only regular files, pipes and character devices "
-                "can be written\n",
-                name);
+        tell("%s", player->message[0] ? player->message : recording->message);
     else if (recording->reason)
-        fprintf(stderr, "elasto: %s: %s\n", name, strerror(recording->reason));
+        tell("%s: %s", name, output_reason(recording->reason));
     else if (lane)
-        fprintf(stderr, "elasto: %sstep %ld failed: %s%s\n", pane,
-                lane->track.simulation.steps + 1, status_text(status),
-                advice(player, status));
+        tell("%sstep %ld failed: %s%s", pane, lane->track.simulation.steps + 1,
+             status_text(status), advice(player, status));
     else
-        fprintf(stderr, "elasto: %s%s%s%s\n", status_text(status),
-                reason[0] ? ": " : "", reason, advice(player, status));
+        tell("%s%s%s%s", status_text(status), reason[0] ? ": " : "", reason,
+             advice(player, status));
 }
 
 /* Under a limit on the address space OpenBLAS asks for ever for a buffer that
@@ -206,10 +219,9 @@ static bool can_be_mapped(const Options *options)
         munmap(memory, size);
         return true;
     }
-    fprintf(stderr,
-            "elasto: not enough memory: the run needs %.0f MB of address "
-            "space%s; see ulimit -v\n",
-            1e-6 * (double)size, blas_bytes(options) ? " with OpenBLAS" : "");
+    tell("not enough memory: the run needs %.0f MB of address space%s; see "
+         "ulimit -v",
+         1e-6 * (double)size, blas_bytes(options) ? " with OpenBLAS" : "");
     return false;
 }
 
@@ -225,20 +237,19 @@ static bool fits_in_memory(const Options *options)
         return true;
     while (smaller.segments > 1 && simulation_bytes(&smaller) > there)
         smaller.segments--;
-    fprintf(stderr,
-            "elasto: --segments %d needs about %.1f GB of memory and there "
-            "are %.1f: from 1 to %d\n",
-            options->segments, 1e-9 * needed, 1e-9 * there, smaller.segments);
+    tell("--segments %d needs about %.1f GB of memory and there are %.1f: from "
+         "1 to %d",
+         options->segments, 1e-9 * needed, 1e-9 * there, smaller.segments);
     return false;
 }
 
 /* Files, then the summary or the failure.  Returns the exit code. */
-static int finish(Player *player, Status status, bool begun)
+static int finish(Player *player, Status status)
 {
     const Options *options = &player->given[0];
     bool standard = (options->states && output_is_standard(options->states)) ||
                     (options->log && output_is_standard(options->log));
-    if (!begun)
+    if (!main_begun)
         recording_discard(&player->recording);
     long steps = player->lane[0].track.simulation.steps;
     player->recording.aside = status && steps == 0;
@@ -249,12 +260,22 @@ static int finish(Player *player, Status status, bool begun)
         report_failure(player, status);
         return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     }
+    errno = 0;
     if (!options->quiet)
         summary_print(standard ? stderr : stdout, player);
-    int code = check_output();
+    int code = check_output("the summary");
     if (code == EXIT_FINE && player_unconverged(player))
         return EXIT_UNCONVERGED;
     return code;
+}
+
+/* The server of the window's screen is gone, or did not answer after a signal:
+ * files are finished without it.  A step may be half made: no summary. */
+static void on_lost_screen(void)
+{
+    main_player.view = NULL;
+    main_player.given[0].quiet = true;
+    exit(finish(&main_player, main_stop ? STATUS_OK : STATUS_SCREEN_FAILED));
 }
 
 /* --handout.  Returns the exit code. */
@@ -265,10 +286,10 @@ static int make_handout(const Options *options, Player *player)
         handout_write(options, &main_stop, player, message, sizeof message);
     if (!status)
         return EXIT_FINE;
-    fprintf(stderr, "elasto: %s: %s\n", options->handout,
-            status == STATUS_FILE_FAILED ? strerror(errno)
-            : message[0]                 ? message
-                                         : status_text(status));
+    tell("%s: %s", options->handout,
+         status == STATUS_FILE_FAILED ? output_reason(errno)
+         : message[0]                 ? message
+                                      : status_text(status));
     return EXIT_FAILED;
 }
 
@@ -309,13 +330,13 @@ int main(int argc, char **argv)
     for (int i = 0; i < options[0].panes; i++)
         if (options_parse_pane(argc, argv, i, &options[i], message,
                                sizeof message)) {
-            fprintf(stderr, "elasto: %s\n", message);
+            tell("%s", message);
             return EXIT_MISUSED;
         }
     if (options->help || options->version || options->list)
         return print_information(options);
     if (recording_check(options, message, sizeof message)) {
-        fprintf(stderr, "elasto: %s\n", message);
+        tell("%s", message);
         return EXIT_MISUSED;
     }
     for (int i = 0; i < options->panes; i++) {
@@ -324,21 +345,21 @@ int main(int argc, char **argv)
         if (!can_be_mapped(&options[i]))
             return EXIT_FAILED;
     }
-    if (options->panes > 1 && !options->quiet) {
-        options_panes(argc, argv, message, sizeof message);
-        fprintf(stderr, "%s\n", message);
-    }
     join_line(argc, argv, line, sizeof line);
     handle_signals();
-    atexit(save_files);
+    view_when_lost(on_lost_screen);
     if (options->handout)
         return make_handout(options, player);
     Status status =
         player_create(options, options->panes, line, &main_stop, player);
-    bool begun = !status;
-    if (begun)
+    main_begun = !status;
+    if (main_begun && options->panes > 1 && !options->quiet) {
+        options_panes(argc, argv, message, sizeof message);
+        fprintf(stderr, "%s\n", message);
+    }
+    if (main_begun)
         status = player_run(player);
-    int code = finish(player, status, begun);
+    int code = finish(player, status);
     player_free(player);
     return code;
 }

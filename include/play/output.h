@@ -2,18 +2,18 @@
  *
  * What a name stands for decides what happens:
  *   "-", or whatever standard output is    standard output
- *   a regular file, or nothing yet         a new file NAME.part in the same
- *                                          folder, which takes the name's
- *                                          place, with the old permissions, at
- *                                          the end
- *   a symbolic link                        the same where it leads; it stays
+ *   a regular file, or nothing yet         NAME.part beside it takes its place,
+ *                                          with the old permissions, at the end
+ *   a symbolic link to a file              the same where it leads; it stays
  *   a pipe, a character device             is written as it comes
  *   a folder, a block device, a socket     is refused
- * NAME.part is never a file that was there: the second one is NAME.part2.
+ * A run that writes NAME.part holds a lock on it: a second one is refused.
+ * What a run that failed or was killed left there is written over by the next.
  */
 #ifndef ELASTO_OUTPUT_H
 #define ELASTO_OUTPUT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "base/status.h"
@@ -25,42 +25,32 @@ typedef struct Output {
     char *temporary; /* where it is written, with a target */
 } Output;
 
-/* Opens it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why; ENOTSUP:
- * refused). */
+/* Opens it.  Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
 Status output_open(const char *name, Output *output);
+
+/* Why a file failed, after FILE_FAILED: what errno means here. */
+const char *output_reason(int reason);
 
 /* FILE_FAILED if something could not be written so far, else OK. */
 Status output_check(const Output *output);
 
-/* Throws away what was written, where that is possible. */
-Status output_restart(Output *output);
-
 /* Cuts off the lines that begin with a number above `last`, and all behind
- * them; headers stay.  Where nothing can be taken back the new text follows the
- * old.  Returns OK, FILE_FAILED. */
+ * them; headers stay, unless last is below 0: then all goes.  Where nothing can
+ * be taken back the new text follows the old.  Returns OK, FILE_FAILED. */
 Status output_cut(Output *output, long last);
 
 /* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED what
- * stood under the name before still does.
- *   keep  after a failure leave NAME.part as far as it got; else remove it */
-Status output_close(Output *output, bool keep);
+ * stood under the name before still does, and NAME.part as far as it got. */
+Status output_close(Output *output);
 
-/* Closes; where something stands under the name it stays, and NAME.part too.
- * For tables of a run that made no step. */
-Status output_set_aside(Output *output);
-
-/* Closes and removes NAME.part.  errno stays. */
-void output_discard(Output *output);
+/* Closes it; what stood under the name stays.  errno stays, too.
+ *   keep  NAME.part stays; else it is removed */
+void output_discard(Output *output, bool keep);
 
 /* Whether this name means standard output. */
 bool output_is_standard(const char *name);
 
-/* Whether two outputs would write into one another: the same file, or one is
- * the other's NAME.part. */
-bool output_collides(const char *one, const char *other);
-
-/* The path a name leads to, links followed; what does not exist yet has its
- * folder's path.  In memory of its own; NULL: errno tells why. */
-char *output_target(const char *name);
+/* Whether two names mean one file.  The null device may be meant twice. */
+bool output_is_same(const char *one, const char *other);
 
 #endif

@@ -32,14 +32,14 @@ typedef struct Recording {
     bool points;        /* the log tells of points */
     int panes;          /* of more than one the log tells which: 1 ... */
     Output states, log; /* not open: not written */
-    bool aside; /* set: closing replaces no table that was there before */
-    int reason; /* errno of the first failure, 0: none yet */
+    bool aside;         /* set: at the end tables stay NAME.part */
+    int reason;         /* errno of the first failure, 0: none yet */
     char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
-    char message[256];                /* why a film cannot be made, or "" */
+    char message[256];                /* why there is no film, or "" */
 } Recording;
 
-/* Whether the files of the options can be written beside each other: the same
- * file may not be meant twice, and standard output takes one table.
+/* Whether all files of the options can be written and read beside each other:
+ * no file may be meant twice, and tables have names of tables.
  *   message  [size] out, one line after INVALID_INPUT
  * Returns OK or INVALID_INPUT. */
 Status recording_check(const Options *options, char *message, size_t size);

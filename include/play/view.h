@@ -47,6 +47,15 @@ typedef struct Input {
 Status view_create_window(const char *title, const int size[2], bool full,
                           View **view, char *reason, size_t length);
 
+/* From now on `lost` is called when the server of a window is gone; it must not
+ * return. */
+void view_when_lost(void (*lost)(void));
+
+/* Ends every wait for a server that does not answer, as if it were gone; while
+ * a window is opened the program ends, for nothing was begun.  For handlers of
+ * signals. */
+void view_let_go(void);
+
 /* A surface in memory with SDL's software renderer; needs no screen.
  * Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status view_create_surface(int width, int height, View **view);

@@ -5,8 +5,9 @@
 
 #include <stddef.h>
 
-/* Copies a text: each control byte, and each control character of UTF-8,
- * becomes '?', so that a message stays one line and a terminal obeys nothing.
+/* Copies a text: each control character, those that turn the direction of
+ * writing, and each byte that is no UTF-8 become '?', so that a message stays
+ * one line, says what it seems to say, and a terminal obeys nothing.
  * A text that does not fit loses its middle: "abc...xyz".
  *   text  in, or NULL: ""
  *   line  [size] out, ends with '\0'; may be the text itself */

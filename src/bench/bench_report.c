@@ -113,13 +113,13 @@ Status bench_csv_close(Bench *bench, Status status)
 {
     bench_progress(bench, NULL);
     if (status) {
-        output_discard(&bench->csv);
+        output_discard(&bench->csv, false);
         return status;
     }
     char name[4096];
     snprintf(name, sizeof name, "%s", bench->csv.name ? bench->csv.name : "");
     errno = 0;
-    if (output_close(&bench->csv, false))
+    if (output_close(&bench->csv))
         return report_csv(bench, name, errno ? errno : EIO);
     return STATUS_OK;
 }

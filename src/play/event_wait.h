@@ -9,4 +9,12 @@ struct SDL_Window;
  * the events stay in their queue. */
 void event_wait(struct SDL_Window *window, int milliseconds);
 
+/* From now on `lost` is called when the window's server is gone; it must not
+ * return.  NULL, NULL: there is no window any more. */
+void event_guard(struct SDL_Window *window, void (*lost)(void));
+
+/* Breaks the connection to the guarded window's server, which ends every wait
+ * for its answer: then it is gone.  May be called in a signal's handler. */
+void event_let_go(void);
+
 #endif

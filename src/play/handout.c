@@ -143,7 +143,7 @@ static Status play_lines(Player *player, const LecturePage *page)
         if (!paper)
             return STATUS_OUT_OF_MEMORY;
         player_paint(player, paper);
-        status = film_add(&player->recording.film, &paper->canvas, 60);
+        status = film_add(&player->recording.film, &paper->canvas, 1);
         if (!status && i < page->lines)
             status = player_obey(player, &next);
     }
@@ -168,6 +168,9 @@ static Status play_page(const LecturePage *page,
     options.steps = page->film;
     status = player_create(&options, 1, "elasto", stop, player);
     player->recording.film_every = page->every;
+    player->recording.film.rate =
+        page->lines ? 1
+                    : (double)FILM_RATE / (page->every > 1 ? page->every : 1);
     if (!status && (page->open || page->lines))
         status = play_lines(player, page);
     else if (!status)
@@ -260,9 +263,9 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
     free(name);
     errno = reason;
     if (status) {
-        output_discard(&output);
+        output_discard(&output, false);
         return status;
     }
     fputs("</body>\n</html>\n", output.file);
-    return output_close(&output, false);
+    return output_close(&output);
 }

@@ -66,12 +66,14 @@ static Status switch_film(Player *player, const Command *command)
     if (ends) {
         status = recording_end_film(recording);
     } else {
-        free_name(player, ".apng", name, sizeof name);
+        free_name(player, ".mp4", name, sizeof name);
         status = recording_film(recording, name);
         player->sampled = -1; /* the present frame is the first */
     }
     if (status)
-        player_note(player, "no film: %s", strerror(recording->reason));
+        player_note(player, "no film: %s",
+                    recording->message[0] ? recording->message
+                                          : output_reason(recording->reason));
     else if (ends)
         player_note(player, "film ends: %ld frames, in %s",
                     recording->film_frames, recording->film_name);

@@ -46,8 +46,8 @@ Status png_file_write(const char *name, const Canvas *canvas)
     png_image_free(&image);
     free(bytes);
     if (whole)
-        return output_close(&output, false);
-    output_discard(&output);
+        return output_close(&output);
+    output_discard(&output, false);
     errno = reason ? reason : EIO;
     return reason == ENOMEM ? STATUS_OUT_OF_MEMORY : STATUS_FILE_FAILED;
 }

@@ -1,9 +1,11 @@
 #include "play/recording.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "scenes/one_line.h"
@@ -67,33 +69,42 @@ static Status open_table(Recording *recording, const char *name, Output *output)
     return recording_note(recording, output_open(name, output), name);
 }
 
-/* Frames a second of films. */
-static const double FILM_RATE = 60;
+/* Why a film failed, where errno does not say it. */
+static Status note_film(Recording *recording, Status status, const char *name)
+{
+    char shown[128];
+    one_line(name, shown, sizeof shown);
+    if (status == STATUS_FILE_FAILED && recording->film.reason &&
+        recording->reason == 0)
+        snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
+                 recording->film.reason);
+    return recording_note(recording, status, name);
+}
 
 Status recording_film(Recording *recording, const char *name)
 {
-    return recording_note(recording,
-                          film_open(name, FILM_RATE, &recording->film,
-                                    recording->message,
-                                    sizeof recording->message),
-                          name);
+    recording->message[0] = '\0';
+    return note_film(recording,
+                     film_open(name, &recording->film, recording->message,
+                               sizeof recording->message),
+                     name);
 }
 
 Status recording_end_film(Recording *recording)
 {
     char name[RECORDING_NAME_SIZE];
     const Film *film = &recording->film;
-    snprintf(name, sizeof name, "%s",
-             film->output.name ? film->output.name : "");
-    long frames = film_runs(film) ? film->frames : 0;
-    Status status =
-        recording_note(recording, film_close(&recording->film), name);
-    if (!status && frames > 0) {
-        recording->films++;
-        recording->film_frames = frames;
-        memcpy(recording->film_name, name, sizeof name);
-    }
-    return status;
+    if (!film_runs(film))
+        return STATUS_OK;
+    snprintf(name, sizeof name, "%s", film->output.name);
+    long frames = film->frames;
+    Status status = note_film(recording, film_close(&recording->film), name);
+    if (status)
+        return status;
+    recording->films++;
+    recording->film_frames = frames;
+    memcpy(recording->film_name, name, sizeof name);
+    return STATUS_OK;
 }
 
 bool recording_wants_frames(const Recording *recording)
@@ -124,60 +135,59 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     return status;
 }
 
-/* A copy of a text up to its end, without slashes there; NULL: no memory. */
-static char *folder_name(const char *text, size_t length)
+/* Whether a table may have this name: other endings promise other formats.  An
+ * ending begins with a letter, behind something. */
+static bool is_table(const char *name)
 {
-    while (length > 1 && text[length - 1] == '/')
-        length--;
-    return strndup(length > 0 ? text : ".", length > 0 ? length : 1);
+    static const char *const ends[] = {".csv", ".txt", ".dat", ".log"};
+    const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
+    const char *end = strrchr(base, '.');
+    bool table = !end || end == base || !isalpha((unsigned char)end[1]);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
+        table = table || strcasecmp(end, ends[i]) == 0;
+    return table;
 }
 
-/* Whether a table would have the name of a frame in this folder. */
-static bool is_frame(const char *folder, const char *name)
+/* A name, and the file beside it in which it begins. */
+static bool are_same(const char *one, const char *other)
 {
-    const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
-    if (strncmp(base, "frame_", strlen("frame_")) != 0)
-        return false;
-    char *one = folder_name(folder, strlen(folder));
-    char *other = folder_name(name, slash ? (size_t)(slash + 1 - name) : 0);
-    char *a = one ? output_target(one) : NULL;
-    char *b = other ? output_target(other) : NULL;
-    bool same = a && b && strcmp(a, b) == 0;
-    free(one);
-    free(other);
-    free(a);
-    free(b);
-    return same;
+    char part[RECORDING_NAME_SIZE];
+    snprintf(part, sizeof part, "%s.part", one);
+    return output_is_same(one, other) || output_is_same(part, other);
 }
 
 /* Every two names. */
 Status recording_check(const Options *options, char *message, size_t size)
 {
-    const char *states = options->states, *log = options->log;
-    const char *frames = options->frames, *table = NULL;
+    const char *const file[][2] = {
+        {"states", options->states}, {"log", options->log},
+        {"film", options->film},     {"frames", options->frames},
+        {"script", options->script}, {"handout", options->handout},
+    };
+    enum { FILES = sizeof file / sizeof *file, TABLES = 2 };
     char shown[64], other[64];
-    if (states && log && output_collides(states, log)) {
-        one_line(states, shown, sizeof shown);
-        one_line(log, other, sizeof other);
-        snprintf(message, size,
-                 "--states '%s' and --log '%s' would be written into one "
-                 "another: two different files, at most one of them \"-\"",
-                 shown, other);
-        return STATUS_INVALID_INPUT;
+    for (int i = 0; i < FILES; i++) {
+        one_line(file[i][1], shown, sizeof shown);
+        if (i < TABLES && file[i][1] && !is_table(file[i][1])) {
+            snprintf(message, size,
+                     "--%s '%s': it is a table in CSV, whose name ends in "
+                     ".csv, .txt, .dat, .log or has no ending",
+                     file[i][0], shown);
+            return STATUS_INVALID_INPUT;
+        }
+        for (int k = 0; k < FILES; k++) {
+            if (k == i || !file[i][1] || !file[k][1] ||
+                !are_same(file[i][1], file[k][1]))
+                continue;
+            one_line(file[k][1], other, sizeof other);
+            snprintf(message, size,
+                     "--%s '%s' and --%s '%s' are one file: each needs a name "
+                     "of its own",
+                     file[i][0], shown, file[k][0], other);
+            return STATUS_INVALID_INPUT;
+        }
     }
-    if (frames && states && is_frame(frames, states))
-        table = states;
-    if (frames && log && is_frame(frames, log))
-        table = log;
-    if (!table)
-        return STATUS_OK;
-    one_line(table, shown, sizeof shown);
-    one_line(frames, other, sizeof other);
-    snprintf(message, size,
-             "--%s '%s' would be a frame of --frames '%s': any name that does "
-             "not begin with frame_",
-             table == states ? "states" : "log", shown, other);
-    return STATUS_INVALID_INPUT;
+    return STATUS_OK;
 }
 
 /* FOLDER/frame_000012.png */
@@ -203,8 +213,7 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     Status status = STATUS_OK;
     int every = recording->film_every > 1 ? (int)recording->film_every : 1;
     if (film_runs(film) && step % every == 0)
-        status =
-            recording_note(recording, film_add(film, canvas, shown * every),
+        status = note_film(recording, film_add(film, canvas, shown),
                            film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
@@ -273,11 +282,7 @@ Status recording_restart(Recording *recording, const Options *options)
 {
     recording->points = !(options->scene->needs & NEEDS_TIME);
     recording->last_frame = -1;
-    Status status =
-        recording_note(recording, output_restart(&recording->states), "states");
-    if (!status)
-        status =
-            recording_note(recording, output_restart(&recording->log), "log");
+    Status status = recording_cut(recording, -1);
     return status ? status : write_headers(recording);
 }
 
@@ -291,29 +296,28 @@ Status recording_cut(Recording *recording, long step)
     return status;
 }
 
-/* Closes one table; after a failed write NAME.part keeps what there is. */
-static Status close_table(Recording *recording, Output *output,
-                          const char *name)
+/* Closes one table. */
+static Status close_table(Recording *recording, Output *output)
 {
-    char copy[RECORDING_NAME_SIZE];
-    snprintf(copy, sizeof copy, "%s", output->name ? output->name : name);
-    Status status = recording->aside ? output_set_aside(output)
-                                     : output_close(output, true);
-    return recording_note(recording, status, copy);
+    char name[RECORDING_NAME_SIZE];
+    snprintf(name, sizeof name, "%s", output->name ? output->name : "");
+    if (recording->aside)
+        output_discard(output, true);
+    return recording_note(recording, output_close(output), name);
 }
 
 /* Film and both tables, also if one of them fails. */
 Status recording_close(Recording *recording)
 {
     Status film = recording_end_film(recording);
-    Status states = close_table(recording, &recording->states, "states");
-    Status log = close_table(recording, &recording->log, "log");
+    Status states = close_table(recording, &recording->states);
+    Status log = close_table(recording, &recording->log);
     return film ? film : states ? states : log;
 }
 
 void recording_discard(Recording *recording)
 {
     film_discard(&recording->film);
-    output_discard(&recording->states);
-    output_discard(&recording->log);
+    output_discard(&recording->states, false);
+    output_discard(&recording->log, false);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "play/output.h"
+#include "scenes/one_line.h"
 
 enum { SCRIPT_LINE_SIZE = 512 };
 
@@ -67,6 +68,7 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
     }
     if (status == STATUS_INVALID_INPUT)
         snprintf(message, size, "line %ld: %s", number, why);
+    one_line(message, message, size);
     if (!status && ferror(file))
         status = STATUS_FILE_FAILED;
     int reason = errno;
@@ -89,10 +91,10 @@ Status script_write(const char *name, const Script *script)
     }
     status = output_check(&output);
     if (status) {
-        output_discard(&output);
+        output_discard(&output, false);
         return status;
     }
-    return output_close(&output, false);
+    return output_close(&output);
 }
 
 const Command *script_due(Script *script, long step, bool waits)

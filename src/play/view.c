@@ -2,11 +2,14 @@
 
 #include <SDL.h>
 #include <SDL_opengl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "play/event_wait.h"
+#include "scenes/one_line.h"
 
 enum {
     WINDOW_WIDTH = 1280,
@@ -149,6 +152,22 @@ void view_failure(char *reason, size_t size)
 {
     snprintf(reason, size, "%s", SDL_GetError());
     reason[strcspn(reason, "\r\n")] = '\0';
+    one_line(reason, reason, size);
+}
+
+static volatile sig_atomic_t view_opens; /* a window is being opened */
+static void (*view_lost)(void);
+
+void view_when_lost(void (*lost)(void))
+{
+    view_lost = lost;
+}
+
+void view_let_go(void)
+{
+    if (view_opens)
+        _exit(EXIT_FAILURE);
+    event_let_go();
 }
 
 Status view_create_window(const char *title, const int size[2], bool full,
@@ -158,7 +177,11 @@ Status view_create_window(const char *title, const int size[2], bool full,
     *view = NULL;
     if (!made)
         return STATUS_OUT_OF_MEMORY;
-    if (!open_window(made, title, size, full)) {
+    view_opens = 1;
+    bool opened = open_window(made, title, size, full);
+    event_guard(made->window, view_lost);
+    view_opens = 0;
+    if (!opened) {
         view_failure(reason, length);
         view_free(made);
         return STATUS_SCREEN_FAILED;
@@ -198,8 +221,10 @@ void view_free(View *view)
         SDL_FreeSurface(view->surface);
     if (view->window)
         SDL_DestroyWindow(view->window);
-    if (view->initialised)
+    if (view->initialised) {
         SDL_Quit();
+        event_guard(NULL, NULL);
+    }
     free(view);
 }
 

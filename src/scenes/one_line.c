@@ -11,15 +11,48 @@ static bool goes_on(char byte)
     return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
-/* Bytes 0 ... 31 and 127; U+0080 ... U+009F, which are C2 80 ... C2 9F. */
+/* The character of UTF-8 at the beginning of a text.  Returns its bytes; 1 and
+ * the code of a control for what is none. */
+static size_t read_character(const unsigned char *text, unsigned *code)
+{
+    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    size_t size = text[0] < 0x80   ? 1
+                  : text[0] < 0xE0 ? 2
+                  : text[0] < 0xF0 ? 3
+                                   : 4;
+    *code = size == 1 ? text[0] : text[0] & (0xFFU >> (size + 1));
+    for (size_t i = 1; i < size && *code != 127; i++)
+        *code = goes_on((char)text[i]) ? *code << 6 | (text[i] & 0x3F) : 127;
+    if (*code >= least[size] && text[0] < 0xF8 && *code != 127)
+        return size;
+    *code = 127;
+    return 1;
+}
+
+/* What a terminal obeys, or what turns the order of its letters around. */
+static bool is_control(unsigned code)
+{
+    return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C ||
+           code == 0x200E || code == 0x200F ||
+           (code >= 0x2028 && code <= 0x202E) ||
+           (code >= 0x2066 && code <= 0x2069);
+}
+
+/* Each control, and each byte that is no character, becomes '?'. */
 static void hide_controls(char *line)
 {
-    for (unsigned char *c = (unsigned char *)line; *c; c++)
-        if (*c < 32 || *c == 127 || (*c == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0))
-            *c = '?';
-        else if (c > (unsigned char *)line && c[-1] == '?' && *c >= 0x80 &&
-                 *c < 0xA0)
-            *c = '?';
+    unsigned code;
+    const char *from = line;
+    while (*from) {
+        size_t size = read_character((const unsigned char *)from, &code);
+        if (is_control(code))
+            *line++ = '?';
+        else
+            for (size_t i = 0; i < size; i++)
+                *line++ = from[i];
+        from += size;
+    }
+    *line = '\0';
 }
 
 void one_line(const char *text, char *line, size_t size)

@@ -68,11 +68,11 @@ static bool ends_with(const char *text, const char *end)
  * film.mp4, --resolution 1920x1080. */
 static const OptionRow *row_of_value(const OptionRow *row, const char *value)
 {
-    static const char *const films[] = {".mp4", ".gif", ".apng"};
+    static const char *const films[] = {".mp4", ".webm", ".gif", ".apng"};
     const char *better = NULL;
     int width, height;
     bool file = row && row->kind == KIND_TEXT;
-    for (int i = 0; i < 3 && file; i++)
+    for (int i = 0; i < 4 && file; i++)
         if (ends_with(value, films[i]))
             better = "film";
     if (sscanf(value, "%dx%d", &width, &height) == 2)

@@ -164,10 +164,6 @@ static void summaries_tell_what_was_done(void **unused)
             print_error("no '%s' in: %s\n", words[i], all);
         CHECK(strstr(all, words[i]) != NULL);
     }
-    run("--headless --steps 3 --size 64x64 --film a.apng");
-    check_code(0);
-    CHECK(strstr(result.out, "film                4 frames, in a.apng\n"));
-    CHECK(!strstr(result.out, "frames written"));
     run("--headless --steps 2 --timestep 0.004,0.01");
     check_code(0);
     CHECK(strstr(result.out, "pane 1              h 0.004 s\nsteps          "

@@ -303,7 +303,7 @@ static const BadLine hopeful_lines[] = {
     {"--debug", {"no option --debug;", "did you mean --log?", ""}},
     {"--tutorial", {"--tutorial;", "did you mean --lecture?", ""}},
     {"--video o.mp4", {"--video;", "did you mean --film?", ""}},
-    {"--output o.mp4", {"--output;", "did you mean --film?", ""}},
+    {"--output o.webm", {"--output;", "did you mean --film?", ""}},
     {"--output=o.gif", {"--output;", "did you mean --film?", ""}},
     {"--output o.csv", {"--output;", "did you mean --states?", ""}},
     {"--resolution 1920x1080", {"--resolution;", "mean --size?", ""}},
@@ -526,8 +526,25 @@ static void texts_become_one_line(void **unused)
     assert_string_equal(line, "012...\303\274\303\274"); /* whole letters */
     one_line("0123456789\303\274abc", line, sizeof line);
     assert_string_equal(line, "0123...abc"); /* no half of one */
-    one_line("\302\205", line, sizeof line);
-    assert_string_equal(line, "??");
+    /* controls above ASCII, and as single bytes; what turns writing around;
+     * bytes that are no text: in the wrong place, too long, cut off */
+    static const char *const hidden[] = {
+        "\302\200",     "\302\205",     "\302\237",     "\200",
+        "\233",         "\237",         "\330\234",     "\342\200\216",
+        "\342\200\217", "\342\200\252", "\342\200\256", "\342\201\246",
+        "\342\201\251", "\377",         "\342\200\250"};
+    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++) {
+        char text[12];
+        snprintf(text, sizeof text, "a%sb", hidden[i]);
+        one_line(text, text, sizeof text);
+        assert_string_equal(text, "a?b");
+    }
+    one_line("\303\050", line, sizeof line);
+    assert_string_equal(line, "?(");
+    one_line("\300\233a\342\200", line, sizeof line);
+    assert_string_equal(line, "??a??");
+    one_line("\302\240\342\200\247\342\201\252", line, sizeof line);
+    assert_string_equal(line, "\302\240\342\200\247\342\201\252");
     one_line(NULL, line, sizeof line);
     assert_string_equal(line, "");
 }

@@ -807,14 +807,14 @@ static void outputs_replace_at_the_end(void **unused)
     write_text(name, "old\n");
     CHECK_STATUS(output_open(name, &output), STATUS_OK);
     fputs("thrown away\n", output.file);
-    CHECK_STATUS(output_restart(&output), STATUS_OK);
+    CHECK_STATUS(output_cut(&output, -1), STATUS_OK);
     fputs("new\n", output.file);
     char *text = read_text(name);
     assert_string_equal(text, "old\n");
     free(text);
     CHECK(exists(part));
-    CHECK_STATUS(output_close(&output, true), STATUS_OK);
-    CHECK_STATUS(output_close(&output, true), STATUS_OK);
+    CHECK_STATUS(output_close(&output), STATUS_OK);
+    CHECK_STATUS(output_close(&output), STATUS_OK);
     text = read_text(name);
     assert_string_equal(text, "new\n");
     free(text);
@@ -827,24 +827,59 @@ static void discarded_outputs_leave_nothing(void **unused)
     Output output;
     CHECK_STATUS(output_open(in_folder("never.txt"), &output), STATUS_OK);
     fputs("text", output.file);
-    output_discard(&output);
-    output_discard(&output);
+    output_discard(&output, false);
+    output_discard(&output, false);
     CHECK(!exists(in_folder("never.txt")));
     CHECK(!exists(in_folder("never.txt.part")));
 }
 
-/* What cannot get its name is thrown away, unless it shall be kept. */
-static void outputs_without_their_name_are_kept_if_asked(void **unused)
+/* What cannot get its name stays beside it, and is written over by the next:
+ * failures do not pile up.  Meanwhile nobody else writes there. */
+static void outputs_have_one_file_beside_their_name(void **unused)
 {
     (void)unused;
-    for (int keep = 0; keep < 2; keep++) {
-        Output output;
-        const char *name = in_folder("taken"), *part = in_folder("taken.part");
+    Output output, second;
+    const char *name = in_folder("taken"), *part = in_folder("taken.part");
+    for (int i = 0; i < 3; i++) {
         CHECK_STATUS(output_open(name, &output), STATUS_OK);
+        CHECK_STATUS(output_open(name, &second), STATUS_FILE_FAILED);
+        assert_int_equal(errno, EBUSY);
+        fprintf(output.file, "%d", i);
         CHECK(mkdir(name, 0700) == 0);
-        CHECK_STATUS(output_close(&output, keep), STATUS_FILE_FAILED);
-        CHECK(exists(part) == keep);
-        CHECK(rmdir(name) == 0 && (!keep || unlink(part) == 0));
+        CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
+        char *text = read_text(part);
+        CHECK(text[0] == '0' + i && text[1] == '\0');
+        free(text);
+        CHECK(rmdir(name) == 0);
+    }
+    CHECK_STATUS(output_open(name, &output), STATUS_OK);
+    CHECK_STATUS(output_close(&output), STATUS_OK);
+    CHECK(exists(name) && !exists(part));
+    unlink(name);
+}
+
+/* A new file has the mode that umask leaves; one that is replaced keeps its
+ * own. */
+static void outputs_have_the_mode_of_their_name(void **unused)
+{
+    (void)unused;
+    static const mode_t masks[] = {022, 027, 077, 0};
+    const char *name = in_folder("mode");
+    for (int i = 0; i < 4; i++) {
+        struct stat info;
+        Output output;
+        mode_t before = umask(masks[i]);
+        CHECK_STATUS(output_open(name, &output), STATUS_OK);
+        CHECK_STATUS(output_close(&output), STATUS_OK);
+        CHECK(stat(name, &info) == 0);
+        assert_int_equal(info.st_mode & 07777, 0666 & ~masks[i]);
+        CHECK(chmod(name, 0640) == 0);
+        CHECK_STATUS(output_open(name, &output), STATUS_OK);
+        CHECK_STATUS(output_close(&output), STATUS_OK);
+        CHECK(stat(name, &info) == 0);
+        assert_int_equal(info.st_mode & 07777, 0640);
+        umask(before);
+        unlink(name);
     }
 }
 
@@ -854,7 +889,7 @@ static void full_devices_are_noticed(void **unused)
     Output output;
     CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
     fputs("text", output.file);
-    CHECK_STATUS(output_close(&output, true), STATUS_FILE_FAILED);
+    CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
     assert_int_equal(errno, ENOSPC);
 }
 
@@ -1047,7 +1082,8 @@ int main(void)
         cmocka_unit_test(png_failures_have_reasons),
         cmocka_unit_test(outputs_replace_at_the_end),
         cmocka_unit_test(discarded_outputs_leave_nothing),
-        cmocka_unit_test(outputs_without_their_name_are_kept_if_asked),
+        cmocka_unit_test(outputs_have_one_file_beside_their_name),
+        cmocka_unit_test(outputs_have_the_mode_of_their_name),
         cmocka_unit_test(full_devices_are_noticed),
         cmocka_unit_test(states_are_exact),
         cmocka_unit_test(log_has_every_update),
