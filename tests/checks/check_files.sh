@@ -1,7 +1,8 @@
 #!/bin/sh
 # What is promised about files, for every kind that a name can stand for: what
 # existed stays whole until what replaces it is whole, and what cannot be kept
-# whole is refused before anything is opened.  Limits and signals included.
+# whole is refused before anything is opened.  Films, limits and signals
+# included.
 set -u
 failed=0
 elasto=$(realpath "${ELASTO:-build/elasto}")
@@ -39,60 +40,81 @@ precious() {
     [ "$(cat "$1" 2>&1)" = precious ] || echo "$2: $1 is lost"
 }
 no_parts() {
-    for part in ./*.part*; do
-        [ ! -e "$part" ] || echo "$1: $part is left"
-    done
+    [ -z "$(find . -name '*.part*')" ] || echo "$1: $(find . -name '*.part*')"
 }
 
-# ---- kinds -------------------------------------------------------------------
+# ---- what is refused -----------------------------------------------------------
+# k.csv has a link, one of a link, and a second name; d is a folder; nothing else
+# is there, and nothing changes: code, a word of the one line, arguments.
+refusals() {
+    echo precious >k.csv
+    ln -s k.csv link
+    ln -s link chain
+    ln k.csv hard
+    ln -s round round
+    mkdir d
+    ls -A >before
+    while IFS='|' read -r expected word arguments; do
+        # shellcheck disable=SC2086
+        run "$expected" $arguments
+        grep -q -e "$word" error || echo "$arguments: $(cat error)"
+        precious k.csv "$arguments"
+        [ ! -s out ] || echo "$arguments: something on standard output"
+        ls -A | cmp -s - before || echo "$arguments: $(ls -A)"
+    done
+    rm -rf link chain hard round d k.csv
+}
+: >out >error >before
+verdict nothing_is_lost_or_made_by_what_is_refused "$(refusals <<END
+2|one file|--states k.csv --log k.csv
+2|one file|--states k.csv --log ./k.csv
+2|one file|--states k.csv --log $work/d/../k.csv
+2|one file|--states chain --log k.csv
+2|one file|--states link --log hard
+2|one file|--states new --log d/../new
+2|one file|--states - --log -
+2|one file|--states - --log /dev/stdout
+2|one file|--states /dev/fd/1 --log /proc/self/fd/1
+2|--log 'k.csv' and --script 'hard'|--log k.csv --script hard
+2|--states 'new' and --script|--states new --script new.part
+2|--states 'd' and --frames|--states d --frames d/
+2|--states 'new' and --frames './new'|--states new --frames ./new
+2|--film 'n.gif' and --frames|--film n.gif --frames d/../n.gif
+2|--film 'n.gif' and --script|--film n.gif --script n.gif
+2|a table in CSV|--states s.npy
+2|a table in CSV|--log l.json
+2|a table in CSV|--states d/k.csv.part
+2|a table in CSV|--film n.apng --log n.apng
+2|.mp4, .webm, .gif or .apng|--film n.avi
+2|.mp4, .webm, .gif or .apng|--film -
+2|no option|--nonsense --states k.csv
+1|Is a directory|--states d
+1|No such file|--states d/e/k
+1|symbolic links|--states round
+2|--segments|--states k.csv --segments 5000
+2|--density|--states k.csv --log l.csv --density 1,1e-320
+2|does not end|--film n.avi --timestep 0.004,0.01
+1|No such file|--states k.csv --log d/e/k --timestep 0.004,0.01
+END
+)"
+
+# ---- kinds of names --------------------------------------------------------------
 links() {
-    mkdir -p far
+    mkdir far
     echo precious >far/target
-    ln -sf far/target link
-    ln -sf link chain
-    run 2 --states chain --side 0
-    run 2 --states chain --density 1e-320
-    run 1 --states chain --log nowhere/l.csv
+    ln -s far/target link
+    ln -s link chain
     run 1 --states chain --stretch 1e160 # fails in its first step
-    rm -f far/target.part
-    precious far/target 'failed runs'
+    precious far/target 'a failed run'
+    [ "$(wc -l <far/target.part)" -eq 10 ] || echo 'the start is lost'
     run 0 --states chain
     [ -L chain ] && [ -L link ] || echo 'the link is gone'
     [ ! -L far/target ] || echo 'the target became a link'
     whole far/target
-    ln -sf far/new dangling
-    run 0 --states dangling
-    [ -L dangling ] && whole far/new
-    ln -s round-b round-a
-    ln -s round-a round-b
-    run 1 --states round-a
-    [ "$(find . far -name '*.part*')" = '' ] || echo 'parts are left'
-    rm -rf far link chain dangling round-?
+    no_parts links
+    rm -rf far link chain
 }
 verdict links_stay_and_their_targets_too "$(links)"
-
-modes() {
-    for mode in 600 640 644 666 755; do
-        echo old >s.csv
-        chmod $mode s.csv
-        run 0 --states s.csv
-        [ "$(stat -c %a s.csv)" = $mode ] ||
-            echo "$mode becomes $(stat -c %a s.csv)"
-        whole s.csv
-        rm -f s.csv
-    done
-    (umask 027 && run 0 --states s.csv)
-    [ "$(stat -c %a s.csv)" = 640 ] || echo "umask: $(stat -c %a s.csv)"
-    rm -f s.csv
-    if [ "$(id -u)" != 0 ]; then
-        echo precious >s.csv
-        chmod 444 s.csv
-        run 1 --states s.csv
-        precious s.csv 'read only'
-        rm -f s.csv
-    fi
-}
-verdict modes_are_kept "$(modes)"
 
 pipes_and_devices() {
     mkfifo pipe
@@ -104,9 +126,10 @@ pipes_and_devices() {
     "$elasto" --headless --steps 2 --states /dev/null --log /dev/null \
         >/dev/null || echo 'standard output is the null device, too'
     [ -c /dev/null ] || echo '/dev/null is gone'
-    run 1 --states .
     run 1 --states far/
-    rm -f pipe copy
+    mkdir d
+    run 0 --states same --log d/same # one name in two folders
+    rm -rf pipe copy d same
 }
 verdict pipes_and_devices_are_written "$(pipes_and_devices)"
 
@@ -119,60 +142,6 @@ if mknod block b 7 250 2>/dev/null; then
 else
     echo 'skipped block_devices_are_refused: none can be made here'
 fi
-
-# A file that happens to be called NAME.part is somebody's.
-others_parts() {
-    echo precious >s.csv.part
-    run 0 --states s.csv
-    precious s.csv.part 'a part of somebody'
-    whole s.csv
-    rm -f s.csv
-    run 1 --states s.csv --stretch 1e160
-    precious s.csv.part 'a part of somebody, failing'
-    rm -f s.csv*
-}
-verdict what_is_called_part_stays "$(others_parts)"
-
-# ---- two names for one file ----------------------------------------------------
-refused_pair() { # frames-or-states arguments...
-    echo precious >k.csv
-    run 2 "$@"
-    precious k.csv "$*"
-    [ ! -s out ] || echo "$*: something on standard output"
-    no_parts "$*"
-    rm -f k.csv
-}
-twice() {
-    mkdir -p d
-    refused_pair --states k.csv --log k.csv
-    refused_pair --states k.csv --log ./k.csv
-    refused_pair --states k.csv --log "$work/d/../k.csv"
-    refused_pair --states k.csv --log k.csv.part
-    refused_pair --states k.csv.part --log k.csv
-    refused_pair --states k.csv.part7 --log k.csv
-    refused_pair --states new --log new
-    refused_pair --states new.part --log new
-    ln -s k.csv link
-    refused_pair --states link --log k.csv
-    refused_pair --states k.csv --log link.part --log link
-    ln -s nothing dangling
-    refused_pair --states dangling --log nothing
-    echo precious >k.csv
-    ln k.csv hard
-    refused_pair --states k.csv --log k.csv
-    rm -f hard link dangling
-    refused_pair --states - --log -
-    refused_pair --states - --log /dev/stdout
-    refused_pair --states /dev/fd/1 --log /proc/self/fd/1
-    refused_pair --frames d --states d/frame_000000.png
-    refused_pair --frames d/ --log ./d/frame_000001.png
-    refused_pair --frames new-folder --log new-folder/frame_000001.png.part
-    [ ! -e new-folder ] || echo 'a folder was made'
-    rm -rf d
-    run 0 --states a.csv --log a.csv.partly
-    rm -f a.csv*
-}
-verdict one_file_twice_is_refused "$(twice)"
 
 standard_output() {
     for name in - /dev/stdout /dev/fd/1 /proc/self/fd/1; do
@@ -191,53 +160,87 @@ standard_output() {
 }
 verdict standard_output_has_many_names "$(standard_output)"
 
-# Runs of different lengths: what stands there is one of them, whole.
+# Runs of different lengths: one of them writes, the others say that it does.
 at_once() {
     for i in 1 2 3 4; do
-        "$elasto" --headless --quiet --segments 2 --steps $((100 * i)) \
-            --states s.csv --log l.csv 2>error$i &
+        ("$elasto" --headless --quiet --segments 2 --steps $((1000 * i)) \
+            --states s.csv 2>error$i || echo $? >code$i) &
     done
     wait
-    cat error?
-    case $(wc -l <s.csv) in
-    910 | 1810 | 2710 | 3610) ;;
-    *) echo "s.csv: $(wc -l <s.csv) lines" ;;
-    esac
-    awk -F, 'NR > 1 && $3 != (NR - 2) % 9 { bad = 1 } NF != 7 { bad = 1 }
-        END { if (bad) print "s.csv: mixed" }' s.csv
-    awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } NR > 2 && $1 < last { bad = 1 }
-        NR > 1 { last = $1 + 0 }
-        END { if (bad) print "l.csv: mixed" }' l.csv
+    for i in 1 2 3 4; do
+        [ ! -e code$i ] || [ "$(cat code$i error$i)" = "1
+elasto: s.csv: another run is writing it" ] || cat code$i error$i
+    done
+    [ -z "$(cat code* 2>&1 | grep -v 1)" ] || cat code*
+    [ $((($(wc -l <s.csv) - 10) % 9000)) = 0 ] || echo "$(wc -l <s.csv) lines"
+    awk -F, 'NR > 1 && $3 != (NR - 2) % 9 || NF != 7 { bad = 1 }
+        END { if (bad || NR < 9010) print "s.csv: mixed" }' s.csv
     no_parts 'at once'
-    rm -f s.csv l.csv error?
+    rm -f s.csv error? code?
 }
 verdict runs_at_once_do_not_mix "$(at_once)"
 
-# ---- nothing is replaced before a step was made --------------------------------
-no_step() {
-    for options in '--density 1e-320' '--side 1e-160' '--side 1e160' \
-        '--stiffness 1e308' '--timestep 1e308' '--segments 5000' --nonsense; do
-        for name in k.csv l.csv; do
-            echo precious >$name
-        done
-        # shellcheck disable=SC2086
-        run 2 --states k.csv --log l.csv $options
-        precious k.csv "$options"
-        precious l.csv "$options"
-        no_parts "$options"
-    done
-    run 1 --states k.csv --log l.csv --stretch 1e160
-    precious k.csv 'no step'
-    precious l.csv 'no step'
-    rm -f ./*.csv ./*.part
-    run 1 --states k.csv --stretch 1e160 # nothing was there: it appears
-    [ "$(wc -l <k.csv)" -eq 10 ] || echo 'the start is lost'
-    rm -f ./*.csv
+# ---- films -----------------------------------------------------------------------
+# frames FILE: those that can be read
+frames() {
+    ffprobe -v error -count_frames -select_streams v -of csv=p=0 \
+        -show_entries stream=nb_read_frames "$1" 2>&1
 }
-verdict without_a_step_nothing_is_replaced "$(no_step)"
+films() {
+    for name in a.mp4 a.webm a.gif a.apng; do
+        "$elasto" --headless --steps 3 --size 97x64 --film $name >out ||
+            echo "$name: exit $?"
+        [ "$(frames $name)" = 4 ] || echo "$name: $(frames $name) frames"
+        grep -q "^film  *4 frames, in $name\$" out || echo "$name: $(cat out)"
+        ! grep -q 'frames written' out || echo 'frames are counted'
+    done
+    "$elasto" --headless --quiet --size 97x64 circle --speed 0.25 --steps 3 \
+        --film slow.gif
+    [ "$(frames slow.gif)" = 16 ] || echo "slow: $(frames slow.gif) frames"
+    run 1 --film a.gif --frames /dev/null/d
+    run 1 --film z.gif --stretch 1e160 --size 97x64 # its first step fails
+    [ "$(frames z.gif)" = 1 ] || echo 'no first frame'
+    no_parts films
+    rm -f ./*.gif ./*.apng ./*.mp4 ./*.webm
+}
+# Ctrl+C goes to the whole group, ffmpeg too.
+stopped_films() {
+    for row in 'INT mp4' 'TERM mp4' 'INT webm' 'INT gif' 'INT apng'; do
+        name=f.${row#* }
+        setsid "$elasto" --headless --size 97x64 --steps 1000000 --film "$name" \
+            >out 2>error &
+        child=$!
+        tries=0
+        until [ -s "$name.part" ] || [ $tries -gt 1000 ]; do
+            sleep 0.01
+            tries=$((tries + 1))
+        done
+        kill -s "${row% *}" -- -$child
+        wait $child || echo "$row: exit $?: $(cat error)"
+        told=$(sed -n 's/^film *\([0-9]*\) frames.*/\1/p' out)
+        [ "$(frames "$name")" = "$told" ] && [ "$told" -gt 0 ] ||
+            echo "$row: $told frames were drawn, $(frames "$name") are there"
+        rm -f "$name"
+    done
+    no_parts 'stopped films'
+}
+if command -v ffprobe >/dev/null; then
+    verdict films_have_every_frame "$(films)"
+    verdict stopped_films_play "$(stopped_films)"
+else
+    echo 'skipped films_have_every_frame: no ffmpeg'
+    echo 'skipped stopped_films_play: no ffmpeg'
+fi
+verdict without_ffmpeg_one_line_says_so "$(
+    PATH=/nonexistent "$elasto" --headless --film a.gif 2>error
+    [ $? = 2 ] && [ "$(wc -l <error)" -eq 1 ] &&
+        grep -q "'a.gif' needs the program ffmpeg: apt-get" error || cat error
+    no_parts 'no ffmpeg'
+)"
 
 # ---- limits ----------------------------------------------------------------------
-# The size of a file: with the signal as it comes, and ignored by a parent.
+# The size of a file: with the signal as it comes, and ignored by a parent.  What
+# was written stays, and the next run writes over it.
 sizes() {
     for size in 0 1 2 4 8; do
         for ignored in '' yes; do
@@ -254,9 +257,13 @@ sizes() {
             grep -q '^elasto: k.csv: File too large$' error ||
                 echo "limit $size: $(cat error)"
             precious k.csv "limit $size"
-            rm -f k.csv*
         done
+        [ "$(echo k.csv.*)" = k.csv.part ] || echo k.csv.*
     done
+    run 0 --states k.csv
+    whole k.csv
+    no_parts 'after failures'
+    rm -f k.csv
 }
 # The address space: the run ends, well or with one line.
 spaces() {
@@ -284,20 +291,32 @@ if [ -z "${SANITIZE:-}" ]; then
     verdict address_spaces_may_be_limited "$(spaces)"
 fi
 
+
 # ---- texts -----------------------------------------------------------------------
+# No control reaches the terminal: of ASCII, of C1 as UTF-8 and as one byte, of
+# the direction of writing.
 names() {
-    odd=$(printf 'no\nwhere\033[31m')
-    run 1 --states "$odd/s.csv"
-    run 1 --log "$odd/l.csv"
-    run 1 --frames "$odd/frames"
+    odd=$(printf 'no\nwhere\033[31m\302\233m\233m\342\200\256\342\201\246x')
+    printf '0 %s\n' "$odd" >script
+    while read -r expected option rest; do
+        run "$expected" "$option$odd$rest"
+        LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error &&
+            echo "$option: a control gets through"
+    done <<'END'
+1 --states= /s
+1 --log= /l
+1 --frames= /frames
+2 --film= .avi
+2 --script= .script
+2 --handout= .html
+2 --
+2 --side=
+2 --steps=
+2 x
+END
     run 2 --states "$odd" --log "$odd"
-    run 2 "$odd"
-    run 2 "--$odd"
-    run 2 "--side=$odd"
-    run 2 --steps "$odd"
-    if grep -q "$(printf '\033')" error; then
-        echo 'an escape gets through'
-    fi
+    run 2 --script script
+    LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error && cat error
     run 0 --states "$odd"
     whole "$odd"
     rm -f "$odd"
@@ -313,6 +332,23 @@ names() {
     rm -rf "$odd"
 }
 verdict messages_are_one_line "$(names)"
+
+if [ -c /dev/full ]; then
+    verdict a_full_output_is_called_what_it_was "$(
+        while IFS='|' read -r what arguments; do
+            # shellcheck disable=SC2086
+            "$elasto" $arguments >/dev/full 2>error
+            [ $? = 1 ] && [ "$(cat error)" = \
+                "elasto: cannot write the $what: No space left on device" ] ||
+                echo "$what: $(cat error)"
+        done <<'END'
+help|--help
+version|--version
+list|--list
+summary|--headless --steps 1
+END
+    )"
+fi
 
 infinities() {
     "$elasto" --headless --steps 0 --stretch 1e120 >out || echo "exit $?"

@@ -85,6 +85,13 @@ verdict a_folder_that_is_missing_is_named "$(
     grep -q missing/handout.html error || cat error
 )"
 
+missing=
+command -v ffmpeg >/dev/null || missing='no ffmpeg'
+if [ "$missing" ]; then # every picture of a handout is a film
+    echo "skipped an_interrupted_handout_leaves_nothing: $missing"
+    exit $failed
+fi
+
 # Ends while it writes: what stood there before still does.
 verdict an_interrupted_handout_leaves_nothing "$(
     echo before >other.html

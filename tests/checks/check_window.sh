@@ -493,7 +493,7 @@ six_panes() {
     key n BackSpace BackSpace BackSpace BackSpace BackSpace
 }
 
-# The wheel and 0; full screen and back; a film of a step.
+# The wheel and 0; full screen and back.
 seen() {
     xdotool mousemove --window "$window" 450 880
     key 0
@@ -513,10 +513,6 @@ seen() {
         same plain again && break
     done
     same plain again || echo 'another picture after full screen'
-    key ctrl+r n ctrl+r
-    shot filmed >/dev/null
-    [ -s "$(echo elasto_*.apng)" ] || echo 'no film'
-    rm -f ./*.apng
 }
 # hand SCENE X Y DX DY ROW CAN: all of it.  CAN has letters for what makes sense
 # there: g the hand pulls a node, d a point is dragged, p pins, k there is a k,
@@ -633,17 +629,29 @@ full_screen() {
 }
 verdict escape_leaves_full_screen_first "$(full_screen)"
 
-# Ctrl+R films.
+# Ctrl+R films, until it is pressed again or the program ends.
 films() {
-    begin square --paused
-    key ctrl+r n n n ctrl+r
-    shot a >/dev/null
-    key q
-    end 0
-    [ -s elasto_square_000000.apng ] || echo 'no film'
-    rm -f ./*.apng
+    for last_key in ctrl+r q; do
+        begin square --paused
+        key ctrl+r
+        for step in 1 2 3; do
+            key n
+            frame $step
+        done
+        [ $last_key = q ] || key $last_key
+        key q
+        end 0
+        ffprobe -v error -count_frames -of csv=p=0 -show_entries \
+            stream=nb_read_frames elasto_square_000000.mp4 >count 2>&1
+        [ "$(cat count)" -ge 4 ] || echo "$last_key: $(cat count) frames"
+        rm -f ./*.mp4
+    done
 }
-verdict ctrl_r_films "$(films)"
+if command -v ffprobe >/dev/null; then
+    verdict ctrl_r_films "$(films)"
+else
+    echo 'skipped ctrl_r_films: no ffmpeg'
+fi
 
 # A paused window, once it has drawn itself, uses less than 5 % of a processor.
 paused_window() {
@@ -755,7 +763,7 @@ no_renderer() {
 }
 verdict a_renderer_that_is_missing_is_replaced "$(no_renderer)"
 
-# Xlib ends the program; what was recorded is whole.
+# What was recorded is whole, and one line of ours says what happened.
 screen_dies() {
     new_screen mortal 1000x1000 || echo 'no second screen'
     mortal=$server
@@ -764,14 +772,45 @@ screen_dies() {
     frame 10
     kill -KILL $mortal
     end 1
+    [ "$(cat error)" = \
+        'elasto: drawing failed: the server of the screen is gone' ] ||
+        echo "it says $(cat error)"
     for file in frames/*.png; do
         tail -c 8 "$file" | od -An -tx1 | grep -q 'ae 42 60 82' ||
             echo "$file is not whole"
     done
-    find . -name '*.part'
     awk -F, 'NF != columns && columns { print "states: " $0 }
         { columns = NF }' states
 }
 verdict a_screen_that_dies_leaves_whole_files "$(screen_dies)"
+
+# A server that answers nobody: one signal ends the program within two seconds,
+# running, paused, and while the window opens.
+screen_stops() {
+    new_screen still 1000x1000 || echo 'no second screen'
+    still=$server
+    DISPLAY=:$(cat still)
+    for state in --quiet --paused; do
+        begin square $state
+        [ $state = --paused ] || frame 5
+        kill -STOP $still
+        sleep 0.5
+        kill -TERM $pid
+        timeout=6
+        end 0
+        timeout=20
+        kill -CONT $still
+        [ ! -s error ] || echo "it says $(cat error)"
+    done
+    kill -STOP $still
+    "$elasto" square --states states 2>error &
+    pid=$!
+    sleep 0.5
+    kill -TERM $pid
+    until_true has_ended $pid || echo 'it opens for ever'
+    pid=
+    kill -KILL $still
+}
+verdict a_screen_that_stops_holds_nobody "$(screen_stops)"
 
 exit $failed

@@ -147,7 +147,7 @@ FILE *FAULTY(fdopen)(int file, const char *mode)
     return fault_stream(real(file, mode), mode);
 }
 
-/* Only of files that are new. */
+/* Only of files that may be new. */
 int FAULTY(open)(const char *name, int flags, ...)
 {
     PathFunction *real = (PathFunction *)real_function("open");
@@ -155,7 +155,7 @@ int FAULTY(open)(const char *name, int flags, ...)
     va_start(arguments, flags);
     unsigned mode = flags & O_CREAT ? va_arg(arguments, unsigned) : 0;
     va_end(arguments);
-    if ((flags & O_EXCL) && fault_fails("open")) {
+    if ((flags & O_CREAT) && fault_fails("open")) {
         errno = EMFILE;
         return -1;
     }
