@@ -432,7 +432,86 @@ static void a_resting_mouse_asks_nothing(void **unused)
     CHECK_STATUS(player_input(&player, &input), STATUS_OK);
     CHECK(player.show.hover.kind == PICK_NODE);
     CHECK(player.show.hover.index == 12);
+    CHECK(player.show.over.zone == ZONE_STAGE);
+    input.kind = INPUT_LEAVE;
+    CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+    CHECK(player.show.hover.kind == PICK_NONE);
+    CHECK(player.show.over.zone == ZONE_NONE);
     end();
+}
+
+/* What is under the mouse stays there while the middle button moves the
+ * picture, from the first pixel on, in either pane; a node that is pulled at
+ * has its hand where the mouse is. */
+static void the_picture_follows_the_mouse(void **unused)
+{
+    (void)unused;
+    begin("square --integrator backward-euler,bdf2 --size 1280x800");
+    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
+    player_fill(&player);
+    Layout layout = show_layout(&player.show, 1280, 800);
+    for (int pane = 0; pane < 2; pane++) {
+        double world[2], after[2], node[2];
+        Box box = layout.pane[pane];
+        Input input = {.kind = INPUT_MOVE, .x = 9, .y = 9};
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        input = (Input){.kind = INPUT_PRESS,
+                        .button = BUTTON_MIDDLE,
+                        .x = box.x + 0.4 * box.width,
+                        .y = box.y + 0.3 * box.height};
+        Camera camera = show_camera(&player.show, &layout, pane);
+        camera_world(&camera, input.x, input.y, world);
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        input.kind = INPUT_MOVE;
+        for (int i = 0; i < 3; i++) {
+            input.x += 1 + 5 * i;
+            input.y -= 2 + 9 * i;
+            CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+            camera = show_camera(&player.show, &layout, pane);
+            camera_pixel(&camera, world, after);
+            CHECK_NEAR(after[0], input.x, 1e-9);
+            CHECK_NEAR(after[1], input.y, 1e-9);
+        }
+        input.kind = INPUT_RELEASE;
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        camera_pixel(&camera, pane_x(&player.show.pane[pane]) + 2 * 12, node);
+        input = (Input){.kind = INPUT_PRESS,
+                        .button = BUTTON_LEFT,
+                        .clicks = 1,
+                        .x = node[0],
+                        .y = node[1]};
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        input.kind = INPUT_MOVE;
+        input.x += 30;
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+        const Settings *settings = &lane(pane)->track.settings;
+        camera_world(&camera, input.x, input.y, world);
+        CHECK(settings->held && settings->node == 12);
+        CHECK_NEAR(settings->at[0], world[0], 1e-12);
+        CHECK_NEAR(settings->at[1], world[1], 1e-12);
+        input.kind = INPUT_RELEASE;
+        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
+    }
+    end();
+}
+
+/* Through time a step a frame, or as it was asked for; through iterations so
+ * slowly that each is seen. */
+static void first_speeds_suit_the_scene(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        int speed;
+    } rows[] = {{"square", 0},     {"square --speed 4", 2},
+                {"overshoot", -5}, {"overshoot --speed 1", 0},
+                {"landscape", -5}, {"square --speed 0.02", SPEED_LEAST},
+                {"circle", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin(rows[i].line);
+        CHECK(player.speed == rows[i].speed);
+        end();
+    }
 }
 
 /* A scene tells of rest only where its method takes energy out. */
@@ -935,6 +1014,8 @@ int main(void)
         cmocka_unit_test(a_failed_search_is_no_convergence),
         cmocka_unit_test(captions_are_those_of_the_method),
         cmocka_unit_test(a_resting_mouse_asks_nothing),
+        cmocka_unit_test(the_picture_follows_the_mouse),
+        cmocka_unit_test(first_speeds_suit_the_scene),
         cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(numbers_are_typed),

@@ -425,18 +425,29 @@ static void keys_are_given_once(void **unused)
 }
 
 /* Lines wait for their step unless nothing moves. */
+/* Writes the text to a file and reads it as a script. */
+static Status read_script(const char *name, const char *text, Script *script,
+                          char *message, size_t size)
+{
+    FILE *file = fopen(name, "w");
+    CHECK(file != NULL);
+    fputs(text, file);
+    fclose(file);
+    return script_read(name, script, message, size);
+}
+
 static void scripts_wait(void **unused)
 {
     (void)unused;
     char name[] = "/tmp/elasto-script-XXXXXX", message[256];
     int file = mkstemp(name);
     CHECK(file >= 0);
-    const char text[] = "# a comment\n\n0 pause\n  3 goto 2 # back\n3 play\n";
-    CHECK(write(file, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
     close(file);
-    Script script;
-    CHECK_STATUS(script_read(name, &script, message, sizeof message),
-                 STATUS_OK);
+    Script script; /* its last line needs no end */
+    CHECK_STATUS(
+        read_script(name, "# a comment\n\n0 pause\n  3 goto 2 # back\n3 play",
+                    &script, message, sizeof message),
+        STATUS_OK);
     CHECK(script.count == 3);
     const Command *command = script_due(&script, 0, true);
     CHECK(command && command->kind == COMMAND_PAUSE);
@@ -452,14 +463,24 @@ static void scripts_wait(void **unused)
                  STATUS_OK);
     CHECK(script.count == 3 && script.line[1].step == 3);
     script_free(&script);
-    FILE *bad = fopen(name, "w");
-    CHECK(bad != NULL);
-    fputs("0 pause\n1 nonsense\n", bad);
-    fclose(bad);
-    CHECK_STATUS(script_read(name, &script, message, sizeof message),
+    CHECK_STATUS(read_script(name, "0 pause\n1 nonsense\n", &script, message,
+                             sizeof message),
                  STATUS_INVALID_INPUT);
     CHECK(strstr(message, "line 2") && strstr(message, "nonsense"));
     script_free(&script);
+    char line[1000];
+    int most;
+    memset(line, '#', sizeof line);
+    memcpy(line + sizeof line - 2, "\n", 2);
+    CHECK_STATUS(read_script(name, line, &script, message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    CHECK(sscanf(message, "line 1: a line of more than %d", &most) == 1);
+    for (int more = 0; more < 2; more++) { /* as it says */
+        CHECK_STATUS(read_script(name, line + sizeof line - 2 - most - more,
+                                 &script, message, sizeof message),
+                     more ? STATUS_INVALID_INPUT : STATUS_OK);
+        script_free(&script);
+    }
     unlink(name);
     CHECK_STATUS(script_read(name, &script, message, sizeof message),
                  STATUS_FILE_FAILED);
