@@ -612,6 +612,31 @@ static void the_curve_goes_through_the_step(void **unused)
     }
 }
 
+/* The last round ends with the test: with a direction where one was made, also
+ * without where a bound decides. */
+static void last_rounds_have_their_lines(void **unused)
+{
+    (void)unused;
+    int passed[2] = {0, 0};
+    begin("drop --segments 6");
+    for (int step = 0; step < 60; step++) {
+        static const char *const lines[2] = {"2347", "27"};
+        char line[9] = "";
+        CHECK_STATUS(obey("step"), STATUS_OK);
+        const Tape *tape = &lane(0)->tape;
+        for (int i = 0; i < tape->places && tape->count > 0; i++)
+            if (tape->place[i].round == tape->count &&
+                tape->place[i].line != LINE_END)
+                snprintf(line + strlen(line), 3, "%d", tape->place[i].line);
+        if (tape->count == 0)
+            continue;
+        assert_string_equal(line, lines[tape->passed]);
+        passed[tape->passed]++;
+    }
+    CHECK(passed[0] > 0 && passed[1] > 0);
+    end();
+}
+
 /* Digits go into the number that is lit, Enter sets it and lets go of it, as
  * Escape does, which only asked twice ends the program. */
 static void numbers_are_typed(void **unused)
@@ -1018,6 +1043,7 @@ int main(void)
         cmocka_unit_test(first_speeds_suit_the_scene),
         cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
+        cmocka_unit_test(last_rounds_have_their_lines),
         cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
         cmocka_unit_test(what_makes_no_sense_is_said),
