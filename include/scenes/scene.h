@@ -61,6 +61,7 @@ typedef struct Scene {
     unsigned needs;  /* of enum SceneNeeds */
     bool settles; /* the sentence tells of a motion that dies away: true only of
                      methods that take energy out */
+    const char *turn; /* what one step is; NULL: a step in time */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
     /* Changes the default options, before the command line is applied; NULL:
      * the slides' numbers are right. */

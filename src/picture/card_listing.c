@@ -37,14 +37,22 @@ static const Row newton_rows[] = {
      "h"},
     {LINE_NONE, 0, NULL}};
 
-/* Algorithm 1 with Algorithm 2 inside. */
+/* Algorithm 1, which tests the gradient before it does anything. */
+static const Row plain_rows[] = {
+    {LINE_START, 0, "{x}^{0} \u2190 start"},
+    {LINE_DO, 0, "while \u2016\u2207E({x}^{i})\u2016 > \u03b5"},
+    {LINE_SOLVE, 1,
+     "{p} \u2190 \u2212\u2207\u00b2E({x}^{i})^{\u22121} \u2207E({x}^{i})"},
+    {LINE_UPDATE, 1, "{x}^{i+1} \u2190 {x}^{i} + {p}"},
+    {LINE_NONE, 0, NULL}};
+
+/* The same in one variable, with Algorithm 2 inside. */
 static const Row scalar_rows[] = {
     {LINE_START, 0, "{x}^{0} \u2190 start"},
-    {LINE_DO, 0, "do"},
+    {LINE_DO, 0, "while |f \u2032({x}^{i})| > \u03b5"},
     {LINE_SOLVE, 1, "{p} \u2190 \u2212f \u2032({x}^{i}) / f \u2033({x}^{i})"},
     {LINE_SEARCH, 1, "{alpha} \u2190 BackTrackingLineSearch({x}^{i}, {p})"},
     {LINE_UPDATE, 1, "{x}^{i+1} \u2190 {x}^{i} + {alpha} {p}"},
-    {LINE_TEST, 0, "while |{p}| > \u03b5"},
     {LINE_NONE, 0, NULL}};
 
 static const Row forward_rows[] = {
@@ -74,7 +82,9 @@ static const Listing listings[] = {
      "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it"},
 };
 
-static const Listing scalar_listing = {NULL, "Algorithm 1", scalar_rows, NULL};
+static const char algorithm_1[] = "Algorithm 1: Newton's method";
+static const Listing scalar_listing = {NULL, algorithm_1, scalar_rows, NULL};
+static const Listing plain_listing = {NULL, algorithm_1, plain_rows, NULL};
 
 static const Listing *find_listing(const Simulation *simulation)
 {
@@ -82,6 +92,8 @@ static const Listing *find_listing(const Simulation *simulation)
     const IntegratorMethod *method = simulation->run[0].method;
     if (simulation->descent.scalar.f.at)
         return &scalar_listing;
+    if (simulation->descent.by_gradient)
+        return &plain_listing;
     if (!method) /* a minimisation without time */
         return &listings[0];
     while (row->method && strcmp(row->method, method->name) != 0)
@@ -150,33 +162,33 @@ static void line_value(char *value, const Simulation *simulation,
 {
     double h = simulation->options.timestep;
     double tolerance = simulation->options.tolerance;
-    bool scalar = simulation->descent.scalar.f.at != NULL;
+    bool by_gradient = simulation->descent.by_gradient;
+    const char *unit = by_gradient ? "" : " m/s";
+    Line test = by_gradient ? LINE_DO : LINE_TEST;
     char a[32], b[32];
     value[0] = '\0';
     if (line == LINE_PROJECT)
         projected_value(value, simulation, trace);
     if (line == LINE_SEARCH)
         search_value(value, simulation, trace);
-    if (line != LINE_SOLVE && line != LINE_TEST)
+    if (line != test && (line != LINE_SOLVE || by_gradient))
         return;
     if (!isfinite(trace->residual))
         return;
     plot_number(b, sizeof b, tolerance);
     if (trace->passed) {
         if (line == LINE_TEST)
-            snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b,
-                     scalar ? "" : " m/s");
+            snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b, unit);
         return;
     }
     if (line == LINE_SOLVE) {
-        plot_number(a, sizeof a, trace->residual * (scalar ? 1 : h));
-        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s%s", a,
-                 scalar ? "" : " m");
+        plot_number(a, sizeof a, trace->residual * h);
+        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s m", a);
     } else {
         bool above = trace->residual > tolerance;
         plot_number(a, sizeof a, trace->residual);
         snprintf(value, LISTING_VALUE, "%s %s %s%s%s", a,
-                 above ? ">" : "\u2264", b, scalar ? "" : " m/s",
+                 above ? ">" : "\u2264", b, unit,
                  above && trace->given_up ? ": given up" : "");
     }
 }
@@ -265,13 +277,12 @@ static const char *listing_title(const Show *show)
     bool project = !line_is_off(simulation, LINE_PROJECT);
     bool search = !line_is_off(simulation, LINE_SEARCH);
     if (listing->rows == scalar_rows)
-        return search ? "Algorithm 1; line 4 is Algorithm 2"
-                      : "Algorithm 1: Newton's method";
+        return search ? "Algorithm 1; line 4 is Algorithm 2" : algorithm_1;
     if (listing->rows != newton_rows || listing->end || (project && search))
         return listing->title;
     return project  ? "Algorithm 3, line 5 is off"
            : search ? "Algorithm 3, line 3 is off"
-                    : "Algorithm 1: lines 3 and 5 are off";
+                    : "Algorithm 3, lines 3 and 5 are off";
 }
 
 const Card card_listing = {

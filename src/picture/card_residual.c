@@ -4,6 +4,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/plot.h"
+#include "scenes/scene.h"
 
 /* Smallest and largest power of ten around the residuals, extended. */
 static void extend_range(const NewtonRecord *records, int count, double *low,
@@ -111,10 +112,14 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
 
 static const char *residual_title(const Show *show)
 {
-    bool scalar =
-        show->pane[show->active].simulation->descent.scalar.f.at != NULL;
-    return scalar ? "Residual |{p}|"
-                  : "Residual \u2016{p}\u2016_{\u221e}/h, m/s";
+    const Simulation *simulation = show->pane[show->active].simulation;
+    bool scalar = simulation->descent.scalar.f.at != NULL;
+    return scalar ? simulation->scene->picture == PICTURE_TANGENT
+                        ? "Residual |g|"
+                        : "Residual |f \u2032|"
+           : simulation->descent.by_gradient
+               ? "Residual \u2016\u2207E\u2016"
+               : "Residual \u2016{p}\u2016_{\u221e}/h, m/s";
 }
 
 const Card card_residual = {

@@ -24,7 +24,8 @@ static double descent_difference(const void *function, double alpha)
     return value - space->value;
 }
 
-/* The last update of a descent; before the first one, the one to come. */
+/* The last update of a descent; before the first one, the one to come.  The
+ * residual is that of the present iterate: at the end the one that passes. */
 static const Trace *descent_trace(const Simulation *simulation,
                                   DescentTrace *space)
 {
@@ -37,7 +38,8 @@ static const Trace *descent_trace(const Simulation *simulation,
     *trace = (Trace){.updates = descent->count,
                      .record = descent->record,
                      .iteration = descent->count,
-                     .projected = -1};
+                     .projected = -1,
+                     .residual = descent->residual};
     bool made = last >= 0 && record->alpha > 0;
     for (int k = 0; k < 2; k++) {
         space->from[k] = made ? record->from[k] : descent->point[k];
@@ -58,7 +60,6 @@ static const Trace *descent_trace(const Simulation *simulation,
     trace->trials = made ? record->trials : 0;
     trace->accepted = made;
     trace->projected = made ? record->projected : -1;
-    trace->residual = made ? record->residual : NAN;
     return trace;
 }
 

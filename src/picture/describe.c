@@ -6,6 +6,8 @@
 #include "picture/cards.h"
 #include "picture/plot.h"
 #include "picture/show.h"
+#include "scenes/landscape_scene.h"
+#include "scenes/race_scene.h"
 #include "scenes/scene.h"
 
 /* Formats into a text of SHOW_TEXT bytes that is still empty. */
@@ -128,7 +130,10 @@ static void describe_method(Show *show, const Simulation *simulation)
     const IntegratorMethod *method = simulation->run[0].method;
     if (show->panes > 1)
         say(show->method, sizeof show->method, "%d side by side", show->panes);
-    else if (!(simulation->scene->needs & NEEDS_TIME))
+    else if (simulation->scene->picture == PICTURE_RACE)
+        say(show->method, sizeof show->method, "%d methods", RACE_METHODS);
+    else if (simulation->scene->turn &&
+             simulation->scene->picture != PICTURE_ENVELOPE)
         say(show->method, sizeof show->method, "Newton's method");
     else if (simulation->runs > 1 &&
              simulation->run[0].method != simulation->run[1].method)
@@ -141,8 +146,9 @@ static void describe_method(Show *show, const Simulation *simulation)
 static void describe_time(Show *show, const Simulation *simulation)
 {
     char number[48];
-    if (!(simulation->scene->needs & NEEDS_TIME)) {
-        say(show->time_text, SHOW_TEXT, "iteration %ld", simulation->steps);
+    if (simulation->scene->turn) {
+        say(show->time_text, SHOW_TEXT, "%s %ld", simulation->scene->turn,
+            simulation->steps);
         return;
     }
     plot_number(number, sizeof number, simulation_time(simulation));
@@ -168,6 +174,25 @@ static const char *scene_sentence(const Simulation *simulation)
                : "this method takes no energy out of the motion";
 }
 
+/* Where a search ended that is no minimum: the gradient is 0 there, too.  NULL
+ * where E bends up. */
+static const char *end_words(const Simulation *simulation)
+{
+    const Descent *descent = &simulation->descent;
+    const ScalarFunction *f = &descent->scalar.f;
+    int down = 0;
+    if (!simulation->done || simulation->status)
+        return NULL;
+    if (f->at)
+        down = scalar_at(f, descent->point[0]).second < 0 ? 2 : 0;
+    else if (simulation->scene->picture == PICTURE_LANDSCAPE)
+        down = landscape_bends_down(simulation, descent->point[0],
+                                    descent->point[1]);
+    return down == 2   ? "the gradient is 0, but this is a maximum"
+           : down == 1 ? "the gradient is 0, but this is a saddle"
+                       : NULL;
+}
+
 void show_describe(Show *show)
 {
     const Pane *pane = &show->pane[show->active];
@@ -180,6 +205,9 @@ void show_describe(Show *show)
         say(show->sentence, SHOW_TEXT, "%s", trouble_words(pane->trouble));
     else if (pane->trace && pane->trace->line)
         describe_line(show, simulation, pane->trace);
+    const char *end = end_words(simulation);
+    if (end)
+        say(show->sentence, SHOW_TEXT, "%s", end);
     if (!show->lecture) /* its pages have words of their own */
         say(show->sentence, SHOW_TEXT, "%s", scene_sentence(simulation));
     describe_method(show, simulation);

@@ -37,7 +37,7 @@ static void shade_map(Paper *paper, const Plot *plot,
     double metre = (plot->x.high - plot->x.low) / box->width;
     for (int j = 0; j < box->height; j += 2)
         for (int i = 0; i < box->width; i += 2)
-            if (!landscape_is_convex(simulation, plot->x.low + (i + 1) * metre,
+            if (landscape_bends_down(simulation, plot->x.low + (i + 1) * metre,
                                      plot->y.high - (j + 1) * metre))
                 canvas_rectangle(&paper->canvas, box->x + i, box->y + j, 2, 2,
                                  COLOUR_SHADE);
@@ -299,16 +299,17 @@ static void draw_other_direction(Paper *paper, const Plot *plot, Labels *labels,
     unsigned parts = simulation->exhibit.parts;
     bool raw = simulation->options.filter == FILTER_NONE;
     double p[2], slope;
-    if (parts != PART_BOTH) {
-        slope = landscape_direction(simulation, FILTER_CLAMP, p);
-        draw_named_direction(paper, plot, labels, descent->point, p, COLOUR_P,
-                             parts == PART_INERTIA ? "inertia alone"
-                                                   : "elasticity alone",
-                             slope);
-        return;
-    }
     if (descent->direction[0] == 0 && descent->direction[1] == 0)
         return;
+    if (parts != PART_BOTH) {
+        draw_named_direction(paper, plot, labels, descent->point,
+                             descent->direction,
+                             descent->slope > 0 ? COLOUR_WARNING : COLOUR_P,
+                             parts == PART_INERTIA ? "inertia alone"
+                                                   : "elasticity alone",
+                             descent->slope);
+        return;
+    }
     slope =
         landscape_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
     if (hypot(p[0] - descent->direction[0], p[1] - descent->direction[1]) >

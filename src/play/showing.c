@@ -113,8 +113,8 @@ static void value_text(const Number *number, const Options *options,
     char value[COMMAND_TEXT_SIZE];
     const char *unit = number->unit;
     if (strcmp(number->option, "tolerance") == 0 &&
-        simulation->descent.scalar.f.at)
-        unit = NULL; /* of a function of a number */
+        simulation->descent.by_gradient)
+        unit = NULL; /* of a gradient */
     number_value(number, options, value);
     if (strcmp(number->option, "integrator") == 0)
         snprintf(text, size, "%s",
@@ -185,7 +185,7 @@ static void fill_chips(Player *player)
     add_chip(player, COMMAND_NEXT, "N",
              newton ? next[player->fine]
              : time ? "next step"
-                    : "next iteration",
+                    : "next",
              false);
     add_chip(player, COMMAND_BACK, "\u2190", "back", false);
     if (options->page) {
@@ -288,14 +288,14 @@ static void fill_time(Player *player)
 {
     Show *show = &player->show;
     const Lane *lane = &player->lane[player->active];
-    bool time = lane->track.simulation.scene->needs & NEEDS_TIME;
+    const char *turn = lane->track.simulation.scene->turn;
     double wanted = player_rate(player) * lane_pace(lane);
     size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
-                                   time ? "step" : "iteration", player->step);
+                                   turn ? turn : "step", player->step);
     if (player->newest > player->step)
         used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
                                  " of %ld", player->newest);
-    if (!time)
+    if (turn)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
                              "   t = %.4g s", player_time(player));

@@ -44,9 +44,10 @@ static void print_count(FILE *file, const char *name, long long count)
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     NewtonCounters sum = simulation_counters(simulation);
-    bool in_time = simulation->scene->needs & NEEDS_TIME, minimises = !in_time;
+    bool in_time = simulation->scene->needs & NEEDS_TIME;
+    bool minimises = !in_time && (simulation->scene->needs & NEEDS_START);
     long iterations = in_time ? sum.iterations : simulation->descent.count;
-    for (int i = 0; i < simulation->runs; i++)
+    for (int i = 0; i < simulation->runs && in_time; i++)
         minimises = minimises || simulation->run[i].newton;
     print_solver(file, simulation);
     print_tolerance(file, simulation);

@@ -152,10 +152,10 @@ static Status go_finer(Player *player, const Command *command)
         "N and \u2190 go by lines of Algorithm 3",
     };
     if (!can_be_finer(player))
-        return player_refuse(
-            player, player_simulation(player)->scene->needs & NEEDS_TIME
-                        ? "no step here has updates of Newton's method"
-                        : "a step here is one update already");
+        return player_refuse(player, player_simulation(player)->scene->turn
+                                         ? "a step here has no finer ones"
+                                         : "no step here has updates of "
+                                           "Newton's method");
     player->fine = (player->fine + 1) % 3;
     if (player->fine == 0)
         player_leave_tapes(player);

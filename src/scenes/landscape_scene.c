@@ -1,5 +1,6 @@
 #include "scenes/landscape_scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
@@ -44,21 +45,77 @@ static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
     return STATUS_OK;
 }
 
-/* Copies the iterate to where the picture and the states look for it.  Where
- * the search failed its direction stays to be seen. */
-static void show_node(Simulation *simulation)
+/* The gradient of the parts that are on the map. */
+static void part_gradient(const Simulation *simulation, const double at[2],
+                          double g[2])
+{
+    const System *system = &simulation->system;
+    const double *pins = simulation->run[0].x, h = simulation->run[0].h;
+    unsigned parts = simulation->exhibit.parts;
+    g[0] = g[1] = 0;
+    for (int i = 0; i < 2 && (parts & PART_INERTIA); i++)
+        g[i] = system->m[0] * (at[i] - simulation->exhibit.target[i]);
+    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
+        double l2 = system->l2[s];
+        double strain = (d[0] * d[0] + d[1] * d[1] - l2) / l2;
+        for (int i = 0; i < 2; i++)
+            g[i] += h * h * 2 * system->k[s] * strain * d[i];
+    }
+}
+
+/* Whether the parts on the map are all of E: then Newton is the one of the
+ * time integrators. */
+static bool is_whole(const Simulation *simulation)
+{
+    return simulation->exhibit.parts == PART_BOTH;
+}
+
+/* p, and what the loop tests there: of Algorithm 1 |g|, else |p|/h. */
+static void find_direction(Simulation *simulation, double p[2])
+{
+    Descent *descent = &simulation->descent;
+    const Newton *newton = simulation->run[0].newton;
+    Filter filter = simulation->options.filter;
+    double g[2];
+    filter = filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
+    descent->slope = landscape_direction(simulation, filter, p);
+    part_gradient(simulation, descent->point, g);
+    descent->residual =
+        descent->by_gradient
+            ? hypot(g[0], g[1])
+            : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
+    if (!is_whole(simulation))
+        return;
+    memcpy(p, newton->at.p, 2 * sizeof *p);
+    descent->slope = newton->at.g[0] * p[0] + newton->at.g[1] * p[1];
+}
+
+/* Shows the iterate where the picture and the states look for it, and what the
+ * loop's test says of it if Newton (status) goes on.  Where the search failed
+ * its direction stays to be seen. */
+static Status show_node(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
-    const Newton *newton = run->newton;
     Descent *descent = &simulation->descent;
-    bool ends = simulation->done && newton->record.alpha > 0;
-    descent->slope = 0;
-    for (int i = 0; i < 2; i++) {
-        run->x[i] = descent->point[i] = newton->at.x[i];
-        descent->direction[i] = ends ? 0 : newton->at.p[i];
-        descent->slope += newton->at.g[i] * descent->direction[i];
-    }
+    double p[2];
+    if (is_whole(simulation))
+        memcpy(run->x, run->newton->at.x, 2 * sizeof *run->x);
+    memcpy(descent->point, run->x, sizeof descent->point);
     descent->value = landscape_value(simulation, run->x[0], run->x[1]);
+    find_direction(simulation, p);
+    bool own = descent->by_gradient || !is_whole(simulation);
+    if (own && status == STATUS_RUNNING)
+        status = descent->residual <= simulation->options.tolerance ? STATUS_OK
+                 : isfinite(descent->slope) ? STATUS_RUNNING
+                                            : STATUS_SINGULAR;
+    simulation->done = status != STATUS_RUNNING;
+    bool none = status == STATUS_OK || !isfinite(descent->slope);
+    for (int i = 0; i < 2; i++)
+        descent->direction[i] = none ? 0 : p[i];
+    descent->slope = none ? 0 : descent->slope;
+    return status;
 }
 
 /* Adds the two positions to the record of an iteration. */
@@ -70,7 +127,23 @@ static bool observe_landscape(void *user, const NewtonRecord *iteration)
     record.iteration = (int)simulation->steps;
     memcpy(record.from, simulation->descent.point, sizeof record.from);
     memcpy(record.to, simulation->run[0].newton->at.x, sizeof record.to);
+    if (simulation->descent.by_gradient)
+        record.residual = simulation->descent.residual;
     return simulation_record(simulation, &record);
+}
+
+/* Algorithm 1 has a test of its own: Newton goes on until that is passed. */
+static void choose_test(Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    Descent *descent = &simulation->descent;
+    bool plain = options->filter == FILTER_NONE &&
+                 options->line_search == LINE_SEARCH_NONE;
+    if (plain != descent->by_gradient)
+        descent->count = 0; /* residuals of another kind */
+    descent->by_gradient = plain;
+    simulation->run[0].newton->settings.tolerance =
+        plain ? 0 : options->tolerance;
 }
 
 /* Newton starts at the present iterate: x_n is moved there, x_tilde stays. */
@@ -81,11 +154,12 @@ void aim_landscape(Simulation *simulation)
     for (int i = 0; i < 2; i++)
         run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
     memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
+    choose_test(simulation);
     Status status =
         newton_start(run->newton, run->new_x, NULL, run->h * run->h);
-    simulation->done = status != STATUS_RUNNING;
+    status =
+        show_node(simulation, is_whole(simulation) ? status : STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
-    show_node(simulation);
 }
 
 Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
@@ -113,11 +187,51 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
                                                      : simulation->status;
 }
 
+/* E(x + alpha p) - E(x) of the parts on the map, as line_search calls it */
+static double part_difference(const void *function, double alpha)
+{
+    const Simulation *simulation = function;
+    const Descent *descent = &simulation->descent;
+    return landscape_value(simulation,
+                           descent->point[0] + alpha * descent->direction[0],
+                           descent->point[1] + alpha * descent->direction[1]) -
+           descent->value;
+}
+
+/* One iteration where a part of E is alone on the map. */
+static Status step_part(Simulation *simulation)
+{
+    Descent *descent = &simulation->descent;
+    double *x = simulation->run[0].x;
+    NewtonRecord record = {.step = simulation->steps + 1,
+                           .iteration = (int)simulation->steps,
+                           .residual = descent->residual,
+                           .alpha = 1,
+                           .slope = descent->slope,
+                           .factorised = true,
+                           .from = {x[0], x[1]}};
+    Status status = STATUS_RUNNING;
+    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK &&
+        line_search_backtrack(part_difference, simulation, &record.alpha,
+                              &record.trials))
+        status = record.slope > 0 ? STATUS_NOT_DESCENT
+                                  : STATUS_LINE_SEARCH_LIMIT;
+    record.change = part_difference(simulation, record.alpha);
+    for (int i = 0; i < 2; i++)
+        record.to[i] = x[i] += record.alpha * descent->direction[i];
+    record.status = show_node(simulation, status);
+    return simulation_record(simulation, &record) ? record.status
+                                                  : STATUS_INTERRUPTED;
+}
+
 Status step_landscape(Simulation *simulation)
 {
-    Status status = newton_iterate(simulation->run[0].newton);
-    simulation->done = status != STATUS_RUNNING;
-    show_node(simulation);
+    choose_test(simulation);
+    Status status =
+        is_whole(simulation)
+            ? show_node(simulation,
+                        newton_iterate(simulation->run[0].newton))
+            : step_part(simulation);
     return simulation->done ? status : STATUS_OK;
 }
 
@@ -175,17 +289,25 @@ int landscape_switches(const Simulation *simulation,
     return 2;
 }
 
-/* One part at least stays. */
+/* One part at least stays.  What was minimised before is another function: its
+ * updates are no longer shown. */
 void landscape_flip(Simulation *simulation, int number)
 {
     unsigned parts = simulation->exhibit.parts ^ (1U << number);
     simulation->exhibit.parts = parts ? parts : PART_BOTH ^ (1U << number);
+    simulation->descent.count = 0;
+    simulation->prediction = (Prediction){0};
+    if (simulation->scene->aim)
+        simulation->scene->aim(simulation);
 }
 
 double landscape_value(const Simulation *simulation, double x, double y)
 {
     const Newton *newton = simulation->run[0].newton;
     double at[2 * LANDSCAPE_NODES], u[2 * LANDSCAPE_NODES] = {0};
+    if (!is_whole(simulation))
+        return landscape_part_value(simulation, simulation->exhibit.parts, x,
+                                    y);
     memcpy(at, newton->at.x, sizeof at);
     at[0] = x;
     at[1] = y;
@@ -215,33 +337,24 @@ static void node_hessian(const Simulation *simulation, Filter filter, double x,
     }
 }
 
-/* Positive trace and determinant. */
-bool landscape_is_convex(const Simulation *simulation, double x, double y)
+int landscape_bends_down(const Simulation *simulation, double x, double y)
 {
     double H[3];
     node_hessian(simulation, FILTER_NONE, x, y, H);
-    return H[0] + H[2] > 0 && H[0] * H[2] - H[1] * H[1] > 0;
+    bool same = H[0] * H[2] - H[1] * H[1] > 0;
+    return same ? (H[0] > 0 ? 0 : 2) : 1;
 }
 
 double landscape_direction(const Simulation *simulation, Filter filter,
                            double p[2])
 {
-    const System *system = &simulation->system;
-    const double *x = simulation->descent.point, *pins = simulation->run[0].x;
-    double h = simulation->run[0].h, H[3], g[2] = {0, 0};
-    unsigned parts = simulation->exhibit.parts;
-    for (int i = 0; i < 2 && (parts & PART_INERTIA); i++)
-        g[i] = system->m[0] * (x[i] - simulation->exhibit.target[i]);
-    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
-        const double *pin = pins + 2 * system->e[2 * s + 1];
-        const double d[2] = {x[0] - pin[0], x[1] - pin[1]};
-        double l2 = system->l2[s];
-        double strain = (d[0] * d[0] + d[1] * d[1] - l2) / l2;
-        for (int i = 0; i < 2; i++)
-            g[i] += h * h * 2 * system->k[s] * strain * d[i];
-    }
+    const double *x = simulation->descent.point;
+    double H[3], g[2];
+    part_gradient(simulation, x, g);
     node_hessian(simulation, filter, x[0], x[1], H);
     double determinant = H[0] * H[2] - H[1] * H[1];
+    if (fabs(determinant) <= 1e-14 * (H[0] + H[2]) * (H[0] + H[2]))
+        determinant = NAN; /* no inverse in the digits of a double */
     p[0] = (H[1] * g[1] - H[2] * g[0]) / determinant;
     p[1] = (H[1] * g[0] - H[0] * g[1]) / determinant;
     return g[0] * p[0] + g[1] * p[1];

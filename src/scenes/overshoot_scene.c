@@ -34,6 +34,8 @@ static void show_iterate(Simulation *simulation)
     descent->point[1] = simulation->run[0].x[1] = descent->value;
     descent->direction[0] = ends ? 0 : p;
     descent->slope = f.first * descent->direction[0];
+    descent->by_gradient = true;
+    descent->residual = fabs(f.first);
 }
 
 void scalar_scene_restart(Simulation *simulation, double x)

@@ -2,16 +2,17 @@
 
 #include <math.h>
 
-/* p = -f'(x)/f''(x), and the test */
+/* The test, and p = -f'(x)/f''(x) */
 Status scalar_newton_start(ScalarNewton *newton)
 {
     ScalarValues f = scalar_at(&newton->f, newton->x);
+    newton->g = f.first;
     newton->p = -f.first / f.second;
     newton->status = STATUS_RUNNING;
-    if (!isfinite(newton->p))
-        newton->status = STATUS_DIVERGED;
-    else if (fabs(newton->p) <= newton->tolerance)
+    if (fabs(newton->g) <= newton->tolerance)
         newton->status = STATUS_OK;
+    else if (!isfinite(newton->p))
+        newton->status = STATUS_DIVERGED;
     return newton->status;
 }
 
@@ -31,7 +32,7 @@ Status scalar_newton_iterate(ScalarNewton *newton, NewtonRecord *record)
     *record = (NewtonRecord){
         .step = newton->iterations + 1,
         .iteration = newton->iterations,
-        .residual = fabs(newton->p),
+        .residual = fabs(newton->g),
         .alpha = 1,
         .slope = f.first * newton->p,
         .factorised = true,

@@ -315,9 +315,9 @@ static void landscape_knows_both_directions(void **unused)
         CHECK_NEAR(p[1], simulation.descent.direction[1], 1e-13);
         CHECK((slope > 0) == (i == 0));
     }
-    CHECK(!landscape_is_convex(&simulation, 0.1, -0.35));
+    CHECK(landscape_bends_down(&simulation, 0.1, -0.35));
     landscape_flip(&simulation, 1);
-    CHECK(landscape_is_convex(&simulation, 0.1, -0.35)); /* inertia alone */
+    CHECK(!landscape_bends_down(&simulation, 0.1, -0.35)); /* inertia alone */
     simulation_free(&simulation);
 }
 
