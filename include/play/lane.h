@@ -82,6 +82,10 @@ Status lane_retape(Lane *lane, long step);
 /* Forgets what came after the player's step that is shown. */
 void lane_forget(Lane *lane, long step);
 
+/* The state of the present step was changed: what histories keep of it is taken
+ * again. */
+void lane_sample_again(Lane *lane, long step);
+
 /* Keeps positions as a ghost.  Returns OK, OUT_OF_MEMORY. */
 Status lane_keep_ghost(Lane *lane, const char *label);
 void lane_drop_ghost(Lane *lane);

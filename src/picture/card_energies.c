@@ -322,9 +322,19 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
                         series_colour(simulation, s));
 }
 
+/* Of bodies apart only one is told of. */
+static const char *energies_title(const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    bool apart =
+        simulation->runs > 1 && simulation->scene->picture == PICTURE_SQUARE;
+    return apart ? "Energies of the first block" : "Energies over time";
+}
+
 const Card card_energies = {
     .name = "energies",
     .title = "Energies over time",
+    .titled = energies_title,
     .least = 8,
     .weight = 1,
     .half = true,

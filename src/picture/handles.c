@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/colour_map.h"
 
@@ -163,6 +164,14 @@ void lines_draw(Paper *paper, Box inside, const Lines *lines)
                         y, ALIGN_LEFT, "%s", lines->text[i]);
         y += (lines->text[i][0] ? 1.5 : 0.6) * size * paper->em;
     }
+}
+
+void factor_text(char *text, size_t size, double value)
+{
+    snprintf(text, size, "%.4g", value + 0.0);
+    if (!strpbrk(text, "-e"))
+        return;
+    snprintf(text, size, "(%.4g)", value);
 }
 
 void point_text(char *text, size_t size, const double point[2])

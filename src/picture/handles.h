@@ -36,6 +36,10 @@ typedef struct Lines {
 void lines_add(Lines *lines, Colour colour, const char *format, ...);
 void lines_draw(Paper *paper, Box inside, const Lines *lines);
 
+/* A number that something stands behind or before in a formula, such as an
+ * exponent: in parentheses where it has a sign or a power of ten. */
+void factor_text(char *text, size_t size, double value);
+
 /* "(1.00, 0.50)" */
 void point_text(char *text, size_t size, const double point[2]);
 

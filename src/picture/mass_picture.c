@@ -18,7 +18,9 @@ static const double MASS_TURN = 6.283185307179586;
 static void mass_bounds(const Show *show, int pane, double bounds[4])
 {
     const Simulation *simulation = show->pane[pane].simulation;
-    double reach = MASS_REACH, most = 0;
+    const double *began = simulation->exhibit.began;
+    double reach = MASS_REACH;
+    double most = hypot(hypot(began[0], began[1]), hypot(began[2], began[3]));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
@@ -31,13 +33,16 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
     bounds[0] = bounds[1] = -reach;
 }
 
-/* The exact path from here: a circle where v is across and as long as x. */
-static void draw_mass_circle(Paper *paper, const Stage *stage)
+/* The exact path: a circle where v is across and as long as x. */
+static void draw_mass_exact(Paper *paper, const Stage *stage,
+                            const Simulation *simulation)
 {
     for (int i = 0; i < MASS_CORNERS; i++) {
         double s = MASS_TURN * i / MASS_CORNERS;
         double t = MASS_TURN * (i + 1) / MASS_CORNERS;
-        const double a[2] = {cos(s), sin(s)}, b[2] = {cos(t), sin(t)};
+        double a[2], b[2];
+        mass_exact(simulation, s, a);
+        mass_exact(simulation, t, b);
         stage_line(paper, stage, a, b, 4, COLOUR_GRID);
     }
 }
@@ -88,17 +93,15 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
 {
     MassStep step;
     Labels labels = {.stage = stage->box};
-    double h = simulation->run[0].h, tip[2], way[2], push[2], dv[2], at[2];
+    double h = simulation->run[0].h, tip[2], way[2], push[2], at[2];
     if (!mass_next_step(simulation, 0, &step))
         return;
     bool backward = simulation->run[0].method->implicit;
     for (int i = 0; i < 2; i++) {
         tip[i] = step.x[i] + step.v[i];
         way[i] = step.new_x[i] - step.x[i];
-        dv[i] = step.new_v[i] - step.v[i];
         push[i] = h * (backward ? step.new_a[i] : step.a[i]);
     }
-    bool old = way[0] == h * step.v[0] && dv[0] != 0; /* h v, not h v' */
     const Colour v = COLOUR_VELOCITY, f = COLOUR_FORCE;
     draw_mass_arrow(paper, stage, &labels, step.x, step.v, 2.6, v);
     draw_mass_arrow(paper, stage, &labels, tip, push, 2.6, f);
@@ -119,7 +122,7 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
     label_mass_arrow(paper, stage, &labels, tip, push, f,
                      backward ? "h a(x\u2032)" : "h a(x)");
     label_mass_arrow(paper, stage, &labels, step.x, way, COLOUR_X,
-                     old ? "h v" : "h v\u2032");
+                     step.by_old_v ? "h v" : "h v\u2032");
     label_mass_arrow(paper, stage, &labels, step.x, step.new_v, v, "v\u2032");
     if (backward)
         label_mass_arrow(paper, stage, &labels, step.new_x, step.new_a, f,
@@ -163,7 +166,7 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
     const Trail *trail = pane->trail;
     const double origin[2] = {0, 0};
     Legend legend = {0, 0};
-    draw_mass_circle(paper, stage);
+    draw_mass_exact(paper, stage, simulation);
     for (int r = 0; r < simulation->runs; r++)
         stage_line(paper, stage, origin, simulation->run[r].x, 1.4,
                    COLOUR_REST);
@@ -234,8 +237,7 @@ static void add_mass_lines(const Simulation *simulation, Lines *lines)
         return;
     }
     bool backward = simulation->run[0].method->implicit;
-    bool forward = step.new_x[0] == step.x[0] + h * step.v[0] &&
-                   step.new_x[1] == step.x[1] + h * step.v[1];
+    bool forward = step.by_old_v;
     point_text(x, sizeof x, step.x);
     point_text(v, sizeof v, step.v);
     point_text(a, sizeof a, backward ? step.new_a : step.a);
@@ -265,7 +267,8 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
         add_mass_lines(simulation, &lines);
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
-        mass_next_step(simulation, r, &step);
+        if (!mass_next_step(simulation, r, &step))
+            continue;
         double before = mass_step_energy(step.x, step.v);
         double after = mass_step_energy(step.new_x, step.new_v);
         lines_add(&lines, run_colour(simulation, r, COLOUR_TEXT),

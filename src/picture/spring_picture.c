@@ -120,15 +120,17 @@ static void spring_draw_numbers(Paper *paper, Box inside, const Show *show)
     const double *x = simulation->run[0].x;
     double k = simulation->system.k[0], l = sqrt(simulation->system.l2[0]);
     Lines lines = {0};
+    char s[32];
+    factor_text(s, sizeof s, facts.strain);
     lines_add(&lines, COLOUR_TEXT,
               "d = (%.3g, %.3g) m   |d| = %.4g m   l = %.3g m", x[0], x[1],
               facts.length, l);
     lines_add(&lines, COLOUR_TEXT, "s = |d|\u00b2/l\u00b2 \u2212 1 = %.4g",
               facts.strain);
     lines_add(&lines, COLOUR_X,
-              "P = l\u00b2 k/2 s\u00b2 = %.3g \u00b7 %.3g/2 \u00b7 %.4g\u00b2 "
+              "P = l\u00b2 k/2 s\u00b2 = %.3g \u00b7 %.3g/2 \u00b7 %s\u00b2 "
               "= %.5g J",
-              l * l, k, facts.strain, facts.energy);
+              l * l, k, s, facts.energy);
     lines_add(&lines, COLOUR_FORCE, "f = \u22122 k s d = (%.4g, %.4g) N",
               facts.force[0] + 0.0, facts.force[1] + 0.0);
     lines_add(&lines, COLOUR_TEXT,
@@ -192,7 +194,9 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
     const System *system = &simulation->system;
     SpringFacts now = facts_of(simulation), facts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
-    double high = plot_round_axis(fmax(0.6 * system->k[0], 1.1 * now.energy));
+    spring_facts((double[2]){0, 0}, system->l2[0], system->k[0], &facts);
+    double tip = simulation->exhibit.root ? facts.root_energy : facts.energy;
+    double high = plot_round_axis(1.1 * fmax(tip, now.energy));
     Axis x = {-reach, reach, false, false, "d in m"};
     Axis y = {0, high, false, false, NULL};
     Plot plot = plot_create(paper, inside, x, y);

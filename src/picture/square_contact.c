@@ -146,8 +146,10 @@ bool square_contact_words(const ContactView *view, char *text, size_t size)
     double slope = slope_of(wall);
     if (!(wall->n[1] > 0) || !(fabs(slope) > 1e-6))
         return false;
-    snprintf(text, size, "\u03bc = %.3g tan %.3g\u00b0: %s",
-             wall->friction / fabs(slope), fabs(atan(slope)) / DEGREE,
+    int used = view->grip > 0 ? snprintf(text, size, "%.3g ", view->grip) : 0;
+    snprintf(text + used, size - (size_t)used,
+             "\u03bc = %.3g tan %.3g\u00b0: %s", wall->friction / fabs(slope),
+             fabs(atan(slope)) / DEGREE,
              slides(view) ? "slides" : "holds");
     return true;
 }

@@ -17,6 +17,7 @@ typedef struct ContactView {
     const TimeIntegrator *run; /* its system and velocities */
     const double *x;           /* [2n] m, where its nodes are drawn */
     double h;                  /* s, the time step */
+    double grip; /* its friction is this times the options'; 0: once */
     double node;               /* pixels, radius of a node's disc */
 } ContactView;
 
@@ -50,8 +51,9 @@ void square_contact_forces(const ContactView *view, double most);
 void square_contact_legend(const ContactView *view, double most,
                            Legend *legend);
 
-/* The first wall's coefficient of friction as a part of its slope, and whether
- * the body slides; false: it has no slope.  text [size] out */
+/* The first wall's coefficient of friction as a part of the options' and of its
+ * slope, and whether the body slides; false: it has no slope.  text [size] out
+ */
 bool square_contact_words(const ContactView *view, char *text, size_t size);
 
 /* These words under the left end of that wall. */

@@ -154,6 +154,7 @@ static ContactView contact_view(const SpringPen *pen, int run)
                          .run = &simulation->run[run],
                          .x = run == 0 ? pen->x : simulation->run[run].x,
                          .h = simulation->options.timestep,
+                         .grip = simulation->grip[run],
                          .node = square_pen_radius(pen, false)};
 }
 

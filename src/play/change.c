@@ -30,6 +30,7 @@ Status player_change_lanes(Player *player, const Command *change, int from,
         player->lane[i].ended = 0;
         status = track_change(&player->lane[i].track, change, player->message,
                               sizeof player->message);
+        lane_sample_again(&player->lane[i], player->step);
     }
     return status;
 }

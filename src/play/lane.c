@@ -231,6 +231,15 @@ void lane_forget(Lane *lane, long step)
     }
 }
 
+void lane_sample_again(Lane *lane, long step)
+{
+    if (lane->sampled < step)
+        return;
+    history_cut(&lane->history, nextafter(lane_time(lane), -INFINITY));
+    trail_cut(&lane->trail, 1);
+    lane->sampled = step - 1;
+}
+
 Status lane_clone(const Lane *lane, int number, NewtonObserver observer,
                   Lane *clone)
 {

@@ -1,5 +1,6 @@
 #include "scenes/mass_scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "model/pull_energy.h"
@@ -24,6 +25,8 @@ Status create_mass(Simulation *simulation, const NewtonSettings *settings)
     simulation->system.m[0] = 1;
     status = central_field_set(&simulation->system, MASS_OMEGA2);
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
+    memcpy(simulation->exhibit.began, options->start, sizeof v);
+    memcpy(simulation->exhibit.began + 2, v, sizeof v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = time_integrator_create(
             chosen ? chosen : integrator_method(names[i]), &simulation->system,
@@ -39,6 +42,7 @@ bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
     bool symplectic = strcmp(name, "symplectic-euler") == 0;
     bool backward = strcmp(name, "backward-euler") == 0;
     double h = integrator->h;
+    step->by_old_v = forward;
     for (int i = 0; i < 2; i++) {
         double x = integrator->x[i], v = integrator->v[i];
         double a = -MASS_OMEGA2 * x, new_v = v + h * a;
@@ -52,6 +56,13 @@ bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
         step->new_a[i] = -MASS_OMEGA2 * step->new_x[i];
     }
     return forward || symplectic || backward;
+}
+
+void mass_exact(const Simulation *simulation, double t, double x[2])
+{
+    const double *began = simulation->exhibit.began, omega = sqrt(MASS_OMEGA2);
+    for (int i = 0; i < 2; i++)
+        x[i] = began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
 int mass_handles(const Simulation *simulation, double at[SCENE_MAX_HANDLES][2])
@@ -79,5 +90,7 @@ void mass_drag(Simulation *simulation, int handle, double x, double y)
         memcpy(run->v, new_v, sizeof new_v);
         run->remembers = false;
     }
+    memcpy(simulation->exhibit.began, new_x, sizeof new_x);
+    memcpy(simulation->exhibit.began + 2, new_v, sizeof new_v);
     simulation->prediction = (Prediction){0};
 }

@@ -364,6 +364,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
     double time = simulation_time(simulation);
     double start[SIMULATION_MAX_RUNS], had[SIMULATION_MAX_RUNS];
     NewtonCounters counted = simulation_counters(simulation);
+    const Exhibit exhibit = simulation->exhibit;
     NewtonObserver observer = simulation->observer;
     void *user = simulation->user;
     simulation_release(simulation);
@@ -378,6 +379,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
     simulation->counted = counted;
     if (!status) {
         state_restore(state, STATE_BODY, simulation);
+        simulation->exhibit = exhibit;
         simulation->steps_before = simulation->steps;
         simulation->time_before = time;
         memcpy(simulation->start, start, sizeof start);
