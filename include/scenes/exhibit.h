@@ -54,6 +54,7 @@ typedef struct RacePoint {
                        NaN: the run failed */
     double seconds; /* run time */
     long updates;   /* Newton updates; 0 in explicit methods */
+    bool stable;    /* its energy stays bounded when it runs on */
 } RacePoint;
 
 typedef struct Race {
@@ -77,7 +78,7 @@ typedef struct EnvelopeMap {
 } EnvelopeMap;
 
 typedef struct Exhibit {
-    double began[4];  /* m, m/s: x and v from which one mass's exact path goes */
+    double began[4]; /* m, m/s: x and v from which one mass's exact path goes */
     double target[2]; /* m, x_tilde of the landscape's free node */
     unsigned parts;   /* enum LandscapePart, on the map */
     bool root;        /* one spring: the energy with the square root too */

@@ -35,8 +35,8 @@ int landscape_handles(const Simulation *simulation,
                       double at[SCENE_MAX_HANDLES][2]);
 void landscape_drag(Simulation *simulation, int handle, double x, double y);
 
-/* Inertia and elasticity on the map; one of them at least is on.  Newton goes on
- * from where it is with those that are. */
+/* Inertia and elasticity on the map; one of them at least is on.  Newton goes
+ * on from where it is with those that are. */
 int landscape_switches(const Simulation *simulation,
                        Switch out[SCENE_MAX_SWITCHES]);
 void landscape_flip(Simulation *simulation, int number);

@@ -28,9 +28,9 @@ typedef struct Descent {
     double value;                     /* f or E there */
     double direction[2];              /* p there, m; 0 if there is none */
     double slope;                     /* grad . p there; < 0 is downhill */
-    bool by_gradient; /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
-    double residual;  /* what is tested, there: |g|, or |p|/h, m/s */
-    ScalarNewton scalar;              /* Newton in one variable, if it is */
+    bool by_gradient;    /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
+    double residual;     /* what is tested, there: |g|, or |p|/h, m/s */
+    ScalarNewton scalar; /* Newton in one variable, if it is */
 } Descent;
 
 typedef struct Simulation {

@@ -22,8 +22,10 @@ static void say(char *text, size_t size, const char *format, ...)
 }
 
 /* What went wrong, as one says it in a lecture. */
-static const char *trouble_words(Status status)
+static const char *trouble_words(const Simulation *simulation, Status status)
 {
+    if (status == STATUS_DIVERGED && simulation->descent.scalar.f.at)
+        return "it flies away: no curvature is left, so there is no next step";
     static const struct {
         Status status;
         const char *words;
@@ -100,7 +102,9 @@ static void describe_line(Show *show, const Simulation *simulation,
                 trace->projected);
         break;
     case LINE_SOLVE:
-        say(s, SHOW_TEXT, "line 4: the direction points %s",
+        say(s, SHOW_TEXT,
+            "line 4: the direction points %s; \u2016{p}\u2016_{\u221e} is the "
+            "largest |{p}_{x}| + |{p}_{y}| of a node",
             trace->slope > 0 ? "uphill" : "downhill");
         break;
     case LINE_SEARCH:
@@ -202,7 +206,8 @@ void show_describe(Show *show)
                                                : simulation->scene->name;
     bool whole = !pane->trace || !pane->trace->line || pane->trace->given_up;
     if (whole && pane->trouble && pane->trouble != STATUS_INTERRUPTED)
-        say(show->sentence, SHOW_TEXT, "%s", trouble_words(pane->trouble));
+        say(show->sentence, SHOW_TEXT, "%s",
+            trouble_words(simulation, pane->trouble));
     else if (pane->trace && pane->trace->line)
         describe_line(show, simulation, pane->trace);
     const char *end = end_words(simulation);

@@ -302,12 +302,11 @@ static void draw_other_direction(Paper *paper, const Plot *plot, Labels *labels,
     if (descent->direction[0] == 0 && descent->direction[1] == 0)
         return;
     if (parts != PART_BOTH) {
-        draw_named_direction(paper, plot, labels, descent->point,
-                             descent->direction,
-                             descent->slope > 0 ? COLOUR_WARNING : COLOUR_P,
-                             parts == PART_INERTIA ? "inertia alone"
-                                                   : "elasticity alone",
-                             descent->slope);
+        draw_named_direction(
+            paper, plot, labels, descent->point, descent->direction,
+            descent->slope > 0 ? COLOUR_WARNING : COLOUR_P,
+            parts == PART_INERTIA ? "inertia alone" : "elasticity alone",
+            descent->slope);
         return;
     }
     slope =

@@ -47,7 +47,8 @@ static void race_method_curve(Paper *paper, const Plot *plot, const Race *race,
             plot_place(plot, now[0], now[1], to);
             labels_line(labels, from, to);
         }
-        plot_disc(paper, plot, now, 5, colour);
+        if (plot_disc(paper, plot, now, 5, colour) && !point->stable)
+            plot_disc(paper, plot, now, 3, COLOUR_WHITE);
         before[0] = now[0];
         before[1] = now[1];
     }
@@ -107,7 +108,8 @@ static Pick race_pick(const Show *show, const Stage *stage, double x, double y)
     return pick;
 }
 
-/* The quickest run that reaches the error, of explicit or implicit methods. */
+/* The quickest run that reaches the error and stays stable, of explicit or
+ * implicit methods. */
 static const RacePoint *race_quickest(const Race *race, double error,
                                       bool implicit)
 {
@@ -115,7 +117,7 @@ static const RacePoint *race_quickest(const Race *race, double error,
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
         if (point->method->implicit == implicit && point->error <= error &&
-            (!best || point->seconds < best->seconds))
+            point->stable && (!best || point->seconds < best->seconds))
             best = point;
     }
     return best;
@@ -139,9 +141,11 @@ static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
             else
                 lines_add(&lines, COLOUR_GREY, "    no %s method%s",
                           implicit ? "implicit" : "explicit",
-                          simulation->done ? "" : " yet");
+                          simulation->done ? " with these h" : " yet");
         }
     }
+    lines_add(&lines, COLOUR_FAINT,
+              "hollow: it explodes when it goes on with this h");
     if (simulation->status)
         lines_add(&lines, COLOUR_WARNING,
                   "no answer to compare with: k is "

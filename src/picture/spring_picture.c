@@ -97,7 +97,7 @@ static SpringCount spring_draw(Paper *paper, const Stage *stage,
     stage_legend(paper, stage, &legend, COLOUR_FORCE, "force");
     stage_legend(paper, stage, &legend, COLOUR_FAINT, "rest length");
     stage_legend(paper, stage, &legend, COLOUR_PROJECT,
-                 "shorter than l: its block is projected");
+                 "shorter than l: it has an eigenvalue below 0");
     stage_scale(paper, stage);
     return (SpringCount){1, 0};
 }
@@ -165,7 +165,9 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
         canvas_rectangle(&paper->canvas, (int)(x - 0.28 * wide), top,
                          (int)(0.56 * wide), (int)fmax(fabs(high), 2),
                          value[i] == 0 ? COLOUR_GREY : colour);
-        plot_number(number, sizeof number, round(value[i] * 10) / 10);
+        snprintf(number, sizeof number, "%.5g",
+                 round(value[i] * 10) / 10 + 0.0);
+        plot_numbers(number, sizeof number);
         paper_write(paper, FACE_REGULAR, 0.92, colour, x,
                     value[i] < 0 ? middle - high + 0.1 * paper->em
                                  : middle + 0.15 * paper->em,
@@ -175,10 +177,14 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
 
 static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
 {
-    SpringFacts facts = facts_of(show->pane[show->active].simulation);
+    const Simulation *simulation = show->pane[show->active].simulation;
+    SpringFacts facts = facts_of(simulation);
     double most = 1e-300;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 4; i++) {
         most = fmax(most, fabs(facts.block[i]));
+        if (simulation->options.filter == FILTER_ABS)
+            facts.projected[i] = fabs(facts.block[i]);
+    }
     for (int k = 0; k < 2; k++) {
         Box half = {inside.x + k * inside.width / 2, inside.y,
                     inside.width / 2 - paper_pixels(paper, 0.6), inside.height};

@@ -149,8 +149,7 @@ bool square_contact_words(const ContactView *view, char *text, size_t size)
     int used = view->grip > 0 ? snprintf(text, size, "%.3g ", view->grip) : 0;
     snprintf(text + used, size - (size_t)used,
              "\u03bc = %.3g tan %.3g\u00b0: %s", wall->friction / fabs(slope),
-             fabs(atan(slope)) / DEGREE,
-             slides(view) ? "slides" : "holds");
+             fabs(atan(slope)) / DEGREE, slides(view) ? "slides" : "holds");
     return true;
 }
 

@@ -18,7 +18,7 @@ typedef struct ContactView {
     const double *x;           /* [2n] m, where its nodes are drawn */
     double h;                  /* s, the time step */
     double grip; /* its friction is this times the options'; 0: once */
-    double node;               /* pixels, radius of a node's disc */
+    double node; /* pixels, radius of a node's disc */
 } ContactView;
 
 /* Whether runs have systems of their own, such as three slopes. */

@@ -24,7 +24,8 @@ static void tangent_bounds(const Show *show, int pane, double bounds[4])
 
 /* The last update, or the one to come: from x0 to x1. */
 typedef struct TangentUpdate {
-    double x0, x1, E, g, slope; /* at x0 */
+    double x0, x1, E, g, slope; /* at x0; x1 = x0 + p */
+    double alpha;               /* 0: not made yet */
     bool made;
 } TangentUpdate;
 
@@ -35,6 +36,7 @@ static TangentUpdate tangent_update(const Descent *descent)
     int last = descent->count - 1;
     if (last >= 0 && last < DESCENT_MAX) {
         update.x0 = descent->record[last].from[0];
+        update.alpha = descent->record[last].alpha;
         update.made = true;
     }
     update.E = scalar_at(f, update.x0).value;
@@ -255,9 +257,20 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
               update.slope);
     lines_add(&lines, COLOUR_P, "{p} = \u2212g / E\u2033 = %.8g",
               update.x1 - update.x0);
-    lines_add(&lines, COLOUR_X, "x^{%d} = %.8g", number + 1, update.x1);
+    double p = update.x1 - update.x0, x = update.x1;
+    if (update.alpha > 0) {
+        char alpha[32];
+        alpha_text(alpha, sizeof alpha, update.alpha);
+        x = update.x0 + update.alpha * p;
+        lines_add(&lines, COLOUR_X,
+                  "x^{%d} = x^{%d} + {alpha} {p} = %.8g, "
+                  "{alpha} = %s",
+                  number + 1, number, x, alpha);
+    } else {
+        lines_add(&lines, COLOUR_X, "x^{%d} + {p} = %.8g", number, x);
+    }
     lines_add(&lines, COLOUR_TEXT, "E: %.8g \u2192 %.8g", update.E,
-              scalar_at(&simulation->descent.scalar.f, update.x1).value);
+              scalar_at(&simulation->descent.scalar.f, x).value);
     if (update.slope <= 0)
         lines_add(&lines, COLOUR_WARNING,
                   "E\u2033 < 0: the parabola has a highest point");

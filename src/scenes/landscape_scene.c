@@ -82,10 +82,9 @@ static void find_direction(Simulation *simulation, double p[2])
     filter = filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
     descent->slope = landscape_direction(simulation, filter, p);
     part_gradient(simulation, descent->point, g);
-    descent->residual =
-        descent->by_gradient
-            ? hypot(g[0], g[1])
-            : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
+    descent->residual = descent->by_gradient
+                            ? hypot(g[0], g[1])
+                            : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
     if (!is_whole(simulation))
         return;
     memcpy(p, newton->at.p, 2 * sizeof *p);
@@ -214,8 +213,8 @@ static Status step_part(Simulation *simulation)
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK &&
         line_search_backtrack(part_difference, simulation, &record.alpha,
                               &record.trials))
-        status = record.slope > 0 ? STATUS_NOT_DESCENT
-                                  : STATUS_LINE_SEARCH_LIMIT;
+        status =
+            record.slope > 0 ? STATUS_NOT_DESCENT : STATUS_LINE_SEARCH_LIMIT;
     record.change = part_difference(simulation, record.alpha);
     for (int i = 0; i < 2; i++)
         record.to[i] = x[i] += record.alpha * descent->direction[i];
@@ -229,8 +228,7 @@ Status step_landscape(Simulation *simulation)
     choose_test(simulation);
     Status status =
         is_whole(simulation)
-            ? show_node(simulation,
-                        newton_iterate(simulation->run[0].newton))
+            ? show_node(simulation, newton_iterate(simulation->run[0].newton))
             : step_part(simulation);
     return simulation->done ? status : STATUS_OK;
 }

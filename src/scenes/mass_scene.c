@@ -62,7 +62,8 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
 {
     const double *began = simulation->exhibit.began, omega = sqrt(MASS_OMEGA2);
     for (int i = 0; i < 2; i++)
-        x[i] = began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
+        x[i] =
+            began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
 int mass_handles(const Simulation *simulation, double at[SCENE_MAX_HANDLES][2])

@@ -20,8 +20,8 @@ const LecturePage lecture_pages[] = {
      .line = "square --stretch 1 --segments 4",
      .numbers = true,
      .cards = "page",
-     .look = "25 masses and 72 springs: in rows, in columns, and two diagonals "
-             "in each of the 16 cells.",
+     .look = "With 4 segments 25 masses and 72 springs, with n (n + 1)² and "
+             "4n² + 2n: in rows, in columns, and two diagonals in each cell.",
      .touch = "Drag the number of segments: more masses and springs, the same "
               "1000 kg.",
      .file = LECTURE,
@@ -37,8 +37,10 @@ const LecturePage lecture_pages[] = {
      .line = "square --stretch 1 --segments 2",
      .numbers = true,
      .cards = "page",
-     .look = "9 nodes, numbered upwards, column by column: 0 lower left, 8 "
-             "upper right. 6 springs are horizontal, 6 vertical, 8 diagonal.",
+     .look = "Nodes are numbered upwards, column by column. With "
+             "n\u00a0=\u00a02: 0 lower "
+             "left, 8 upper right; 6 springs are horizontal, 6 vertical, 8 "
+             "diagonal.",
      .touch = "Point at a spring: the numbers of its two nodes are shown. "
               "Point at a node, too.",
      .file = LECTURE,
@@ -72,8 +74,8 @@ const LecturePage lecture_pages[] = {
              "v′\u00a0=\u00a0v\u00a0+\u00a0h\u00a0a(x).",
      .line = "arrows --integrator forward-euler",
      .cards = "page numbers energies",
-     .look = "The step leaves the circle along its tangent. Each step gains "
-             "energy.",
+     .look = "The step leaves the exact path along its tangent. Each step "
+             "gains energy.",
      .touch = "Drag the mass, the tip of v, or h. Click where the next step "
               "will end, then press N.",
      .file = LECTURE,
@@ -128,14 +130,17 @@ const LecturePage lecture_pages[] = {
      .cards = "page radius",
      .look = "The radius over time: in each step forward Euler multiplies it "
              "by √(1 + h²ω²), backward Euler divides it by that.",
-     .touch = "Drag h while it runs: the factor changes, the order of the "
-              "three does not.",
+     .touch =
+         "Drag h while it runs: the factor changes. Above h\u00a0=\u00a02/ω "
+         "=\u00a00.318\u00a0s the symplectic one flies away, too.",
      .file = "src/scenes/circle_scene.c",
      .function = "create_circle",
      .lit = "names[i]",
-     .claim = "With h = 0.02 s each step of forward Euler multiplies the "
-              "radius by 1.00786, each step of backward Euler divides it by "
-              "that, and the symplectic one stays within 4 percent.",
+     .claim =
+         "With h = 0.02 s each step of forward Euler multiplies the "
+         "radius by 1.00786, each step of backward Euler divides it by "
+         "that, and the symplectic one stays within 4 percent. With 0.31 s "
+         "it stays within 7 m for 1000 steps, with 0.33 s it does not for 10.",
      .film = 32,
      .plays = true},
     {.name = "explicit",
@@ -179,18 +184,19 @@ const LecturePage lecture_pages[] = {
      .topic = "Newton in n dimensions: Algorithm 1",
      .text =
          "In n dimensions the slope is a vector g, the curvature a matrix H. "
-         "Solve H\u00a0p\u00a0=\u00a0−g, move by p, repeat until p is short.",
+         "Solve H\u00a0p\u00a0=\u00a0−g, move by p, repeat while |g| > ε.",
      .line = "landscape --filter none --line-search none --start 0.6,0.9",
      .cards = "page listing residual",
      .look = "A few updates lead to the bottom of the valley; the residual "
              "falls faster and faster.",
      .touch = "Drag the start into the shaded region, where E is not convex: p "
-              "can point uphill.",
+              "can point uphill, and the end can be a saddle.",
      .file = LECTURE,
      .function = "search_dir",
      .lit = "cholmod_solve",
      .claim = "From (0.6, 0.9) Algorithm 1 needs 5 updates, and each "
-              "direction solves H p = −g to 12 digits.",
+              "direction solves H p = −g to 12 digits; from (0.05, −0.05) it "
+              "ends on a saddle.",
      .film = 5,
      .predict = true},
     {.name = "overshoot",
@@ -201,8 +207,8 @@ const LecturePage lecture_pages[] = {
      .cards = "page line residual",
      .look = "f has a single valley, but from 2 the first step leads to −11.6 "
              "and the next one beyond 3·10⁹.",
-     .touch = "Drag the start: below 1.0886 it converges, above it flies away. "
-              "L turns the line search on.",
+     .touch = "Drag the start: nearer to 0 than 1.0886 it converges, else it "
+              "flies away. L turns the line search on.",
      .file = "src/scenes/scalar_newton.c",
      .function = "scalar_newton_iterate",
      .lit = "newton->x +=",
@@ -213,8 +219,8 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "explodes",
      .topic = "Overshooting: the square explodes",
-     .text = "The same on the square, with Algorithm 1 alone: no projection, "
-             "no line search.",
+     .text = "The same on the square: no projection, no line search, as in "
+             "Algorithm 1. ‖p‖∞ is the largest |p_x| + |p_y| of a node.",
      .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
              "none --line-search none",
      .open = "finer; finer; next; next; next",
@@ -291,12 +297,12 @@ const LecturePage lecture_pages[] = {
      .cards = "page numbers",
      .look = "Round contours: the Hessian is the same everywhere, and positive "
              "definite.",
-     .touch = "Drag x̃, or switch elasticity on.",
+     .touch = "N: one update leads to x̃. Drag x̃, or switch elasticity on.",
      .file = LECTURE,
      .function = "inertia_val",
      .lit = "dot",
      .claim = "At (0.6, 0.9) it is 0.26 J s², as the formula says, and "
-              "Newton finds its minimum in a single update.",
+              "one update leads to x̃, where Newton ends.",
      .flips = 2},
     /* ---- line search ---------------------------------------------------- */
     {.name = "alpha",
@@ -443,8 +449,9 @@ const LecturePage lecture_pages[] = {
      .line = "square --tolerance 1e-6",
      .open = "next",
      .cards = "page residual energies",
-     .look = "The residual of each update on a logarithmic axis: it falls by a "
-             "factor of 36, then of 330. A ring is an upper bound.",
+     .look = "The residual of each update on a logarithmic axis: in the first "
+             "step it falls by a factor of 36, then of 330. A ring is an upper "
+             "bound.",
      .touch = "Drag ε up to 0.01 m/s, as on the slides: that saves only two "
               "updates.",
      .file = LECTURE,
@@ -497,14 +504,17 @@ const LecturePage lecture_pages[] = {
      .look = "Three blocks on a slope of 20°. A block holds if its friction "
              "coefficient is above tan\u00a020°\u00a0=\u00a00.364: at the "
              "start two slide, one holds.",
-     .touch = "Drag μ; the blocks have 0.5, 0.9 and 1.1 times it. From 0.42 on "
-              "the second one holds, too.",
+     .touch =
+         "Drag μ; the blocks have 0.5, 0.9 and 1.1 times it. Above "
+         "0.364/0.9\u00a0=\u00a00.404 the second one holds, too: try 0.41.",
      .file = "src/model/friction.c",
      .function = "friction_value",
      .lit = "return",
-     .claim = "In 3 s the first block slides more than 7 m along, the last one "
-              "less than 2 cm. With μ = 0.42 the second one slides less than 3 "
-              "cm, with μ = 0.32 the third one more than 50 cm.",
+     .claim =
+         "In 3 s the first block slides more than 7 m along, the last one "
+         "less than 2 cm. With μ = 0.41 the second one comes to rest within "
+         "6 cm, with 0.4 it does not; with μ = 0.32 the third one slides "
+         "more than 50 cm.",
      .film = 300,
      .every = 15,
      .plays = true},
@@ -551,14 +561,16 @@ const LecturePage lecture_pages[] = {
      .line = "race",
      .cards = "page numbers",
      .look = "Steeper lines are methods of higher order. On a soft square the "
-             "explicit ones win by far.",
+             "explicit ones win by far; where h is too long for them they "
+             "explode later: hollow points.",
      .touch = "Drag k up: the stiffer the square, the shorter the steps that "
               "explicit methods need.",
      .file = "src/scenes/race_scene.c",
      .function = "run_to_end",
      .lit = "time_integrator_step",
      .claim = "Halving h divides the error by 2 for the Euler methods, by 4 "
-              "for Verlet and midpoint, by 16 for AVF of 4th order.",
+              "for Verlet and midpoint, by 16 for AVF of 4th order. With 8 ms "
+              "Verlet explodes after the race, with 4 ms it does not.",
      .speed = 0.25,
      .film = 42,
      .plays = true},

@@ -76,6 +76,26 @@ static double largest_error(int nodes, const double *x, const double *exact)
     return largest;
 }
 
+/* J */
+static double energy_of(const TimeIntegrator *run)
+{
+    return system_potential(run->system, run->x) +
+           system_kinetic(run->system, run->v);
+}
+
+/* Whether an explicit run can go on; implicit ones always do, and forward Euler
+ * adds energy with any time step. */
+static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
+{
+    if (strcmp(run->method->name, "forward-euler") == 0)
+        return false;
+    for (int i = 0; i < RACE_LONGER && !run->method->implicit; i++)
+        if (time_integrator_step(run))
+            return false;
+    return run->method->implicit ||
+           energy_of(run) <= RACE_ENERGY * energy_of(&simulation->run[0]);
+}
+
 Status step_race(Simulation *simulation)
 {
     Race *race = &simulation->exhibit.race;
@@ -92,9 +112,11 @@ Status step_race(Simulation *simulation)
                          .seconds = clock_now() - start,
                          .updates =
                              run.newton ? run.newton->counters.iterations : 0};
-    if (!status)
+    if (!status) {
         point->error = largest_error(simulation->system.nodes, run.x,
                                      simulation->run[1].x);
+        point->stable = is_stable(simulation, &run);
+    }
     time_integrator_free(&run);
     if (status && status != STATUS_NOT_FINITE)
         return status;

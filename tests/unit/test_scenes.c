@@ -345,8 +345,7 @@ static void landscape_is_downhill_from_everywhere(void **unused)
                      0.2 * j);
             simulation_from_line(line, NULL, NULL, &simulation);
             CHECK(simulation.descent.slope < 0);
-            bool convex =
-                !landscape_bends_down(&simulation, 0.2 * i, 0.2 * j);
+            bool convex = !landscape_bends_down(&simulation, 0.2 * i, 0.2 * j);
             simulation_set_filter(&simulation, FILTER_NONE);
             uphill += simulation.descent.slope > 0;
             hollow += convex;
@@ -355,7 +354,7 @@ static void landscape_is_downhill_from_everywhere(void **unused)
             CHECK_STATUS(run_to_end(&simulation, 100), STATUS_OK);
             check_path(&simulation);
             CHECK(!landscape_bends_down(&simulation, simulation.run[0].x[0],
-                                      simulation.run[0].x[1]));
+                                        simulation.run[0].x[1]));
             simulation_free(&simulation);
         }
     CHECK(uphill > 5 && hollow > 100);
