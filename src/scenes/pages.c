@@ -130,17 +130,15 @@ const LecturePage lecture_pages[] = {
      .cards = "page radius",
      .look = "The radius over time: in each step forward Euler multiplies it "
              "by √(1 + h²ω²), backward Euler divides it by that.",
-     .touch =
-         "Drag h while it runs: the factor changes. Above h\u00a0=\u00a02/ω "
-         "=\u00a00.318\u00a0s the symplectic one flies away, too.",
+     .touch = "Drag h while it runs. Above 2/ω\u00a0=\u00a00.318\u00a0s the "
+              "symplectic one flies away, too.",
      .file = "src/scenes/circle_scene.c",
      .function = "create_circle",
      .lit = "names[i]",
-     .claim =
-         "With h = 0.02 s each step of forward Euler multiplies the "
-         "radius by 1.00786, each step of backward Euler divides it by "
-         "that, and the symplectic one stays within 4 percent. With 0.31 s "
-         "it stays within 7 m for 1000 steps, with 0.33 s it does not for 10.",
+     .claim = "With h = 0.02 s each step of forward Euler multiplies the "
+              "radius by 1.00786, backward Euler divides it by that; the "
+              "symplectic one stays within 4 percent, with 0.31 s within 7 m, "
+              "with 0.33 s not for 10 steps.",
      .film = 32,
      .plays = true},
     {.name = "explicit",
@@ -189,8 +187,8 @@ const LecturePage lecture_pages[] = {
      .cards = "page listing residual",
      .look = "A few updates lead to the bottom of the valley; the residual "
              "falls faster and faster.",
-     .touch = "Drag the start into the shaded region, where E is not convex: p "
-              "can point uphill, and the end can be a saddle.",
+     .touch = "Drag the start into the shade, where E is not convex: p can "
+              "point uphill, the end be a saddle.",
      .file = LECTURE,
      .function = "search_dir",
      .lit = "cholmod_solve",
@@ -208,7 +206,7 @@ const LecturePage lecture_pages[] = {
      .look = "f has a single valley, but from 2 the first step leads to −11.6 "
              "and the next one beyond 3·10⁹.",
      .touch = "Drag the start: nearer to 0 than 1.0886 it converges, else it "
-              "flies away. L turns the line search on.",
+              "flies away. L: line search.",
      .file = "src/scenes/scalar_newton.c",
      .function = "scalar_newton_iterate",
      .lit = "newton->x +=",
@@ -219,8 +217,8 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "explodes",
      .topic = "Overshooting: the square explodes",
-     .text = "The same on the square: no projection, no line search, as in "
-             "Algorithm 1. ‖p‖∞ is the largest |p_x| + |p_y| of a node.",
+     .text = "No projection, no line search, as in Algorithm 1. ‖p‖∞ is the "
+             "largest |p_x| + |p_y| of a node.",
      .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
              "none --line-search none",
      .open = "finer; finer; next; next; next",
@@ -504,9 +502,8 @@ const LecturePage lecture_pages[] = {
      .look = "Three blocks on a slope of 20°. A block holds if its friction "
              "coefficient is above tan\u00a020°\u00a0=\u00a00.364: at the "
              "start two slide, one holds.",
-     .touch =
-         "Drag μ; the blocks have 0.5, 0.9 and 1.1 times it. Above "
-         "0.364/0.9\u00a0=\u00a00.404 the second one holds, too: try 0.41.",
+     .touch = "Drag μ; the blocks have 0.5, 0.9, 1.1 times it. Above 0.404 the "
+              "second one holds, too.",
      .file = "src/model/friction.c",
      .function = "friction_value",
      .lit = "return",
@@ -560,9 +557,8 @@ const LecturePage lecture_pages[] = {
              "for how many digits? Each point is a run, measured now.",
      .line = "race",
      .cards = "page numbers",
-     .look = "Steeper lines are methods of higher order. On a soft square the "
-             "explicit ones win by far; where h is too long for them they "
-             "explode later: hollow points.",
+     .look = "Steeper lines: higher order. On a soft square explicit methods "
+             "win by far. Hollow: with this h it explodes later.",
      .touch = "Drag k up: the stiffer the square, the shorter the steps that "
               "explicit methods need.",
      .file = "src/scenes/race_scene.c",

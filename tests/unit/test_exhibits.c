@@ -67,6 +67,40 @@ static void mass_steps_are_the_slides(void **unused)
     simulation_free(&simulation);
 }
 
+/* Which v forward Euler's way is along is its method's, whatever the digits of
+ * x + h v are; the exact path is the ellipse of where the mass began, or was
+ * dragged, also after another method is chosen. */
+static void mass_knows_its_path(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    MassStep step;
+    simulation_from_line("arrows --integrator forward-euler", NULL, NULL,
+                         &simulation);
+    Options other = simulation.options;
+    Random random = {7};
+    for (int i = 0; i < 100; i++) {
+        double now[2], later[2], x = random_uniform(&random, -2, 2);
+        mass_drag(&simulation, i % 2, x, random_uniform(&random, -2, 2));
+        CHECK(mass_next_step(&simulation, 0, &step) && step.by_old_v);
+        mass_exact(&simulation, 0, now);
+        mass_exact(&simulation, 0.5 * M_PI, later);
+        for (int c = 0; c < 2; c++) {
+            CHECK_NEAR(now[c], step.x[c], 0);
+            CHECK_NEAR(later[c], step.v[c], 1e-15 * (1 + fabs(now[c])));
+        }
+    }
+    double before[2], after[2];
+    mass_exact(&simulation, 1, before);
+    simulation_step(&simulation);
+    other.integrator = integrator_method("symplectic-euler");
+    CHECK_STATUS(simulation_change(&simulation, &other), STATUS_OK);
+    CHECK(mass_next_step(&simulation, 0, &step) && !step.by_old_v);
+    mass_exact(&simulation, 1, after);
+    CHECK_SAME_BITS(before, after, 2);
+    simulation_free(&simulation);
+}
+
 /* Dragging the mass keeps its velocity, dragging the tip its place; all runs
  * follow. */
 static void mass_is_dragged(void **unused)
@@ -267,6 +301,50 @@ static void landscape_has_two_parts(void **unused)
     landscape_flip(&simulation, 1);
     CHECK(simulation.exhibit.parts == PART_BOTH);
     simulation_free(&simulation);
+}
+
+/* What is switched off is not minimised either: the part that is left falls in
+ * each update, to its own minimum, with every method. */
+static void landscape_minimises_what_it_shows(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "landscape --start 0.6,0.9", "landscape --start 0.2,-0.3 --filter abs",
+        "landscape --start 0.6,0.9 --filter on-demand",
+        "landscape --start 0.6,0.9 --filter none",
+        "landscape --start 0.6,0.9 --filter none --line-search none"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        for (int off = 0; off < 2; off++) {
+            Simulation simulation;
+            simulation_from_line(lines[i], NULL, NULL, &simulation);
+            const Descent *descent = &simulation.descent;
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            landscape_flip(&simulation, off);
+            unsigned part = simulation.exhibit.parts;
+            CHECK(part == (off ? PART_INERTIA : PART_ELASTICITY));
+            CHECK(descent->count == 0);
+            while (!simulation.done) {
+                double before = descent->value;
+                CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+                CHECK(descent->value < before);
+            }
+            CHECK(!off || descent->count == 1);
+            CHECK_AT_MOST(descent->residual, simulation.options.tolerance);
+            /* p <= h 1e-6, twice: E <= 10 p^2 */
+            CHECK_AT_MOST(landscape_part_value(&simulation, part,
+                                               descent->point[0],
+                                               descent->point[1]),
+                          1e-12);
+            landscape_flip(&simulation, !off); /* all of E again */
+            landscape_flip(&simulation, off);
+            simulation_free(&simulation);
+        }
+    Simulation flat; /* both springs along x: elasticity alone has no H^-1 */
+    simulation_from_line("landscape --start 0.3,0", NULL, NULL, &flat);
+    landscape_flip(&flat, 0);
+    CHECK_STATUS(flat.status, STATUS_SINGULAR);
+    CHECK(flat.done && flat.descent.direction[0] == 0);
+    simulation_free(&flat);
 }
 
 /* Newton begins anew where the iterate is dragged to, or with another target:
@@ -570,6 +648,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mass_arrows_are_the_next_step),
         cmocka_unit_test(mass_steps_are_the_slides),
+        cmocka_unit_test(mass_knows_its_path),
         cmocka_unit_test(mass_is_dragged),
         cmocka_unit_test(tangent_derivatives_are_right),
         cmocka_unit_test(tangent_follows_tangents),
@@ -577,6 +656,7 @@ int main(void)
         cmocka_unit_test(dial_walks_over_minimisers),
         cmocka_unit_test(dial_turns_from_target_to_rest),
         cmocka_unit_test(landscape_has_two_parts),
+        cmocka_unit_test(landscape_minimises_what_it_shows),
         cmocka_unit_test(landscape_is_dragged),
         cmocka_unit_test(landscape_knows_both_directions),
         cmocka_unit_test(spring_facts_are_derivatives),

@@ -707,6 +707,27 @@ static void every_scene_is_taken_hold_of(void **unused)
     }
 }
 
+/* A point that is dragged changes the state of this step: what energies and
+ * paths show of it is the state of now. */
+static void what_is_dragged_is_shown_as_it_is(void **unused)
+{
+    (void)unused;
+    begin("arrows --integrator forward-euler");
+    for (int step = 0; step < 3; step++) {
+        const Lane *lane = &player.lane[0];
+        player_sample(&player);
+        CHECK_STATUS(obey("handle 0 0.5 0.25"), STATUS_OK);
+        CHECK_STATUS(obey("handle 1 1.5 2.25"), STATUS_OK);
+        player_sample(&player);
+        CHECK(lane->history.count == step + 1 && lane->trail.count == step + 1);
+        /* (0.5^2 + 0.25^2 + 1^2 + 2^2) / 2 */
+        CHECK_NEAR(lane->history.value[0][step], 2.65625, 0);
+        CHECK_NEAR(lane->trail.point[0][step][1], 0.25, 0);
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    }
+    end();
+}
+
 /* The message of a refused command, or "". */
 static const char *refused(const char *line)
 {
@@ -726,7 +747,7 @@ static void what_makes_no_sense_is_said(void **unused)
         {"circle", "finer", "no step here has updates"},
         {"circle", "projection", "nothing to project"},
         {"circle", "add-pane", "several runs are in this picture"},
-        {"overshoot", "finer", "is one update already"},
+        {"overshoot", "finer", "has no finer ones"},
         {"overshoot", "add-pane", "no time passes"},
         {"overshoot", "method", "no time passes"},
         {"landscape", "grab 0", "nothing to take hold of"},
@@ -735,7 +756,7 @@ static void what_makes_no_sense_is_said(void **unused)
         {"slope", "method", "no other method knows all terms"},
         {"dial", "projection", "nothing to project"},
         {"dial", "line-search", "no line search"},
-        {"race", "finer", "is one update already"},
+        {"race", "finer", "has no finer ones"},
         {"race", "pin 3", "only nodes of a square"},
         {"square", "drag 1 1", "the hand holds nothing"},
         {"square", "end-pane", "there is only one"},
@@ -1046,6 +1067,7 @@ int main(void)
         cmocka_unit_test(last_rounds_have_their_lines),
         cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
+        cmocka_unit_test(what_is_dragged_is_shown_as_it_is),
         cmocka_unit_test(what_makes_no_sense_is_said),
         cmocka_unit_test(a_race_begins_again),
         cmocka_unit_test(a_toggle_tells_of_one_step),
