@@ -29,6 +29,10 @@ Status create_race(Simulation *simulation, const NewtonSettings *settings);
  * take turns, each from its longest time step to its shortest. */
 Status step_race(Simulation *simulation);
 
+/* The quickest run so far that reaches the error, m, and stays stable, of
+ * explicit or of implicit methods; NULL: there is none. */
+const RacePoint *race_quickest(const Race *race, double error, bool implicit);
+
 /* The method of column i, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_method(int i);
 

@@ -41,6 +41,10 @@ static const Trace *descent_trace(const Simulation *simulation,
                      .projected = -1,
                      .residual = descent->residual};
     bool made = last >= 0 && record->alpha > 0;
+    if (last >= 0 && !made) { /* no step along this p was taken */
+        trace->residual = record->residual;
+        trace->given_up = true;
+    }
     for (int k = 0; k < 2; k++) {
         space->from[k] = made ? record->from[k] : descent->point[k];
         space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha

@@ -108,21 +108,6 @@ static Pick race_pick(const Show *show, const Stage *stage, double x, double y)
     return pick;
 }
 
-/* The quickest run that reaches the error and stays stable, of explicit or
- * implicit methods. */
-static const RacePoint *race_quickest(const Race *race, double error,
-                                      bool implicit)
-{
-    const RacePoint *best = NULL;
-    for (int i = 0; i < race->count; i++) {
-        const RacePoint *point = &race->point[i];
-        if (point->method->implicit == implicit && point->error <= error &&
-            point->stable && (!best || point->seconds < best->seconds))
-            best = point;
-    }
-    return best;
-}
-
 static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;

@@ -217,15 +217,15 @@ const LecturePage lecture_pages[] = {
      .predict = true},
     {.name = "explodes",
      .topic = "Overshooting: the square explodes",
-     .text = "No projection, no line search, as in Algorithm 1. ‖p‖∞ is the "
-             "largest |p_x| + |p_y| of a node.",
+     .text = "No projection, no line search: Algorithm 1. ‖p‖∞ is the largest "
+             "|p_x| + |p_y| of a node.",
      .line = "square --segments 3 --timestep 0.02 --stretch 0.485 --filter "
              "none --line-search none",
      .open = "finer; finer; next; next; next",
      .lines = 12,
      .cards = CARDS_NEWTON,
-     .look = "N, line by line: within one step E rises to 2·10¹⁶ and nodes fly "
-             "more than a kilometre.",
+     .look = "N, line by line: within one step E rises to 2·10¹⁶, nodes fly "
+             "over a kilometre.",
      .touch =
          "P tames it: 5 updates. L alone stops it: p points uphill, and no "
          "step helps.",

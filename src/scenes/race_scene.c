@@ -124,3 +124,15 @@ Status step_race(Simulation *simulation)
     simulation->done = race->count == RACE_METHODS * RACE_STEP_SIZES;
     return STATUS_OK;
 }
+
+const RacePoint *race_quickest(const Race *race, double error, bool implicit)
+{
+    const RacePoint *best = NULL;
+    for (int i = 0; i < race->count; i++) {
+        const RacePoint *point = &race->point[i];
+        if (point->method->implicit == implicit && point->error <= error &&
+            point->stable && (!best || point->seconds < best->seconds))
+            best = point;
+    }
+    return best;
+}

@@ -271,6 +271,11 @@ static void claim_tangent(void)
     }
     CHECK(checked >= 2);
     simulation_free(&simulation);
+    /* after five updates |p| is below that, and |g| above */
+    open_page("tangent", "--tolerance 1e-6", NULL, NULL, &simulation);
+    CHECK_STATUS(run_steps(&simulation, 100), STATUS_OK);
+    CHECK(simulation.descent.count == 6);
+    simulation_free(&simulation);
 }
 
 static void claim_newton(void)
@@ -296,6 +301,11 @@ static void claim_newton(void)
     }
     CHECK(simulation.descent.count == 5);
     CHECK_AT_MOST(simulation.descent.residual, 1e-6);
+    simulation_free(&simulation);
+    /* after four updates |p|/h is below that, and |g| above */
+    open_page("newton", "--tolerance 3e-5", NULL, NULL, &simulation);
+    CHECK_STATUS(run_steps(&simulation, 100), STATUS_OK);
+    CHECK(simulation.descent.count == 5);
     simulation_free(&simulation);
     open_page("newton", "--start 0.05,-0.05", NULL, NULL, &simulation);
     CHECK_STATUS(run_steps(&simulation, 100), STATUS_OK);
@@ -799,6 +809,14 @@ static void claim_race(void)
     CHECK(race->point[VERLET].method == integrator_method("verlet"));
     CHECK(race->point[VERLET].error < 0.01 && !race->point[VERLET].stable);
     CHECK(race->point[VERLET + RACE_METHODS].stable);
+    Race timed = *race; /* as if the unstable ones were by far the quickest */
+    for (int i = 0; i < timed.count; i++)
+        timed.point[i].seconds = timed.point[i].stable ? 1 : 1e-9;
+    timed.point[VERLET + RACE_METHODS].seconds = 0.5;
+    CHECK(race_quickest(&timed, 1e-2, false) ==
+          &timed.point[VERLET + RACE_METHODS]);
+    CHECK(race_quickest(&timed, 1e-2, true)->method->implicit);
+    CHECK(!race_quickest(&timed, 1e-6, false)); /* what the card says */
     simulation_free(&simulation);
 }
 

@@ -7,12 +7,14 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
+#include "picture/handles.h"
 #include "picture/picture.h"
 #include "picture/marks.h"
 #include "picture/square_contact.h"
 #include "picture/square_pen.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
+#include "scenes/tangent_scene.h"
 #include "testing.h"
 
 /* A scene after some steps, and what a player would show of it. */
@@ -802,6 +804,7 @@ static void contacts_slide_or_hold(void **unused)
                             .run = run,
                             .x = run->x,
                             .h = stand.simulation.options.timestep,
+                            .grip = stand.simulation.grip[r],
                             .node = 1};
         int touches = 0;
         double lowest = -INFINITY, sum = 0;
@@ -820,11 +823,18 @@ static void contacts_slide_or_hold(void **unused)
         char words[64], expected[64];
         const Obstacle *wall = &contact_of(system)->obstacle[0];
         double angle = atan2(fabs(wall->n[0]), wall->n[1]);
-        snprintf(expected, sizeof expected, "\u03bc = %.3g tan %.3g\u00b0: %s",
-                 wall->friction / tan(angle), angle * 180 / M_PI,
-                 r < 2 ? "slides" : "holds");
-        CHECK(square_contact_words(&view, words, sizeof words));
-        CHECK(strcmp(words, expected) == 0);
+        static const double part[] = {0.5, 0.9, 1.1};
+        for (int k = 0; k < 2; k++) { /* as it is, and with another mu */
+            double mu = k ? 0.45 : tan(angle);
+            simulation_set_friction(&stand.simulation, mu);
+            snprintf(expected, sizeof expected,
+                     "%g \u03bc = %.3g tan %.3g\u00b0: %s", part[r],
+                     part[r] * mu / tan(angle), angle * 180 / M_PI,
+                     r < 2 ? "slides" : "holds");
+            CHECK(square_contact_words(&view, words, sizeof words));
+            CHECK(strcmp(words, expected) == 0);
+        }
+        simulation_set_friction(&stand.simulation, tan(angle));
         canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 600, COLOUR_WHITE);
         square_contact_forces(&view, square_contact_most(&view));
         int below = 0;
@@ -834,6 +844,129 @@ static void contacts_slide_or_hold(void **unused)
         CHECK(below > 10);
     }
     take_down(&stand);
+}
+
+/* In a formula a number with a sign or a power of ten stands in parentheses. */
+static void formulas_can_be_read(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double value;
+        const char *text;
+    } rows[] = {{0.69, "0.69"},     {-0.5511, "(-0.5511)"},
+                {-0.0, "0"},        {1.468e-6, "(1.468e-06)"},
+                {-3e9, "(-3e+09)"}, {12, "12"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[32];
+        factor_text(text, sizeof text, rows[i].value);
+        assert_string_equal(text, rows[i].text);
+    }
+}
+
+/* The energy with the square root has its tip at d = 0, inside the plot. */
+static void the_tip_is_inside_its_plot(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("spring --start 1.3,0", 0, 600, 400, &stand);
+    const Card *card = picture_of(stand.simulation.scene)->cards[3];
+    assert_string_equal(card->name, "profile");
+    stand.simulation.exhibit.root = true;
+    canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 400, COLOUR_WHITE);
+    card->draw(&stand.paper, (Box){20, 20, 560, 360}, &stand.show);
+    int left = 600, right = 0, top = 400;
+    for (int i = 0; i < 600; i++)
+        for (int j = 0; j < 400; j++)
+            if (pixel(&stand, i, j) == COLOUR_GHOST) {
+                left = i < left ? i : left;
+                right = i > right ? i : right;
+            }
+    for (int i = (left + right) / 2 - 2; i <= (left + right) / 2 + 2; i++)
+        for (int j = 399; j >= 0; j--)
+            if (pixel(&stand, i, j) == COLOUR_GHOST)
+                top = j;
+    CHECK(right - left > 300 && top > 20 && top < 300);
+    take_down(&stand);
+}
+
+/* The strip says where a search ended that found no minimum, what one step of a
+ * scene is, and who makes it. */
+static void ends_and_steps_have_their_names(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line, *sentence, *time, *method;
+    } rows[] = {
+        {"landscape --start 0.05,-0.05 --filter none --line-search none",
+         "the gradient is 0, but this is a saddle", "iteration 2",
+         "Newton's method"},
+        {"landscape", "without projection Newton may go uphill; clamped, never",
+         "iteration 5", "Newton's method"},
+        {"overshoot",
+         "it flies away: no curvature is left, so there is no next "
+         "step",
+         "iteration 2", "Newton's method"},
+        {"dial --timestep 6",
+         "a longer time step: from free flight to the rest "
+         "shape",
+         "turn 3", "Newton's method"},
+        {"race", "run time against error, measured now", "run 42", "6 methods"},
+        {"slope", "three blocks, each with a friction of its own", "step 0",
+         NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation simulation;
+        Show show;
+        simulation_from_line(rows[i].line, NULL, NULL, &simulation);
+        while (simulation.scene->turn && !simulation.done)
+            simulation_step(&simulation);
+        show_create(&simulation, &show);
+        show.pane[0].trouble = simulation.status;
+        show_describe(&show);
+        assert_string_equal(show.sentence, rows[i].sentence);
+        show.time_text[strlen(rows[i].time)] = '\0';
+        assert_string_equal(show.time_text, rows[i].time);
+        if (rows[i].method)
+            assert_string_equal(show.method, rows[i].method);
+        simulation_free(&simulation);
+    }
+    Simulation simulation; /* x = x_tilde = 0, where E'' = m - 2 h^2 k < 0 */
+    Show show;
+    simulation_from_line("tangent", NULL, NULL, &simulation);
+    tangent_drag(&simulation, 1, 0, 0);
+    tangent_drag(&simulation, 0, 0, 0);
+    show_create(&simulation, &show);
+    show_describe(&show);
+    assert_string_equal(show.sentence,
+                        "the gradient is 0, but this is a maximum");
+    simulation_free(&simulation);
+}
+
+/* The residual of a search that has ended is the one that passed. */
+static void the_last_residual_passes(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "landscape", "landscape --filter none --line-search none", "tangent",
+        "overshoot --line-search backtrack"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Simulation simulation;
+        DescentTrace space;
+        Show show;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        show_create(&simulation, &show);
+        double tolerance = simulation.options.tolerance;
+        while (!simulation.done) {
+            double before = cards_trace(&show, &space)->residual;
+            CHECK(before > tolerance);
+            simulation_step(&simulation);
+            const Descent *descent = &simulation.descent;
+            CHECK_NEAR(descent->record[descent->count - 1].residual, before,
+                       1e-9 * before);
+        }
+        CHECK_AT_MOST(cards_trace(&show, &space)->residual, tolerance);
+        simulation_free(&simulation);
+    }
 }
 
 /* What a later explosion would hide: the energies of a step before it keep
@@ -1165,6 +1298,10 @@ int main(void)
         cmocka_unit_test(pages_light_their_lines),
         cmocka_unit_test(contact_is_seen),
         cmocka_unit_test(contacts_slide_or_hold),
+        cmocka_unit_test(formulas_can_be_read),
+        cmocka_unit_test(the_tip_is_inside_its_plot),
+        cmocka_unit_test(ends_and_steps_have_their_names),
+        cmocka_unit_test(the_last_residual_passes),
         cmocka_unit_test(energies_before_an_explosion_are_seen),
         cmocka_unit_test(what_flies_far_is_drawn_or_told),
         cmocka_unit_test(words_of_a_pane_keep_apart),
