@@ -25,14 +25,15 @@ static void tangent_bounds(const Show *show, int pane, double bounds[4])
 /* The last update, or the one to come: from x0 to x1. */
 typedef struct TangentUpdate {
     double x0, x1, E, g, slope; /* at x0; x1 = x0 + p */
-    double alpha;               /* 0: not made yet */
+    double alpha;               /* 0: not known yet */
     bool made;
 } TangentUpdate;
 
 static TangentUpdate tangent_update(const Descent *descent)
 {
     const ScalarFunction *f = &descent->scalar.f;
-    TangentUpdate update = {.x0 = descent->scalar.x};
+    bool whole = descent->scalar.search == LINE_SEARCH_NONE;
+    TangentUpdate update = {.x0 = descent->scalar.x, .alpha = whole};
     int last = descent->count - 1;
     if (last >= 0 && last < DESCENT_MAX) {
         update.x0 = descent->record[last].from[0];
@@ -259,13 +260,12 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
               update.x1 - update.x0);
     double p = update.x1 - update.x0, x = update.x1;
     if (update.alpha > 0) {
-        char alpha[32];
+        char alpha[32], words[64] = "";
         alpha_text(alpha, sizeof alpha, update.alpha);
+        if (update.alpha < 1)
+            snprintf(words, sizeof words, ",  {alpha} = %s", alpha);
         x = update.x0 + update.alpha * p;
-        lines_add(&lines, COLOUR_X,
-                  "x^{%d} = x^{%d} + {alpha} {p} = %.8g, "
-                  "{alpha} = %s",
-                  number + 1, number, x, alpha);
+        lines_add(&lines, COLOUR_X, "x^{%d} = %.8g%s", number + 1, x, words);
     } else {
         lines_add(&lines, COLOUR_X, "x^{%d} + {p} = %.8g", number, x);
     }
