@@ -32,6 +32,7 @@ typedef struct Lane {
     StepBar *bar;   /* [room] */
     long room;
     int rigid;      /* steps in which nothing has deformed, up to this one */
+    int idle;       /* steps that needed no update, the same */
     bool failed;    /* its last step could not be made */
     long ended;     /* a step could not be made beside others: from this step of
                        the player on it makes none; 0: it goes on */

@@ -61,7 +61,8 @@ typedef struct Player {
     bool holds;       /* the hand has not let go since it took a node */
     bool paused;
     bool halted;       /* by itself: at rest, at an end, after a failure */
-    bool rests;        /* nothing moves any more */
+    bool rests;        /* nothing moves any more, */
+    bool balances;     /* and the forces are in balance */
     bool drifts;       /* it moves, and nothing deforms any more */
     bool from_map;     /* the scene is a cell of the envelope */
     bool leaving;      /* the last command was Escape, with nothing open */

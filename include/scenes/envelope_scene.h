@@ -3,7 +3,8 @@
  * J/m^2, three steps each.
  *
  * A step of the scene fills one row of the map.  Cells whose steps converge
- * tell with how many updates; the others tell which status they ended with.
+ * tell with how many updates, or that the tolerance was too loose for any to be
+ * made; the others tell which status they ended with.
  */
 #ifndef ELASTO_ENVELOPE_SCENE_H
 #define ELASTO_ENVELOPE_SCENE_H

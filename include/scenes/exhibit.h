@@ -68,8 +68,10 @@ enum { ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
     bool known;
-    Status worst; /* OK: all steps converged */
+    Status worst; /* OK: all steps passed the test */
     int updates;  /* Newton updates of all its steps */
+    bool undone;  /* there were none, and it is not at rest: the test let the
+                     forces pass */
 } EnvelopeCell;
 
 typedef struct EnvelopeMap {

@@ -77,6 +77,17 @@ Status time_integrator_step(TimeIntegrator *integrator);
 Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
                                 double weight);
 
+/* Whether the forces at x balance: whether the test of Algorithm 3 would be
+ * passed by a step from rest that is so long that the masses hardly count.  Its
+ * direction, p = (M/T^2 + H_P)^-1 f with the forces f, is how far the nodes are
+ * from where f vanishes; T^2 = 1e10 m / curvature of P is the longest for which
+ * p has its digits.  h is not in it, nor the tolerance.
+ *   distance  m, the test lets pass
+ *   balances  out; true also where the balance is unstable
+ * Returns OK, or a failure. */
+Status time_integrator_balances(const TimeIntegrator *integrator,
+                                double distance, bool *balances);
+
 /* After arrays of the system, or (rebuild) its list of terms or its pins, were
  * changed from outside: nothing computed from them is used again. */
 void time_integrator_forget(TimeIntegrator *integrator, bool rebuild);

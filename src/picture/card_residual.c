@@ -37,8 +37,14 @@ static void draw_updates(Paper *paper, const Plot *plot,
     }
 }
 
-static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance)
+/* Its line, and what that means in metres; h 0: nothing. */
+static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance,
+                           double h)
 {
+    char metres[64] = "", number[48];
+    plot_number(number, sizeof number, h * tolerance);
+    if (h > 0)
+        snprintf(metres, sizeof metres, ": h \u03b5 = %s m", number);
     double p[2], q[2], unit = paper->unit;
     plot_place(plot, plot->x.low, tolerance, p);
     plot_place(plot, plot->x.high, tolerance, q);
@@ -46,7 +52,7 @@ static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance)
                   floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
                   NULL, COLOUR_TEXT);
     paper_write(paper, FACE_BOLD, 0.9, COLOUR_TEXT, q[0],
-                q[1] - 1.3 * paper->em, ALIGN_RIGHT, "\u03b5");
+                q[1] - 1.3 * paper->em, ALIGN_RIGHT, "\u03b5%s", metres);
 }
 
 /* The last record of the trace is the update whose p is known; its point is
@@ -87,7 +93,10 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
         now.residual *= pow(y.high / now.residual, trace->rest);
     draw_updates(paper, &plot, trace->record_before, trace->updates_before, 1,
                  2.5, COLOUR_BORDER);
-    draw_tolerance(paper, &plot, tolerance);
+    draw_tolerance(paper, &plot, tolerance,
+                   simulation->scene->needs & NEEDS_TIME
+                       ? simulation->options.timestep
+                       : 0);
     draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
     if (counted && trace->line)
         draw_updates(paper, &plot, &now, 1, trace->updates, 5.5, COLOUR_P);

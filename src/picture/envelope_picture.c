@@ -17,6 +17,7 @@ static const Colour envelope_shades[] = {0xffe3f2e8u, 0xffbfe3ccu, 0xff94cfb0u,
 enum { ENVELOPE_SHADES = sizeof envelope_shades / sizeof *envelope_shades };
 
 #define COLOUR_REFUSED 0xffe08a1eu
+#define COLOUR_UNDONE  0xff9c92c4u
 
 static void envelope_bounds(const Show *show, int pane, double bounds[4])
 {
@@ -33,6 +34,8 @@ static Colour envelope_colour(const EnvelopeCell *cell)
         return COLOUR_CHIP;
     if (cell->worst)
         return COLOUR_REFUSED;
+    if (cell->undone)
+        return COLOUR_UNDONE;
     while (shade < ENVELOPE_SHADES - 1 && cell->updates > 4 << shade)
         shade++;
     return envelope_shades[shade];
@@ -115,8 +118,10 @@ static SpringCount envelope_draw(Paper *paper, const Stage *stage,
     envelope_axes(paper, stage);
     stage_legend(paper, stage, &legend, envelope_shades[3],
                  "converged: darker is more updates");
+    stage_legend(paper, stage, &legend, COLOUR_UNDONE,
+                 "too loose a tolerance: nothing was done");
     stage_legend(paper, stage, &legend, COLOUR_REFUSED,
-                 "ended otherwise, and said so");
+                 "said: not converged");
     return (SpringCount){0, 0};
 }
 
@@ -142,22 +147,34 @@ static void envelope_draw_numbers(Paper *paper, Box inside, const Show *show)
 {
     const EnvelopeMap *map = &show->pane[show->active].simulation->exhibit.map;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
-    int known = 0, converged = 0;
+    double eps = show->pane[show->active].simulation->options.tolerance;
+    double h = envelope_timestep(map->column);
+    int known = 0, converged = 0, undone = 0;
     Lines lines = {0};
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             const EnvelopeCell *one = &map->cell[row][column];
             known += one->known;
-            converged += one->known && !one->worst;
+            undone += one->undone;
+            converged += one->known && !one->worst && !one->undone;
         }
     lines_add(&lines, COLOUR_TEXT, "%d of %d cells converge", converged, known);
+    lines_add(&lines, COLOUR_TEXT, "in %d nothing was done", undone);
     lines_add(&lines, COLOUR_TEXT, "%s", "");
-    lines_add(&lines, COLOUR_TEXT, "h = %.3g s,  k = %.3g J/m\u00b2",
-              envelope_timestep(map->column), envelope_stiffness(map->row));
+    lines_add(&lines, COLOUR_TEXT, "h = %.3g s,  k = %.3g J/m\u00b2", h,
+              envelope_stiffness(map->row));
+    lines_add(&lines, COLOUR_TEXT, "\u03b5 lets %.3g m pass: h \u03b5",
+              h * eps);
     lines_add(&lines, COLOUR_TEXT, "%d steps, %d Newton updates",
               ENVELOPE_STEPS, cell->updates);
-    lines_add(&lines, cell->worst ? COLOUR_REFUSED : envelope_shades[4], "%s",
-              cell->worst ? status_text(cell->worst) : "every step converged");
+    lines_add(&lines,
+              cell->worst    ? COLOUR_REFUSED
+              : cell->undone ? COLOUR_TEXT
+                             : envelope_shades[4],
+              "%s",
+              cell->worst    ? status_text(cell->worst)
+              : cell->undone ? "within the tolerance, not at rest"
+                             : "every step converged");
     lines_draw(paper, inside, &lines);
 }
 
@@ -189,8 +206,8 @@ static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
 static const Card card_envelope_numbers = {
     .name = "numbers",
     .title = "this cell",
-    .least = 9.5,
-    .weight = 0.8,
+    .least = 11.5,
+    .weight = 0.9,
     .draw = envelope_draw_numbers,
 };
 static const Card card_cell = {

@@ -26,7 +26,7 @@ Status player_change_lanes(Player *player, const Command *change, int from,
         player->paused = player->halted = false;
     player->rests = player->drifts = false;
     for (int i = from; i < to && !status; i++) {
-        player->lane[i].rigid = 0;
+        player->lane[i].rigid = player->lane[i].idle = 0;
         player->lane[i].ended = 0;
         status = track_change(&player->lane[i].track, change, player->message,
                               sizeof player->message);

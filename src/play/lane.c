@@ -121,7 +121,7 @@ Status lane_show(Lane *lane, long step)
 {
     lane->failed = lane->taped = lane->retried = false;
     lane->place = -1;
-    lane->rigid = 0;
+    lane->rigid = lane->idle = 0;
     Status status = track_show(&lane->track, lane->at[step]);
     if (lane->track.keeps && step > 0 && lane->at[step] > 0 && !status)
         lane->outcome = track_row(&lane->track, lane->at[step])->status;

@@ -159,6 +159,46 @@ static void fill_settings(Player *player)
                  player->typed);
 }
 
+/* Who makes the steps, and why. */
+static void solver_words(const Simulation *simulation, char *text)
+{
+    const Newton *newton = simulation->run[0].newton;
+    Solver solver = simulation->options.solver;
+    if (newton && newton->refusal)
+        snprintf(text, SHOW_TEXT, "newton made this step, not multigrid: %s",
+                 newton->refusal);
+    else if (solver == SOLVER_AUTO)
+        snprintf(text, SHOW_TEXT,
+                 "auto: newton up to %d segments, as lecture.c goes; above, "
+                 "multigrid, which goes another way to the same test",
+                 AUTO_NEWTON_SEGMENTS);
+    else
+        snprintf(text, SHOW_TEXT, "%s",
+                 solver == SOLVER_NEWTON
+                     ? "newton goes as lecture.c does: a factor for each p"
+                     : "multigrid goes another way than lecture.c, to the same "
+                       "test, without a factor");
+}
+
+/* What a sentence can say of the number under the mouse, or of that which is
+ * lit. */
+static void explain_number(const Player *player, Show *show)
+{
+    const Simulation *simulation = player_simulation(player);
+    const Options *options = &simulation->options;
+    int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
+    const char *option =
+        i >= 0 && i < player->numbers ? player->number[i]->option : "";
+    if (strcmp(option, "solver") == 0)
+        solver_words(simulation, show->sentence);
+    if (strcmp(option, "tolerance") == 0 &&
+        (simulation->scene->needs & NEEDS_TIME))
+        snprintf(show->sentence, SHOW_TEXT,
+                 "\u03b5 is a velocity: the test lets \u2016{p}\u2016_{\u221e} "
+                 "\u2264 h \u03b5 = %.3g m pass in each step",
+                 options->timestep * options->tolerance);
+}
+
 static void add_chip(Player *player, CommandKind kind, const char *key,
                      const char *label, bool lit)
 {
@@ -326,7 +366,8 @@ void player_fill(Player *player)
     show->over = over;
     show->paused = player->paused;
     if (player->rests)
-        snprintf(show->state, SHOW_VALUE, "at rest");
+        snprintf(show->state, SHOW_VALUE, "%s",
+                 player->balances ? "at rest" : "within \u03b5");
     else if (player->drifts && !player->paused)
         snprintf(show->state, SHOW_VALUE, "drifting");
     fill_settings(player);
@@ -348,6 +389,7 @@ void player_fill(Player *player)
     show->bare = player->bare;
     if (player->help)
         fill_help(show);
+    explain_number(player, show);
     show_lecture(player->column, show);
     show_describe(show);
 }

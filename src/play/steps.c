@@ -196,8 +196,9 @@ static double next_time(const Player *player)
     return time + pace;
 }
 
-/* Whether nothing moves any more: no update was needed, and nothing is held. */
-static bool is_at_rest(const Lane *lane)
+/* Whether nothing moved in this step: no update was needed, and nothing is
+ * held. */
+static bool is_idle(const Lane *lane)
 {
     const Simulation *simulation = &lane->track.simulation;
     const TimeIntegrator *run = &simulation->run[0];
@@ -209,6 +210,18 @@ static bool is_at_rest(const Lane *lane)
         if (fabs(run->v[i]) > simulation->options.tolerance)
             return false;
     return true;
+}
+
+/* Whether nothing moves any more: in balance, or, so says the second of two
+ * steps from the same place, because the tolerance lets the forces pass. */
+static bool is_at_rest(Lane *lane, bool *balances)
+{
+    lane->idle = is_idle(lane) ? lane->idle + 1 : 0;
+    if (lane->idle == 0)
+        return false;
+    bool rests = simulation_rests(&lane->track.simulation);
+    *balances = *balances && rests;
+    return rests || lane->idle > 1;
 }
 
 /* Whether it moves on for ever as it is: nothing acts on it, and nothing has
@@ -245,6 +258,25 @@ static void tell_drift(Player *player, bool drifting)
                     centre, turns ? " and turns" : "");
     }
     player->drifts = drifting;
+}
+
+/* What stands still although forces are left, or may be. */
+static void tell_tolerance(Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    double tolerance = simulation->options.tolerance, needed;
+    double h = simulation->options.timestep;
+    if (simulation_is_loose(simulation, &needed))
+        player_note(
+            player,
+            "within the tolerance, perhaps not at rest: bodies may hang "
+            "or freeze unless \u03b5 is at most %.3g m/s",
+            needed);
+    else
+        player_note(player,
+                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
+                    "%.3g m pass in each step of %.3g s; a smaller one goes on",
+                    tolerance, tolerance * h, h);
 }
 
 /* Says so, and why cells may stay folded. */
@@ -353,24 +385,28 @@ Status player_step(Player *player)
 void player_pause_if_due(Player *player)
 {
     bool ended = true, rests = true, trouble = false, drifting = true;
+    bool balances = true;
     int going = 0;
     if (player->given[0].steps >= 0 || !player->attended)
         return;
     for (int i = 0; i < player->lanes; i++) {
-        const Lane *lane = &player->lane[i];
+        Lane *lane = &player->lane[i];
         if (lane_is_over(lane, player->step))
             continue;
         going++;
         ended = ended && (lane->track.simulation.done || lane->failed);
-        rests = rests && is_at_rest(lane);
-        drifting = drifts(&player->lane[i]) && drifting;
+        rests = is_at_rest(lane, &balances) && rests;
+        drifting = drifts(lane) && drifting;
         trouble = trouble || lane->outcome;
     }
     rests = rests && going > 0;
-    if (rests && !player->rests)
+    if (rests && !player->rests && balances)
         tell_rest(player);
+    else if (rests && !player->rests)
+        tell_tolerance(player);
     tell_drift(player, drifting && !rests && going > 0);
     player->rests = rests;
+    player->balances = balances;
     player->halted = !player->paused && (ended || rests);
     player->paused = player->paused || player->halted;
     if (trouble && !player->warned && player->lanes == 1) {

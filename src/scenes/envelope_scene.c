@@ -74,6 +74,8 @@ Status envelope_visit(Simulation *simulation, int column, int row)
     *cell = (EnvelopeCell){.known = true,
                            .worst = worst,
                            .updates = (int)run->newton->counters.iterations};
+    cell->undone =
+        !worst && cell->updates == 0 && !simulation_rests(simulation);
     map->column = column;
     map->row = row;
     return worst == STATUS_OUT_OF_MEMORY ? worst : STATUS_OK;

@@ -438,6 +438,20 @@ bool simulation_is_loose(const Simulation *simulation, double *needed)
     return options->tolerance > *needed * (1 + 1e-9); /* rounding */
 }
 
+bool simulation_rests(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    double l2 = system->springs ? INFINITY : 0, needed;
+    bool balances, slips = system_find_term(system, &friction_energy) &&
+                           simulation_is_loose(simulation, &needed);
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    return !slips &&
+           !time_integrator_balances(&simulation->run[0], 0.01 * sqrt(l2),
+                                     &balances) &&
+           balances;
+}
+
 NewtonCounters simulation_counters(const Simulation *simulation)
 {
     NewtonCounters sum = simulation->counted;

@@ -126,6 +126,34 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
     return STATUS_OK;
 }
 
+/* A Newton object of its own: nothing that the run remembers is touched. */
+Status time_integrator_balances(const TimeIntegrator *integrator,
+                                double distance, bool *balances)
+{
+    const System *system = integrator->system;
+    double lightest = INFINITY, stiffest, force;
+    for (int i = 0; i < system->nodes; i++)
+        lightest = fmin(lightest, system->m[i]);
+    system_bounds(system, &stiffest, &force);
+    double weight = stiffest > 0 ? 0.99e10 * lightest / stiffest : 1;
+    NewtonSettings settings = {.h = sqrt(weight),
+                               .tolerance = distance / sqrt(weight),
+                               .solver = SOLVER_AUTO,
+                               .filter = FILTER_CLAMP,
+                               .search = LINE_SEARCH_BACKTRACK};
+    Newton newton;
+    Status status = newton_create(system, &settings, &newton);
+    for (size_t i = 0; i < integrator->size && !status; i++)
+        newton.u_tilde[i] = weight * system->gravity[i % 2];
+    if (!status)
+        status = newton_start(&newton, integrator->x, NULL, weight);
+    *balances = status == STATUS_OK || status == STATUS_NOT_A_MINIMUM ||
+                newton.bends_down;
+    bool decided = *balances || status == STATUS_RUNNING;
+    newton_free(&newton);
+    return decided ? STATUS_OK : status;
+}
+
 /* Verlet remembers the acceleration; the others' memory is of motion alone. */
 void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
 {

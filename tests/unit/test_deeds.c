@@ -214,7 +214,7 @@ static void the_last_page_offers_no_next_one(void **unused)
 static void folded_cells_at_rest_are_explained(void **unused)
 {
     (void)unused;
-    begin("square --segments 16 --tolerance 0.1");
+    begin("square --segments 16");
     for (int i = 0; i < 3000 && !player.paused; i++) {
         CHECK_STATUS(player_step(&player), STATUS_OK);
         player_pause_if_due(&player);

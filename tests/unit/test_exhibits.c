@@ -593,6 +593,35 @@ static void envelope_cells_are_runs(void **unused)
     simulation_free(&map);
 }
 
+/* Where nothing was done because of the tolerance, the map says so; not where
+ * there was nothing to do, nor where a smaller one sees the forces. */
+static void envelope_tells_where_nothing_was_done(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line;
+        int column, row;
+        bool undone;
+    } rows[] = {{"envelope", 13, 11, false},
+                {"envelope", 24, 7, true},
+                {"envelope", 0, 11, true},
+                {"envelope --stretch 1", 24, 7, false},
+                {"envelope --stretch 1", 0, 11, false},
+                {"envelope --tolerance 1e-6", 24, 7, false},
+                {"envelope --tolerance 1e-7", 0, 11, false}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Simulation map;
+        simulation_from_line(rows[i].line, NULL, NULL, &map);
+        CHECK_STATUS(envelope_visit(&map, rows[i].column, rows[i].row),
+                     STATUS_OK);
+        const EnvelopeCell *cell =
+            &map.exhibit.map.cell[rows[i].row][rows[i].column];
+        CHECK_STATUS(cell->worst, STATUS_OK);
+        CHECK(cell->undone == rows[i].undone);
+        simulation_free(&map);
+    }
+}
+
 /* A row a step; the cell that is shown stays the one that was. */
 static void envelope_fills_row_by_row(void **unused)
 {
@@ -666,6 +695,7 @@ int main(void)
         cmocka_unit_test(race_shows_the_orders),
         cmocka_unit_test(race_may_have_no_answer),
         cmocka_unit_test(envelope_cells_are_runs),
+        cmocka_unit_test(envelope_tells_where_nothing_was_done),
         cmocka_unit_test(envelope_fills_row_by_row),
         cmocka_unit_test(predictions_are_compared),
     };

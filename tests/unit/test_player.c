@@ -177,7 +177,7 @@ static void run_until_it_pauses(void)
 static void at_rest_it_says_so_and_stops(void **unused)
 {
     (void)unused;
-    begin("square --segments 2 --tolerance 0.1");
+    begin("square --segments 2");
     run_until_it_pauses();
     CHECK(player.rests && player.halted && player.paused);
     CHECK(lane(0)->track.now.updates == 0); /* slow steps came before */
@@ -206,6 +206,70 @@ static void at_rest_it_says_so_and_stops(void **unused)
     CHECK_STATUS(obey("pause"), STATUS_OK); /* somebody's own pause stays */
     CHECK_STATUS(obey("restart"), STATUS_OK);
     CHECK(player.paused);
+    end();
+}
+
+/* How far a node gets from where it is in 400 steps of a hundredth of a second
+ * with nine digits, over the length of the shortest spring. */
+static double way_that_is_left(void)
+{
+    const Simulation *simulation = player_simulation(&player);
+    const System *system = &simulation->system;
+    int size = 2 * system->nodes;
+    double start[64], far = 0, l2 = INFINITY;
+    for (int s = 0; s < system->springs; s++)
+        l2 = fmin(l2, system->l2[s]);
+    memcpy(start, simulation->run[0].x, (size_t)size * sizeof *start);
+    obey_all(
+        (const char *const[]){"set timestep 0.01", "set tolerance 1e-9", NULL});
+    for (int step = 0; step < 400; step++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        for (int i = 0; i < size; i++)
+            far = fmax(far, fabs(simulation->run[0].x[i] - start[i]));
+    }
+    return far / sqrt(l2);
+}
+
+/* "At rest" is said of a square that goes nowhere, however well it is computed
+ * from there; of one that only the tolerance holds it is said that it does: in
+ * long steps, in short ones, at a turning point, in the air.  A node that is a
+ * hundredth of a spring from its balance swings twice as far. */
+static void rest_is_told_from_tolerance(void **unused)
+{
+    (void)unused;
+#define STANDS "square --stretch 1 --gravity 9.81 --ground 0,1,0,-0.6 "
+    static const struct {
+        const char *line;
+        bool rests;
+    } rows[] = {{"square", true},
+                {"square --timestep 1", true},
+                {"square --timestep 1000 --stiffness 100", false},
+                {"square --timestep 1e-6", false},
+                {"square --tolerance 1", false},
+                {"hang --segments 3", true},
+                {"hang --segments 3 --timestep 1e-4", false},
+                {STANDS "--tolerance 1e-3", true},
+                {STANDS "--tolerance 1e-2", true},
+                {STANDS "--timestep 0.0005", false},
+                {STANDS "--friction 0.3 --tolerance 1e-4", true}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin(rows[i].line);
+        run_until_it_pauses();
+        CHECK(player.rests && player.balances == rows[i].rests);
+        CHECK(lane(0)->track.now.updates == 0);
+        CHECK((strncmp(player.note, "at rest", 7) == 0) == rows[i].rests);
+        CHECK((strncmp(player.note, "within the tolerance, ", 22) == 0) !=
+              rows[i].rests);
+        player_fill(&player);
+        CHECK((strcmp(player.show.state, "at rest") == 0) == rows[i].rests);
+        double way = way_that_is_left();
+        CHECK(rows[i].rests ? way <= 0.02 : way >= 0.04);
+        end();
+    }
+    /* what friction does shows with a smaller tolerance only */
+    begin(STANDS "--friction 0.3 --tolerance 1e-3");
+    run_until_it_pauses();
+    CHECK(!player.balances && strstr(player.note, "perhaps not at rest"));
     end();
 }
 
@@ -244,6 +308,46 @@ static void a_free_square_drifts_and_says_so(void **unused)
         CHECK(!player.drifts); /* it falls */
     }
     end();
+}
+
+/* The number under the mouse, or the lit one, is explained: who solves and why,
+ * and what the tolerance means in metres. */
+static void numbers_are_explained(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *line, *name, *value, *words;
+    } rows[] = {
+        {"square --segments 32", "solver", "auto: newton", "up to 32 segments"},
+        {"square --segments 33", "solver", "auto: multigrid",
+         "above, multigrid, which goes another way"},
+        {"square --segments 33 --gravity 9.81 --ground 0,1,0,-0.6", "solver",
+         "auto: newton", "not multigrid: there are energies beside"},
+        {"square --segments 2 --solver newton", "solver", "newton",
+         "goes as lecture.c does"},
+        {"square --segments 2 --solver multigrid", "solver", "multigrid",
+         "multigrid goes another way"},
+        {"square --segments 2 --timestep 1000", "\u03b5", "0.01 m/s",
+         "= 10 m pass"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin(rows[i].line);
+        CHECK_STATUS(obey("step"), STATUS_OK);
+        player_fill(&player);
+        int at = 0;
+        while (strcmp(player.show.setting[at].name, rows[i].name) != 0)
+            at++;
+        CHECK(strcmp(player.show.setting[at].value, rows[i].value) == 0);
+        CHECK(strstr(player.show.sentence, rows[i].words) == NULL);
+        player.show.over = (Hit){ZONE_SETTING, at};
+        player_fill(&player);
+        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
+        player.show.over = (Hit){ZONE_NONE, 0};
+        player.selected = at;
+        player_fill(&player);
+        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
+        end();
+    }
 }
 
 /* What is left of a motion beside the rigid one. */
@@ -1052,7 +1156,9 @@ int main(void)
         cmocka_unit_test(a_toggle_tells_both_outcomes),
         cmocka_unit_test(e_is_told_as_it_is),
         cmocka_unit_test(at_rest_it_says_so_and_stops),
+        cmocka_unit_test(rest_is_told_from_tolerance),
         cmocka_unit_test(a_free_square_drifts_and_says_so),
+        cmocka_unit_test(numbers_are_explained),
         cmocka_unit_test(rigid_motion_deforms_nothing),
         cmocka_unit_test(a_failure_shows_the_last_good_state),
         cmocka_unit_test(up_to_six_panes),
