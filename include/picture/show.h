@@ -52,16 +52,17 @@ typedef struct Trace {
     int updates_before;         /* of the step before, drawn in grey */
     const NewtonRecord *record_before;
     /* The present update, from line 3 on. */
-    int iteration;   /* 0, 1, ... */
-    const double *x; /* [2n] m, x^i, where p was made */
-    const double *p; /* [2n] m, from line 4 on; NULL before */
-    double residual; /* of p, m/s */
-    bool passed;     /* it is not above the tolerance, and that was known
-                        without p: the numbers of line 4 are not there */
-    bool given_up;   /* the step ended here with the residual as it was: no
-                        alpha was found, or no time was left */
-    double slope;    /* grad E . p, J s^2 */
-    int projected;   /* springs; < 0: not known */
+    int iteration;     /* 0, 1, ... */
+    const double *x;   /* [2n] m, x^i, where p was made */
+    const double *p;   /* [2n] m, from line 4 on; NULL before */
+    double residual;   /* of p, m/s */
+    ResidualKind kind; /* of it */
+    bool passed;       /* it is not above the tolerance, and that was known
+                          without p: the numbers of line 4 are not there */
+    bool given_up;     /* the step ended here with the residual as it was: no
+                          alpha was found, or no time was left */
+    double slope;      /* grad E . p, J s^2 */
+    int projected;     /* springs; < 0: not known */
     /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */
     EnergyDifference difference;
     const void *function; /* its first argument */

@@ -25,6 +25,7 @@ typedef struct TapeRound {
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     double *value; /* [TAPE_VALUES] J s^2, where it is not; NULL: it is */
     double residual, slope;
+    ResidualKind kind; /* of the residual */
     int projected;
 } TapeRound;
 

@@ -22,24 +22,33 @@ typedef enum Solver {
  * iterates are those of the slides. */
 enum { AUTO_NEWTON_SEGMENTS = 32 };
 
+/* What is known of a residual: p solved for it; p up to a remainder, as from
+ * conjugate gradients or an older factor; or only that it is not above. */
+typedef enum ResidualKind {
+    RESIDUAL_VALUE,
+    RESIDUAL_ESTIMATE,
+    RESIDUAL_BOUND
+} ResidualKind;
+
 /* What one Newton iteration did; or, with iteration -1, how a minimisation
  * ended whose end no iteration tells: at its start, or as it was finished. */
 typedef struct NewtonRecord {
-    long step;       /* time step, from 1 */
-    int iteration;   /* in this minimisation, from 0; -1: see above */
-    double residual; /* max over nodes |p_x| + |p_y|, over h: m/s */
-    double alpha;    /* step length along p; 0: none was found */
-    int trials;      /* energies the line search looked at */
-    double slope;    /* grad E . p, J s^2: < 0 is downhill */
-    double change;   /* of E, J s^2: by alpha p; multigrid: by all it did */
-    int projected;   /* blocks of the Hessian that were projected */
-    bool factorised; /* false: an older factor served */
-    double shift;    /* kg, what the diagonal needed to be factored */
-    double seconds;  /* this iteration took */
-    Status status;   /* RUNNING, or how the minimisation ended here */
-    Solver solver;   /* who made it: NEWTON or MULTIGRID */
-    double from[2];  /* where it started and where it led, in scenes with a */
-    double to[2];    /* single unknown point; 0 elsewhere */
+    long step;         /* time step, from 1 */
+    int iteration;     /* in this minimisation, from 0; -1: see above */
+    double residual;   /* max over nodes |p_x| + |p_y|, over h: m/s */
+    ResidualKind kind; /* of it */
+    double alpha;      /* step length along p; 0: none was found */
+    int trials;        /* energies the line search looked at */
+    double slope;      /* grad E . p, J s^2: < 0 is downhill */
+    double change;     /* of E, J s^2: by alpha p; multigrid: by all it did */
+    int projected;     /* blocks of the Hessian that were projected */
+    bool factorised;   /* false: an older factor served */
+    double shift;      /* kg, what the diagonal needed to be factored */
+    double seconds;    /* this iteration took */
+    Status status;     /* RUNNING, or how the minimisation ended here */
+    Solver solver;     /* who made it: NEWTON or MULTIGRID */
+    double from[2];    /* where it started and where it led, in scenes with a */
+    double to[2];      /* single unknown point; 0 elsewhere */
 } NewtonRecord;
 
 /* Called after each iteration, and after each minimisation whose end no
@@ -104,6 +113,7 @@ typedef struct Newton {
     Status status;       /* RUNNING, or how it ended */
     long step;           /* copied into the records */
     double residual;     /* of p at the present iterate, m/s */
+    ResidualKind kind;   /* of it */
     const System *system;
     Iterate at;      /* E, u, x, g, p; u holds all arrays, in one piece */
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */

@@ -19,7 +19,42 @@ static void extend_range(const NewtonRecord *records, int count, double *low,
     }
 }
 
-/* The residuals joined by lines, a disc each. */
+/* A disc is a value, a square an estimate, a ring a bound. */
+static void draw_point(Paper *paper, const Plot *plot, const double *at,
+                       double radius, ResidualKind kind, Colour colour)
+{
+    double p[2], unit = paper->unit;
+    plot_place(plot, at[0], at[1], p);
+    int half = (int)fmax(2, round(0.85 * radius * unit));
+    if (kind == RESIDUAL_VALUE)
+        plot_disc(paper, plot, at, radius, colour);
+    else if (kind == RESIDUAL_ESTIMATE)
+        canvas_rectangle(&paper->canvas, (int)round(p[0]) - half,
+                         (int)round(p[1]) - half, 2 * half, 2 * half, colour);
+    else
+        canvas_ring(&paper->canvas, p[0], p[1], (radius + 1) * unit, 1.6 * unit,
+                    colour);
+}
+
+/* Says so, where there are others than values. */
+static void draw_kinds(Paper *paper, const Plot *plot, const Trace *trace)
+{
+    bool estimate = trace->kind == RESIDUAL_ESTIMATE;
+    bool bound = trace->kind == RESIDUAL_BOUND;
+    double p[2];
+    for (int i = 0; i < trace->updates; i++) {
+        estimate = estimate || trace->record[i].kind == RESIDUAL_ESTIMATE;
+        bound = bound || trace->record[i].kind == RESIDUAL_BOUND;
+    }
+    plot_place(plot, plot->x.high, plot->y.high, p);
+    if (estimate || bound)
+        paper_write(
+            paper, FACE_REGULAR, 0.85, COLOUR_P, p[0], p[1] + 0.1 * paper->em,
+            ALIGN_RIGHT, "%s%s%s", estimate ? "\u25a0 estimate" : "",
+            estimate && bound ? "  " : "", bound ? "\u25cb upper bound" : "");
+}
+
+/* The residuals joined by lines, a point each. */
 static void draw_updates(Paper *paper, const Plot *plot,
                          const NewtonRecord *records, int count, int begin,
                          double radius, Colour colour)
@@ -31,7 +66,7 @@ static void draw_updates(Paper *paper, const Plot *plot,
             continue;
         if (isfinite(before[1]))
             plot_line(paper, plot, before, point, 1.3, colour);
-        plot_disc(paper, plot, point, radius, colour);
+        draw_point(paper, plot, point, radius, records[i].kind, colour);
         before[0] = point[0];
         before[1] = point[1];
     }
@@ -51,8 +86,11 @@ static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance,
     canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
                   floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
                   NULL, COLOUR_TEXT);
-    paper_write(paper, FACE_BOLD, 0.9, COLOUR_TEXT, q[0],
-                q[1] - 1.3 * paper->em, ALIGN_RIGHT, "\u03b5%s", metres);
+    /* The curve comes from the left, above. */
+    bool above = p[1] + 1.3 * paper->em > plot->box.y + plot->box.height;
+    paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * paper->em,
+                p[1] + (above ? -1.25 : 0.1) * paper->em, ALIGN_LEFT,
+                "\u03b5%s", metres);
 }
 
 /* The last record of the trace is the update whose p is known; its point is
@@ -76,7 +114,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     bool pending = trace->residual > 0 && isfinite(trace->residual) &&
                    (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
                    !counted;
-    NewtonRecord now = {.residual = trace->residual};
+    NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
     bool drops = trace->rest > 0 && trace->line == LINE_TEST;
     extend_range(trace->record, trace->updates, &low, &high);
     extend_range(trace->record_before, trace->updates_before, &low, &high);
@@ -98,6 +136,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                        ? simulation->options.timestep
                        : 0);
     draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
+    draw_kinds(paper, &plot, trace);
     if (counted && trace->line)
         draw_updates(paper, &plot, &now, 1, trace->updates, 5.5, COLOUR_P);
     if (!pending)
@@ -108,15 +147,8 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
         const double b[2] = {trace->updates + 1, trace->residual};
         plot_line(paper, &plot, a, b, 1.3, COLOUR_P);
     }
-    if (trace->passed) { /* a bound of it */
-        double at[2], unit = paper->unit;
-        plot_place(&plot, trace->updates + 1, trace->residual, at);
-        canvas_ring(&paper->canvas, at[0], at[1], 4.5 * unit, 1.6 * unit,
-                    COLOUR_P);
-    } else {
-        draw_updates(paper, &plot, &now, 1, trace->updates + 1,
-                     trace->line ? 5.5 : 3.5, COLOUR_P);
-    }
+    draw_updates(paper, &plot, &now, 1, trace->updates + 1,
+                 trace->line && !trace->passed ? 5.5 : 3.5, COLOUR_P);
 }
 
 static const char *residual_title(const Show *show)

@@ -64,8 +64,8 @@ static void describe_test(char *s, const Trace *trace, const Options *options)
     if (trace->passed)
         say(s, SHOW_TEXT,
             "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
-            "bound is below, and {p} is not needed",
-            tolerance);
+            "%s is below, and {p} is not needed",
+            tolerance, trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
     else
         say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", residual,
             trace->residual > options->tolerance ? "above" : "not above",

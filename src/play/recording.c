@@ -55,7 +55,7 @@ static Status write_headers(Recording *recording)
                               recording->log.name);
     if (recording->points)
         fputs(",from_x,from_y,to_x,to_y", recording->log.file);
-    fputs(recording->panes > 1 ? ",solver,pane\n" : ",solver\n",
+    fputs(recording->panes > 1 ? ",solver,kind,pane\n" : ",solver,kind\n",
           recording->log.file);
     return recording_note(recording, output_check(&recording->log),
                           recording->log.name);
@@ -251,6 +251,9 @@ Status recording_states(Recording *recording,
     return recording_note(recording, output_check(states), states->name);
 }
 
+/* What is known of a residual. */
+static const char *const kinds[] = {"value", "estimate", "bound"};
+
 /* The numbers of the record, in the order of the header. */
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
@@ -270,7 +273,8 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
     if (recording->points)
         fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
                 record->from[1], record->to[0], record->to[1]);
-    fprintf(log->file, ",%s", solver_name(record->solver));
+    fprintf(log->file, ",%s,%s", solver_name(record->solver),
+            kinds[record->kind]);
     if (recording->panes > 1)
         fprintf(log->file, ",%d", pane);
     putc('\n', log->file);

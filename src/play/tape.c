@@ -235,6 +235,7 @@ static void keep_next(Tape *tape, const Newton *newton)
     keep_arrays(tape, round, newton->at.x, newton->at.p);
     keep_line(tape, round, &newton->at);
     round->residual = newton->residual;
+    round->kind = newton->kind;
     round->projected = newton->record.projected;
 }
 
@@ -256,6 +257,7 @@ void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *made)
         keep_way(tape, newton, record);
     TapeRound *round = &tape->round[tape->count];
     round->residual = record->residual;
+    round->kind = record->kind;
     if (record->solver == SOLVER_NEWTON)
         round->slope = record->slope;
     round->projected = record->projected;
@@ -355,6 +357,7 @@ static void trace_last(const Tape *tape, Trace *trace)
     trace->x = round->x;
     trace->p = round->p;
     trace->residual = round[tape->ended].residual;
+    trace->kind = round[tape->ended].kind;
     trace->given_up = !tape->ended;
     trace->slope = round->slope;
     trace->projected = round->projected;
@@ -376,8 +379,10 @@ static void trace_round(const Tape *tape, const TapePlace *at, Trace *trace)
     trace->updates = at->round + (made && solved);
     trace->trials = at->trials;
     trace->accepted = made && at->trials == record->trials && record->alpha > 0;
-    if (solved)
+    if (solved) {
         trace->residual = round->residual;
+        trace->kind = round->kind;
+    }
     if (passed)
         return;
     trace->projected = at->line >= LINE_PROJECT ? round->projected : -1;

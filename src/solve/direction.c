@@ -114,6 +114,7 @@ static Status newton_solve_and_test(Newton *newton)
         return STATUS_NOT_FINITE;
     status = newton_test(newton, 0);
     bool exact = !newton->rounding.blurred && newton->search.shift == 0;
+    newton->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (status || exact)
         return status;
     status = search_direction_judge(&newton->search, &newton->at, &error);
@@ -142,6 +143,7 @@ static bool old_factor_passes(Newton *newton)
     newton->counters.solves += solves;
     newton->counters.seconds_solve += clock_now() - start;
     newton->residual = newton_residual(newton);
+    newton->kind = RESIDUAL_ESTIMATE;
     return !status && newton_test(newton, error) == STATUS_OK;
 }
 
@@ -162,6 +164,7 @@ static Status direction_at(Newton *newton)
      * no factorisation is needed.  (On demand, where the Hessian as it is may
      * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
+        newton->kind = RESIDUAL_BOUND;
         newton->residual =
             residual_per_norm(newton) *
             system_inverse_mass_norm(newton->system, newton->at.g);

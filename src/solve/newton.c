@@ -39,6 +39,7 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     newton->counters.minimisations++;
     rounding_start(newton);
     newton->residual = 0;
+    newton->kind = RESIDUAL_VALUE;
     newton->status = incremental_potential_solve(at);
     if (newton->status == STATUS_RUNNING)
         newton->status = newton_takes_multigrid(newton)
@@ -96,6 +97,7 @@ Status newton_iterate(Newton *newton)
     double start = clock_now();
     newton->record.iteration++;
     newton->record.residual = newton->residual;
+    newton->record.kind = newton->kind;
     Status status = step_length(newton);
     if (!status)
         status = newton_update(newton);
@@ -164,6 +166,7 @@ static void finish(Newton *newton)
     NewtonRecord end = {.step = newton->step,
                         .iteration = -1,
                         .residual = newton->residual,
+                        .kind = newton->kind,
                         .status = newton->status};
     newton->status = newton_tell(newton, &end);
 }

@@ -78,6 +78,8 @@ static void count(Newton *newton, const MultigridCounters *before)
     counters->cycles += now->cycles - before->cycles;
     counters->local += now->local - before->local;
     counters->saddles += now->saddles - before->saddles;
+    newton->kind = now->certificates > before->certificates ? RESIDUAL_ESTIMATE
+                                                            : RESIDUAL_BOUND;
 }
 
 /* u and x from multigrid; the residual as far as it is known. */
@@ -174,6 +176,7 @@ Status newton_multigrid_iterate(Newton *newton)
     const MultigridRecord *did = multigrid_record(newton->multigrid);
     record->iteration++;
     record->residual = did->residual;
+    record->kind = RESIDUAL_ESTIMATE;
     record->slope = did->slope;
     record->alpha = did->alpha;
     record->change = did->change;

@@ -82,4 +82,23 @@ verdict a_start_that_is_the_minimum_is_told "$(
     [ "$(grep -c ,ok, log)" -eq 5 ] || echo 'steps at rest are not told'
 )"
 
+# kinds KIND AWK LINE: complains unless rows of this log that AWK picks are all
+# of this kind, and there are some.
+kinds() {
+    kind=$1 pick=$2
+    shift 2
+    "$elasto" --headless --log log --steps 3 "$@" >summary
+    awk -F, -v kind="$kind" -v line="$*" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == "kind") at = i; next }
+        '"$pick"' { rows++; bad += $at != kind }
+        END { if (!at || !rows || bad)
+                  print line ": " bad + 0 " of " rows + 0 " rows" }' log
+}
+verdict kinds_of_residuals_are_told "$(
+    kinds value 1 --segments 4
+    kinds estimate 1 --segments 33
+    kinds bound 1 --stretch 1
+    kinds value '$NF == 2' --filter clamp,none
+)"
+
 exit $failed

@@ -77,8 +77,9 @@ static bool witness_record(void *user, const NewtonRecord *record)
     witness->worst_change =
         fmax(witness->worst_change, change / (double)before);
     witness->good =
-        witness->good && record->slope < 0 && record->change <= 0 &&
-        after <= before && record->iteration == witness->iteration &&
+        witness->good && record->kind == RESIDUAL_VALUE && record->slope < 0 &&
+        record->change <= 0 && after <= before &&
+        record->iteration == witness->iteration &&
         record->step == witness->simulation->steps + 1 && record->factorised &&
         record->seconds >= 0 && record->alpha == ldexp(1, 1 - record->trials) &&
         record->projected == (clamp ? short_springs(E->system, witness->x) : 0);
@@ -140,6 +141,49 @@ static void records_are_right_without_projection(void **unused)
 {
     (void)unused;
     check_run("--segments 3 --filter none", 15);
+}
+
+/* A residual that is called a value is that of the exact direction, an estimate
+ * is as near to it as to the tolerance, which it decides, and a bound is above
+ * it.  The lines end their steps in all three ways. */
+static void residuals_are_what_they_are_called(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "--segments 3 --tolerance 0.1", "--segments 3 --tolerance 1e-5",
+        "--segments 3 --stretch 1.0001 --tolerance 1e-3",
+        "--segments 4 --solver multigrid --tolerance 1e-3",
+        "--segments 4 --solver multigrid --stretch 1.001"};
+    int seen[2][3] = {{0}};
+    for (int line = 0; line < 5; line++) {
+        Simulation simulation;
+        simulation_from_line(lines[line], NULL, NULL, &simulation);
+        TimeIntegrator *run = &simulation.run[0];
+        const Newton *newton = run->newton;
+        double tolerance = simulation.options.tolerance;
+        for (int step = 0; step < 60; step++) {
+            double x_n[LARGEST];
+            memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            IncrementalPotential E = newton->at.E;
+            E.x_n = x_n;
+            double residual = newton->residual;
+            double exact =
+                exact_residual(&E, newton->at.u, newton->at.x, true, run->h);
+            seen[newton->working == SOLVER_MULTIGRID][newton->kind]++;
+            if (newton->kind == RESIDUAL_VALUE)
+                CHECK_NEAR(residual, exact, 1e-9 * exact);
+            else if (newton->kind == RESIDUAL_ESTIMATE)
+                CHECK_NEAR(residual, exact, tolerance - residual);
+            else
+                CHECK_AT_MOST(exact, residual);
+        }
+        simulation_free(&simulation);
+    }
+    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] > 0 &&
+          seen[0][RESIDUAL_BOUND] > 20);
+    CHECK(seen[1][RESIDUAL_VALUE] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20 &&
+          seen[1][RESIDUAL_BOUND] > 0);
 }
 
 /* Where the bound on |p| ended the loop, p itself must pass the test, and be
@@ -746,6 +790,7 @@ int main(void)
         cmocka_unit_test(records_are_right),
         cmocka_unit_test(records_are_right_where_springs_are_compressed),
         cmocka_unit_test(records_are_right_without_projection),
+        cmocka_unit_test(residuals_are_what_they_are_called),
         cmocka_unit_test(bound_implies_the_test),
         cmocka_unit_test(old_factors_pass_only_what_they_decide),
         cmocka_unit_test(rest_costs_one_gradient),

@@ -505,6 +505,38 @@ static void a_trace_is_seen(void **unused)
     take_down(&stand);
 }
 
+/* Values, estimates and bounds of residuals look different, and where there are
+ * not values alone words above the curve say which is which. */
+static void kinds_of_residuals_are_told_apart(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    int points[3], blank[3]; /* pixels in their colour, and white above them */
+    stand_up("unprojected --filter clamp", 0, 1280, 800, &stand);
+    Layout layout = show_layout(&stand.show, 1280, 800);
+    Box curve = layout.card[3], above = curve;
+    above.height /= 3;
+    for (int kind = 0; kind < 3; kind++) {
+        NewtonRecord records[3] = {{.residual = 9, .kind = RESIDUAL_VALUE},
+                                   {.residual = 1e-3},
+                                   {.residual = 1e-4}};
+        Trace trace = {.line = LINE_START,
+                       .x = stand.simulation.run[0].x,
+                       .record = records,
+                       .updates = 3};
+        for (int i = 1; i < 3; i++)
+            records[i].kind = (ResidualKind)kind;
+        stand.show.pane[0].trace = &trace;
+        show_draw(&stand.paper, &stand.show);
+        points[kind] = count_colour(&stand, curve, COLOUR_P);
+        blank[kind] = count_colour(&stand, above, COLOUR_WHITE);
+    }
+    CHECK(points[0] != points[1] && points[2] < points[0]);
+    CHECK(blank[1] < blank[0] - 100 && blank[2] < blank[0] - 100);
+    CHECK(blank[1] != blank[2]);
+    take_down(&stand);
+}
+
 /* A node or a spring under the mouse is marked, and told of beside it. */
 static void hovers_are_seen(void **unused)
 {
@@ -1290,6 +1322,7 @@ int main(void)
         cmocka_unit_test(panes_are_drawn_apart),
         cmocka_unit_test(bars_are_steps),
         cmocka_unit_test(a_trace_is_seen),
+        cmocka_unit_test(kinds_of_residuals_are_told_apart),
         cmocka_unit_test(hovers_are_seen),
         cmocka_unit_test(notes_of_nodes_are_right),
         cmocka_unit_test(notes_of_springs_are_right),
