@@ -38,7 +38,9 @@ compare() {
 
 # A copy of the sources to build in, with the libraries that were found.
 mkdir -p tree/build
-cp -R "$sources/Makefile" "$sources/include" "$sources/src" tree || exit 1
+for part in Makefile include src tests; do
+    cp -R "$sources/$part" tree || exit 1
+done
 cp -p "$sources"/build/config.mk tree/build
 
 # build COMPILER LEVEL: tree/build/elasto

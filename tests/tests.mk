@@ -1,0 +1,97 @@
+# Tests, and what is made for the README; ../Makefile includes this.
+
+# ---- tests -----------------------------------------------------------------
+# The tests' own sources need no speed, and a debugger needs their lines alone.
+$(B)/tests/%.o: private CFLAGS := $(patsubst -g,-g1,$(CFLAGS:-O2=-O1))
+
+$(B)/tests/%.o: tests/%.c $(B)/flags
+	$(call shown,CC)
+	$(Q)$(COMPILE) -Itests/unit -Itests/stress -MMD -MP -c $< -o $@
+
+$(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
+                        $(LIBRARY) $(B)/flags
+	$(call shown,LINK)
+	$(Q)$(LINK)
+
+# These need more than the demo has; make allocations fail; read what is drawn;
+# count CHOLMOD's calls.
+wrap = $(1:%=-Wl,--wrap=%)
+$(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
+$(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS)
+$(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
+  -lsuitesparseconfig
+$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line)
+$(B)/tests/unit/test_explicit: LIBS += $(call wrap,cholmod_start \
+  cholmod_analyze cholmod_factorize)
+
+# The program with faults linked in: sanitizers see what they do.
+FAULTY = malloc calloc realloc fopen fdopen open rename mkdir
+$(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
+	$(call shown,LINK)
+	$(Q)$(COMPILE) -DFAULT_WRAP tests/checks/faults.c $(B)/main.o $(LIBRARY) \
+	  -o $@ $(LDFLAGS) $(DEP_LIBS) $(LDLIBS) $(call wrap,$(FAULTY))
+
+# test: every promise once, in a minute.  long-test: also all variations, and
+# the benchmark.  What was tested is then in build/, ready to be used.
+suites: $(SUITES)
+long-test: $(B)/elasto-bench
+test long-test: $(SUITES) $(B)/elasto $(B)/lecture $(if $(SANITIZE),\
+                $(B)/elasto-faults,build/elasto build/lecture)
+	@$(SETTINGS) LONG=$(filter long-test,$@) sh tests/checks/run.sh $(SUITES)
+
+SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
+  SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
+  LECTURE=$(B)/lecture
+
+# Ends by itself within ten minutes.
+stress: build/stress build/elasto
+	./build/stress $(ARGS)
+	@$(SETTINGS) FAULTS=all sh tests/checks/check_faults.sh
+
+envelope: build/stress
+	./build/stress --envelope tests/data/envelope.csv tests/data/envelope.png
+
+same-bits: build/elasto
+	@$(SETTINGS) sh tests/checks/same_bits.sh
+
+mutants:
+	@sh tests/checks/mutants.sh $(ARGS)
+
+# What other tools find in the sources.
+analyse: build/config.mk
+	cppcheck --quiet --std=c11 --enable=warning,performance,portability \
+	  --inline-suppr --error-exitcode=1 -Iinclude -Isrc src
+	for file in src/*.c src/*/*.c; do clang-tidy --quiet $$file -- -std=c11 \
+	  -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) || exit 1; done
+
+# ---- pictures of the README -----------------------------------------------
+# tests/data/pictures.txt: name, step, command line; a test holds them.  What
+# moves needs ffmpeg: the square, and a sheet of eight films of 61 frames each
+# (tests/data/films.txt: name, steps a picture, steps, command line).
+SHEET = [0][1][2][3]hstack=inputs=4[a];[4][5][6][7]hstack=inputs=4[b];[a][b]vstack
+
+pictures: build/elasto
+	@command -v ffmpeg >/dev/null 2>&1 || { \
+	  echo 'make pictures needs ffmpeg (apt-get install ffmpeg)'; exit 1; }
+	@while read -r name step line; do \
+	  ./build/elasto $$line --headless --quiet --steps $$step \
+	    --frames build/frames-$$name || [ $$? = 3 ] || exit 1; \
+	  cp build/frames-$$name/frame_$$(printf %06d $$step).png \
+	    tests/data/$$name.png || exit 1; \
+	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
+	done <tests/data/pictures.txt
+	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
+	  --segments 10 --steps 75 --size 360x360 --script build/bare.txt \
+	  --film tests/data/relax.gif && echo tests/data/relax.gif
+	@mkdir -p build/films; while read -r name every steps line; do \
+	  ./build/elasto $$line --headless --quiet --steps $$steps \
+	    --size 300x300 --film build/films/$$name.apng && \
+	  ffmpeg -v error -nostdin -y -i build/films/$$name.apng -vf \
+	    "select=not(mod(n\,$$every)),setpts=N/20/TB,fps=12,crop=300:260:0:0,scale=225:195:flags=area" \
+	    -c:v ffv1 -pix_fmt bgr0 build/films/$$name.mkv || exit 1; \
+	done <tests/data/films.txt
+	@ffmpeg -v error -nostdin -y \
+	  $$(sed 's|^\([a-z]*\) .*|-i build/films/\1.mkv|' tests/data/films.txt) \
+	  -filter_complex '$(SHEET)' -c:v libwebp_anim -quality 30 \
+	  -compression_level 6 -loop 0 tests/data/scenes.webp && \
+	  rm -rf build/films && echo tests/data/scenes.webp
