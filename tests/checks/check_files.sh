@@ -210,11 +210,7 @@ stopped_films() {
         setsid "$elasto" --headless --size 97x64 --steps 1000000 --film "$name" \
             >out 2>error &
         child=$!
-        tries=0
-        until [ -s "$name.part" ] || [ $tries -gt 1000 ]; do
-            sleep 0.01
-            tries=$((tries + 1))
-        done
+        until_there "$name.part"
         kill -s "${row% *}" -- -$child
         wait $child || echo "$row: exit $?: $(cat error)"
         told=$(sed -n 's/^film *\([0-9]*\) frames.*/\1/p' out)
@@ -364,33 +360,21 @@ verdict no_number_is_infinite "$(infinities)"
 reset_hup=
 ! env --default-signal=HUP true 2>/dev/null || reset_hup='env --default-signal=HUP'
 
-# signalled NAME: sent when rows have arrived; the code goes to $code.
-signalled() {
-    rm -f s.csv s.csv.part
-    # shellcheck disable=SC2086
-    $reset_hup "$elasto" --headless --quiet --segments 2 --steps 100000000 \
-        --states s.csv 2>error &
-    child=$!
-    tries=0
-    until [ -s s.csv.part ] || [ $tries -gt 1000 ]; do
-        sleep 0.01
-        tries=$((tries + 1))
-    done
-    kill -s "$1" $child
-    wait $child
-    code=$?
-}
-endings() {
+# Sent when rows have arrived.
+verdict signals_lose_no_row "$(
     for name in INT TERM HUP; do
-        signalled $name
-        [ "$code" -eq 0 ] || echo "$name: exit $code"
+        # shellcheck disable=SC2086
+        $reset_hup "$elasto" --headless --quiet --segments 2 \
+            --steps 100000000 --states s.csv 2>error &
+        until_there s.csv.part
+        kill -s $name $!
+        wait $! || echo "$name: exit $?"
         rows=$(($(wc -l <s.csv) - 1))
         [ $rows -ge 9 ] && [ $((rows % 9)) -eq 0 ] || echo "$name: $rows rows"
         no_parts $name
+        rm -f s.csv
     done
-    rm -f s.csv
-}
-verdict signals_lose_no_row "$(endings)"
+)"
 
 # A run that hangs where it cannot look: the first signal changes nothing, the
 # second ends it at once.
@@ -403,11 +387,7 @@ second_signal() {
             "$elasto" --headless --quiet --segments 2 --steps 2 \
             --states k.csv 2>error &
         child=$!
-        tries=0
-        until [ -s k.csv.part ] || [ $tries -gt 1000 ]; do
-            sleep 0.01
-            tries=$((tries + 1))
-        done
+        until_there k.csv.part
         sleep 0.1
         kill -s $name $child
         sleep 0.2

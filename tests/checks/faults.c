@@ -29,30 +29,23 @@
 #define REAL_MEMORY(name) __libc_##name
 #endif
 
-typedef int MainFunction(int, char **, char **);
-typedef FILE *OpenFunction(const char *, const char *);
-typedef FILE *AttachFunction(int, const char *);
-typedef int PathFunction(const char *, int, ...);
-typedef int RenameFunction(const char *, const char *);
-typedef int FolderFunction(const char *, mode_t);
-
-static const char *fault_kind;
-static long fault_at, fault_count;
-static int fault_all;
-
 void *REAL_MEMORY(malloc)(size_t size);
 void *REAL_MEMORY(calloc)(size_t count, size_t size);
 void *REAL_MEMORY(realloc)(void *old, size_t size);
+
+/* The declarations of these have other names with -DFAULT_WRAP. */
 void *FAULTY(malloc)(size_t size);
 void *FAULTY(calloc)(size_t count, size_t size);
 void *FAULTY(realloc)(void *old, size_t size);
-OpenFunction FAULTY(fopen);
-AttachFunction FAULTY(fdopen);
-PathFunction FAULTY(open);
-RenameFunction FAULTY(rename);
-FolderFunction FAULTY(mkdir);
+FILE *FAULTY(fopen)(const char *name, const char *mode);
+FILE *FAULTY(fdopen)(int file, const char *mode);
+int FAULTY(open)(const char *name, int flags, ...);
+int FAULTY(rename)(const char *from, const char *to);
+int FAULTY(mkdir)(const char *name, mode_t mode);
 
-/* The function of the C library. */
+/* A function of the C library, of this type. */
+#define REAL(type, name) ((type)real_function(name))
+
 static void (*real_function(const char *name))(void)
 {
     void (*function)(void);
@@ -61,67 +54,60 @@ static void (*real_function(const char *name))(void)
     return function;
 }
 
-/* Whether this call is the one. */
-static int fault_fails(const char *kind)
+static const char *fault_kind;
+static long fault_at, fault_count;
+static int fault_all;
+
+static int is_kind(const char *kind)
 {
-    if (!fault_kind || strcmp(kind, fault_kind) != 0)
+    return fault_kind && strcmp(kind, fault_kind) == 0;
+}
+
+/* Whether this call is the one; errno is then the reason. */
+static int fails(const char *kind, int reason)
+{
+    if (!is_kind(kind))
         return 0;
     long number = __atomic_add_fetch(&fault_count, 1, __ATOMIC_RELAXED);
-    return fault_all && fault_at > 0 ? number >= fault_at : number == fault_at;
+    int fault =
+        fault_all && fault_at > 0 ? number >= fault_at : number == fault_at;
+    if (fault)
+        errno = reason;
+    return fault;
 }
 
 void *FAULTY(malloc)(size_t size)
 {
-    if (fault_fails("memory")) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    return REAL_MEMORY(malloc)(size);
+    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(malloc)(size);
 }
 
 void *FAULTY(calloc)(size_t count, size_t size)
 {
-    if (fault_fails("memory")) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    return REAL_MEMORY(calloc)(count, size);
+    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(calloc)(count, size);
 }
 
 void *FAULTY(realloc)(void *old, size_t size)
 {
-    if (fault_fails("memory")) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    return REAL_MEMORY(realloc)(old, size);
+    return fails("memory", ENOMEM) ? NULL : REAL_MEMORY(realloc)(old, size);
 }
 
 /* A stream around another one. */
 static ssize_t fault_write(void *cookie, const char *bytes, size_t count)
 {
-    if (fault_fails("write")) {
-        errno = ENOSPC;
+    if (fails("write", ENOSPC))
         return 0;
-    }
     return (ssize_t)fwrite(bytes, 1, count, cookie);
 }
 
 static int fault_close(void *cookie)
 {
     int result = fclose(cookie);
-    if (fault_fails("close")) {
-        errno = EIO;
-        return EOF;
-    }
-    return result;
+    return fails("close", EIO) ? EOF : result;
 }
 
-/* A stream that can fail, around a real one. */
 static FILE *fault_stream(FILE *file, const char *mode)
 {
-    if (!file || !fault_kind ||
-        (strcmp(fault_kind, "write") != 0 && strcmp(fault_kind, "close") != 0))
+    if (!file || (!is_kind("write") && !is_kind("close")))
         return file;
     setvbuf(file, NULL, _IONBF, 0);
     cookie_io_functions_t functions = {.write = fault_write,
@@ -131,69 +117,55 @@ static FILE *fault_stream(FILE *file, const char *mode)
 
 FILE *FAULTY(fopen)(const char *name, const char *mode)
 {
-    OpenFunction *real = (OpenFunction *)real_function("fopen");
+    FILE *(*real)(const char *, const char *) =
+        REAL(FILE * (*)(const char *, const char *), "fopen");
     if (mode[0] != 'w')
         return real(name, mode);
-    if (fault_fails("open")) {
-        errno = EMFILE;
-        return NULL;
-    }
-    return fault_stream(real(name, mode), mode);
+    return fails("open", EMFILE) ? NULL : fault_stream(real(name, mode), mode);
 }
 
 FILE *FAULTY(fdopen)(int file, const char *mode)
 {
-    AttachFunction *real = (AttachFunction *)real_function("fdopen");
-    return fault_stream(real(file, mode), mode);
+    return fault_stream(
+        REAL(FILE * (*)(int, const char *), "fdopen")(file, mode), mode);
 }
 
 /* Only of files that may be new. */
 int FAULTY(open)(const char *name, int flags, ...)
 {
-    PathFunction *real = (PathFunction *)real_function("open");
     va_list arguments;
     va_start(arguments, flags);
     unsigned mode = flags & O_CREAT ? va_arg(arguments, unsigned) : 0;
     va_end(arguments);
-    if ((flags & O_CREAT) && fault_fails("open")) {
-        errno = EMFILE;
+    if ((flags & O_CREAT) && fails("open", EMFILE))
         return -1;
-    }
-    return real(name, flags, mode);
+    return REAL(int (*)(const char *, int, ...), "open")(name, flags, mode);
 }
 
 int FAULTY(rename)(const char *from, const char *to)
 {
-    RenameFunction *real = (RenameFunction *)real_function("rename");
-    while (fault_kind && strcmp(fault_kind, "hang") == 0)
+    while (is_kind("hang"))
         pause();
-    if (fault_fails("rename")) {
-        errno = EIO;
+    if (fails("rename", EIO))
         return -1;
-    }
-    return real(from, to);
+    return REAL(int (*)(const char *, const char *), "rename")(from, to);
 }
 
 int FAULTY(mkdir)(const char *name, mode_t mode)
 {
-    FolderFunction *real = (FolderFunction *)real_function("mkdir");
-    if (fault_fails("folder")) {
-        errno = ENOSPC;
+    if (fails("folder", ENOSPC))
         return -1;
-    }
-    return real(name, mode);
+    return REAL(int (*)(const char *, mode_t), "mkdir")(name, mode);
 }
 
 /* How many calls there were. */
 static void fault_report(void)
 {
     const char *name = getenv("FAULT_FILE");
-    OpenFunction *real = (OpenFunction *)real_function("fopen");
-    long count = fault_count;
     fault_kind = NULL;
-    FILE *file = name ? real(name, "w") : NULL;
+    FILE *file = name ? fopen(name, "w") : NULL;
     if (file) {
-        fprintf(file, "%ld\n", count);
+        fprintf(file, "%ld\n", fault_count);
         fclose(file);
     }
 }
@@ -213,11 +185,11 @@ __attribute__((constructor)) static void fault_early(void)
     fault_begin();
 }
 #else
-int __libc_start_main(MainFunction *function, int argc, char **argv,
-                      void (*init)(void), void (*fini)(void),
-                      void (*rtld_fini)(void), void *stack_end);
-
-static MainFunction *real_main;
+typedef int Main(int, char **, char **);
+typedef int Start(Main *, int, char **, void (*)(void), void (*)(void),
+                  void (*)(void), void *);
+Start __libc_start_main;
+static Main *real_main;
 
 static int fault_main(int argc, char **argv, char **environment)
 {
@@ -225,15 +197,12 @@ static int fault_main(int argc, char **argv, char **environment)
     return real_main(argc, argv, environment);
 }
 
-typedef int StartFunction(MainFunction *, int, char **, void (*)(void),
-                          void (*)(void), void (*)(void), void *);
-
-int __libc_start_main(MainFunction *function, int argc, char **argv,
-                      void (*init)(void), void (*fini)(void),
-                      void (*rtld_fini)(void), void *stack_end)
+int __libc_start_main(Main *function, int argc, char **argv, void (*init)(void),
+                      void (*fini)(void), void (*rtld_fini)(void),
+                      void *stack_end)
 {
-    StartFunction *real = (StartFunction *)real_function("__libc_start_main");
     real_main = function;
-    return real(fault_main, argc, argv, init, fini, rtld_fini, stack_end);
+    return REAL(Start *, "__libc_start_main")(fault_main, argc, argv, init,
+                                              fini, rtld_fini, stack_end);
 }
 #endif

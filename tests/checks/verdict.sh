@@ -9,3 +9,12 @@ verdict() {
         failed=1
     fi
 }
+
+# until_there FILE: waits until it has something in it, ten seconds at most.
+until_there() {
+    tries=0
+    until [ -s "$1" ] || [ $tries -gt 1000 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+}
