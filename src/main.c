@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -182,49 +180,6 @@ static void report_failure(const Player *player, Status status)
              advice(player, status));
 }
 
-/* Under a limit on the address space OpenBLAS asks for ever for a buffer that
- * it does not get, in a thread of its own too, which starts before main.  The
- * program begins anew without such threads: its numbers need none. */
-static void leave_blas_threads(char **argv)
-{
-    const int kinds[] = {RLIMIT_AS, RLIMIT_DATA};
-    const char *threads = getenv("OPENBLAS_NUM_THREADS");
-    bool limited = false;
-    struct rlimit limit;
-    for (int i = 0; i < 2; i++)
-        if (getrlimit(kinds[i], &limit) == 0)
-            limited = limited || limit.rlim_cur != RLIM_INFINITY;
-    if (!limited || (threads && strcmp(threads, "1") == 0) ||
-        setenv("OPENBLAS_NUM_THREADS", "1", 1))
-        return;
-    execv("/proc/self/exe", argv); /* returns where there is no /proc */
-}
-
-/* Bytes of the buffer that OpenBLAS maps at its first call; 0: none. */
-static size_t blas_bytes(const Options *options)
-{
-    bool implicit = !options->integrator || options->integrator->implicit;
-    bool factors = implicit && (options->scene->needs & NEEDS_SPRINGS);
-    return factors ? (size_t)128 << 20 : 0;
-}
-
-/* Whether the system would give as much memory as the run will ask for.  It is
- * asked here, because OpenBLAS never takes no for an answer. */
-static bool can_be_mapped(const Options *options)
-{
-    size_t size = blas_bytes(options) + (size_t)simulation_bytes(options) + 1;
-    void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory != MAP_FAILED) {
-        munmap(memory, size);
-        return true;
-    }
-    tell("not enough memory: the run needs %.0f MB of address space%s; see "
-         "ulimit -v",
-         1e-6 * (double)size, blas_bytes(options) ? " with OpenBLAS" : "");
-    return false;
-}
-
 /* A square that does not fit is refused before it is begun: where memory is
  * promised that is not there, the program would end without a word. */
 static bool fits_in_memory(const Options *options)
@@ -297,26 +252,23 @@ static int make_handout(const Options *options, Player *player)
 static void join_line(int argc, char **argv, char *line, size_t size)
 {
     static const char *const left_out[] = {
-        "--script", "--film",  "--frames", "--states", "--log",
-        "--size",   "--speed", "--steps",  NULL,
+        "--script", "--film",  "--frames", "--states", "--log",        "--size",
+        "--speed",  "--steps", "--paused", "--quiet",  "--fullscreen",
     };
+    enum { LEFT_OUT = sizeof left_out / sizeof *left_out, SWITCHES = 3 };
     size_t used = (size_t)snprintf(line, size, "elasto");
     for (int i = 1; i < argc && used < size; i++) {
-        const char *word = argv[i];
-        bool skips = strcmp(word, "--paused") == 0 ||
-                     strcmp(word, "--fullscreen") == 0 ||
-                     strcmp(word, "--quiet") == 0;
-        for (int k = 0; left_out[k] && !skips; k++) {
-            size_t length = strlen(left_out[k]);
-            if (strncmp(word, left_out[k], length) != 0)
-                continue;
-            skips = word[length] == '\0' || word[length] == '=';
-            i += word[length] == '\0';
-        }
+        int k = 0;
+        size_t length = strcspn(argv[i], "=");
+        while (k < LEFT_OUT && (strlen(left_out[k]) != length ||
+                                strncmp(argv[i], left_out[k], length) != 0))
+            k++;
         char shown[256];
-        one_line(word, shown, sizeof shown);
-        if (!skips)
+        one_line(argv[i], shown, sizeof shown);
+        if (k == LEFT_OUT)
             used += (size_t)snprintf(line + used, size - used, " %s", shown);
+        else if (k < LEFT_OUT - SWITCHES && argv[i][length] == '\0')
+            i++; /* its value is the next word */
     }
 }
 
@@ -326,7 +278,6 @@ int main(int argc, char **argv)
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
     char message[512], line[1024];
     hold_standard_streams();
-    leave_blas_threads(argv);
     for (int i = 0; i < options[0].panes; i++)
         if (options_parse_pane(argc, argv, i, &options[i], message,
                                sizeof message)) {
@@ -339,12 +290,9 @@ int main(int argc, char **argv)
         tell("%s", message);
         return EXIT_MISUSED;
     }
-    for (int i = 0; i < options->panes; i++) {
+    for (int i = 0; i < options->panes; i++)
         if (!fits_in_memory(&options[i]))
             return EXIT_MISUSED;
-        if (!can_be_mapped(&options[i]))
-            return EXIT_FAILED;
-    }
     join_line(argc, argv, line, sizeof line);
     handle_signals();
     view_when_lost(on_lost_screen);

@@ -29,36 +29,33 @@ static Status recording_note(Recording *recording, Status status,
 static Status make_folder(const char *name)
 {
     struct stat info;
-    if (mkdir(name, 0777) == 0)
+    if (mkdir(name, 0777) == 0 ||
+        (errno == EEXIST && stat(name, &info) == 0 && S_ISDIR(info.st_mode)))
         return STATUS_OK;
-    if (errno != EEXIST)
-        return STATUS_FILE_FAILED;
-    if (stat(name, &info) == 0 && S_ISDIR(info.st_mode))
-        return STATUS_OK;
-    errno = ENOTDIR;
+    errno = errno == EEXIST ? ENOTDIR : errno;
     return STATUS_FILE_FAILED;
+}
+
+/* Whether all of a table so far was written. */
+static Status check_table(Recording *recording, const Output *output)
+{
+    return recording_note(recording, output_check(output), output->name);
 }
 
 /* The lines above the columns. */
 static Status write_headers(Recording *recording)
 {
-    if (recording->states.file &&
-        fputs("step,time,node,x,y,vx,vy\n", recording->states.file) < 0)
-        return recording_note(recording, STATUS_FILE_FAILED,
-                              recording->states.name);
-    if (!recording->log.file)
-        return STATUS_OK;
-    if (fputs("step,iteration,residual,alpha,trials,slope,change,projected,"
-              "factorised,shift,status,seconds",
-              recording->log.file) < 0)
-        return recording_note(recording, STATUS_FILE_FAILED,
-                              recording->log.name);
-    if (recording->points)
-        fputs(",from_x,from_y,to_x,to_y", recording->log.file);
-    fputs(recording->panes > 1 ? ",solver,kind,pane\n" : ",solver,kind\n",
-          recording->log.file);
-    return recording_note(recording, output_check(&recording->log),
-                          recording->log.name);
+    FILE *states = recording->states.file, *log = recording->log.file;
+    if (states)
+        fputs("step,time,node,x,y,vx,vy\n", states);
+    if (log)
+        fprintf(log,
+                "step,iteration,residual,alpha,trials,slope,change,projected,"
+                "factorised,shift,status,seconds%s,solver,kind%s\n",
+                recording->points ? ",from_x,from_y,to_x,to_y" : "",
+                recording->panes > 1 ? ",pane" : "");
+    Status status = check_table(recording, &recording->states);
+    return status ? status : check_table(recording, &recording->log);
 }
 
 /* Opens one file of the two, if it has a name. */
@@ -248,7 +245,7 @@ Status recording_states(Recording *recording,
                       first);
             first += simulation[i]->system.nodes;
         }
-    return recording_note(recording, output_check(states), states->name);
+    return check_table(recording, states);
 }
 
 /* What is known of a residual. */
@@ -278,7 +275,7 @@ Status recording_update(Recording *recording, const NewtonRecord *record,
     if (recording->panes > 1)
         fprintf(log->file, ",%d", pane);
     putc('\n', log->file);
-    return recording_note(recording, output_check(log), log->name);
+    return check_table(recording, log);
 }
 
 /* Empty tables with headers. */
@@ -292,12 +289,12 @@ Status recording_restart(Recording *recording, const Options *options)
 
 Status recording_cut(Recording *recording, long step)
 {
-    Status status = recording_note(
-        recording, output_cut(&recording->states, step), "states");
-    if (!status)
-        status =
-            recording_note(recording, output_cut(&recording->log, step), "log");
-    return status;
+    Output *states = &recording->states, *log = &recording->log;
+    Status status =
+        recording_note(recording, output_cut(states, step), states->name);
+    if (status)
+        return status;
+    return recording_note(recording, output_cut(log, step), log->name);
 }
 
 /* Closes one table. */
