@@ -20,7 +20,7 @@
 enum ExitCode {
     EXIT_FINE = 0,
     EXIT_FAILED = 1,      /* while running */
-    EXIT_MISUSED = 2,     /* the command line */
+    EXIT_MISUSED = 2,     /* the command line, or a line of its script */
     EXIT_UNCONVERGED = 3, /* the run ended, but steps did not converge */
 };
 
@@ -219,6 +219,8 @@ static int finish(Player *player, Status status)
     if (!options->quiet)
         summary_print(standard ? stderr : stdout, player);
     int code = check_output("the summary");
+    if (code == EXIT_FINE && player->refused)
+        return EXIT_MISUSED;
     if (code == EXIT_FINE && player_unconverged(player))
         return EXIT_UNCONVERGED;
     return code;

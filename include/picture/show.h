@@ -47,6 +47,7 @@ typedef enum Line {
  * last one. */
 typedef struct Trace {
     Line line;
+    double h, tolerance;        /* s, m/s, that the step was made with */
     int updates;                /* records of this step; more than fit in */
     const NewtonRecord *record; /* memory: the last of them */
     int updates_before;         /* of the step before, drawn in grey */
@@ -251,13 +252,15 @@ int pane_folded(const Pane *pane);
 
 /* What the lecture adds, where the simulation's options name a page: topic,
  * number, cards that are hidden; and in the column, if asked for, the text of
- * its function or the list of pages.  Before show_describe. */
+ * its function or the list of pages, in which the page that was left is marked
+ * where none is open.  Before show_describe. */
 typedef enum LectureColumn {
     LECTURE_CARDS,
     LECTURE_CODE,
     LECTURE_PAGES
 } LectureColumn;
-void show_lecture(LectureColumn column, Show *show);
+void show_lecture(LectureColumn column, const struct LecturePage *left,
+                  Show *show);
 
 /* Fills topic, sentence, method, state and time_text in plain words, as far as
  * they are empty, from the active pane and its trace. */

@@ -76,6 +76,10 @@ Status lane_end(Lane *lane, long step);
 /* Whether what it shows at the player's step is that end. */
 bool lane_is_over(const Lane *lane, long step);
 
+/* From the step before it to the player's step, by making it again: the tape
+ * knows it then.  Returns as track_show. */
+Status lane_repeat(Lane *lane, long step);
+
 /* The same as lane_show, by making the step again, so that the tape knows it.
  */
 Status lane_retape(Lane *lane, long step);

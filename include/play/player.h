@@ -36,7 +36,7 @@ typedef struct Mouse {
     int index;
     double from[2], last[2]; /* pixels, where the drag began and has come */
     bool moved;              /* it is more than a click */
-    double paces;            /* of a number, not yet given */
+    bool turns;              /* the last input was the wheel's */
     Options options;         /* at its beginning */
 } Mouse;
 
@@ -66,11 +66,15 @@ typedef struct Player {
     bool drifts;       /* it moves, and nothing deforms any more */
     bool from_map;     /* the scene is a cell of the envelope */
     bool leaving;      /* the last command was Escape, with nothing open */
+    bool by_hand;      /* commands come from keys and mouse */
+    long gesture;      /* so many keys, clicks, turns of the wheel */
+    long asked;        /* the one that was asked whether steps may go */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
     Status recorded;   /* how the last record of the log was written */
-    char message[256]; /* why a command or the script cannot be obeyed, or "" */
+    bool refused;      /* a line of the script made no sense */
+    char message[768]; /* why a command or the script cannot be obeyed, or "" */
     char note[SHOW_TEXT];              /* what a command just did, or "" */
     bool warning;                      /* and it is a bad thing */
     const volatile sig_atomic_t *stop; /* set by signals */
@@ -87,7 +91,8 @@ typedef struct Player {
     unsigned closed; /* cards that are not as the picture has them */
     int large, selected;
     double glide;   /* s, when the way to the next line began; 0: it is over */
-    char typed[16]; /* what is being typed for the selected number, or "" */
+    bool typing;    /* every key belongs into what is typed: */
+    char typed[28]; /* for the selected number, or a page of the list */
     CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
     const Number *number[NUMBERS_MOST]; /* what the row has */
     int numbers;

@@ -41,9 +41,10 @@ typedef struct Tape {
     bool open; /* between tape_begin and tape_end: all else is not of this step
                 */
     long step; /* the one that it is of */
-    int size;  /* 2n */
-    int count; /* updates of this step */
-    int room;  /* of the arrays, one more */
+    double h, tolerance; /* s, m/s, that it was made with */
+    int size;            /* 2n */
+    int count;           /* updates of this step */
+    int room;            /* of the arrays, one more */
     TapeRound *round;
     NewtonRecord *record; /* [count] */
     int before;           /* updates of the step before, or of this step with */

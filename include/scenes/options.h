@@ -96,6 +96,12 @@ void options_panes(int argc, char **argv, char *text, size_t size);
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
+/* What somebody means who types a value for a number: "1/60", "0,02", "4 ms" in
+ * the option's own unit, as options_set reads it; another text as it is.
+ *   value  [size] out */
+void options_meant(const char *name, const char *text, char *value,
+                   size_t size);
+
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
 

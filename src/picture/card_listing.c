@@ -160,8 +160,7 @@ static void search_value(char *value, const Simulation *simulation,
 static void line_value(char *value, const Simulation *simulation,
                        const Trace *trace, Line line)
 {
-    double h = simulation->options.timestep;
-    double tolerance = simulation->options.tolerance;
+    double h = trace->h, tolerance = trace->tolerance;
     bool by_gradient = simulation->descent.by_gradient;
     const char *unit = by_gradient ? "" : " m/s";
     Line test = by_gradient ? LINE_DO : LINE_TEST;

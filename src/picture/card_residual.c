@@ -99,9 +99,6 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
 {
     DescentTrace space;
     const Trace *trace = cards_trace(show, &space);
-    const Simulation *simulation = show->pane[show->active].simulation;
-    double tolerance = simulation->options.tolerance;
-    double low = 0.3 * tolerance, high = 30 * tolerance;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
         cards_hint(paper, inside,
@@ -109,6 +106,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                                         : "a point for each Newton update");
         return;
     }
+    double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
     int last = trace->updates - 1; /* it may be the present one already */
     bool counted = last >= 0 && trace->record[last].residual == trace->residual;
     bool pending = trace->residual > 0 && isfinite(trace->residual) &&
@@ -131,10 +129,9 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
         now.residual *= pow(y.high / now.residual, trace->rest);
     draw_updates(paper, &plot, trace->record_before, trace->updates_before, 1,
                  2.5, COLOUR_BORDER);
-    draw_tolerance(paper, &plot, tolerance,
-                   simulation->scene->needs & NEEDS_TIME
-                       ? simulation->options.timestep
-                       : 0);
+    const Scene *scene = show->pane[show->active].simulation->scene;
+    draw_tolerance(paper, &plot, trace->tolerance,
+                   scene->needs & NEEDS_TIME ? trace->h : 0);
     draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
     draw_kinds(paper, &plot, trace);
     if (counted && trace->line)

@@ -35,7 +35,9 @@ static const Trace *descent_trace(const Simulation *simulation,
     int last = descent->count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
     *space = (DescentTrace){.simulation = simulation};
-    *trace = (Trace){.updates = descent->count,
+    *trace = (Trace){.h = simulation->options.timestep,
+                     .tolerance = simulation->options.tolerance,
+                     .updates = descent->count,
                      .record = descent->record,
                      .iteration = descent->count,
                      .projected = -1,

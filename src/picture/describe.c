@@ -56,11 +56,11 @@ static const char *ordinal(int number)
 }
 
 /* The end of the loop; both numbers as text. */
-static void describe_test(char *s, const Trace *trace, const Options *options)
+static void describe_test(char *s, const Trace *trace)
 {
     char residual[48], tolerance[48];
     plot_number(residual, sizeof residual, trace->residual);
-    plot_number(tolerance, sizeof tolerance, options->tolerance);
+    plot_number(tolerance, sizeof tolerance, trace->tolerance);
     if (trace->passed)
         say(s, SHOW_TEXT,
             "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
@@ -68,7 +68,7 @@ static void describe_test(char *s, const Trace *trace, const Options *options)
             tolerance, trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
     else
         say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", residual,
-            trace->residual > options->tolerance ? "above" : "not above",
+            trace->residual > trace->tolerance ? "above" : "not above",
             tolerance);
 }
 
@@ -78,7 +78,6 @@ static void describe_line(Show *show, const Simulation *simulation,
 {
     char *s = show->sentence, number[48];
     const Options *options = &simulation->options;
-    double h = options->timestep;
     switch (trace->line) {
     case LINE_START:
         say(s, SHOW_TEXT, "line 1: the iterate begins where the step does");
@@ -118,10 +117,10 @@ static void describe_line(Show *show, const Simulation *simulation,
         say(s, SHOW_TEXT, "line 6: the square moves by {alpha} {p}");
         break;
     case LINE_TEST:
-        describe_test(s, trace, options);
+        describe_test(s, trace);
         break;
     case LINE_END:
-        plot_number(number, sizeof number, h);
+        plot_number(number, sizeof number, trace->h);
         say(s, SHOW_TEXT, "line 8: the step of %s s is done", number);
         break;
     default:

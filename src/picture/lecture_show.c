@@ -51,8 +51,8 @@ static void fill_code(const LecturePage *page, Show *show)
     code->top = first > 24 ? first - 12 : 0;
 }
 
-/* Numbers and topics; the present page is marked. */
-static void fill_pages(Show *show)
+/* Numbers and topics; a page is marked. */
+static void fill_pages(const LecturePage *marked, Show *show)
 {
     int count = lecture_count();
     show->page.kind = PAGE_HELP;
@@ -60,7 +60,7 @@ static void fill_pages(Show *show)
     show->help = show->page_row;
     show->help_rows = count < SHOW_PAGES ? count : SHOW_PAGES;
     for (int i = 0; i < show->help_rows; i++) {
-        bool now = &lecture_pages[i] == show->lecture;
+        bool now = &lecture_pages[i] == marked;
         snprintf(show->page_key[i], sizeof show->page_key[i], "%s%d",
                  now ? ">" : "", i + 1);
         show->page_row[i] =
@@ -79,13 +79,13 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-void show_lecture(LectureColumn column, Show *show)
+void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
-    if (!page && column == LECTURE_PAGES)
-        fill_pages(show);
+    if (column == LECTURE_PAGES)
+        fill_pages(page ? page : left, show);
     if (!page)
         return;
     show->lecture = page;
@@ -105,6 +105,4 @@ void show_lecture(LectureColumn column, Show *show)
     }
     if (column == LECTURE_CODE)
         fill_code(page, show);
-    if (column == LECTURE_PAGES)
-        fill_pages(show);
 }

@@ -25,10 +25,8 @@ Status player_try_restart(Player *player, const Options *options)
     return status ? status : player_restart(player, options, player->lanes);
 }
 
-/* The options of a scene: those of the command line if it was called for
- * there, else its defaults. */
-static Status find_options(Player *player, const char *name, Options *options,
-                           int *count)
+Status player_scene_options(Player *player, const char *name,
+                            Options options[OPTIONS_MAX_PANES], int *count)
 {
     char program[] = "elasto", word[COMMAND_TEXT_SIZE];
     char *arguments[] = {program, word, NULL};
@@ -38,7 +36,7 @@ static Status find_options(Player *player, const char *name, Options *options,
                       sizeof player->message))
         return STATUS_INVALID_INPUT;
     *count = 1;
-    if (options->scene == given->scene) {
+    if (options->scene == given->scene && !given->page) {
         *count = player->given_count;
         memcpy(options, given, (size_t)*count * sizeof *given);
         return STATUS_OK;
@@ -54,12 +52,14 @@ static Status switch_scene(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     int count;
     bool halted = player->halted;
-    Status status = find_options(player, command->text, options, &count);
+    Status status =
+        player_scene_options(player, command->text, options, &count);
     if (!status)
         status = player_restart(player, options, count);
     if (status)
         return status;
     player->paused = player->paused && !halted;
+    player->column = LECTURE_CARDS;
     if (options->scene->explains && !player->given[0].script)
         player->paused = true;
     player_set_title(player);

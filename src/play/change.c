@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "play/playing.h"
+#include "scenes/pages.h"
 #include "scenes/scene.h"
 
 /* Which lanes a change of this option is for: the active one where they are
@@ -83,6 +84,12 @@ static Status set_option(Player *player, const char *text)
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     snprintf(value, sizeof value, "%s", text[length] ? text + length + 1 : "");
     snprintf(change.text, sizeof change.text, "%s", text);
+    bool filter = strcmp(name, "filter") == 0;
+    bool search = strcmp(name, "line-search") == 0;
+    if (search && !simulation_has_line_search(simulation))
+        return player_refuse(player, "no line search here");
+    if (filter && !simulation_has_filter(simulation))
+        return player_refuse(player, "nothing to project here");
     Options options = player_settings(player)->options;
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
@@ -95,8 +102,7 @@ static Status set_option(Player *player, const char *text)
     if (number)
         number_value(number, &player_settings(player)->options, old);
     bool time = scene->needs & NEEDS_TIME;
-    bool method =
-        strcmp(name, "filter") == 0 || strcmp(name, "line-search") == 0;
+    bool method = filter || search;
     bool iterates = scene->needs & NEEDS_START; /* a step is an update */
     bool live = track_can_change(name) && (time || (method && iterates)) &&
                 (simulation->runs == 1 || strcmp(name, "integrator") != 0);
@@ -108,8 +114,9 @@ static Status set_option(Player *player, const char *text)
         player_reset_speed(player);
         return status;
     }
+    bool within = player->fine > 0 && player_lane(player)->place >= 0;
     Status status =
-        method && strcmp(old, value) != 0
+        (method || within) && strcmp(old, value) != 0
             ? retake_step(player, &change, name, value, old, from, to)
             : player_change_lanes(player, &change, from, to);
     player_reset_speed(player);
@@ -145,25 +152,25 @@ static Status pace_number(Player *player, const Command *command)
     return obey_set(player, number[player->selected]->option, value);
 }
 
-/* The value that the scene has by itself, or that of the command line. */
+/* The value of the page, or of the command line, or of the scene by itself. */
 static Status set_default(Player *player, const Command *command)
 {
     const char *option = command->text;
     char value[COMMAND_TEXT_SIZE];
     const Number *number = number_find(option);
-    Options options = player->given[0];
+    const Options *now = &player->lane[0].track.options;
+    Options options[OPTIONS_MAX_PANES];
+    int count;
     if (!number)
         return player_refuse(player, "there is no such number");
-    if (options.scene != player->lane[0].track.options.scene) {
-        char program[] = "elasto", scene[COMMAND_TEXT_SIZE];
-        char *arguments[] = {program, scene, NULL};
-        snprintf(scene, sizeof scene, "%s",
-                 player->lane[0].track.options.scene->name);
-        if (options_parse(2, arguments, &options, player->message,
-                          sizeof player->message))
-            return STATUS_INVALID_INPUT;
-    }
-    number_value(number, &options, value);
+    Status status =
+        now->page
+            ? lecture_options(now->page, options, player->message,
+                              sizeof player->message)
+            : player_scene_options(player, now->scene->name, options, &count);
+    if (status)
+        return status;
+    number_value(number, options, value);
     return obey_set(player, option, value);
 }
 
@@ -173,8 +180,9 @@ static Status select_number(Player *player, const Command *command)
     (void)command;
     const Number *number[NUMBERS_MOST];
     int count = numbers_of(&player_settings(player)->options, number);
-    player->selected = player->selected + 1 < count ? player->selected + 1 : -1;
-    player->typed[0] = '\0';
+    int next = player->selected + 1;
+    player_deselect(player);
+    player->selected = next < count ? next : -1;
     return STATUS_OK;
 }
 
@@ -183,14 +191,9 @@ static Status select_number(Player *player, const Command *command)
 static Status switch_method(Player *player, const Command *command)
 {
     char text[COMMAND_TEXT_SIZE];
-    const Simulation *simulation = player_simulation(player);
     const Options *now = &player_settings(player)->options;
     const Options *given = &player->given[0];
     bool search = command->kind == COMMAND_SEARCH;
-    if (search && !simulation_has_line_search(simulation))
-        return player_refuse(player, "no line search here");
-    if (!search && !simulation_has_filter(simulation))
-        return player_refuse(player, "nothing to project here");
     LineSearch l = given->line_search, line = LINE_SEARCH_NONE;
     Filter f = given->filter, filter = FILTER_NONE;
     if (now->line_search == LINE_SEARCH_NONE)

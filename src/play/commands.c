@@ -263,7 +263,13 @@ Status command_parse(const char *line, Command *command, char *message,
                  arguments_text(row->arguments));
         return refuse(message, size, "%s", text);
     }
-    return refuse(message, size, "there is no command '%s'", word);
+    int used =
+        snprintf(message, size, "there is no command '%.20s', they are:", word);
+    for (int i = 0; i < COMMAND_KINDS && used < (int)size; i++)
+        if (command_rows[i].word)
+            used += snprintf(message + used, size - (size_t)used, " %s",
+                             command_rows[i].word);
+    return STATUS_INVALID_INPUT;
 }
 
 void command_format(const Command *command, char *line, size_t size)

@@ -5,6 +5,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "picture/picture.h"
@@ -92,37 +93,104 @@ static Status drag_number(Player *player)
                                    : ask_set(player, number->option, value);
 }
 
-/* Keys that belong into the selected number: its digits, Return that sets it,
- * Backspace.  taken out: whether this was one. */
-static Status type_number(Player *player, const char *key, bool *taken)
+/* ---- what is typed ------------------------------------------------------ */
+
+/* The letter that a key types; "": none.  letter [size] out */
+static void key_letter(const char *key, char *letter, size_t size)
 {
-    char *typed = player->typed, value[sizeof player->typed];
-    size_t length = strlen(typed);
-    int index = player->selected;
-    *taken = index >= 0 && index < player->numbers &&
-             player->number[index]->kind != NUMBER_NAME;
-    if (!*taken)
+    bool shift = strncmp(key, "Shift+", 6) == 0;
+    const char *name = shift ? key + 6 : key;
+    bool one = name[0] && (!name[1] || (unsigned char)name[0] >= 0x80);
+    snprintf(letter, size, "%.4s",
+             strcmp(name, "Space") == 0 ? " "
+             : one                      ? name
+                                        : "");
+    if (one && !shift && name[0] >= 'A' && name[0] <= 'Z')
+        letter[0] = (char)(name[0] - 'A' + 'a');
+}
+
+/* Return: the page is opened, or the number is set; what cannot be read leaves
+ * the field as it is. */
+static Status give_typed(Player *player)
+{
+    char typed[sizeof player->typed], value[40], note[sizeof player->note];
+    memcpy(typed, player->typed, sizeof typed);
+    if (player->selected < 0) {
+        Command command = {.kind = COMMAND_PAGE};
+        memcpy(command.text, typed, sizeof typed);
+        Status status = player_obey(player, &command);
+        if (!status)
+            player_deselect(player);
+        return status;
+    }
+    const Number *number = player->number[player->selected];
+    options_meant(number->option, typed, value, sizeof value);
+    Status status = ask_set(player, number->option, value);
+    if (status)
+        return status;
+    player_deselect(player);
+    if (strcmp(typed, value) == 0)
         return STATUS_OK;
-    bool digit = key[1] == '\0' && key[0] && strchr("0123456789.", key[0]);
-    bool power = length > 0 && strcmp(key, "E") == 0;
-    bool sign = length > 0 && typed[length - 1] == 'e' &&
-                (strcmp(key, "-") == 0 || strcmp(key, "+") == 0);
-    if ((digit || power || sign) && length + 1 < sizeof player->typed) {
-        typed[length] = power ? 'e' : key[0];
-        typed[length + 1] = '\0';
-    } else if (length > 0 && strcmp(key, "Backspace") == 0) {
-        typed[length - 1] = '\0';
-    } else if (length > 0 && (strcmp(key, "Return") == 0 ||
-                              strcmp(key, "Keypad Enter") == 0)) {
-        memcpy(value, typed, sizeof value);
-        player_deselect(player);
-        return ask_set(player, player->number[index]->option, value);
-    } else {
-        *taken = false;
+    memcpy(note, player->note, sizeof note);
+    player_note(player, "%s is read as %.4g%s%s%s%s", typed,
+                strtod(value, NULL), number->unit ? " " : "",
+                number->unit ? number->unit : "", note[0] ? "; " : "", note);
+    return STATUS_OK;
+}
+
+/* One letter more or less. */
+static Status edit_typed(Player *player, const char *key)
+{
+    char *typed = player->typed, letter[8];
+    size_t length = strlen(typed);
+    if (strcmp(key, "Backspace") == 0) {
+        while (length > 0 && ((unsigned char)typed[--length] & 0xc0) == 0x80)
+            continue; /* of a letter of several bytes */
+        typed[length] = '\0';
         return STATUS_OK;
     }
-    player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+    key_letter(key, letter, sizeof letter);
+    if (length + strlen(letter) >= sizeof player->typed) {
+        player_note(player,
+                    "there is room for %zu letters: Enter sets the "
+                    "number, Esc leaves it",
+                    sizeof player->typed - 1);
+        return STATUS_OK;
+    }
+    memcpy(typed + length, letter, strlen(letter) + 1);
     return STATUS_OK;
+}
+
+/* A digit, sign or point opens the field of a selected number, a digit that of
+ * the list of pages; an open field takes every key until Return or Escape.
+ * taken out: whether it was one for a field. */
+static Status type_key(Player *player, const char *key, bool *taken)
+{
+    bool number = player->selected >= 0 && player->selected < player->numbers;
+    bool list = player->column == LECTURE_PAGES && !player->help;
+    const char *opens = number ? "0123456789.,+-" : list ? "123456789" : "";
+    player->typing = player->typing && (number || list);
+    *taken = player->typing || (key[0] && !key[1] && strchr(opens, key[0]));
+    if (!*taken)
+        return STATUS_OK;
+    player->typing = true;
+    player->changed = true;
+    player->note[0] = '\0';
+    if (strcmp(key, "Return") == 0 || strcmp(key, "Keypad Enter") == 0)
+        return give_typed(player);
+    if (strcmp(key, "Escape") == 0) {
+        player_deselect(player);
+        return STATUS_OK;
+    }
+    Status status = edit_typed(player, key);
+    if (player->note[0])
+        return status;
+    if (number)
+        player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+    else
+        player_note(player, "page %s_: Enter opens it, Esc leaves it",
+                    player->typed);
+    return status;
 }
 
 /* ---- the stage ---------------------------------------------------------- */
@@ -221,7 +289,7 @@ static Status follow(Player *player, const Layout *layout)
     Status status = STATUS_OK;
     switch (mouse->moved ? mouse->drag : DRAG_NONE) {
     case DRAG_NODE:
-        if (!player_lane(player)->track.settings.held)
+        if (!player->holds)
             status = ask_number(player, COMMAND_GRAB, mouse->index, 0, 0);
         return status ? status
                       : ask_number(player, COMMAND_DRAG, 0, pick.point[0],
@@ -390,7 +458,9 @@ static Status released(Player *player)
     Mouse *mouse = &player->mouse;
     Drag drag = mouse->drag;
     mouse->drag = DRAG_NONE;
-    if (drag == DRAG_NODE && player_lane(player)->track.settings.held)
+    if (drag == DRAG_TIME)
+        player->changed = true; /* now the cards know the step */
+    if (drag == DRAG_NODE && player->holds)
         return ask(player, COMMAND_RELEASE);
     if (drag == DRAG_NUMBER && !mouse->moved &&
         mouse->index < player->numbers &&
@@ -417,7 +487,8 @@ static Status wheeled(Player *player, double amount, const Layout *layout)
     return STATUS_OK;
 }
 
-Status player_input(Player *player, const Input *input)
+/* What the input asks for. */
+static Status take_input(Player *player, const Input *input)
 {
     Command command = {.kind = COMMAND_NONE};
     Mouse *mouse = &player->mouse;
@@ -425,7 +496,7 @@ Status player_input(Player *player, const Input *input)
     bool typed;
     switch (input->kind) {
     case INPUT_KEY:
-        status = type_number(player, input->key, &typed);
+        status = type_key(player, input->key, &typed);
         if (typed)
             return status;
         command_from_key(input->key, input->repeats, &command);
@@ -463,4 +534,19 @@ Status player_input(Player *player, const Input *input)
     if (mouse->drag != DRAG_NONE)
         return follow(player, &layout);
     return hover(player, &layout);
+}
+
+/* A drag is one gesture, and so is a wheel that turns on. */
+Status player_input(Player *player, const Input *input)
+{
+    bool turns = input->kind == INPUT_WHEEL && player->mouse.turns;
+    bool key = input->kind == INPUT_KEY && !input->repeats;
+    if (input->kind == INPUT_PRESS || key ||
+        (input->kind == INPUT_WHEEL && !turns))
+        player->gesture++;
+    player->mouse.turns = input->kind == INPUT_WHEEL;
+    player->by_hand = true;
+    Status status = take_input(player, input);
+    player->by_hand = false;
+    return status;
 }

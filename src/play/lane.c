@@ -198,24 +198,29 @@ static Status repeat_step(Lane *lane)
     return status ? status : taped;
 }
 
+Status lane_repeat(Lane *lane, long step)
+{
+    Track *track = &lane->track;
+    Status status = STATUS_OK;
+    lane->place = -1;
+    while (!status && track_step_shown(track) < lane->at[step]) {
+        status = repeat_step(lane);
+        lane->taped = true;
+        lane->failed = false;
+        lane->outcome = track_row(track, track_step_shown(track))->status;
+    }
+    return status;
+}
+
 /* The step before it is made again, too: its residuals are shown in grey. */
 Status lane_retape(Lane *lane, long step)
 {
-    Track *track = &lane->track;
-    long last = lane->at[step], first = last > 1 ? last - 2 : 0;
+    long last = lane->at[step];
     if (last == 0 || last == lane->at[step - 1])
         return lane_show(lane, step);
     tape_clear(&lane->tape);
-    Status status = track_show(track, first);
-    for (long i = first; i < last && !status; i++)
-        status = repeat_step(lane);
-    if (status)
-        return status;
-    lane->taped = true;
-    lane->place = -1;
-    lane->failed = false;
-    lane->outcome = track_row(track, last)->status;
-    return STATUS_OK;
+    Status status = track_show(&lane->track, last > 1 ? last - 2 : 0);
+    return status ? status : lane_repeat(lane, step);
 }
 
 void lane_forget(Lane *lane, long step)

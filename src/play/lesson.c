@@ -53,8 +53,12 @@ static Status turn_page(Player *player, const Command *command)
     const LecturePage *page = player->lane[0].track.settings.options.page;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
-        return page ? lesson_open(player, page)
-                    : player_refuse(player, "there is no such page");
+        if (page)
+            return lesson_open(player, page);
+        snprintf(player->message, sizeof player->message,
+                 "there is no page '%s', they are 1 ... %d", command->text,
+                 lecture_count());
+        return STATUS_INVALID_INPUT;
     }
     if (!page && player->left) { /* another scene was looked at */
         bool on = command->kind == COMMAND_PAGE_ON && player->left[1].name;

@@ -62,10 +62,44 @@ static bool keeps_note(const Player *player, CommandKind kind)
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
 
+/* Whether it changes the run from the shown step on: what is known of later
+ * steps is forgotten then. */
+static bool forgets(CommandKind kind)
+{
+    static const CommandKind kinds[] = {
+        COMMAND_SET,      COMMAND_FILTER, COMMAND_SEARCH,  COMMAND_METHOD,
+        COMMAND_ADD_PANE, COMMAND_GRAB,   COMMAND_DRAG,    COMMAND_PIN,
+        COMMAND_HANDLE,   COMMAND_FLIP,   COMMAND_RELEASE,
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i] == kind)
+            return true;
+    return false;
+}
+
+/* A hand that would make the run forget steps is asked first: its next gesture
+ * does it.  Scripts know what they do. */
+static Status ask_first(Player *player, CommandKind kind)
+{
+    long first = player->step + 1, last = player->newest;
+    char steps[64];
+    if (!player->by_hand || last < first || !forgets(kind) ||
+        (player->asked > 0 && player->gesture == player->asked + 1))
+        return STATUS_OK;
+    player->asked = player->gesture;
+    snprintf(steps, sizeof steps,
+             first == last ? "step %ld" : "steps %ld ... %ld", first, last);
+    snprintf(player->message, sizeof player->message,
+             "%s would be forgotten: once more does it, End shows the newest",
+             steps);
+    return STATUS_INVALID_INPUT;
+}
+
 Status player_obey(Player *player, const Command *command)
 {
     Command resolved = resolve(player, command);
     bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
+    size_t told = player->journal.count;
     player->changed = true;
     player->message[0] = '\0';
     if (resolved.kind != COMMAND_REDRAW)
@@ -76,7 +110,11 @@ Status player_obey(Player *player, const Command *command)
         script_add(&player->journal, player->step, &resolved))
         return STATUS_OUT_OF_MEMORY;
     DeedFunction *act = player_deed(resolved.kind);
-    Status status = act ? act(player, &resolved) : STATUS_OK;
+    Status status = ask_first(player, resolved.kind);
+    if (!status && act)
+        status = act(player, &resolved);
+    if (status == STATUS_INVALID_INPUT && player->journal.count == told + 1)
+        player->journal.count = told; /* nothing was done */
     player_tell_forgotten(player);
     player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||

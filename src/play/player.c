@@ -100,6 +100,7 @@ bool player_escape_ends(const Player *player)
 void player_deselect(Player *player)
 {
     player->selected = -1;
+    player->typing = false;
     player->typed[0] = '\0';
 }
 
@@ -138,18 +139,20 @@ static int frames_shown(const Player *player)
 
 void player_know_step(Player *player)
 {
-    enum { LONG = 800000 }; /* nodes times updates */
+    enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         const Simulation *simulation = &lane->track.simulation;
         if (!player->paused || !player->attended || lane->taped ||
             lane->retried || lane->failed || player->step == 0 ||
-            player->mouse.drag == DRAG_TIME || !simulation->run[0].newton ||
-            !track_step_shown(&lane->track) || state_size(simulation) == 0)
+            !simulation->run[0].newton || !track_step_shown(&lane->track) ||
+            state_size(simulation) == 0)
             continue;
         long work = simulation->system.nodes;
         work *= 1 + lane->bar[player->step - 1].updates;
         work *= 2; /* with the step before it */
+        if (player->mouse.drag == DRAG_TIME && work > SOON)
+            continue;
         if (work <= LONG && lane_retape(lane, player->step))
             lane_show(lane, player->step);
         lane->retried = true;
@@ -229,6 +232,7 @@ static Status obey_script(Player *player)
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->step, line,
                     player->message);
             player->message[0] = '\0';
+            player->refused = true;
             status = STATUS_OK;
         }
     }
@@ -302,8 +306,10 @@ static Status step_frame(Player *player)
         if (i > 0 &&
             (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
             break;
-        status = show_failure(player, player_step(player));
-        player_pause_if_due(player);
+        bool known = player->step < player->newest;
+        status = show_failure(player, player_go_on(player));
+        if (!known)
+            player_pause_if_due(player);
         if (!status)
             status = obey_script(player);
     }
@@ -416,7 +422,7 @@ static Status open_view(Player *player)
 static Status read_script(Player *player)
 {
     const char *name = player->given[0].script;
-    char why[160], shown[80];
+    char why[640], shown[80];
     if (!name)
         return STATUS_OK;
     one_line(name, shown, sizeof shown);
@@ -426,7 +432,7 @@ static Status read_script(Player *player)
                  shown, strerror(errno));
     if (status == STATUS_INVALID_INPUT)
         snprintf(player->message, sizeof player->message,
-                 "--script: %s, %.150s", shown, why);
+                 "--script: %s, %.600s", shown, why);
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 

@@ -66,14 +66,20 @@ const IntegratorMethod *player_next_method(const Simulation *simulation);
 
 /* ---- retake.c ----------------------------------------------------------- */
 
-/* Filter or line search, with the present step taken again.  Two outcomes that
- * no one picture can show are put beside each other.
+/* A change with the present step taken again; what was changed since that step
+ * is changed again after it.  Two outcomes with and without projection or line
+ * search that no one picture can show are put beside each other.
  *   option, value, old  what changes, and from what
  *   from, to            in these lanes */
 Status retake_step(Player *player, const Command *change, const char *option,
                    const char *value, const char *old, int from, int to);
 
 /* ---- begin.c ------------------------------------------------------------ */
+
+/* The options of a scene: those of the command line where it was called for,
+ * else the scene's defaults.  count out: of panes. */
+Status player_scene_options(Player *player, const char *name,
+                            Options options[OPTIONS_MAX_PANES], int *count);
 
 /* Whether new runs with these options can begin, of as many lanes as there are;
  * message says why not; and then they do. */
@@ -103,7 +109,10 @@ Status player_show(Player *player, long step);
 /* The same, so that it can be walked through line by line. */
 Status player_retape(Player *player, long step);
 
-/* Going on from an old step: what came after it is forgotten. */
+/* The next step: known, or new. */
+Status player_go_on(Player *player);
+
+/* What came after an old step is forgotten. */
 Status player_forget_later(Player *player);
 
 /* Says which steps were forgotten, beside what else was said. */
@@ -124,8 +133,8 @@ void player_reset_speed(Player *player);
 double player_rate(const Player *player); /* steps a second */
 
 /* Before a picture: of a step that was gone to, the cards shall know every
- * update: it is made once more, unless that is long work, or the time line is
- * still dragged. */
+ * update: it is made once more, unless that is long work; while the time line
+ * is dragged, only if it is short. */
 void player_know_step(Player *player);
 
 /* A line below the picture. */

@@ -1,5 +1,6 @@
-/* retake.c - the counterfactual step: with another projection or line search
- * the present step is made again from its own start, beside what it was.
+/* retake.c - the counterfactual step: with another projection or line search,
+ * or another number while its lines are gone through, the present step is made
+ * again from its own start, beside what it was.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,16 +33,68 @@ static void tell_outcome(const Outcome *outcome, char *text, size_t size)
              outcome->status ? status_text(outcome->status) : "");
 }
 
-/* What a value of a method is called in a sentence. */
-static void method_words(const char *option, const char *value, char *text,
-                         size_t size)
+/* What a value is called in a sentence. */
+static void value_words(const char *option, const char *value, char *text,
+                        size_t size)
 {
-    bool filter = strcmp(option, "filter") == 0;
     if (strcmp(value, "none") == 0)
-        snprintf(text, size, filter ? "no projection" : "full step");
+        snprintf(text, size, "%s",
+                 strcmp(option, "filter") == 0 ? "no projection" : "full step");
     else
-        snprintf(text, size, "%s %s", filter ? "projection" : "line search",
-                 value);
+        snprintf(text, size, "%s %s", number_find(option)->name, value);
+}
+
+/* Whether it is the projection or the line search that changes. */
+static bool is_method(const char *option)
+{
+    return strcmp(option, "filter") == 0 || strcmp(option, "line-search") == 0;
+}
+
+/* What was changed in a lane since the step that is shown, but for the
+ * option. */
+static Status keep_changes(const Lane *lane, const char *option, Script *kept)
+{
+    const Script *changes = &lane->track.changes;
+    size_t length = strlen(option);
+    Status status = STATUS_OK;
+    for (size_t i = 0; i < changes->count && !status; i++) {
+        const ScriptLine *line = &changes->line[i];
+        bool same = line->command.kind == COMMAND_SET &&
+                    strncmp(line->command.text, option, length) == 0 &&
+                    line->command.text[length] == ' ';
+        if (line->step == track_step_shown(&lane->track) && !same)
+            status = script_add(kept, line->step, &line->command);
+    }
+    return status;
+}
+
+/* And once more, after the step was made again. */
+static Status change_again(Lane *lane, const Script *kept)
+{
+    char message[256];
+    Status status = STATUS_OK;
+    for (size_t i = 0; i < kept->count && !status; i++)
+        status = track_change(&lane->track, &kept->line[i].command, message,
+                              sizeof message);
+    return status;
+}
+
+/* The change at this step, and the step after it.  A hand that held a node
+ * does so again. */
+static Status step_again(Player *player, const Command *change, long first,
+                         int from, int to)
+{
+    bool holds = player->holds, paused = player->paused;
+    Status status = player_show(player, first);
+    if (!status)
+        status = player_change_lanes(player, change, from, to);
+    player->holds = true;
+    if (!status)
+        status = player_step(player);
+    player->holds = holds;
+    player->paused = paused;
+    player->sampled = -1;
+    return status;
 }
 
 /* The place in the tape that is the same line of the same round as before. */
@@ -65,17 +118,17 @@ static Status make_again(Player *player, const Command *change,
                          int from, int to)
 {
     Lane *lane = &player->lane[player->active];
-    bool failed = lane->failed, paused = player->paused;
-    bool again = player->step > 0 || failed;
+    bool failed = lane->failed;
     long first = player->step - (failed ? 0 : 1);
     int round = -1;
     Line line = LINE_NONE;
     char was[64], is[64], had[160], has[160];
+    Script kept[OPTIONS_MAX_PANES] = {{0}};
     if (lane->place >= 0 && player->fine > 0) {
         round = lane->tape.place[lane->place].round;
         line = lane->tape.place[lane->place].line;
     }
-    if (!again)
+    if (first < 0)
         return player_change_lanes(player, change, from, to);
     Outcome before = outcome_of(lane);
     if (!failed && lane->track.keeps && track_step_shown(&lane->track) > 0) {
@@ -84,21 +137,24 @@ static Status make_again(Player *player, const Command *change,
         before.change = row->change;
         before.updates = row->updates;
     }
-    method_words(option, old, was, sizeof was);
-    method_words(option, value, is, sizeof is);
+    value_words(option, old, was, sizeof was);
+    value_words(option, value, is, sizeof is);
     double *ghost = NULL;
-    if (!failed && state_size(&lane->track.simulation) > 0 &&
-        !lane_keep_ghost(lane, was))
+    if (is_method(option) && !failed &&
+        state_size(&lane->track.simulation) > 0 && !lane_keep_ghost(lane, was))
         ghost = lane->ghost;
     lane->ghost = NULL; /* out of the reach of other steps */
-    Status status = player_show(player, first);
+    Status status = STATUS_OK;
+    for (int i = 0; i < player->lanes && !failed && !status; i++)
+        status = keep_changes(&player->lane[i], option, &kept[i]);
     if (!status)
-        status = player_change_lanes(player, change, from, to);
-    if (!status)
-        status = player_step(player);
-    player->paused = paused;
-    player->sampled = -1;
+        status = step_again(player, change, first, from, to);
     Outcome after = outcome_of(lane);
+    for (int i = 0; i < player->lanes; i++) {
+        Status changed = change_again(&player->lane[i], &kept[i]);
+        status = status ? status : changed;
+        script_free(&kept[i]);
+    }
     lane_drop_ghost(lane);
     lane->ghost = ghost;
     if (round >= 0)
@@ -117,16 +173,16 @@ static bool fits_one_picture(const Outcome *one, const Outcome *other)
            other->extent <= TIMES * one->extent;
 }
 
-/* Filter or line search, with the present step taken again.  Two outcomes that
- * no one picture can show are put beside each other. */
+/* Two outcomes of methods that no one picture can show are put beside each
+ * other. */
 Status retake_step(Player *player, const Command *change, const char *option,
                    const char *value, const char *old, int from, int to)
 {
     enum { SOON = 64 }; /* steps that are made again without a wait */
     Lane *lane = &player->lane[player->active], *beside = &player->lane[1];
     Status status = STATUS_OK;
-    bool alone = player->lanes == 1 && player->attended && player->step > 0 &&
-                 player->step < SOON && !lane->failed &&
+    bool alone = is_method(option) && player->lanes == 1 && player->attended &&
+                 player->step > 0 && player->step < SOON && !lane->failed &&
                  (lane->track.options.scene->needs & NEEDS_MESH) &&
                  state_size(&lane->track.simulation) > 0;
     Outcome before = outcome_of(lane);

@@ -107,9 +107,9 @@ static Status switch_column(Player *player, const Command *command)
 {
     LectureColumn column =
         command->kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
-    if (!player_settings(player)->options.page)
-        return player_refuse(player, "only pages of the lecture have code and "
-                                     "a list: Page Down opens them");
+    if (column == LECTURE_CODE && !player_settings(player)->options.page)
+        return player_refuse(player, "only pages of the lecture have code: "
+                                     "Page Down opens them");
     player->help = false;
     player->column = player->column == column ? LECTURE_CARDS : column;
     return STATUS_OK;

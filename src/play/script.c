@@ -48,7 +48,7 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
 
 Status script_read(const char *name, Script *script, char *message, size_t size)
 {
-    char text[SCRIPT_LINE_SIZE], why[256] = "";
+    char text[SCRIPT_LINE_SIZE], why[600] = "";
     *script = (Script){0};
     message[0] = '\0';
     FILE *file = fopen(name, "r");

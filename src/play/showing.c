@@ -67,7 +67,7 @@ static void fill_help(Show *show)
         {"wheel", "zooms, or changes a number"},
         {"middle drag", "moves the picture"},
         {"double click", "fits it; on a number: default"},
-        {"digits", "typed into a lit number; Enter"},
+        {"digits", "open a lit number; Enter, Esc"},
     };
     char *keys = help_keys[0];
     int count = 0;
@@ -154,7 +154,8 @@ static void fill_settings(Player *player)
         setting->off = strcmp(now, "none") == 0;
     }
     show->selected = player->selected;
-    if (player->typed[0] && player->selected < player->numbers)
+    if (player->typing && player->selected >= 0 &&
+        player->selected < player->numbers)
         snprintf(show->setting[player->selected].value, SHOW_VALUE, "%s_",
                  player->typed);
 }
@@ -390,7 +391,7 @@ void player_fill(Player *player)
     if (player->help)
         fill_help(show);
     explain_number(player, show);
-    show_lecture(player->column, show);
+    show_lecture(player->column, player->left, show);
     show_describe(show);
 }
 

@@ -25,7 +25,8 @@ bool player_watch(void *user, const NewtonRecord *record)
     const Newton *newton = listened_to(&lane->track.simulation);
     if (*player->stop ||
         (player->window &&
-         view_quit_waits(player->view, player_escape_ends(player))))
+         view_quit_waits(player->view, player->selected < 0 && !player->typing,
+                         player_escape_ends(player))))
         player->quit = true;
     if (lane->track.keeps && newton && lane->track.simulation.scene &&
         !lane->track.simulation.scene->step)
@@ -152,6 +153,15 @@ Status player_retape(Player *player, long step)
         return player_show(player, step);
     wait_elsewhere(player);
     return go_to_step(player, step, lane_retape);
+}
+
+Status player_go_on(Player *player)
+{
+    if (!player->attended || player->step >= player->newest)
+        return player_step(player);
+    leave_step(player);
+    player->holds = player->drifts = false;
+    return go_to_step(player, player->step + 1, lane_repeat);
 }
 
 void player_tell_forgotten(Player *player)

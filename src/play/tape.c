@@ -76,6 +76,8 @@ Status tape_begin(Tape *tape, const Simulation *simulation)
     if (!near)
         tape->before = 0;
     tape->step = step;
+    tape->h = simulation->options.timestep;
+    tape->tolerance = simulation->options.tolerance;
     tape->open = true;
     if (tape->size == size && tape->scratch)
         return STATUS_OK;
@@ -395,7 +397,9 @@ static void trace_round(const Tape *tape, const TapePlace *at, Trace *trace)
 
 const double *tape_trace(const Tape *tape, int place, Trace *trace)
 {
-    *trace = (Trace){.updates = tape->count,
+    *trace = (Trace){.h = tape->h,
+                     .tolerance = tape->tolerance,
+                     .updates = tape->count,
                      .record = tape->record,
                      .updates_before = tape->before,
                      .record_before = tape->record_before,

@@ -524,17 +524,17 @@ void view_wait(View *view, int milliseconds)
 }
 
 /* Whether this event asks for the end of the program. */
-static bool asks_for_end(const SDL_Event *event, bool escape_ends)
+static bool asks_for_end(const SDL_Event *event, bool q_ends, bool escape_ends)
 {
     if (event->type == SDL_KEYDOWN)
         return (escape_ends && event->key.keysym.sym == SDLK_ESCAPE) ||
-               latin_key(&event->key.keysym) == SDLK_q;
+               (q_ends && latin_key(&event->key.keysym) == SDLK_q);
     return event->type == SDL_QUIT ||
            (event->type == SDL_WINDOWEVENT &&
             window_input(&event->window) == INPUT_CLOSE);
 }
 
-bool view_quit_waits(View *view, bool escape_ends)
+bool view_quit_waits(View *view, bool q_ends, bool escape_ends)
 {
     SDL_Event events[PEEK_EVENTS];
     if (!view->window)
@@ -544,7 +544,7 @@ bool view_quit_waits(View *view, bool escape_ends)
                                SDL_FIRSTEVENT, SDL_LASTEVENT);
     bool uncovered = false;
     for (int i = 0; i < count; i++) {
-        if (asks_for_end(&events[i], escape_ends))
+        if (asks_for_end(&events[i], q_ends, escape_ends))
             return true;
         uncovered =
             uncovered || (events[i].type == SDL_WINDOWEVENT &&

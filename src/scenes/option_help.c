@@ -76,7 +76,7 @@ static void help_choices(Help *help, const OptionRow *row)
     help_words(help, list.text);
 }
 
-/* [4]: the slides' value, where it is a number. */
+/* [4]: the slides' value, where it is a number that can be asked for. */
 static void help_default(Help *help, const OptionRow *row)
 {
     Options defaults = option_defaults();
@@ -89,8 +89,9 @@ static void help_default(Help *help, const OptionRow *row)
         snprintf(words.text, sizeof words.text, "[%d]", whole);
     } else if (row->kind == KIND_NUMBER) {
         memcpy(&number, field, sizeof number);
-        snprintf(words.text, sizeof words.text, "[%s]",
-                 number_text(number).text);
+        if (number >= row->low && number <= row->high)
+            snprintf(words.text, sizeof words.text, "[%s]",
+                     number_text(number).text);
     }
     help_words(help, words.text);
 }

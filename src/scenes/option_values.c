@@ -65,33 +65,60 @@ void add_name(Text *list, const char *name)
              used > 0 ? ", " : "", name);
 }
 
-/* What is meant by "1/60", "140%", "5ms", as a number in the row's unit; NaN:
+/* A decimal number at the beginning of a text, no "inf", "0x1" or blanks;
+ * returns what follows it, or NULL. */
+static const char *read_number(const char *text, double *number)
+{
+    size_t length = strspn(text, "+-.0123456789eE");
+    char *end = NULL;
+    *number = strtod(text, &end);
+    if (length == 0 || !strchr("+-.0123456789", text[0]) ||
+        end != text + length || !isfinite(*number))
+        return NULL;
+    return end;
+}
+
+/* What is meant by "1/60", "140%", "5 ms", as a number in the row's unit; NaN:
  * nobody knows. */
 static double number_meant(const OptionRow *row, const char *text)
 {
     static const struct {
-        const char *end, *unit; /* NULL: of a number without one */
-        double factor;
-    } ends[] = {{"%", NULL, 0.01}, {"s", "s", 1},     {"sec", "s", 1},
-                {"ms", "s", 1e-3}, {"us", "s", 1e-6}, {"m", "m", 1},
-                {"cm", "m", 1e-2}, {"mm", "m", 1e-3}, {"km", "m", 1e3}};
-    char *end = NULL;
-    double number = strtod(text, &end);
-    if (end == text || (row->kind != KIND_NUMBER && row->kind != KIND_WHOLE))
+        const char *end, *unit; /* "": of a number without one */
+        double times, over;     /* whole, so that 7 ms are 0.007 s */
+    } ends[] = {
+        {"%", "", 1, 100},   {"sec", "s", 1, 1},      {"ms", "s", 1, 1e3},
+        {"us", "s", 1, 1e6}, {"cm", "m", 1, 1e2},     {"mm", "m", 1, 1e3},
+        {"km", "m", 1e3, 1}, {"cm/s", "m/s", 1, 1e2}, {"mm/s", "m/s", 1, 1e3}};
+    const char *unit = row->unit ? row->unit : "";
+    double number, below = 1;
+    const char *end = read_number(text, &number);
+    if (end && *end == '/')
+        end = read_number(end + 1, &below);
+    if (!end || (row->kind != KIND_NUMBER && row->kind != KIND_WHOLE))
         return NAN;
-    if (*end == '/') {
-        double below = strtod(end + 1, &end);
-        return *end == '\0' ? number / below : NAN;
-    }
-    if (row->unit && strcmp(end, row->unit) == 0)
-        return number;
+    end += strspn(end, " ");
+    if (*end == '\0' || strcmp(end, unit) == 0)
+        return number / below;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        if (strcmp(end, ends[i].end) == 0 &&
-            (ends[i].unit == row->unit ||
-             (ends[i].unit && row->unit &&
-              strcmp(ends[i].unit, row->unit) == 0)))
-            return number * ends[i].factor;
+        if (strcmp(end, ends[i].end) == 0 && strcmp(unit, ends[i].unit) == 0)
+            return number * ends[i].times / ends[i].over / below;
     return NAN;
+}
+
+void options_meant(const char *name, const char *text, char *value, size_t size)
+{
+    const OptionRow *row = option_row(name);
+    char point[64];
+    snprintf(point, sizeof point, "%s", text);
+    for (char *comma = point; (comma = strchr(comma, ','));)
+        *comma = '.';
+    double number = row->name ? number_meant(row, point) : NAN;
+    snprintf(value, size, "%s", text);
+    if (!isfinite(number))
+        return;
+    snprintf(value, size, "%.15g", number);
+    if (strtod(value, NULL) != number)
+        snprintf(value, size, "%.17g", number);
 }
 
 static bool in_range(const OptionRow *row, double number)
@@ -109,19 +136,6 @@ static Status refuse_number(const OptionRow *row, const char *text,
         snprintf(write, sizeof write, "; write %.4g", meant);
     return complain(complaint, "--%s: '%s' is not %s%s", row->name,
                     typed(text).text, range_text(row).text, write);
-}
-
-/* A decimal number at the beginning of a text, no "inf", "0x1" or blanks;
- * returns what follows it, or NULL. */
-static const char *read_number(const char *text, double *number)
-{
-    size_t length = strspn(text, "+-.0123456789eE");
-    char *end = NULL;
-    *number = strtod(text, &end);
-    if (length == 0 || !strchr("+-.0123456789", text[0]) ||
-        end != text + length || !isfinite(*number))
-        return NULL;
-    return end;
 }
 
 /* Also 1e3 and 4.0; digits alone are read exactly. */

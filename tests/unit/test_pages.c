@@ -1030,7 +1030,7 @@ static void words_of_all_pages_have_one_size(void **unused)
             assert_int_equal(
                 simulation_create(&options, NULL, NULL, &simulation), 0);
             show_create(&simulation, &show);
-            show_lecture(LECTURE_CARDS, &show);
+            show_lecture(LECTURE_CARDS, NULL, &show);
             assert_int_equal(paper_create(width, height, &paper), 0);
             show.settings = 9; /* as many as fill two rows */
             for (int i = 0; i < show.settings; i++)

@@ -741,7 +741,8 @@ static void surface_shows_the_paper(void **unused)
             CHECK(view_surface_pixel(view, i, j) ==
                   paper->canvas.pixels[300 * j + i]);
     CHECK(view_surface_pixel(view, 300, 0) == 0);
-    CHECK(view_input(view).kind == INPUT_NONE && !view_quit_waits(view, true));
+    CHECK(view_input(view).kind == INPUT_NONE &&
+          !view_quit_waits(view, true, true));
     view_free(view);
     view_free(NULL);
     simulation_free(&simulation);

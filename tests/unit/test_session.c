@@ -1,0 +1,414 @@
+/* Sessions: what hands do in the window, and what they see, as text.  One
+ * driver puts each line in as the Input that a window would send.
+ *
+ *     begin LINE               a new player of this command line
+ *     key K ...                "N", "Shift+N", "Return": as the window names
+ * them type TEXT                a key for each letter press, move, release,
+ * right, wheel, at a PLACE: X Y                  pixels; +X +Y from where the
+ * mouse was h                    the number of the row that has this name step
+ * 12              of the time line run N                    until the run has
+ * come to this step at N, newest N           the step that is shown, and the
+ * last one scene NAME, page N       0: none number NAME VALUE        what the
+ * row shows says WORDS               in the last line files N that were written
+ *     mark M [WHAT]            the picture without its message; or of it the
+ *     same M [WHAT]            cards; or the hash of the state
+ *     other M [WHAT]           none of the same pixels
+ */
+#include "attended.h"
+
+#include <ctype.h>
+#include <glob.h>
+
+#include "picture/picture.h"
+#include "scenes/pages.h"
+#include "scenes/scene.h"
+#include "scenes/state.h"
+
+enum { SIDE = 900, MARKS = 16 };
+
+static uint64_t marks[MARKS]; /* by letter */
+static double mouse[2];       /* pixels */
+static bool open_player;
+static char folder[] = "/tmp/elasto-session-XXXXXX";
+
+static Layout layout_now(void)
+{
+    const Canvas *canvas = &view_paper(player.view)->canvas;
+    return show_layout(&player.show, canvas->width, canvas->height);
+}
+
+static uint64_t hash_box(const Canvas *canvas, Box box)
+{
+    uint64_t hash = STATE_HASH_SEED;
+    for (int y = box.y; y < box.y + box.height; y++)
+        for (int x = box.x; x < box.x + box.width; x++)
+            hash = (hash ^ canvas->pixels[(long)y * canvas->width + x]) *
+                   1099511628211u;
+    return hash;
+}
+
+/* The picture above its message, or the cards of it; the state.  As a window
+ * does it, nothing is drawn that has not changed. */
+static uint64_t seen(const char *what)
+{
+    if (strcmp(what, "state") == 0)
+        return player_hash(&player);
+    if (player.changed)
+        CHECK_STATUS(player_draw(&player), STATUS_OK);
+    const Canvas *canvas = &view_paper(player.view)->canvas;
+    Layout layout = layout_now();
+    Box all = {0, 0, layout.width,
+               layout.last.width > 0 ? layout.last.y : layout.height};
+    return hash_box(canvas, strcmp(what, "cards") == 0 ? layout.column : all);
+}
+
+static void finish_session(void)
+{
+    if (open_player)
+        end();
+    open_player = false;
+}
+
+static void begin_session(const char *line)
+{
+    finish_session();
+    begin_script("0 pause\n", line);
+    open_player = true;
+    mouse[0] = mouse[1] = -1;
+    CHECK_STATUS(view_create_surface(SIDE, SIDE, &player.view), STATUS_OK);
+    seen(""); /* a window shows the scene before anything is put in */
+}
+
+/* What makes no sense is only told. */
+static void put(Input input)
+{
+    input.clicks = 1;
+    input.x = mouse[0];
+    input.y = mouse[1];
+    Status status = player_input(&player, &input);
+    CHECK(!status || status == STATUS_INVALID_INPUT ||
+          status_is_unconverged(status));
+    if (status == STATUS_INVALID_INPUT)
+        snprintf(player.note, sizeof player.note, "%.150s", player.message);
+}
+
+static void press_key(const char *name)
+{
+    Input input = {.kind = INPUT_KEY};
+    snprintf(input.key, sizeof input.key, "%s", name);
+    put(input);
+}
+
+/* As the window names the key of a letter. */
+static void press_letter(char letter)
+{
+    char name[16];
+    snprintf(name, sizeof name, "%s%c", isupper(letter) ? "Shift+" : "",
+             toupper(letter));
+    press_key(letter == ' ' ? "Space" : name);
+}
+
+static const Setting *number_shown(const char *name, int *place)
+{
+    player_fill(&player);
+    for (int i = 0; i < player.show.settings; i++)
+        if (strcmp(player.show.setting[i].name, name) == 0) {
+            *place = i;
+            return &player.show.setting[i];
+        }
+    fail_msg("the row has no %s", name);
+    return NULL;
+}
+
+static void go_to(const char *place)
+{
+    double x, y;
+    int i = 0;
+    player_fill(&player);
+    Layout layout = layout_now();
+    if (sscanf(place, "%lf %lf", &x, &y) == 2) {
+        bool relative = place[0] == '+' || place[0] == '-';
+        mouse[0] = x + (relative ? mouse[0] : 0);
+        mouse[1] = y + (relative ? mouse[1] : 0);
+    } else if (strncmp(place, "step ", 5) == 0) {
+        long step = atol(place + 5);
+        mouse[0] = layout.bars.x;
+        mouse[1] = layout.time.y + layout.time.height / 2;
+        while (show_step_at(&player.show, &layout, mouse[0]) < step)
+            mouse[0]++;
+    } else {
+        number_shown(place, &i);
+        mouse[0] = layout.setting[i].x + 2;
+        mouse[1] = layout.setting[i].y + layout.setting[i].height / 2;
+    }
+}
+
+static void use_mouse(const char *verb, const char *place)
+{
+    go_to(place);
+    if (strcmp(verb, "move") == 0)
+        put((Input){.kind = INPUT_MOVE});
+    else if (strcmp(verb, "wheel") == 0)
+        put((Input){.kind = INPUT_WHEEL, .amount = 1});
+    else if (strcmp(verb, "right") == 0)
+        put((Input){.kind = INPUT_PRESS, .button = BUTTON_RIGHT});
+    else
+        put((Input){.kind = verb[0] == 'p' ? INPUT_PRESS : INPUT_RELEASE,
+                    .button = BUTTON_LEFT});
+}
+
+static void run_until(long step)
+{
+    Command pause = {.kind = COMMAND_PAUSE};
+    player.script.count = player.script.next; /* nothing else is due */
+    CHECK_STATUS(script_add(&player.script, step, &pause), STATUS_OK);
+    player_run(&player);
+}
+
+static int count_files(void)
+{
+    glob_t found;
+    int count = glob("*", 0, NULL, &found) == 0 ? (int)found.gl_pathc : 0;
+    globfree(&found);
+    return count;
+}
+
+static void compare(const char *verb, const char *rest)
+{
+    const char *what = rest[1] ? rest + 2 : "";
+    uint64_t now = seen(what), *mark = &marks[(rest[0] - 'a') % MARKS];
+    if (strcmp(verb, "mark") == 0)
+        *mark = now;
+    else if ((now == *mark) != (strcmp(verb, "same") == 0))
+        fail_msg("not the %s %s as at %s", verb, what, rest);
+}
+
+static void look(const char *verb, const char *rest)
+{
+    const LecturePage *page = player_settings(&player)->options.page;
+    char name[32], value[64];
+    int i = 0;
+    if (strcmp(verb, "at") == 0)
+        assert_int_equal(player.step, atol(rest));
+    else if (strcmp(verb, "newest") == 0)
+        assert_int_equal(player.newest, atol(rest));
+    else if (strcmp(verb, "files") == 0)
+        assert_int_equal(count_files(), atol(rest));
+    else if (strcmp(verb, "page") == 0)
+        assert_int_equal(page ? page - lecture_pages + 1 : 0, atol(rest));
+    else if (strcmp(verb, "scene") == 0)
+        assert_string_equal(player_simulation(&player)->scene->name, rest);
+    else if (strcmp(verb, "says") == 0 && !strstr(player.note, rest))
+        fail_msg("it says '%s', not '%s'", player.note, rest);
+    else if (strcmp(verb, "number") == 0) {
+        assert_int_equal(sscanf(rest, "%31s %63[^\n]", name, value), 2);
+        assert_string_equal(number_shown(name, &i)->value, value);
+    } else if (strcmp(verb, "says") != 0)
+        compare(verb, rest);
+}
+
+static void session_line(const char *line)
+{
+    char verb[16] = "", rest[128] = "";
+    sscanf(line, "%15s %127[^\n]", verb, rest);
+    if (getenv("SHOW"))
+        fprintf(stderr, "%s\n", line);
+    if (strcmp(verb, "begin") == 0)
+        begin_session(rest);
+    else if (strcmp(verb, "key") == 0)
+        for (char *word = strtok(rest, " "); word; word = strtok(NULL, " "))
+            press_key(word);
+    else if (strcmp(verb, "type") == 0)
+        for (const char *letter = rest; *letter; letter++)
+            press_letter(*letter);
+    else if (strcmp(verb, "run") == 0)
+        run_until(atol(rest));
+    else if (strstr("press move release right wheel", verb))
+        use_mouse(verb, rest);
+    else
+        look(verb, rest);
+}
+
+/* ---- sessions ----------------------------------------------------------- */
+
+typedef struct Session {
+    const char *name;
+    const char *const *line;
+} Session;
+
+#define LINES(...)                                                             \
+    (const char *const[])                                                      \
+    {                                                                          \
+        __VA_ARGS__, NULL                                                      \
+    }
+
+static const Session sessions[] = {
+    {"a number is worked out",
+     LINES("begin square --paused", "key Tab", "type 1/60", "key Return",
+           "number h 0.0166667 s", "says 1/60 is read as 0.01667 s", /**/
+           "key Tab", "type 0,02", "key Return", "number h 0.02 s",
+           "says 0,02 is read as 0.02 s", /**/
+           "key Tab", "type 4ms", "key Return", "number h 0.004 s",
+           "says 4ms is read as 0.004 s", "number method backward Euler",
+           "files 0",                                                  /**/
+           "key Tab", "type 7e3 us", "key Return", "number h 0.007 s", /**/
+           "key Tab Tab Tab", "type 120%", "key Return", "number stretch 1.2",
+           /**/
+           "key Tab", "type 0.03", "key Backspace", "type 2", "key Return",
+           "number h 0.02 s", "at 0", "scene square")},
+    {"what cannot be read is said, and the field stays open",
+     LINES("begin square --paused", "mark a", "key Tab", "type -3",
+           "key Return", "says --timestep: '-3' is not a number from 1e-30",
+           "number h -3_", "key Backspace Backspace Backspace Backspace",
+           "number h _", "key Return", "says --timestep: '' is not a number",
+           "type 4 m", "key Return", "says '4 m' is not a number", /**/
+           "key Escape", "number h 0.004 s", "same a",             /**/
+           "key Tab", "type 1,000.5", "key Return", "says '1,000.5' is not",
+           "key Escape", "same a", /**/
+           "key Tab", "type 1/0", "key Return", "says '1/0' is not",
+           "key Escape", "key Tab", "type 0x10", "key Return",
+           "says '0x10' is not", "key Escape", "same a")},
+    {"a choice that is lit takes digits, too",
+     LINES("begin square --paused", "key Tab Tab Tab Tab Tab Tab", "type 0.8",
+           "key Return", "says --integrator: '0.8' is none of: backward-euler",
+           "key Escape", "scene square", "number method backward Euler")},
+    {"an open field lets no key through",
+     LINES("begin square --paused", "key N N", "mark a", "key Tab",
+           "type 1spqrnghybcm?2-+=0", "key Space Tab Up Down Left Right Home",
+           "key End PageDown PageUp F1 F11 Ctrl+R Tab+M Shift+N Delete",
+           "type 0123456789", "says there is room for", "key Escape", "same a",
+           "files 0", "at 2")},
+    {"P and L keep what was changed since the last step",
+     LINES("begin square --paused", "key N N N N N N N N N N N N",
+           "mark a state", "key Tab Tab Up", "number k 150000 J/m\u00b2",
+           "key P", "number k 150000 J/m\u00b2", "at 12", "key P",
+           "same a state", "number k 150000 J/m\u00b2", /**/
+           "press h", "release +0 +0", "type 0.01", "key Return", "key L",
+           "number h 0.01 s", "key M", "number method forward Euler", /**/
+           "key M", "key P", "number method symplectic Euler", "at 12",
+           "says nothing to project")},
+    {"P keeps pins and the hand",
+     LINES("begin square --segments 2 --stretch 1 --paused", "key N N",
+           "right 524 634", "says pinned", "press 279 389", "move 279 380",
+           "move 350 300", "key N", "mark a state", /**/
+           "begin square --segments 2 --stretch 1 --paused", "key N N",
+           "right 524 634", "press 279 389", "move 279 380", "move 350 300",
+           "key P P N", "same a state")},
+    {"a click on the projection does what P does",
+     LINES("begin square --paused --integrator forward-euler", "key N",
+           "mark a state", "key P", "says nothing to project",
+           "press projection", "release +0 +0", "says nothing to project",
+           "same a state", "number projection clamp", "key Escape")},
+    {"within a step a number takes the step again",
+     LINES("begin square --paused", "key N N N I I N N N N N", "at 4",
+           "mark a cards", "mark b state", "press h", "move +0 +0",
+           "move +48 +0", "release +0 +0", "number h 0.00862 s", "at 4",
+           "newest 4", "other a cards", "other b state", "says h 0.004: E",
+           "type 7ms", "key Return I Home End I I Left Left Left",
+           "mark a cards", "mark b state", /**/
+           "begin square --paused", "key N N N", "key Tab", "type 7ms",
+           "key Return N Home End I I Left Left Left", "same b state",
+           "same a cards")},
+    {"after a step a number is for the next one",
+     LINES("begin --lecture minimise --paused", "key N N N", "mark a cards",
+           "mark b state", "key Tab Up Up", "number h 0.007 s", "same a cards",
+           "same b state", "key Escape", "press \u03b5", "release +0 +0",
+           "type 1e-9", "key Return", "number \u03b5 1e-09 m/s", "same a cards",
+           "same b state")},
+    {"the time line keeps the cards",
+     LINES("begin square --paused", "key N N N N N N N N N N", "key Left Left",
+           "mark a cards", "key End", "press step 9", "move step 8",
+           "same a cards", "release +0 +0", "at 8", "same a cards", "key End",
+           "press step 8", "release +0 +0", "at 8", "same a cards")},
+    {"cards come back after the drag of a large square's time line",
+     LINES("begin square --segments 48 --paused", "key N N N", "key Left",
+           "mark a cards", "key End", "press step 2", "move step 2",
+           "release +0 +0", "at 2", "same a cards")},
+    {"a change at an old step asks first",
+     LINES("begin square --segments 2 --stretch 1 --paused", "key N N N N N N",
+           "mark a state", "key Home Right", "right 524 634",
+           "says steps 2 ... 6 would be forgotten", "newest 6", "at 1",
+           "key End", "same a state", /**/
+           "key Home", "press 279 389", "move 279 380", "move 350 300",
+           "says would be forgotten", "move 360 310", "release +0 +0",
+           "newest 6", "key End", "same a state", /**/
+           "key Home", "press h", "move +0 +0", "move +24 +0", "move +24 +0",
+           "release +0 +0", "says would be forgotten", "number h 0.004 s",
+           "key Home", "wheel h", "says would be forgotten", "wheel h",
+           "newest 6", "key Tab", "type 1", "key Return",
+           "says would be forgotten", "number k 1_", "key Escape", "key P",
+           "says would be forgotten", "key Home M", "says would be forgotten",
+           "key Home Tab+M", "says would be forgotten", "newest 6", "at 0",
+           "key End", "same a state", /**/
+           "key Left", "right 524 634", "says step 6 would be forgotten",
+           "right 524 634", "says pinned; step 6 is forgotten", "newest 5",
+           "key Home", "press h", "move +0 +0", "move +24 +0", "release +0 +0",
+           "press h", "move +0 +0", "move +24 +0",
+           "says steps 1 ... 5 are forgotten", "newest 0")},
+    {"running on from an old step shows the known ones",
+     LINES("begin square --segments 2 --paused", "key N N N", "right 524 634",
+           "key N N N N", "mark a state", "key Home Space", "run 5", "at 5",
+           "newest 7", "key Space", "run 7", "same a state", "key Space",
+           "run 9", "at 9", "newest 9")},
+    {"what was refused is not told again",
+     LINES("begin square --segments 2 --paused", "key N N N Home",
+           "right 524 634", "says would be forgotten", "key N N N Y",
+           "files 1")},
+    {"a scene leaves the lecture where it was",
+     LINES("begin --lecture solid --paused", "key PageDown", "page 2", "key 1",
+           "page 0", "scene square", "number stretch 1.4", "key PageUp",
+           "page 2", "key 2", "key PageDown", "page 3", "key 1", "key G",
+           "type 5", "key Return", "page 5")},
+    {"in the list of pages digits choose the page",
+     LINES("begin --lecture solid --paused", "key G", "type 28", "page 1",
+           "says page 28_", "key Return", "page 28", "key G", "type 2",
+           "key Backspace", "type 99", "key Return",
+           "says there is no page '99', they are 1 ... 32", "key Escape",
+           "page 28", "mark a", "key Escape", "other a", "key 2",
+           "scene circle")},
+    {"a cell of the map leaves the lecture where it was",
+     LINES("begin --lecture trust --paused", "key N", "press 300 500",
+           "release +0 +0", "scene square", "page 0", "key Escape", "page 32",
+           "scene envelope", "press 300 500", "release +0 +0", "key PageUp",
+           "page 32")},
+    {"a double default is the page's",
+     LINES("begin --lecture explodes --paused", "number h 0.02 s", "key Tab",
+           "type 1", "key Return", "number h 1 s")},
+};
+enum { SESSIONS = sizeof sessions / sizeof *sessions };
+
+static const char *present; /* line of a session */
+
+static void a_session(void **state)
+{
+    const Session *session = *state;
+    for (const char *const *line = session->line; *line; line++)
+        session_line(present = *line);
+    present = NULL;
+}
+
+/* Says where a session has failed. */
+static int end_session(void **unused)
+{
+    (void)unused;
+    if (present)
+        print_error("    at: %s\n", present);
+    finish_session();
+    present = NULL;
+    return 0;
+}
+
+int main(void)
+{
+    struct CMUnitTest tests[SESSIONS];
+    char before[4096];
+    int count = 0;
+    assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
+    for (int i = 0; i < SESSIONS; i++)
+        tests[count++] = (struct CMUnitTest){sessions[i].name, a_session, NULL,
+                                             end_session, (void *)&sessions[i]};
+    assert_int_equal(chdir(folder), 0);
+    int failed = cmocka_run_group_tests_name("sessions", tests, NULL, NULL);
+    assert_int_equal(chdir(before), 0);
+    return failed;
+}
