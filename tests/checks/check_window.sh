@@ -284,6 +284,7 @@ hands() {
     xdotool mouseup 1
     key space Home
     point 524 634
+    xdotool click 3 # at an old step a hand is asked first
     xdotool click 3
     shot before >/dev/null
     point 279 300
@@ -300,7 +301,16 @@ hands() {
 }
 verdict hands_pull_and_pin "$(hands)"
 
-# The edge of the paused square, a number that is dragged and taken back, Up.
+# The first number of the row is typed.
+typed() { # TEXT KEY...
+    key Tab
+    xdotool type --delay 5 "$1"
+    shift
+    key "$@"
+}
+
+# The edge of the paused square, a number that is dragged and taken back, Up;
+# what is typed does nothing else.
 numbers() {
     side=900
     begin square --segments 2 --stretch 1 --paused
@@ -315,12 +325,18 @@ numbers() {
     point 110 757
     xdotool mouseup 1
     key Tab Up 5 0 0 0 0 Return
+    typed 1/60 Return
+    typed '4qsm?' Return Escape
+    typed 4ms Return
     key n n
     same_again square --segments 2 --stretch 1
     grep -q ' set stretch 1\.' session || echo 'the edge sets no stretch'
     grep -q ' set timestep 0.0' session || echo 'h was not dragged'
     grep -q ' set stiffness 50000' session || echo 'k was not typed'
-    [ "$(grep -c ' set ' session)" -gt 3 ] || echo 'Up changes nothing'
+    grep -q ' set timestep 0.0166666666666666' session || echo '1/60 is not h'
+    grep -q ' set timestep 0.004$' session || echo '4ms is not h'
+    [ "$(cut -d' ' -f2 session | sort -u | xargs)" = 'next pause set' ] ||
+        cat session
 }
 verdict edges_and_numbers_are_dragged "$(numbers)"
 
@@ -396,203 +412,12 @@ session() {
     done
     key n
     same_again square --segments 3
-    [ "$(grep -c ' add-pane' session)" = 6 ] || echo 'Tab+M was not told'
+    [ "$(grep -c ' add-pane' session)" = 5 ] || echo 'Tab+M was not told'
     awk -F, 'NR > 1 && $3 > n { n = $3 }
         END { if (n != 6 * 16 - 1) print n + 1, "nodes, not of six panes" }' \
         states
 }
 verdict a_session_by_hand "$(session)"
-
-# ---- a hand on every scene -------------------------------------------------
-# same NAME OTHER: two screenshots are the same picture.
-same() {
-    cmp -s "$1.png" "$2.png"
-}
-# changes NAME KEY...: the keys change the picture; it is left as NAME.png.
-changes() {
-    name=$1
-    shift
-    shot plain >/dev/null
-    key "$@"
-    shot "$name" >/dev/null
-    same "$name" plain && echo "$*: nothing changes"
-}
-# stays KEY...: the keys change nothing but the message.
-stays() {
-    shot plain >/dev/null
-    key "$@"
-    shot after >/dev/null
-    same after plain || echo "$*: something changes"
-}
-
-# The scene is pulled or its point is dragged from X,Y by DX,DY, while N makes
-# steps; then the right button.
-taken() { # X Y DX DY
-    xdotool mousemove --window "$window" "$1" "$2" mousedown 1 sleep 0.03 \
-        mousemove --window "$window" $(($1 + $3 / 2)) $(($2 + $4 / 2)) \
-        sleep 0.03 mousemove --window "$window" $(($1 + $3)) $(($2 + $4)) \
-        sleep 0.03 key n n mouseup 1 key n \
-        mousemove --window "$window" $(($1 + $3 / 2)) $(($2 + $4 / 2)) \
-        sleep 0.03 click 3
-    key n
-}
-
-# The wheel on the first number of the row, and on k beside it.
-numbers_live() { # Y of the row
-    xdotool mousemove --window "$window" 60 "$1" sleep 0.03 click 4
-    case $can in
-    *k*) xdotool mousemove --window "$window" 140 "$1" sleep 0.03 click 4 ;;
-    esac
-    xdotool mousemove --window "$window" 450 880
-    key n n
-}
-
-# Back and on, from end to end, and the time line dragged to step 1.
-back_and_on() {
-    now=$(shot now)
-    [ "$now" -ge 1 ] || echo "no step was made: $now"
-    key Left
-    a=$(shot back)
-    [ "$a" = $((now - 1)) ] || echo "Left: $now to $a"
-    key Right
-    shot back >/dev/null
-    same now back || echo 'Left and Right: not the same'
-    key Home End
-    shot back >/dev/null
-    same now back || echo 'Home and End: not the same'
-    xdotool mousemove --window "$window" 450 850 mousedown 1 sleep 0.03 \
-        mousemove --window "$window" $((11 + 878 / 120)) 850 sleep 0.03 \
-        mouseup 1 mousemove --window "$window" 450 880
-    a=$(shot back)
-    [ "$a" -le 1 ] || echo "the time line leads to $a, not 1"
-    key End
-}
-
-# A whole update of a step, line by line and back.
-line_by_line() {
-    key i i n
-    shot line0 >/dev/null
-    for i in 1 2 3 4 5 6; do
-        key n
-        shot line$i >/dev/null
-        same line$i line$((i - 1)) && echo "line $i is as the one before"
-    done
-    key Left
-    shot back >/dev/null
-    same back line5 || echo 'Left does not lead back a line'
-    key i
-}
-
-# Six side by side, and one again.
-six_panes() {
-    for i in 2 3 4 5 6; do
-        xdotool keydown Tab key m keyup Tab
-        case $i in 2 | 6) shot panes$i >/dev/null ;; esac
-    done
-    same panes2 panes6 && echo 'no six panes'
-    key n BackSpace BackSpace BackSpace BackSpace BackSpace
-}
-
-# The wheel and 0; full screen and back.
-seen() {
-    xdotool mousemove --window "$window" 450 880
-    key 0
-    shot plain >/dev/null
-    xdotool mousemove --window "$window" 60 660 sleep 0.03 click 4 click 4 \
-        sleep 0.03 mousemove --window "$window" 450 880
-    shot zoomed >/dev/null
-    same plain zoomed && echo 'the wheel does nothing'
-    key 0
-    shot fitted >/dev/null
-    same plain fitted || echo '0 does not fit'
-    key F11
-    sleep 0.2
-    key Escape
-    for i in 1 2 3 4 5 6 7 8; do # the screen takes its time
-        shot again >/dev/null
-        same plain again && break
-    done
-    same plain again || echo 'another picture after full screen'
-}
-# hand SCENE X Y DX DY ROW CAN: all of it.  CAN has letters for what makes sense
-# there: g the hand pulls a node, d a point is dragged, p pins, k there is a k,
-# l lines of Algorithm 3, f the projection, s the line search, m other methods,
-# u some steps do not converge.  All else must change nothing.
-hand() {
-    scene=$1 can=$7
-    begin "$scene" --paused
-    taken "$2" "$3" "$4" "$5"
-    numbers_live "$6"
-    back_and_on
-    for way in f:p s:l; do
-        case $can in
-        *"${way%:*}"*)
-            changes toggled "${way#*:}"
-            key "${way#*:}"
-            ;;
-        *) stays "${way#*:}" ;;
-        esac
-    done
-    case $can in
-    *l*) line_by_line ;;
-    *) stays i ;;
-    esac
-    case $can in
-    *m*) six_panes ;;
-    *)
-        shot plain >/dev/null
-        xdotool keydown Tab key m keyup Tab
-        shot after >/dev/null
-        same plain after || echo 'Tab+M: something changes'
-        ;;
-    esac
-    seen
-    case $can in *u*) ends=3 ;; *) ends=0 ;; esac
-    same_again "$scene"
-    for word in g:grab g:release d:handle p:pin k:stiffness m:add-pane; do
-        case $can in
-        *"${word%:*}"*) grep -q " ${word#*:}" session || echo "no ${word#*:}" ;;
-        esac
-    done
-    grep -q ' set ' session || echo 'no number was changed'
-}
-every_scene() { # LONG: all; else one with contact
-    side=900
-    while read -r scene rest; do
-        case ${LONG:+all}' drop ' in
-        all* | *" $scene "*) ;;
-        *) continue ;;
-        esac
-        # shellcheck disable=SC2086
-        said=$(hand "$scene" $rest)
-        if [ -n "$said" ]; then # a busy screen may lose a key: once more
-            kill -KILL "$(cat pid)" 2>/dev/null
-            rm -f ./*.part
-            # shellcheck disable=SC2086
-            said=$(hand "$scene" $rest)
-        fi
-        [ -z "$said" ] || echo "$scene: $said"
-    done <<'END'
-square 280 389 60 -60 757 gpklfsm
-circle 438 404 40 -60 783 g
-overshoot 320 466 60 -30 783 dsu
-landscape 293 455 60 -60 783 dfs
-unprojected 277 388 60 -60 757 gpklfsmu
-explosion 257 342 60 -60 757 gpklfsm
-hang 277 388 60 -60 757 gpklfsm
-drop 212 312 60 60 757 gpklfs
-slope 371 105 60 20 757 gpklfs
-squeeze 277 390 60 20 757 gpklfs
-dent 277 250 60 60 757 gpklfs
-tear 180 390 60 60 757 gpklfs
-bend 167 350 40 -60 757 gpklfs
-arrows 428 404 40 -60 783 d
-tangent 511 97 -60 0 783 ds
-dial 307 358 60 60 783 d
-spring 377 353 40 40 783 dlfsm
-END
-}
-verdict a_hand_on_every_scene "$(every_scene)"
 
 # A cell of the map is opened by a click, Y tells how, Escape leads back.
 map_cell() {

@@ -170,10 +170,10 @@ static void summaries_tell_what_was_done(void **unused)
                              "     5\nsimulated time      0.02 s\n"));
     CHECK(strstr(result.out, "pane 2              h 0.01 s\nsteps           "
                              "    2\nsimulated time      0.02 s\n"));
-    run("--headless --steps 1 --gravity 0,-9.81 --segments 1,2,3");
+    run("--headless --steps 1 --gravity 0,9.81 --segments 1,2,3");
     check_code(0);
     CHECK(strcmp(result.error, "6 panes: --segments 1, 2 and 3; --gravity 0 "
-                               "and -9.81\n") == 0);
+                               "and 9.81\n") == 0);
     run("--headless --steps 5 --quiet");
     check_code(0);
     CHECK(result.out[0] == '\0' && result.error[0] == '\0');

@@ -159,32 +159,6 @@ static void keys_say_what_they_do(void **unused)
     }
     CHECK_STATUS(obey("code"), STATUS_INVALID_INPUT);
     CHECK(strstr(player.message, "Page Down") != NULL);
-    CHECK_STATUS(obey("pages"), STATUS_INVALID_INPUT);
-    end();
-    begin("--lecture mesh");
-    CHECK_STATUS(obey("pages"), STATUS_OK);
-    CHECK(player.column == LECTURE_PAGES);
-    CHECK_STATUS(obey("pages"), STATUS_OK);
-    CHECK(player.column == LECTURE_CARDS);
-    CHECK_STATUS(obey("code"), STATUS_OK);
-    CHECK(player.column == LECTURE_CODE);
-    end();
-}
-
-/* Who looks for other scenes clicks on the title of this one. */
-static void the_title_tells_of_other_scenes(void **unused)
-{
-    (void)unused;
-    begin("square --segments 2");
-    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
-    CHECK_STATUS(player_draw(&player), STATUS_OK);
-    Input press = {.kind = INPUT_PRESS,
-                   .button = BUTTON_LEFT,
-                   .clicks = 1,
-                   .x = 60,
-                   .y = 20};
-    CHECK_STATUS(player_input(&player, &press), STATUS_OK);
-    CHECK(strstr(player.note, "1 ... 9 open other scenes") != NULL);
     end();
 }
 
@@ -613,7 +587,6 @@ int main(void)
         cmocka_unit_test(every_list_labels_its_panes),
         cmocka_unit_test(forgotten_steps_are_told),
         cmocka_unit_test(keys_say_what_they_do),
-        cmocka_unit_test(the_title_tells_of_other_scenes),
         cmocka_unit_test(the_last_page_offers_no_next_one),
         cmocka_unit_test(folded_cells_at_rest_are_explained),
         cmocka_unit_test(numbers_follow_the_scene),

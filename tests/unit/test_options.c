@@ -296,6 +296,7 @@ static const BadLine hopeful_lines[] = {
     {"--time 3", {"no option --time;", "did you mean --steps?", ""}},
     {"--maxiter 50", {"no option --maxiter;", "did you mean --tolerance?", ""}},
     {"--no-gravity", {"did you mean --gravity 0?", "", ""}},
+    {"--gravity -9.81", {"--gravity: '-9.81'", "from 0 to", "downwards"}},
     {"--no-friction", {"did you mean --friction 0?", "", ""}},
     {"--restitution 1", {"--restitution;", "did you mean --damping?", ""}},
     {"--start-paused", {"--start-paused;", "did you mean --paused?", ""}},
@@ -579,6 +580,59 @@ static void lists_are_side_by_side(void **unused)
     CHECK(strstr(message, "--timestep: ''") != NULL);
 }
 
+/* The value in brackets is one that the option takes. */
+static void help_tells_values_that_are_read(void **unused)
+{
+    (void)unused;
+    Options options = parse_good("slope");
+    const char *name = NULL;
+    int values = 0;
+    for (const char *at = options_help(); *at; at++) {
+        char option[32], value[32], message[512];
+        if (strncmp(at, "\n  --", 5) == 0)
+            name = at + 5;
+        if (!name || sscanf(at, "[%30[-.0-9e]]", value) != 1)
+            continue;
+        snprintf(option, sizeof option, "%.*s", (int)strcspn(name, " "), name);
+        Options trial = options;
+        CHECK_STATUS(
+            options_set(&trial, option, value, message, sizeof message),
+            STATUS_OK);
+        values++;
+    }
+    CHECK(values > 10);
+}
+
+/* What is typed in the window means a number in the option's own unit. */
+static void numbers_are_worked_out(void **unused)
+{
+    (void)unused;
+    static const char *const rows[][3] = {
+        {"timestep", "1/60", "0.016666666666666666"},
+        {"timestep", "0,02", "0.02"},
+        {"timestep", "7ms", "0.007"},
+        {"timestep", "1/8 s", "0.125"},
+        {"timestep", "4e3us", "0.004"},
+        {"timestep", "-3", "-3"},
+        {"timestep", "4 m", "4 m"},
+        {"timestep", "0x10", "0x10"},
+        {"timestep", "1/0", "1/0"},
+        {"timestep", "inf", "inf"},
+        {"timestep", "", ""},
+        {"tolerance", "5mm/s", "0.005"},
+        {"side", "20 cm", "0.2"},
+        {"stiffness", "2e5 J/m^2", "200000"},
+        {"stretch", "140%", "1.4"},
+        {"filter", "abs", "abs"},
+        {"nothing", "1/2", "1/2"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char value[64];
+        options_meant(rows[i][0], rows[i][1], value, sizeof value);
+        assert_string_equal(value, rows[i][2]);
+    }
+}
+
 /* Rows of 80, and every option of the contract. */
 static void help_fits_a_terminal(void **unused)
 {
@@ -633,6 +687,8 @@ int main(void)
         cmocka_unit_test(random_lines_end_well),
         cmocka_unit_test(texts_become_one_line),
         cmocka_unit_test(lists_are_side_by_side),
+        cmocka_unit_test(help_tells_values_that_are_read),
+        cmocka_unit_test(numbers_are_worked_out),
         cmocka_unit_test(help_fits_a_terminal),
     };
     return cmocka_run_group_tests_name("options", tests, NULL, NULL);

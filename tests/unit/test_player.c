@@ -741,32 +741,6 @@ static void last_rounds_have_their_lines(void **unused)
     end();
 }
 
-/* Digits go into the number that is lit, Enter sets it and lets go of it, as
- * Escape does, which only asked twice ends the program. */
-static void numbers_are_typed(void **unused)
-{
-    (void)unused;
-    static const char *const keys[] = {"0",         ".", "0",     "3",
-                                       "Backspace", "2", "Return"};
-    begin("square --segments 2");
-    player_fill(&player);
-    CHECK_STATUS(obey("select"), STATUS_OK);
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        Input input = {.kind = INPUT_KEY};
-        snprintf(input.key, sizeof input.key, "%s", keys[i]);
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-    }
-    CHECK(player.lane[0].track.settings.options.timestep == 0.02);
-    CHECK(player_simulation(&player)->scene == &scenes[0]);
-    CHECK(player.selected < 0 && player.typed[0] == '\0');
-    obey_all((const char *const[]){"select", "escape", "escape", NULL});
-    CHECK(player.selected < 0 && !player.quit);
-    CHECK(player_escape_ends(&player));
-    CHECK_STATUS(obey("escape"), STATUS_OK);
-    CHECK(player.quit);
-    end();
-}
-
 /* What a hand does on every scene: it pulls, pins, changes h and k, goes back
  * and on.  What makes no sense is refused; the rest leads to the same bits. */
 static void every_scene_is_taken_hold_of(void **unused)
@@ -1171,7 +1145,6 @@ int main(void)
         cmocka_unit_test(old_steps_are_taped_as_new_ones),
         cmocka_unit_test(the_curve_goes_through_the_step),
         cmocka_unit_test(last_rounds_have_their_lines),
-        cmocka_unit_test(numbers_are_typed),
         cmocka_unit_test(every_scene_is_taken_hold_of),
         cmocka_unit_test(what_is_dragged_is_shown_as_it_is),
         cmocka_unit_test(what_makes_no_sense_is_said),

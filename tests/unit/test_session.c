@@ -10,6 +10,7 @@
  * come to this step at N, newest N           the step that is shown, and the
  * last one scene NAME, page N       0: none number NAME VALUE        what the
  * row shows says WORDS               in the last line files N that were written
+ *     replays LINE             Y's script leads to the same bits
  *     mark M [WHAT]            the picture without its message; or of it the
  *     same M [WHAT]            cards; or the hash of the state
  *     other M [WHAT]           none of the same pixels
@@ -47,19 +48,22 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
     return hash;
 }
 
-/* The picture above its message, or the cards of it; the state.  As a window
+/* The picture without its message, or the cards of it; the state.  As a window
  * does it, nothing is drawn that has not changed. */
 static uint64_t seen(const char *what)
 {
+    char note[sizeof player.note];
     if (strcmp(what, "state") == 0)
         return player_hash(&player);
+    memcpy(note, player.note, sizeof note);
+    player.note[0] = '\0';
     if (player.changed)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
+    memcpy(player.note, note, sizeof note);
     const Canvas *canvas = &view_paper(player.view)->canvas;
-    Layout layout = layout_now();
-    Box all = {0, 0, layout.width,
-               layout.last.width > 0 ? layout.last.y : layout.height};
-    return hash_box(canvas, strcmp(what, "cards") == 0 ? layout.column : all);
+    return hash_box(canvas, strcmp(what, "cards") == 0
+                                ? layout_now().column
+                                : (Box){0, 0, canvas->width, canvas->height});
 }
 
 static void finish_session(void)
@@ -82,7 +86,6 @@ static void begin_session(const char *line)
 /* What makes no sense is only told. */
 static void put(Input input)
 {
-    input.clicks = 1;
     input.x = mouse[0];
     input.y = mouse[1];
     Status status = player_input(&player, &input);
@@ -112,7 +115,8 @@ static const Setting *number_shown(const char *name, int *place)
 {
     player_fill(&player);
     for (int i = 0; i < player.show.settings; i++)
-        if (strcmp(player.show.setting[i].name, name) == 0) {
+        if (strcmp(player.show.setting[i].name, name) == 0 ||
+            strcmp(name, "first") == 0) {
             *place = i;
             return &player.show.setting[i];
         }
@@ -145,6 +149,7 @@ static void go_to(const char *place)
 
 static void use_mouse(const char *verb, const char *place)
 {
+    bool twice = strcmp(verb, "double") == 0;
     go_to(place);
     if (strcmp(verb, "move") == 0)
         put((Input){.kind = INPUT_MOVE});
@@ -153,8 +158,9 @@ static void use_mouse(const char *verb, const char *place)
     else if (strcmp(verb, "right") == 0)
         put((Input){.kind = INPUT_PRESS, .button = BUTTON_RIGHT});
     else
-        put((Input){.kind = verb[0] == 'p' ? INPUT_PRESS : INPUT_RELEASE,
-                    .button = BUTTON_LEFT});
+        put((Input){.kind = verb[0] == 'r' ? INPUT_RELEASE : INPUT_PRESS,
+                    .button = BUTTON_LEFT,
+                    .clicks = twice ? 2 : 1});
 }
 
 static void run_until(long step)
@@ -165,12 +171,35 @@ static void run_until(long step)
     player_run(&player);
 }
 
-static int count_files(void)
+/* How many files there are; and without them. */
+static int count_files(bool away)
 {
     glob_t found;
     int count = glob("*", 0, NULL, &found) == 0 ? (int)found.gl_pathc : 0;
+    for (int i = 0; i < count && away; i++)
+        remove(found.gl_pathv[i]);
     globfree(&found);
     return count;
+}
+
+/* What Y writes leads a run without a window to the same bits. */
+static void replay(const char *line)
+{
+    char script[65536] = "", paused[160];
+    glob_t found;
+    press_key("Y");
+    assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
+    FILE *file = fopen(found.gl_pathv[0], "r");
+    assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
+    fclose(file);
+    globfree(&found);
+    uint64_t hash = player_hash(&player);
+    finish_session();
+    snprintf(paused, sizeof paused, "%s --paused", line);
+    begin_script(script, paused);
+    open_player = true;
+    player_run(&player); /* of some scenes steps do not converge */
+    CHECK(player_hash(&player) == hash && !player.refused);
 }
 
 static void compare(const char *verb, const char *rest)
@@ -192,8 +221,10 @@ static void look(const char *verb, const char *rest)
         assert_int_equal(player.step, atol(rest));
     else if (strcmp(verb, "newest") == 0)
         assert_int_equal(player.newest, atol(rest));
+    else if (strcmp(verb, "ended") == 0)
+        assert_int_equal(player.quit, atol(rest));
     else if (strcmp(verb, "files") == 0)
-        assert_int_equal(count_files(), atol(rest));
+        assert_int_equal(count_files(false), atol(rest));
     else if (strcmp(verb, "page") == 0)
         assert_int_equal(page ? page - lecture_pages + 1 : 0, atol(rest));
     else if (strcmp(verb, "scene") == 0)
@@ -223,7 +254,9 @@ static void session_line(const char *line)
             press_letter(*letter);
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
-    else if (strstr("press move release right wheel", verb))
+    else if (strcmp(verb, "replays") == 0)
+        replay(rest);
+    else if (strstr("press double move release right wheel", verb))
         use_mouse(verb, rest);
     else
         look(verb, rest);
@@ -267,7 +300,16 @@ static const Session sessions[] = {
            "key Escape", "same a", /**/
            "key Tab", "type 1/0", "key Return", "says '1/0' is not",
            "key Escape", "key Tab", "type 0x10", "key Return",
-           "says '0x10' is not", "key Escape", "same a")},
+           "says '0x10' is not", "key Escape", "same a", /**/
+           "key Tab", "type 1", "key \u00dc", "number h 1\u00dc_",
+           "key Backspace", "number h 1_", "key Return", "number h 1 s")},
+    {"Escape closes what is open, and twice the window",
+     LINES("begin square --paused", "key Tab Tab", "type 5", "key Escape",
+           "number k 100000 J/m\u00b2", "ended 0", "key Tab Escape Escape",
+           "says Esc once more", "ended 0", "key Escape", "ended 1")},
+    {"the title tells of other scenes",
+     LINES("begin square --paused", "press 60 20",
+           "says 1 ... 9 open other scenes")},
     {"a choice that is lit takes digits, too",
      LINES("begin square --paused", "key Tab Tab Tab Tab Tab Tab", "type 0.8",
            "key Return", "says --integrator: '0.8' is none of: backward-euler",
@@ -293,7 +335,16 @@ static const Session sessions[] = {
            "move 350 300", "key N", "mark a state", /**/
            "begin square --segments 2 --stretch 1 --paused", "key N N",
            "right 524 634", "press 279 389", "move 279 380", "move 350 300",
-           "key P P N", "same a state")},
+           "key P P N", "same a state", "key P P", "same a state",
+           "release 350 300", "key P P", "same a state", "key N",
+           "replays square --segments 2 --stretch 1")},
+    {"a node that was held at an old step is not taken by a click elsewhere",
+     LINES("begin square --segments 2 --stretch 1 --paused", "key N",
+           "press 279 389", "move 279 380", "move 350 300", "key N N",
+           "release 350 300", "key Left Left", "press 280 634", "move 280 640",
+           "move 300 640", "says would be forgotten", "release 300 640",
+           "press 280 634", "move 280 640", "move 300 650", "key N N N",
+           "replays square --segments 2 --stretch 1")},
     {"a click on the projection does what P does",
      LINES("begin square --paused --integrator forward-euler", "key N",
            "mark a state", "key P", "says nothing to project",
@@ -308,7 +359,10 @@ static const Session sessions[] = {
            "mark a cards", "mark b state", /**/
            "begin square --paused", "key N N N", "key Tab", "type 7ms",
            "key Return N Home End I I Left Left Left", "same b state",
-           "same a cards")},
+           "same a cards", /**/
+           "begin square --paused", "key N N N Tab", "type 5ms",
+           "key Return I I Left Left Tab", "type 7ms", "key Return",
+           "number h 0.007 s")},
     {"after a step a number is for the next one",
      LINES("begin --lecture minimise --paused", "key N N N", "mark a cards",
            "mark b state", "key Tab Up Up", "number h 0.007 s", "same a cards",
@@ -352,17 +406,18 @@ static const Session sessions[] = {
            "run 9", "at 9", "newest 9")},
     {"what was refused is not told again",
      LINES("begin square --segments 2 --paused", "key N N N Home",
-           "right 524 634", "says would be forgotten", "key N N N Y",
-           "files 1")},
+           "right 524 634", "says would be forgotten", "key N N N",
+           "replays square --segments 2")},
     {"a scene leaves the lecture where it was",
      LINES("begin --lecture solid --paused", "key PageDown", "page 2", "key 1",
            "page 0", "scene square", "number stretch 1.4", "key PageUp",
            "page 2", "key 2", "key PageDown", "page 3", "key 1", "key G",
            "type 5", "key Return", "page 5")},
     {"in the list of pages digits choose the page",
-     LINES("begin --lecture solid --paused", "key G", "type 28", "page 1",
-           "says page 28_", "key Return", "page 28", "key G", "type 2",
-           "key Backspace", "type 99", "key Return",
+     LINES("begin --lecture solid --paused", "mark a", "key G", "other a",
+           "key G", "same a", "key G", "type 28", "page 1", "says page 28_",
+           "key Return", "page 28", "key G", "type 2", "key Backspace",
+           "type 99", "key Return",
            "says there is no page '99', they are 1 ... 32", "key Escape",
            "page 28", "mark a", "key Escape", "other a", "key 2",
            "scene circle")},
@@ -371,9 +426,10 @@ static const Session sessions[] = {
            "release +0 +0", "scene square", "page 0", "key Escape", "page 32",
            "scene envelope", "press 300 500", "release +0 +0", "key PageUp",
            "page 32")},
-    {"a double default is the page's",
+    {"a double click gives the page's number back",
      LINES("begin --lecture explodes --paused", "number h 0.02 s", "key Tab",
-           "type 1", "key Return", "number h 1 s")},
+           "type 1", "key Return", "number h 1 s", "double h",
+           "number h 0.02 s")},
 };
 enum { SESSIONS = sizeof sessions / sizeof *sessions };
 
@@ -394,21 +450,233 @@ static int end_session(void **unused)
     if (present)
         print_error("    at: %s\n", present);
     finish_session();
+    count_files(true);
     present = NULL;
     return 0;
 }
 
+/* ---- a hand on every scene ---------------------------------------------- */
+
+/* What is taken hold of where, and what makes sense there: g the hand pulls, d
+ * a point is dragged, p pins, k there is a k, l lines of Algorithm 3, f the
+ * projection, s the line search, m other methods. */
+static const struct Scene_row {
+    const char *scene;
+    int x, y, dx, dy; /* pixels of a 900 x 900 window */
+    const char *can;
+} rows[] = {
+    {"square", 280, 389, 60, -60, "gpklfsm"},
+    {"circle", 438, 404, 40, -60, "g"},
+    {"overshoot", 320, 466, 60, -30, "ds"},
+    {"landscape", 293, 455, 60, -60, "dfs"},
+    {"unprojected", 277, 388, 60, -60, "gpklfsm"},
+    {"explosion", 257, 342, 60, -60, "gpklfsm"},
+    {"hang", 277, 388, 60, -60, "gpklfsm"},
+    {"drop", 212, 312, 60, 60, "gpklfs"},
+    {"slope", 371, 105, 60, 20, "gpklfs"},
+    {"squeeze", 277, 390, 60, 20, "gpklfs"},
+    {"dent", 277, 250, 60, 60, "gpklfs"},
+    {"tear", 180, 390, 60, 60, "gpklfs"},
+    {"bend", 167, 350, 40, -60, "gpklfs"},
+    {"arrows", 428, 404, 40, -60, "d"},
+    {"tangent", 511, 97, -60, 0, "ds"},
+    {"dial", 307, 358, 60, 60, "d"},
+    {"spring", 377, 353, 40, 40, "dlfsm"},
+};
+enum { SCENES = sizeof rows / sizeof *rows };
+
+/* A letter of `can` or a space, and '-' where the line is for scenes that lack
+ * it; then the line.  START, HALF and WHOLE are places of the drag. */
+static const char *const hand[] = {
+    "  press START",
+    "  move START",
+    "  move HALF",
+    "  move WHOLE",
+    "  key N N",
+    "  release WHOLE",
+    "  key N",
+    "  right HALF",
+    "  key N",
+    "  wheel first",
+    "k wheel k",
+    "  move 450 880",
+    "  key N N",
+    "  mark a",
+    /* back and on */
+    "  key Left",
+    "  other a",
+    "  key Right",
+    "  same a",
+    "  key Home",
+    "  press step 1",
+    "  release +0 +0",
+    "  at 1",
+    "  move 450 880",
+    "  key End",
+    "  same a",
+    "  key ? ?",
+    "  same a",
+    "  key H",
+    "  other a",
+    "  key H",
+    "  same a",
+    "  key F1 F1",
+    "  same a",
+    /* switches do something where they make sense, else nothing */
+    "f key P",
+    "f other a",
+    "f key P",
+    "f-key P",
+    "f-same a",
+    "  mark a",
+    "s key L",
+    "s other a",
+    "s key L",
+    "s-key L",
+    "s-same a",
+    /* line by line, there and back */
+    "  mark a",
+    "l key I I N",
+    "l mark b",
+    "l key N",
+    "l other b",
+    "l mark c",
+    "l key N",
+    "l other c",
+    "l key Left",
+    "l same c",
+    "l key I",
+    "l-key I",
+    "l-same a",
+    /* six side by side, and one again */
+    "  mark a",
+    "m key Tab+M Tab+M Tab+M Tab+M Tab+M",
+    "m other a",
+    "m key Backspace Backspace Backspace Backspace Backspace",
+    "m-key Tab+M",
+    "m-same a",
+    /* the wheel and 0 */
+    "  key 0",
+    "  mark a",
+    "  wheel 60 660",
+    "  other a",
+    "  key 0",
+    "  same a",
+};
+
+/* The line with this scene's places. */
+static void fill_in(const char *pattern, const struct Scene_row *row,
+                    char *line, size_t size)
+{
+    static const char *const words[] = {"START", "HALF", "WHOLE"};
+    snprintf(line, size, "%s", pattern);
+    for (int i = 0; i < 3; i++) {
+        char *word = strstr(line, words[i]);
+        if (word)
+            snprintf(word, size - (size_t)(word - line), "%d %d",
+                     row->x + i * row->dx / 2, row->y + i * row->dy / 2);
+    }
+}
+
+static void a_hand_on_this_scene(void **state)
+{
+    static char line[128];
+    const struct Scene_row *row = *state;
+    snprintf(line, sizeof line, "begin %s --paused", row->scene);
+    session_line(present = line);
+    for (size_t i = 0; i < sizeof hand / sizeof *hand; i++) {
+        bool can = hand[i][0] == ' ' || strchr(row->can, hand[i][0]);
+        if (can == (hand[i][1] == '-'))
+            continue;
+        fill_in(hand[i] + 2, row, line, sizeof line);
+        session_line(line);
+    }
+    replay(row->scene);
+    present = NULL;
+}
+
+/* ---- random keys -------------------------------------------------------- */
+
+/* The rest of the row, and what else is seen of the run. */
+static uint64_t all_but(int place)
+{
+    uint64_t hash = seen("state") + (uint64_t)player.step;
+    player_fill(&player);
+    for (int i = 0; i < player.show.settings; i++)
+        for (const char *c = player.show.setting[i].value; i != place && *c;
+             c++)
+            hash = (hash ^ (unsigned char)*c) * 1099511628211u;
+    return hash;
+}
+
+/* Whatever is typed into an open field, only its own number changes; after
+ * Escape not even that. */
+static void random_keys_stay_in_their_field(void **unused)
+{
+    (void)unused;
+    static const char *const others[] = {
+        "Space",  "Tab",    "Up",        "Down",      "Left",   "Right",
+        "Home",   "End",    "F1",        "F11",       "PageUp", "PageDown",
+        "Delete", "Ctrl+R", "Tab+M",     "Shift+N",   "Ctrl+5", "Keypad 5",
+        "Insert", "\u00dc", "Shift+Tab", "Backspace",
+    };
+    enum { OTHERS = sizeof others / sizeof *others, ROUNDS = 300 };
+    Random random = {19};
+    int set = 0, refused = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        if (round == 0 || set > 0) { /* a number that was set is no more */
+            session_line("begin square --segments 2 --paused");
+            session_line("key N N");
+        }
+        uint64_t before = seen("");
+        int place = random_below(&random, player.show.settings);
+        for (int i = 0; i <= place; i++)
+            press_key("Tab");
+        uint64_t rest = all_but(place);
+        press_letter("0123456789.,+-"[random_below(&random, 14)]);
+        for (int i = random_below(&random, 12); i > 0; i--)
+            if (random_below(&random, 4) == 0)
+                press_key(others[random_below(&random, OTHERS)]);
+            else if (random_below(&random, 2) == 0)
+                press_letter((char)(' ' + random_below(&random, 95)));
+            else
+                press_letter("0123456789.,e-/ms"[random_below(&random, 17)]);
+        bool mesh = strcmp(player.show.setting[place].name, "segments") == 0;
+        bool enter = !mesh && random_below(&random, 2) == 0;
+        if (enter)
+            press_key("Return");
+        set = enter && player.selected < 0;
+        refused += enter && !set;
+        press_key("Escape");
+        CHECK(player.selected < 0 && player.lanes == 1 && player.paused);
+        if (set && player.step == 2) /* else it begins again with it */
+            CHECK(all_but(place) == rest);
+        if (!set)
+            CHECK(seen("") == before);
+        assert_string_equal(player_simulation(&player)->scene->name, "square");
+        assert_int_equal(count_files(false), 0);
+    }
+    CHECK(refused > ROUNDS / 10);
+}
+
 int main(void)
 {
-    struct CMUnitTest tests[SESSIONS];
+    struct CMUnitTest tests[SESSIONS + SCENES + 1];
     char before[4096];
     int count = 0;
     assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
     for (int i = 0; i < SESSIONS; i++)
         tests[count++] = (struct CMUnitTest){sessions[i].name, a_session, NULL,
                                              end_session, (void *)&sessions[i]};
+    for (int i = 0; i < SCENES; i++)
+        tests[count++] =
+            (struct CMUnitTest){rows[i].scene, a_hand_on_this_scene, NULL,
+                                end_session, (void *)&rows[i]};
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
+        random_keys_stay_in_their_field, end_session);
     assert_int_equal(chdir(folder), 0);
     int failed = cmocka_run_group_tests_name("sessions", tests, NULL, NULL);
     assert_int_equal(chdir(before), 0);
+    rmdir(folder);
     return failed;
 }

@@ -474,6 +474,7 @@ static void a_trace_is_seen(void **unused)
     NewtonRecord records[3] = {
         {.residual = 9}, {.residual = 1}, {.residual = 0.003}};
     Trace trace = {.line = LINE_START,
+                   .tolerance = 0.01,
                    .x = stand.simulation.run[0].x,
                    .projected = 52,
                    .slope = -4,
