@@ -522,6 +522,7 @@ static void kinds_of_residuals_are_told_apart(void **unused)
                                    {.residual = 1e-3},
                                    {.residual = 1e-4}};
         Trace trace = {.line = LINE_START,
+                       .tolerance = 0.01,
                        .x = stand.simulation.run[0].x,
                        .record = records,
                        .updates = 3};
