@@ -63,7 +63,7 @@ typedef struct NewtonSettings {
     LineSearch search;       /* how the step length is found */
     bool minimum;            /* a saddle is no end: it is left */
     bool averaged;           /* terms averaged over the step (avf) */
-    int max_iterations;      /* then ITERATION_LIMIT */
+    int max_iterations;      /* at most; then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
     void *user;              /* passed to the observer */
 } NewtonSettings;
@@ -163,6 +163,10 @@ void newton_finish(Newton *newton);
 /* newton_start, newton_iterate until the end, newton_finish. */
 Status newton_minimise(Newton *newton, const double *x_n, const double *u,
                        double weight);
+
+/* Iterations after which a minimisation ends: max_iterations, or on squares of
+ * more than a few cells fewer. */
+int newton_most_iterations(const Newton *newton);
 
 /* After stiffnesses, lengths or numbers of terms have changed: bounds are
  * computed again, and the factor is not used any more. */

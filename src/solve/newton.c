@@ -67,6 +67,19 @@ static Status newton_update(Newton *newton)
     return STATUS_OK;
 }
 
+/* Updates of larger squares take longer: they get fewer, so that a step takes
+ * seconds at the most, but as many as this at least. */
+enum { UPDATES_TIMES_NODES = 250000, LEAST_LIMIT = 1000 };
+
+int newton_most_iterations(const Newton *newton)
+{
+    int most = UPDATES_TIMES_NODES / newton->system->nodes;
+    most = most > LEAST_LIMIT ? most : LEAST_LIMIT;
+    return most < newton->settings.max_iterations
+               ? most
+               : newton->settings.max_iterations;
+}
+
 /* What ends the loop besides the test: rounding, and the number of iterations.
  * Without a line search an end above the start is no success. */
 static Status newton_limits(Newton *newton, Status status)
@@ -74,7 +87,7 @@ static Status newton_limits(Newton *newton, Status status)
     if (status == STATUS_RUNNING)
         status = rounding_stagnation(newton);
     if (status == STATUS_RUNNING &&
-        newton->record.iteration + 1 >= newton->settings.max_iterations)
+        newton->record.iteration + 1 >= newton_most_iterations(newton))
         status = STATUS_ITERATION_LIMIT;
     if (newton->bends_down &&
         (status == STATUS_ROUNDING_LIMIT || status == STATUS_LINE_SEARCH_LIMIT))

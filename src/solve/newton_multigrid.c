@@ -185,7 +185,7 @@ Status newton_multigrid_iterate(Newton *newton)
     count(newton, &before);
     newton->counters.trials += record->trials;
     NewtonRecord done = *record;
-    bool last = done.iteration + 1 >= newton->settings.max_iterations;
+    bool last = done.iteration + 1 >= newton_most_iterations(newton);
     bool stuck = is_stuck(newton, status, last);
     status = status == STATUS_OK ? end_here(newton) : status;
     stuck = stuck || status == STATUS_NOT_A_MINIMUM;

@@ -102,6 +102,7 @@ Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
     Newton *newton = integrator->newton;
     double tolerance = newton->settings.tolerance, left = 1;
     double *u = integrator->new_x, *x = integrator->new_v;
+    long before = newton->counters.iterations;
     Status status = STATUS_OK;
     for (int round = 0; left > 0; round++) {
         double part = left;
@@ -125,6 +126,11 @@ Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
             return status;
         if (blocked && !status)
             status = STATUS_BLOCKED;
+        if (left > 0 && newton->counters.iterations - before >=
+                            newton_most_iterations(newton)) {
+            left = 0; /* all parts together get no more than one would */
+            status = STATUS_ITERATION_LIMIT;
+        }
     }
     return status;
 }

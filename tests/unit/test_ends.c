@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/contact.h"
+
 /* Statuses seen by the observer, one a minimisation. */
 typedef struct Told {
     long ends[STATUS_COUNT], all, updates;
@@ -189,6 +191,46 @@ static void every_minimisation_tells_its_end_once(void **unused)
     simulation_free(&simulation);
 }
 
+/* What a step may cost is told by the square, not by the scene: 250 000 nodes
+ * updated, but 1000 updates at least, each with a factor or two and no more
+ * trials than there are halvings. */
+static void work_is_limited_by_the_size(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "tear --segments 16 --pin top,bottom --stretch 1e-9",
+        "tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
+        "1e-9 --yield 0.01 --tear 0.01 --damping 1e6",
+        "--segments 12 --stretch 6 --timestep 10 --density 0.001 --yield 0.002",
+        "--segments 8 --stretch 4 --timestep 10 --yield 0.01 --density 1"};
+    for (int i = 0; i < 4; i++) {
+        Simulation simulation;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        double nodes = simulation.system.nodes;
+        Status status = simulation_step(&simulation);
+        NewtonCounters did = simulation_counters(&simulation);
+        CHECK(!status || status == STATUS_ITERATION_LIMIT);
+        CHECK_AT_MOST(did.iterations, fmax(250000 / nodes, 1000));
+        CHECK_AT_MOST(did.factorisations, 2.0 * did.iterations + 10);
+        CHECK_AT_MOST(did.solves, 8.0 * did.iterations + 10);
+        CHECK_AT_MOST(did.trials, 66.0 * did.iterations);
+        simulation_free(&simulation);
+    }
+    /* a wall that comes in parts gets no more than one that does not */
+    Simulation simulation;
+    simulation_from_line("squeeze --segments 8 --gravity 0", NULL, NULL,
+                         &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    contact_of(run->system)->obstacle[1].motion =
+        (Motion){1, {0.01}, {{0, -50}}};
+    run->newton->settings.max_iterations = 10;
+    CHECK_STATUS(simulation_step(&simulation), STATUS_ITERATION_LIMIT);
+    CHECK_AT_MOST(run->newton->counters.iterations, 19);
+    CHECK(run->moved > 0 && run->moved < 1);
+    CHECK(smallest_gap(run->system, run->x) > 0);
+    simulation_free(&simulation);
+}
+
 /* Squares of the command line with h to 1e6, k to 1e15, density from 1e-9. */
 static void squares_keep_the_promise(void **unused)
 {
@@ -214,6 +256,7 @@ int main(void)
         cmocka_unit_test(an_end_that_bends_down_is_left),
         cmocka_unit_test(a_step_that_raised_E_has_diverged),
         cmocka_unit_test(every_minimisation_tells_its_end_once),
+        cmocka_unit_test(work_is_limited_by_the_size),
         cmocka_unit_test(squares_keep_the_promise),
     };
     return cmocka_run_group_tests_name("ends", tests, NULL, NULL);
