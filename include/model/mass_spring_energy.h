@@ -26,7 +26,7 @@ static inline double spring_strain(const int e[2], double l2, const double *x,
  * its negative eigenvalues treated as the filter says.  The spring's 4x4 block
  * is [[H, -H], [-H, H]], with the eigenvalues 0, 0 and twice those of H: so
  * this is the slide's make_PSD without any eigenvalue routine.  Returns whether
- * there was a negative one that was changed.
+ * there was a negative one that was changed; a broken spring, k = 0, has none.
  *
  * The eigenvectors of H are d, with the eigenvalue (2k/l2) (3|d|^2 - l2), and
  * the one across, with (2k/l2) (|d|^2 - l2).  A stretched spring has none that
@@ -49,7 +49,7 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
     H[0] = factor * across + slope * d[0] * d[0];
     H[1] = slope * d[0] * d[1];
     H[2] = factor * across + slope * d[1] * d[1];
-    return true;
+    return k > 0;
 }
 
 /* Entries of a spring in one triangle of the Hessian: ii: xx xy yy,

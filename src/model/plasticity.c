@@ -70,7 +70,7 @@ bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
     H[0] = factor * (across + difference * d[0] * d[0]);
     H[1] = factor * difference * d[0] * d[1];
     H[2] = factor * (across + difference * d[1] * d[1]);
-    return changed;
+    return changed && k > 0;
 }
 
 /* ---- the term -------------------------------------------------------- */

@@ -24,8 +24,8 @@ perl tests/checks/mutate.pl check "$list" || exit 1
 # Everything that may notice a fault, what does so most likely and soonest first:
 # what the list names, the suite of the module's own name, those that know most
 # about its room, the other suites, then the checks of the program from outside.
-numeric='newton derivatives line_search cholesky supernodes sparse averaged
-    integrators explicit reference orders scenes'
+numeric='newton terms line_search cholesky supernodes sparse integrators explicit
+    reference orders scenes'
 slow='contact multigrid solvers pages picture show track stress command'
 checks='check_log.sh check_scenes.sh check_files.sh check_scripts.sh
     check_faults.sh check_pages.sh check_window.sh'
@@ -38,15 +38,15 @@ killers_for() { # file, what the list names
     case $1 in
     */model/barrier* | */model/contact* | */model/friction* | */model/cell* | \
         */model/plast* | */model/fract* | */step/prescribed*)
-        own="$own barrier contact contact_scenes" ;;
+        own="$own terms barrier contact contact_scenes" ;;
     */model/*psd.[ch] | */model/*_energy.[ch])
-        own="$own psd derivatives averaged body" ;;
-    */model/*) own="$own derivatives body barrier mesh" ;;
+        own="$own terms body" ;;
+    */model/*) own="$own terms body barrier mesh" ;;
     */solve/newton_multigrid.c) own="$own solvers" ;;
     */solve/*grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
         own="$own multigrid solvers" ;;
     */base/quartic.[ch]) own="$own line_search solvers" ;;
-    */step/*) own="$own integrators averaged explicit orders" ;;
+    */step/*) own="$own integrators explicit orders" ;;
     esac
     case $1 in
     */scenes/one_line.[ch] | */scenes/*option* | */scenes/nearest.[ch])

@@ -321,27 +321,6 @@ static void contacts_are_exact_along_lines(void **unused)
     free_point(&point);
 }
 
-/* Where a spring is compressed, what is said to make up for its negative
- * curvature does exactly that across it; else nothing is. */
-static void concavity_is_made_up_for(void **unused)
-{
-    (void)unused;
-    System system;
-    make_plastic_spring(&system);
-    Term *term = &system.term[0];
-    for (int i = 0; i < 2; i++) {
-        double x[4] = {-0.5, 0, i ? 0.49 : 0.51, 0}, sum[2] = {0};
-        double g[4] = {0};
-        Place at = place_at(&system, x, NULL, x);
-        at.term = term;
-        term->kind->concave(&at, sum);
-        term->kind->gradient(&at, g);             /* 2 k tau d */
-        double across = 4 * g[2] / (x[2] - x[0]); /* of (0, 1, 0, -1) */
-        CHECK_NEAR(sum[0] + sum[1], i ? -across : 0, 1e-15);
-    }
-    system_free(&system);
-}
-
 /* Three steps of 1000 s bring a chain of springs to rest: each holds what hangs
  * on it, 2 k s l sqrt(1 + s) = m g (nodes below). */
 static void a_chain_hangs_at_rest(void **unused)
@@ -971,7 +950,6 @@ int main(void)
         cmocka_unit_test(flow_is_exact_along_lines),
         cmocka_unit_test(cells_are_exact_along_lines),
         cmocka_unit_test(contacts_are_exact_along_lines),
-        cmocka_unit_test(concavity_is_made_up_for),
         cmocka_unit_test(a_chain_hangs_at_rest),
         cmocka_unit_test(nothing_penetrates_or_turns_over),
         cmocka_unit_test(the_ledger_adds_up),

@@ -130,12 +130,12 @@ void random_system(Random *random, SpringState state, System *system, double *x)
     }
 }
 
-Dual dual_add(Dual a, Dual b)
+static Dual dual_add(Dual a, Dual b)
 {
     return (Dual){a.f + b.f, a.d1 + b.d1, a.d2 + b.d2, a.d12 + b.d12};
 }
 
-Dual dual_multiply(Dual a, Dual b)
+static Dual dual_multiply(Dual a, Dual b)
 {
     return (Dual){a.f * b.f, a.f * b.d1 + a.d1 * b.f, a.f * b.d2 + a.d2 * b.f,
                   a.f * b.d12 + a.d1 * b.d2 + a.d2 * b.d1 + a.d12 * b.f};

@@ -103,9 +103,6 @@ typedef struct Dual {
     long double f, d1, d2, d12;
 } Dual;
 
-Dual dual_add(Dual a, Dual b);
-Dual dual_multiply(Dual a, Dual b);
-
 /* sum m/2 |u - u_tilde|^2 (left out where u is NULL)
  *   + w (sum k/(2 l2) (|d|^2 - l2)^2 + omega2 sum m/2 |x|^2), the terms that
  * the system has,

@@ -1,0 +1,246 @@
+#include "oracle.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/damping.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
+#include "model/pull_energy.h"
+
+static Jet plus(Jet a, Real factor, Jet b)
+{
+    return (Jet){a.f + factor * b.f, a.p + factor * b.p, a.q + factor * b.q,
+                 a.pq + factor * b.pq};
+}
+
+static Jet times(Jet a, Jet b)
+{
+    return (Jet){a.f * b.f, a.p * b.f + a.f * b.p, a.q * b.f + a.f * b.q,
+                 a.pq * b.f + a.f * b.pq + a.p * b.q + a.q * b.p};
+}
+
+/* F(a), of which F, F' and F'' are these. */
+static Jet chain(Jet a, Real F, Real F1, Real F2)
+{
+    return (Jet){F, F1 * a.p, F1 * a.q, F1 * a.pq + F2 * a.p * a.q};
+}
+
+static void book(Spot *spot, Jet *sum, Real factor, Jet part)
+{
+    *sum = plus(*sum, factor, part);
+    spot->size = plus(
+        spot->size, fabsl(factor),
+        (Jet){fabsl(part.f), fabsl(part.p), fabsl(part.q), fabsl(part.pq)});
+}
+
+/* Coordinate c of x, or of the step u that leads there. */
+static Jet coordinate(Spot *spot, int c, bool of_u)
+{
+    const Place *at = spot->at;
+    Real x = of_u ? at->u[c] : at->x[c];
+    if (at->averaged)
+        x = (of_u ? 0 : (Real)at->x_n[c]) + spot->t * at->u[c];
+    if (spot->p)
+        x += (at->averaged ? spot->t : 1) * spot->alpha * spot->p[c];
+    if (spot->jitter)
+        x *= 1 + DBL_EPSILON * random_uniform(spot->jitter, -1, 1);
+    return (Jet){x, spot->p ? spot->p[c] : 0, spot->q ? spot->q[c] : 0, 0};
+}
+
+static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
+{
+    return plus(coordinate(spot, 2 * i + axis, of_u), -1,
+                coordinate(spot, 2 * j + axis, of_u));
+}
+
+static Real strain_at(const System *system, int s, const double *x)
+{
+    int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+    Real dx = (Real)x[i] - x[j], dy = (Real)x[i + 1] - x[j + 1];
+    return (dx * dx + dy * dy) / system->l2[s] - 1;
+}
+
+/* k l2 V(E): slides, plasticity.h, damping.h */
+static void springs(Spot *spot, Jet *sum)
+{
+    const System *system = spot->at->system;
+    const Plasticity *flow = plasticity_of(system);
+    const Damping *damped = spot->at->u ? damping_of(system) : NULL;
+    Real theta = damped ? damped->eta / spot->h : 0;
+    for (int s = 0; s < system->springs; s++) {
+        Jet E = {.f = -1}, V;
+        for (int axis = 0; axis < 2; axis++) {
+            Jet d = between(spot, system->e[2 * s], system->e[2 * s + 1], axis,
+                            false);
+            E = plus(E, 1 / (Real)system->l2[s], times(d, d));
+        }
+        Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0, part = 0;
+        Real held = fabsl(e), over = 0; /* |e| = held + over */
+        if (flow) {
+            kappa = flow->kappa[s];
+            part = 1 / (1 + (Real)flow->hardening);
+            held = fminl(held, flow->yield + flow->hardening * kappa);
+            over = fabsl(e) - held;
+        }
+        V = chain(E, held * (held / 2 + over) + (1 - part) * over * over / 2,
+                  copysignl(held + (1 - part) * over, e),
+                  over > 0 ? 1 - part : 1);
+        Jet rate = E;
+        rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
+        V = plus(V, theta / 2, times(rate, rate));
+        V.f += flow ? flow->hardening * kappa * kappa / 2 : 0;
+        book(spot, sum, (Real)system->k[s] * system->l2[s], V);
+    }
+}
+
+/* c f(s): barrier.h */
+static void barrier(Spot *spot, Jet *sum, Real c, Jet s)
+{
+    if (s.f < 1)
+        book(spot, sum, c,
+             chain(s, s.f > 0 ? (s.f - 1) * logl(s.f) : INFINITY,
+                   logl(s.f) + 1 - 1 / s.f, (1 + s.f) / (s.f * s.f)));
+}
+
+/* The gap of contact.h over d_hat, and the direction n from wall or ball. */
+static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
+{
+    const Obstacle *it = &contact->obstacle[k];
+    Jet d[2], s = {0};
+    for (int axis = 0; axis < 2; axis++) {
+        d[axis] = it->node >= 0 ? between(spot, i, it->node, axis, false)
+                                : coordinate(spot, 2 * i + axis, false);
+        d[axis].f -= it->node >= 0 ? 0 : it->o[axis];
+        n[axis] = it->n[axis];
+    }
+    if (it->kind == OBSTACLE_BALL) {
+        Jet r2 = plus(times(d[0], d[0]), 1, times(d[1], d[1]));
+        Real r = sqrtl(r2.f);
+        s = chain(r2, r - it->radius, 1 / (2 * r), -1 / (4 * r2.f * r));
+        n[0] = d[0].f / r;
+        n[1] = d[1].f / r;
+    } else {
+        s = plus((Jet){0}, n[0], d[0]);
+        s = plus(s, n[1], d[1]);
+    }
+    if (contact->ball >= 0 && contact->obstacle[contact->ball].node == i)
+        s.f -= contact->obstacle[contact->ball].radius;
+    return plus((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
+}
+
+/* mu lambda f0(y), lambda and t of x_n: friction.h */
+static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
+{
+    const Obstacle *it = &contact->obstacle[k];
+    const Term *term = system_find_term(spot->at->system, &friction_energy);
+    if (!term || !spot->at->u || !(it->friction > 0))
+        return;
+    Place start = *spot->at;
+    Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
+    Real n[2], e = ((const Friction *)term->data)->slip_speed * spot->h;
+    start.x = start.x_n;
+    start.averaged = false;
+    Real s = gap(&before, contact, i, k, n).f;
+    if (!(s < 1))
+        return;
+    Jet y = {.f = -spot->h * (n[0] * it->v[1] - n[1] * it->v[0])};
+    for (int axis = 0; axis < 2; axis++)
+        y = plus(y, axis ? n[0] : -n[1],
+                 it->node >= 0 ? between(spot, i, it->node, axis, true)
+                               : coordinate(spot, 2 * i + axis, true));
+    Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
+    Jet f0 = a < 1 ? chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
+                           2 / e * (1 - a))
+                   : chain(y, fabsl(y.f) - e / 3, sign, 0);
+    book(spot, sum,
+         it->friction * contact->barrier.c / contact->barrier.d_hat *
+             -(logl(s) + 1 - 1 / s),
+         f0);
+}
+
+static void contacts(Spot *spot, Jet *sum, bool touch, bool rub)
+{
+    const System *system = spot->at->system;
+    const Contact *contact = contact_of(system);
+    Real n[2];
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int i = 0; i < system->nodes; i++) {
+            if (!contact_has_pair(contact, system, i, k))
+                continue;
+            if (touch)
+                barrier(spot, sum, contact->barrier.c,
+                        gap(spot, contact, i, k, n));
+            if (rub)
+                friction(spot, sum, contact, i, k);
+        }
+}
+
+/* A0 k_c f(J/J_hat): cells.h */
+static void cells(Spot *spot, Jet *sum, const Cells *cells)
+{
+    const double *k = spot->at->system->k;
+    for (int t = 0; t < cells->triangles; t++) {
+        const int *node = cells->node + 3 * t, *side = cells->spring + 3 * t;
+        Jet e[2][2];
+        if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
+            continue;
+        for (int axis = 0; axis < 2; axis++)
+            for (int edge = 0; edge < 2; edge++)
+                e[edge][axis] =
+                    between(spot, node[1 + edge], node[0], axis, false);
+        Jet J = plus(times(e[0][0], e[1][1]), -1, times(e[0][1], e[1][0]));
+        barrier(spot, sum, cells->c,
+                plus((Jet){0}, 1 / (2 * (Real)cells->area * 0.4L), J));
+    }
+}
+
+/* sum c/2 |x - o|^2: pull_energy.h */
+static void pulls(Spot *spot, Jet *sum, const Pull *pull)
+{
+    const System *system = spot->at->system;
+    for (int c = 0; c < 2 * system->nodes; c++) {
+        Jet d = coordinate(spot, c, false);
+        Real k = pull->node < 0 ? (Real)pull->k * system->m[c / 2] : pull->k;
+        d.f -= pull->target[c % 2];
+        if (pull->node < 0 || pull->node == c / 2)
+            book(spot, sum, k / 2, times(d, d));
+    }
+}
+
+Jet oracle_energy(Spot *spot, const TermKind *only)
+{
+    const System *system = spot->at->system;
+    Jet sum = {0};
+    spot->size = (Jet){0};
+    for (int i = 0; i < system->terms; i++) {
+        const TermKind *kind = system->term[i].kind;
+        const void *data = system->term[i].data;
+        if (only && kind != only && kind->averaged != only)
+            continue;
+        if (kind == &mass_spring_energy || kind == &plastic_energy)
+            springs(spot, &sum);
+        contacts(spot, &sum, kind == &contact_energy, kind == &friction_energy);
+        if (kind == &cell_energy)
+            cells(spot, &sum, data);
+        if (kind == &central_field || kind == &hand_energy)
+            pulls(spot, &sum, data);
+    }
+    spot->size = plus((Jet){0}, spot->at->w, spot->size);
+    return plus((Jet){0}, spot->at->w, sum);
+}
+
+Jet oracle_step(Spot *spot, const double *u_tilde)
+{
+    const System *system = spot->at->system;
+    Jet sum = oracle_energy(spot, NULL);
+    for (int c = 0; c < 2 * system->nodes; c++) {
+        Jet away = coordinate(spot, c, true);
+        away.f -= u_tilde[c];
+        book(spot, &sum, system->m[c / 2] / (Real)2, times(away, away));
+    }
+    return sum;
+}

@@ -1,0 +1,540 @@
+/* What term.h promises, of every term that a row of the table brings, at random
+ * places: held to the headers' formulas (oracle.h).  A new term is a row here
+ * and a formula there. */
+#include "oracle.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/damping.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
+#include "model/pull_energy.h"
+
+enum { SIZE = 2 * 40 };
+
+/* What a row is made of: a few nodes, and one kind of thing between them. */
+typedef struct Row {
+    const char *name;
+    enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID } shape;
+    double yield, hardening, damping, pull; /* 0: none; hardening as it is */
+    bool rubs, averaged, flat;              /* flat: no spring has a length */
+    double far; /* alpha goes up to this, where nothing limits it */
+} Row;
+
+static const Row rows[] = {
+    {"one spring", SPRING, .far = 1e6},
+    {"one spring, averaged", SPRING, .averaged = true, .far = 1e3},
+    {"springs", GRAPH, .far = 1e3},
+    {"spring of no length", SPRING, .flat = true, .far = 1e3},
+    {"springs of next to no length", GRAPH, .flat = true, .far = 1e3},
+    {"springs, averaged", GRAPH, .averaged = true, .far = 1e3},
+    {"central field", GRAPH, .pull = 3, .far = 1e3},
+    {"central field, averaged", GRAPH, .pull = 3, .averaged = true, .far = 1e3},
+    {"damped springs", GRAPH, .damping = 0.3, .far = 1e3},
+    {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .far = 1e3},
+    {"flowing springs, damped", GRAPH, .yield = 0.1, .hardening = 0.3,
+     .damping = 0.3, .far = 1e3},
+    {"perfectly plastic spring", SPRING, .yield = 0.1, .far = 1e6},
+    {"wall", WALL, .far = 1e3},
+    {"wall that rubs", WALL, .rubs = true, .far = 1e3},
+    {"ball", BALL, .far = 1e3},
+    {"ball that rubs", BALL, .rubs = true, .far = 1e3},
+    {"free ball", FREE_BALL, .far = 1e3},
+    {"free ball that rubs", FREE_BALL, .rubs = true, .far = 1e3},
+    {"corner", CORNER, .far = 1e3},
+    {"cells with springs", GRID, .far = 1e3},
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+/* One random place of a row. */
+typedef struct Case {
+    System system;
+    Place at;
+    double x_n[SIZE], u[SIZE], x[SIZE], p[SIZE], q[SIZE], h;
+    int size;
+} Case;
+
+static void make_contact(const Row *row, Random *random, Case *c)
+{
+    double angle = random_uniform(random, 0, 6.28);
+    Obstacle it = {.kind = row->shape == WALL ? OBSTACLE_WALL : OBSTACLE_BALL,
+                   .n = {cos(angle), sin(angle)},
+                   .radius = 0.3,
+                   .v = {random_uniform(random, -9, 9), 4},
+                   .friction = row->rubs ? 0.7 : 0,
+                   .node = row->shape == FREE_BALL ? 1 : -1};
+    const Barrier barrier = {.d_hat = 0.1, .c = 3};
+    double d = 0.1 * random_logarithmic(random, 1e-3, row->rubs ? 0.9 : 1.3) +
+               (row->shape == WALL ? 0 : it.radius);
+    for (int axis = 0; axis < 2; axis++) {
+        it.o[axis] = random_uniform(random, -1, 1);
+        c->x_n[axis] = it.o[axis] + d * it.n[axis];
+        c->x_n[2 + axis] = it.o[axis] + (it.node < 0 ? 9 * it.n[axis] : 0);
+    }
+    CHECK_STATUS(contact_add(&c->system, &barrier, 1, &it), STATUS_OK);
+    if (row->rubs)
+        CHECK_STATUS(
+            friction_add(&c->system, random_logarithmic(random, 0.02, 50)),
+            STATUS_OK);
+}
+
+static void make_grid(const Row *row, Case *c)
+{
+    SquareMesh mesh;
+    int n = row->shape == CORNER ? 1 : 2;
+    CHECK_STATUS(square_mesh_create(n, n, 1, &mesh), STATUS_OK);
+    CHECK_STATUS(system_create(mesh.nodes, mesh.springs, &c->system),
+                 STATUS_OK);
+    memcpy(c->x_n, mesh.x, 2 * (size_t)mesh.nodes * sizeof *mesh.x);
+    for (int s = 0; s < mesh.springs; s++) {
+        c->system.e[2 * s] = mesh.e[2 * s];
+        c->system.e[2 * s + 1] = mesh.e[2 * s + 1];
+        c->system.l2[s] = (s < 2 * n * (n + 1) ? 1.0 : 2.0) / (n * n);
+        c->system.k[s] = 2;
+    }
+    square_mesh_free(&mesh);
+    CHECK_STATUS(cells_add(&c->system, n, n, 1.0 / n, 5), STATUS_OK);
+    if (row->shape == CORNER) { /* one triangle is left, without springs */
+        const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
+        for (int s = 0; s < c->system.springs; s++)
+            if (s != cells->spring[0] && s != cells->spring[1] &&
+                s != cells->spring[2])
+                c->system.k[s] = 0;
+        c->system.breaks = true;
+    }
+}
+
+/* Nodes, springs and contacts of the row, at x_n. */
+static void make_shape(const Row *row, Random *random, Case *c)
+{
+    if (row->shape == GRAPH) {
+        random_system(random, row->flat ? SPRINGS_NEAR_ZERO : SPRINGS_MIXED,
+                      &c->system, c->x_n);
+        return;
+    }
+    if (row->shape == GRID || row->shape == CORNER) {
+        make_grid(row, c);
+        return;
+    }
+    CHECK_STATUS(system_create(2, row->shape == SPRING, &c->system), STATUS_OK);
+    for (int i = 0; i < 4; i++)
+        c->x_n[i] = random_uniform(random, -1, 1);
+    if (row->shape != SPRING) {
+        make_contact(row, random, c);
+        return;
+    }
+    c->system.e[1] = 1;
+    c->system.l2[0] = random_logarithmic(random, 0.05, 20);
+    c->system.k[0] = 7;
+}
+
+/* What else the row has: pull, flow, damping. */
+static void add_terms(const Row *row, Random *random, System *system)
+{
+    if (row->pull > 0)
+        CHECK_STATUS(central_field_set(system, row->pull), STATUS_OK);
+    if (row->yield > 0) {
+        CHECK_STATUS(plasticity_set(system, row->yield, row->hardening),
+                     STATUS_OK);
+        for (int s = 0; s < system->springs; s++) {
+            plasticity_of(system)->ep[s] = random_uniform(random, -0.3, 0.3);
+            plasticity_of(system)->kappa[s] = random_uniform(random, 0, 0.5);
+        }
+    }
+    if (row->damping > 0)
+        CHECK_STATUS(damping_add(system, row->damping), STATUS_OK);
+}
+
+/* Random u that all terms allow, and two directions. */
+static void make_place(const Row *row, Random *random, Case *c)
+{
+    double shake = row->flat ? 1e-8 : row->shape >= GRID ? 0.3 : 0.2;
+    bool good = false;
+    for (int k = 0; !good; k++, shake *= 0.7) {
+        CHECK(k < 100);
+        good = true;
+        for (int i = 0; i < c->size; i++) {
+            int from = row->flat && row->shape == SPRING ? i % 2 : i;
+            c->u[i] = shake * random_uniform(random, -1, 1);
+            c->u[i] = c->u[from];
+            c->x_n[i] = c->x_n[from];
+            c->x[i] = c->x_n[i] + c->u[i];
+            c->p[i] = random_uniform(random, -1, 1);
+            c->q[i] = random_uniform(random, -1, 1);
+        }
+        for (int t = 0; t < c->system.terms; t++) {
+            c->at.term = &c->system.term[t];
+            if (c->at.term->kind->allowed)
+                good = good && c->at.term->kind->allowed(&c->at);
+        }
+    }
+    c->at.term = NULL; /* before the first */
+}
+
+static void make_case(const Row *row, Random *random, Case *c)
+{
+    System *system = &c->system;
+    memset(c, 0, sizeof *c);
+    make_shape(row, random, c);
+    for (int i = 0; i < system->nodes; i++)
+        system->m[i] = random_logarithmic(random, 0.1, 10);
+    add_terms(row, random, system);
+    c->size = 2 * system->nodes;
+    c->h = random_logarithmic(random, 1e-3, 1);
+    for (int i = 0; i < system->terms; i++)
+        if (system->term[i].kind->begin)
+            system->term[i].kind->begin(&system->term[i], system, c->x_n, c->u,
+                                        c->h);
+    c->at = place_at(system, c->x_n, c->u, c->x);
+    c->at.averaged = row->averaged;
+    c->at.w = random_logarithmic(random, 0.1, 10);
+    make_place(row, random, c);
+}
+
+static double dot(const Case *c, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < c->size; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* What the formula says, and how far an ulp in each coordinate moves it. */
+static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
+{
+    static const Real gauss[2] = {0.2113248654051871177454256L,
+                                  0.7886751345948128822545744L};
+    Jet sum = {0};
+    Random random = {1};
+    *noise = (Jet){0};
+    for (int a = 0; a < (c->at.averaged ? 2 : 1); a++) {
+        Real t = c->at.averaged ? gauss[a] : 1, w = c->at.averaged ? 0.5L : 1;
+        Spot spot = {.at = &c->at,
+                     .h = c->h,
+                     .t = t,
+                     .alpha = alpha,
+                     .p = c->p,
+                     .q = c->q};
+        Jet part = oracle_energy(&spot, kind), size = spot.size;
+        Spot start = {.at = &c->at, .h = c->h, .t = 0};
+        /* averaged: integral of (P(x_n + t u) - P(x_n))/t, and of grad P */
+        sum.f += c->at.averaged
+                     ? w * (part.f - oracle_energy(&start, kind).f) / t
+                     : part.f;
+        sum.p += w * part.p;
+        sum.pq += w * t * part.pq;
+        *noise = (Jet){noise->f + 1e-13L * size.f, noise->p + 1e-13L * size.p,
+                       0, noise->pq + 1e-13L * size.pq};
+        spot.jitter = &random;
+        for (int i = 0; i < 8; i++) {
+            Jet other = oracle_energy(&spot, kind);
+            noise->f += 80 * fabsl(other.f - part.f);
+            noise->p += 80 * fabsl(other.p - part.p);
+            noise->pq += 80 * fabsl(other.pq - part.pq);
+        }
+    }
+    return sum;
+}
+
+static const Row *row; /* of the present test */
+static long looked;    /* how often a property said something */
+
+/* name: what is wrong, in which row. */
+static void near(const char *what, Real got, Real expected, Real tolerance)
+{
+    looked++;
+    if (!(fabsl(got - expected) <= tolerance))
+        print_error("%s: ", row->name);
+    check_near(what, got, expected, tolerance, __FILE__, __LINE__);
+}
+
+/* value, gradient, Hessian: those of the formula. */
+static void derivatives(Case *c, const TermKind *kind)
+{
+    Jet noise;
+    double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
+    Jet formula = exact(c, kind, 0, &noise);
+    kind->gradient(&c->at, g);
+    kind->hessian(&c->at, FILTER_NONE, NULL, c->q, Hq);
+    kind->hessian(&c->at, FILTER_NONE, NULL, c->p, Hp);
+    if (!(damping_of(&c->system) && kind->internal))
+        near("value", c->at.w * kind->value(&c->at), formula.f, noise.f);
+    near("gradient", dot(c, g, c->p), formula.p, noise.p);
+    near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
+    near("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
+    for (int f = 0; f < FILTER_COUNT; f++) { /* it says what it changes */
+        double filtered[SIZE] = {0};
+        bool differs = false;
+        int changed = kind->hessian(&c->at, (Filter)f, NULL, c->q, filtered);
+        for (int i = 0; i < c->size; i++)
+            differs = differs || filtered[i] != Hq[i];
+        CHECK((changed > 0) == differs);
+    }
+    if (!kind->internal)
+        return;
+    Real sum[3] = {0}, size = 0;
+    for (int i = 0; i < c->size; i++) {
+        double arm = i % 2 ? c->x[i - 1] : -c->x[i + 1];
+        sum[i % 2] += g[i];
+        sum[2] += (Real)arm * g[i];
+        size += fabs(g[i]) * (1 + fabs(c->x[i]));
+    }
+    for (int i = 0; i < (c->at.averaged ? 2 : 3); i++)
+        near("forces add up to nothing", sum[i], 0, 1e-14L * size);
+}
+
+/* E along p: exact where it moves much, right to its last digits where it moves
+ * next to nothing. */
+static void line(Case *c, const TermKind *kind, Random *random)
+{
+    double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
+    if (kind->reach)
+        reach = kind->reach(&c->at, c->p);
+    double most = fmin(reach, row->far);
+    double alpha = random_below(random, 4) == 0
+                       ? 1e-9
+                       : most * random_logarithmic(random, 1e-9, 1);
+    Jet noise[2], start = exact(c, kind, 0, &noise[0]);
+    Jet end = exact(c, kind, alpha, &noise[1]);
+    kind->gradient(&c->at, g);
+    if (kind->along)
+        kind->along(&c->at, c->p, most, q);
+    double got = alpha * (alpha * (q[0] + alpha * (q[1] + alpha * q[2])));
+    if (kind->remainder)
+        got += kind->remainder(&c->at, c->p, alpha);
+    Real expected = end.f - start.f - alpha * start.p;
+    near("change", got, expected,
+         1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
+             noise[0].f + noise[1].f + alpha * noise[0].p);
+    memcpy(c->q, c->p, sizeof c->p);
+    start = exact(c, kind, 0, &noise[0]);
+    if (alpha == 1e-9)
+        near("small change", got, alpha * alpha / 2 * start.pq,
+             alpha * alpha * (1e-3L * fabsl(start.pq) + noise[0].pq));
+}
+
+/* The smallest part that is left of a gap, or of the area of a triangle. */
+static double part_left(const Case *c, const double *x)
+{
+    const Contact *contact = contact_of(&c->system);
+    double least = INFINITY;
+    for (int i = 0; contact && i < c->system.nodes; i++)
+        if (contact_has_pair(contact, &c->system, i, 0))
+            least = fmin(least, contact_pair_gap(contact, x, i, 0).d /
+                                    contact_pair_gap(contact, c->x, i, 0).d);
+    return contact
+               ? least
+               : smallest_cell(&c->system, x) / smallest_cell(&c->system, c->x);
+}
+
+/* Before the limit every place is allowed; there a tenth is left. */
+static void limit(Case *c, const TermKind *kind)
+{
+    double x[SIZE], alpha = kind->reach ? kind->reach(&c->at, c->p) : INFINITY;
+    Case other = *c;
+    if (!isfinite(alpha))
+        return;
+    for (int k = 1; k <= 20; k++) {
+        for (int i = 0; i < c->size; i++)
+            x[i] = c->x[i] + alpha * k / 20 * c->p[i];
+        other.at.x = x;
+        CHECK(kind->allowed(&other.at));
+    }
+    if (row->shape != GRID) /* there another corner may be the smallest */
+        near("what the limit leaves", part_left(c, x), 0.1, 1e-8);
+}
+
+/* Cyclic Jacobi: values on the diagonal of a, vectors in the columns of v. */
+static void eigen(int n, Real *a, Real *v)
+{
+    for (int i = 0; i < n * n; i++)
+        v[i] = i % (n + 1) == 0;
+    for (int k = 0; k < 30 * n * n; k++) {
+        int r = k / n % n, c = k % n;
+        if (r >= c || a[n * r + c] == 0)
+            continue;
+        Real theta = (a[n * c + c] - a[n * r + r]) / (2 * a[n * r + c]);
+        Real t = copysignl(1, theta) / (fabsl(theta) + hypotl(1, theta));
+        Real cosine = 1 / hypotl(1, t), sine = t * cosine;
+        for (int pass = 0; pass < 3; pass++)
+            for (int i = 0; i < n; i++) {
+                Real *m = pass == 2 ? v : a;
+                int j = pass == 1 ? n * r + i : n * i + r;
+                int l = pass == 1 ? n * c + i : n * i + c;
+                Real one = m[j], two = m[l];
+                m[j] = cosine * one - sine * two;
+                m[l] = sine * one + cosine * two;
+            }
+    }
+}
+
+/* The matrix is the products' one, and filtered it has the eigenvalues cut or
+ * mirrored: of single elements all, of many that none is below 0. */
+static void projection(Case *c, Random *random)
+{
+    IncrementalPotential E = {&c->system, c->at.w, c->x_n, c->u,
+                              c->at.averaged};
+    Iterate iterate = {.E = E, .u = c->u, .x = c->x};
+    static double plain[SIZE * SIZE], H[SIZE * SIZE];
+    int n = c->size, *slot;
+    Real a[16], v[16], largest = 0;
+    Sparse A;
+    CHECK_STATUS(incremental_potential_pattern(&c->system, &A, &slot),
+                 STATUS_OK);
+    CHECK(incremental_potential_hessian(&iterate, FILTER_NONE, slot, &A) == 0);
+    dense_from_sparse(&A, plain);
+    double Hq[SIZE] = {0}, scale = 0;
+    for (const TermKind *kind; (kind = next_energy(&c->at));)
+        kind->hessian(&c->at, FILTER_NONE, NULL, c->q, Hq);
+    for (int i = 0; i < n * n; i++)
+        scale = fmax(scale, fabs(plain[i]));
+    for (int i = 0; i < n; i++) {
+        Real sum = -c->system.m[i / 2] * c->q[i];
+        for (int j = 0; j < n; j++)
+            sum += (Real)plain[n * i + j] * c->q[j];
+        near("matrix", Hq[i], sum, 2e-14L * scale);
+    }
+    const Filter filters[2] = {FILTER_CLAMP, FILTER_ABS};
+    for (int f = 0; f < 2; f++) {
+        Filter filter = filters[f];
+        incremental_potential_hessian(&iterate, filter, slot, &A);
+        dense_from_sparse(&A, H);
+        for (int trial = 0; trial < 20; trial++) {
+            double y[SIZE], value = 0;
+            for (int i = 0; i < n; i++)
+                y[i] = random_uniform(random, -1, 1);
+            for (int i = 0; i < n * n; i++)
+                value += y[i / n] * H[i] * y[i % n];
+            CHECK(value >= -1e-12 * scale);
+        }
+        if (n > 4 || row->rubs || row->shape == CORNER) /* several blocks */
+            continue;
+        for (int i = 0; i < n * n; i++)
+            a[i] = plain[i] - (i % (n + 1) ? 0 : c->system.m[i / n / 2]);
+        eigen(n, a, v);
+        for (int i = 0; i < n; i++)
+            largest = fmaxl(largest, fabsl(a[(n + 1) * i]));
+        for (int i = 0; i < n * n; i++) {
+            Real sum = i % (n + 1) ? 0 : c->system.m[i / n / 2];
+            for (int k = 0; k < n; k++) {
+                Real l = a[(n + 1) * k];
+                sum += (filter == FILTER_ABS ? fabsl(l) : fmaxl(l, 0)) *
+                       v[n * (i / n) + k] * v[n * (i % n) + k];
+            }
+            near("projection", H[i], sum,
+                 1e-14L * (largest + c->system.m[0] + c->system.m[1]));
+        }
+    }
+    sparse_free(&A);
+    free(slot);
+}
+
+/* What makes up for all that bends down does so: H + diag(sum) >= 0. */
+static void concavity(Case *c, const TermKind *kind, Random *random)
+{
+    double sum[SIZE] = {0}, Hy[SIZE], size = 0;
+    if (kind->concave)
+        kind->concave(&c->at, sum);
+    for (int trial = 0; trial < 60; trial++) {
+        double y[SIZE];
+        for (int i = 0; i < c->size; i++)
+            y[i] = trial < 30 ? random_uniform(random, -1, 1)
+                              : y[i] * 0.9 - 0.1 * Hy[i] / (size + 1e-300);
+        memset(Hy, 0, sizeof Hy);
+        kind->hessian(&c->at, FILTER_NONE, NULL, y, Hy);
+        for (int i = 0; i < c->size; i++) {
+            Hy[i] += sum[i / 2] * y[i];
+            size = fmax(size, fabs(Hy[i]));
+        }
+        CHECK(dot(c, Hy, y) >= -1e-12 * size);
+    }
+}
+
+/* Inertia and all terms together: E and grad E of a step. */
+static void whole_step(Case *c, Random *random)
+{
+    double u_tilde[SIZE], g[SIZE];
+    for (int i = 0; i < c->size; i++)
+        u_tilde[i] = random_uniform(random, -1, 1);
+    IncrementalPotential E = {&c->system, c->at.w, c->x_n, u_tilde, false};
+    Spot spot = {.at = &c->at, .h = c->h, .t = 1, .p = c->p};
+    Jet noise, part = oracle_step(&spot, u_tilde);
+    exact(c, NULL, 0, &noise);
+    incremental_potential_gradient(&E, c->u, c->x, g);
+    near("E's gradient", dot(c, g, c->p), part.p,
+         noise.p + 1e-13L * spot.size.p);
+    if (!damping_of(&c->system))
+        near("E", incremental_potential_value(&E, c->u, c->x), part.f,
+             noise.f + 1e-13L * spot.size.f);
+}
+
+static void row_is_right(void **state)
+{
+    row = *state;
+    looked = 0;
+    Random random = {(uint64_t)(row - rows) + 1};
+    for (int n = 0; n < (tests_are_long() ? 2000 : 150); n++) {
+        static Case c;
+        make_case(row, &random, &c);
+        for (const TermKind *kind; (kind = next_energy(&c.at));) {
+            derivatives(&c, kind);
+            limit(&c, kind);
+            concavity(&c, kind, &random);
+            line(&c, kind, &random);
+        }
+        projection(&c, &random);
+        if (!row->averaged)
+            whole_step(&c, &random);
+        system_free(&c.system);
+    }
+    CHECK(looked > 1000);
+}
+
+/* Acceleration is -M^-1 grad P, and none of pinned nodes; 1e-12: rounding. */
+static void a_system_uses_its_terms(void **unused)
+{
+    (void)unused;
+    Random random = {77};
+    System system;
+    double x[MAX_SIZE], v[MAX_SIZE], a[MAX_SIZE], kinetic = 0;
+    random_system(&random, SPRINGS_MIXED, &system, x);
+    CHECK_STATUS(central_field_set(&system, 3), STATUS_OK);
+    Place at = place_at(&system, x, NULL, x);
+    system_acceleration(&system, x, a);
+    for (int i = 0; i < 2 * system.nodes; i++) {
+        double one[MAX_SIZE] = {0};
+        one[i] = 1;
+        Spot spot = {.at = &at, .t = 1, .p = one};
+        Real force = -oracle_energy(&spot, NULL).p;
+        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * spot.size.p);
+        v[i] = random_uniform(&random, -1, 1);
+        kinetic += system.m[i / 2] * v[i] * v[i] / 2;
+    }
+    Spot spot = {.at = &at, .t = 1};
+    double P = (double)oracle_energy(&spot, NULL).f;
+    CHECK_NEAR(system_potential(&system, x), P, 1e-13 * P);
+    CHECK_NEAR(system_kinetic(&system, v), kinetic, 1e-14 * kinetic);
+    CHECK_STATUS(system_create_pins(&system), STATUS_OK);
+    system.pinned[1] = 1;
+    system_acceleration(&system, x, v);
+    CHECK(v[2] == 0 && v[3] == 0);
+    CHECK_SAME_BITS(v, a, 2);
+    CHECK_SAME_BITS(v + 4, a + 4, 2 * system.nodes - 4);
+    system_free(&system);
+}
+
+int main(void)
+{
+    struct CMUnitTest tests[ROWS + 1] = {
+        [ROWS] = cmocka_unit_test(a_system_uses_its_terms)};
+    for (int i = 0; i < ROWS; i++)
+        tests[i] = (struct CMUnitTest){rows[i].name, row_is_right, NULL, NULL,
+                                       (void *)&rows[i]};
+    return cmocka_run_group_tests_name("terms", tests, NULL, NULL);
+}
