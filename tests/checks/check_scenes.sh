@@ -44,7 +44,7 @@ verdict circle_states_are_three_nodes "$(
 verdict overshoot_shows_the_step_that_diverges "$(
     run 3 overshoot --frames frames
     table 7 3 states
-    table 17 2 log
+    table 18 2 log
     awk -F, 'NR == 3 && $4 > -11.6449585 { print "first update to " $4 }
         NR == 4 && !($4 > 3.2e9 && $4 < 3.3e9) { print "second to " $4 }
         NR > 1 && $2 != 0 { print "time passes" }' states
@@ -84,7 +84,7 @@ verdict explicit_methods_count_no_matrix "$(
         run 0 square --steps 5 --timestep 0.001 --integrator $method
         grep -qE '^(Newton|factorisations|solves|matrix)' summary &&
             echo "$method: $(grep -E '^(Newton|fact|solves|matrix)' summary)"
-        table 13 0 log
+        table 14 0 log
     done
     run 0 square --steps 5
     for what in 'Newton iterations' factorisations solves 'matrix entries'; do
@@ -93,6 +93,15 @@ verdict explicit_methods_count_no_matrix "$(
     run 0 square --steps 2 --segments 33
     grep -q '^V-cycles  *[1-9]' summary || echo 'multigrid has no cycles'
     grep -E '^(factorisations|solves|matrix)' summary
+)"
+
+# Newton leaves them without any V-cycle, and only where a minimum is asked for.
+verdict saddles_left_are_counted "$(
+    run 0 square --segments 16 --minimum --steps 14
+    grep -q '^saddles left  *[1-9]' summary || echo 'none was left'
+    grep '^V-cycles' summary
+    run 0 square --segments 16 --steps 14
+    grep '^saddles left' summary
 )"
 
 verdict list_has_a_sentence_each "$(

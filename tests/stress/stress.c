@@ -149,7 +149,8 @@ static void run_envelope(const char *csv, const char *png, Tally *sum)
     }
     print_row("envelope", &tally);
     for (int i = 0; i < SOLVER_COUNT; i++)
-        printf("%s: %.2f %% converged where stretch >= 0.1\n",
+        printf("%s: %.2f %% converged where stretch >= 0.1 and something was "
+               "done\n",
                solver_name((Solver)i),
                100 * envelope_share(&envelope, (Solver)i));
     if ((csv && !envelope_write(csv, &envelope)) ||

@@ -150,7 +150,8 @@ double envelope_h(int i);       /* 1e-9 ... 1e3, half decades */
 double envelope_k(int i);       /* 1e-6 ... 1e15 */
 double envelope_stretch(int i); /* 1e-6 ... 1e6 */
 
-/* One cell: 'c', 'r' or 'w'. */
+/* One cell: 'c' converged; 'n' the stretched start passed the test of every
+ * step, and nothing was done; 'r' reported otherwise; 'w' wrong. */
 char envelope_cell(Solver solver, int stretch, int k, int h, Tally *tally,
                    char *reason);
 
@@ -158,7 +159,8 @@ bool envelope_write(const char *name, const Envelope *envelope);
 bool envelope_read(const char *name, Envelope *envelope);
 bool envelope_draw(const char *name, const Envelope *envelope);
 
-/* Share of verdict c where the stretch is at least 0.1. */
+/* Share of verdict c where the stretch is at least 0.1, and something was done.
+ */
 double envelope_share(const Envelope *envelope, Solver solver);
 
 #endif

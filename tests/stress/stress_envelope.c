@@ -41,8 +41,9 @@ char envelope_cell(Solver solver, int stretch, int k, int h, Tally *tally,
     if (case_open(&c, line))
         for (int step = 0; step < 3 && case_steps(&c, 1); step++)
             status = c.watch.status ? c.watch.status : status;
+    bool undone = c.run && c.run->newton->counters.iterations == 0;
     if (case_close(&c))
-        return status ? 'r' : 'c';
+        return status ? 'r' : undone ? 'n' : 'c';
     size_t used = strlen(reason);
     snprintf(reason + used, 512 - used, " (%s)", line);
     return 'w';
@@ -54,7 +55,7 @@ double envelope_share(const Envelope *envelope, Solver solver)
     for (int s = 0; s < ENVELOPE_STRETCH; s++)
         for (int k = 0; k < ENVELOPE_K && envelope_stretch(s) >= 0.1; k++)
             for (int h = 0; h < ENVELOPE_H; h++) {
-                cells++;
+                cells += envelope->verdict[solver][s][k][h] != 'n';
                 converged += envelope->verdict[solver][s][k][h] == 'c';
             }
     return (double)converged / cells;
@@ -110,10 +111,11 @@ enum {
 
 static const Colour white = 0xffffffff, ink = 0xff222222;
 
-/* Also told apart without colours: light, middle, dark. */
+/* Also told apart without colours: from light to dark. */
 static Colour verdict_colour(char verdict)
 {
-    return verdict == 'c'   ? 0xff9fd3ae
+    return verdict == 'c'   ? 0xffb4dfc0
+           : verdict == 'n' ? 0xff9c92c4
            : verdict == 'r' ? 0xffe08a1e
                             : 0xff7a0019;
 }
@@ -121,13 +123,13 @@ static Colour verdict_colour(char verdict)
 /* The worse of both solvers. */
 static char worse(const Envelope *envelope, int s, int k, int h)
 {
-    char worst = 'c';
+    static const char order[] = "cnrw";
+    const char *worst = order;
     for (int solver = 0; solver < SOLVER_COUNT; solver++) {
-        char verdict = envelope->verdict[solver][s][k][h];
-        if (verdict != 'c' && worst != 'w')
-            worst = verdict;
+        const char *verdict = strchr(order, envelope->verdict[solver][s][k][h]);
+        worst = verdict > worst ? verdict : worst;
     }
-    return worst;
+    return *worst;
 }
 
 /* One line of words; y is its upper edge. */
@@ -170,14 +172,15 @@ static void draw_panel(const Envelope *envelope, int s, Text *words,
 
 static void draw_legend(Text *words, Canvas *canvas)
 {
-    const char *texts[] = {"converged", "reported", "wrong"};
+    const char *texts[] = {"converged", "too loose a tolerance: nothing done",
+                           "reported", "wrong"};
     int x = LEFT;
     const TextStyle style = {FACE_REGULAR, LETTERS, ink};
     write_words(words, canvas, x, 12, ALIGN_LEFT,
                 "Three steps of the default square, the worse of both solvers: "
                 "time step (s, across) by stiffness (J/m^2, up)");
-    for (int i = 0; i < 3; i++) {
-        canvas_rectangle(canvas, x, 50, 24, 24, verdict_colour("crw"[i]));
+    for (int i = 0; i < 4; i++) {
+        canvas_rectangle(canvas, x, 50, 24, 24, verdict_colour("cnrw"[i]));
         write_words(words, canvas, x + 34, 62 - LETTERS / 2 - 3, ALIGN_LEFT,
                     texts[i]);
         x += 34 + text_width(words, &style, texts[i]) + 40;
