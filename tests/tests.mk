@@ -25,6 +25,14 @@ $(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line)
 $(B)/tests/unit/test_explicit: LIBS += $(call wrap,cholmod_start \
   cholmod_analyze cholmod_factorize)
 
+# What the frames say, and of which states, for checks/frame_numbers.py.
+$(B)/tests/unit/texts: LIBS += $(call wrap,text_draw paper_paragraph \
+  plot_create plot_axes)
+$(B)/tests/unit/texts: $(B)/tests/unit/texts.o $(B)/tests/unit/testing.o \
+                       $(LIBRARY) $(B)/flags
+	$(call shown,LINK)
+	$(Q)$(LINK)
+
 # The program with faults linked in: sanitizers see what they do.
 FAULTY = malloc calloc realloc fopen fdopen open rename mkdir
 $(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
@@ -36,8 +44,8 @@ $(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
 # the benchmark.  What was tested is then in build/, ready to be used.
 suites: $(SUITES)
 long-test: $(B)/elasto-bench
-test long-test: $(SUITES) $(B)/elasto $(B)/lecture $(if $(SANITIZE),\
-                $(B)/elasto-faults,build/elasto build/lecture)
+test long-test: $(SUITES) $(B)/tests/unit/texts $(B)/elasto $(B)/lecture \
+                $(if $(SANITIZE),$(B)/elasto-faults,build/elasto build/lecture)
 	@$(SETTINGS) LONG=$(filter long-test,$@) sh tests/checks/run.sh $(SUITES)
 
 SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
