@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "model/mass_spring_energy.h"
+#include "model/friction.h"
+#include "model/plasticity.h"
 #include "picture/colour_map.h"
 #include "picture/marks.h"
 
@@ -49,22 +50,35 @@ static void draw_lines(Paper *paper, Box *box, const Lines *lines)
     }
 }
 
-/* Force of the springs on a node, N. */
+/* m g - grad P: the force on a node, N, without friction. */
 static void node_force(const System *system, const double *x, int node,
                        double force[2])
 {
-    force[0] = force[1] = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = system->e[2 * s], j = system->e[2 * s + 1];
-        if (i != node && j != node)
-            continue;
-        double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
-        double pull = 2 * system->k[s] *
-                      ((dx * dx + dy * dy) / system->l2[s] - 1) *
-                      (i == node ? -1 : 1);
-        force[0] += pull * dx;
-        force[1] += pull * dy;
-    }
+    double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
+    Place at = place_at(system, x, NULL, x);
+    at.w = -1;
+    for (const TermKind *kind; f && (kind = next_energy(&at));)
+        if (kind != &friction_energy) /* it has no energy outside of a step */
+            kind->gradient(&at, f);
+    for (int k = 0; k < 2; k++)
+        force[k] = f ? f[2 * node + k] + system->m[node] * system->gravity[k]
+                     : NAN;
+    free(f);
+}
+
+/* tau and tau' of a spring with this strain: its own law, where it flows. */
+static void spring_law(const System *system, int s, double strain, double *tau,
+                       double *bend)
+{
+    const Plasticity *flow = plasticity_of(system);
+    *tau = strain;
+    *bend = 1;
+    if (!flow)
+        return;
+    SpringLaw law = {.yield = flow->yield + flow->hardening * flow->kappa[s],
+                     .flow = 1 / (1 + flow->hardening)};
+    *tau = spring_law_slope(law, strain - flow->ep[s]);
+    *bend = spring_law_curvature(law, strain - flow->ep[s]);
 }
 
 /* What the nodes that have a place fill, pixels; cut to the stage. */
@@ -183,12 +197,17 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
     const System *system = &pane->simulation->system;
     const double *x = pane_x(pane);
     int i = system->e[2 * s], j = system->e[2 * s + 1];
-    double k = system->k[s], l2 = system->l2[s], H[3], at[2];
+    double k = system->k[s], l2 = system->l2[s], tau, bend, at[2];
     const double d[2] = {x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]};
     double d2 = d[0] * d[0] + d[1] * d[1];
-    /* Eigenvalues of the 4x4 block are 0, 0 and twice those of H. */
-    double before[4] = {0, 0, 4 * k / l2 * (d2 - l2),
-                        4 * k / l2 * (3 * d2 - l2)};
+    spring_law(system, s, (d2 - l2) / l2, &tau, &bend);
+    /* Eigenvalues of the 4x4 block are 0, 0 and twice those of
+     * H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
+    const double H[3] = {2 * k / l2 * (l2 * tau + 2 * bend * d[0] * d[0]),
+                         2 * k / l2 * 2 * bend * d[0] * d[1],
+                         2 * k / l2 * (l2 * tau + 2 * bend * d[1] * d[1])};
+    double before[4] = {0, 0, 4 * k * tau,
+                        4 * k / l2 * (2 * bend * d2 + l2 * tau)};
     double after[4] = {0, 0, before[2], before[3]};
     Filter filter = pane->simulation->options.filter;
     for (int m = 2; m < 4; m++)
@@ -196,7 +215,6 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
             after[m] = filter == FILTER_ABS ? -before[m] : 0;
     Lines lines = {0};
     char number[48], rest[48];
-    spring_hessian(d, l2, k, FILTER_NONE, H);
     plot_number(number, sizeof number,
                 100 * (hypot(d[0], d[1]) / sqrt(l2) - 1));
     plot_number(rest, sizeof rest, l2);

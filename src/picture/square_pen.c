@@ -263,12 +263,17 @@ void square_ghost(Paper *paper, const Stage *stage,
     square_outline(paper, stage, &simulation->mesh, x, true, colour);
 }
 
-/* Twice the area of the triangle a b c, > 0 if it was not turned over. */
+/* > 0 if the triangle a b c was not turned over: twice its area, in units in
+ * which no product overflows. */
 static double turn(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
                  *r = x + 2 * (size_t)c;
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    double one[2] = {q[0] - p[0], q[1] - p[1]};
+    double other[2] = {r[0] - p[0], r[1] - p[1]};
+    double unit = fmax(fabs(one[0]), fabs(one[1]));
+    unit = unit > 1e100 ? 1 / unit : 1;
+    return unit * one[0] * other[1] - unit * one[1] * other[0];
 }
 
 bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)

@@ -183,14 +183,16 @@ def friction(b, n, x, h):
     return rows
 
 
-def projected(H):
-    """Eigenvalues below 0 set to 0; how many blocks had one: at least, most."""
+def projected(H, way):
+    """Eigenvalues below 0 set to 0, or with "abs" to their size; how many
+    blocks had one: at least, most."""
     low, V = np.linalg.eigh(H)
     size = np.abs(low).max(1)
     sure = (low[:, 0] < -1e-9 * size).sum()
     most = sure + ((np.abs(low[:, 0]) <= 1e-9 * size) & (size > 0)).sum()
     rough = (low[:, 0] < -1e-12 * size)[:, None, None]
-    P = np.einsum("nij,nj,nkj->nik", V, np.maximum(low, 0), V)
+    P = np.einsum("nij,nj,nkj->nik", V, 
+                  abs(low) if way == "abs" else np.maximum(low, 0), V)
     return np.where(rough, P, H), sure, most
 
 
@@ -238,7 +240,7 @@ class Step:
                 alpha * p[i] * (x[i] - b.hand[2:]) + alpha**2 * p[i]**2 / 2).sum()
         return sum_
 
-    def direction(self, x, clamp=True):
+    def direction(self, x, way="clamp"):
         """p, its slope, and how many blocks were projected: least, most."""
         b, size = self.b, 2 * len(x)
         g = (b.m[:, None] * (x - self.tilde)).reshape(-1)
@@ -250,16 +252,23 @@ class Step:
             t = np.concatenate([r.t, -r.t][:len(i)])
             pieces.append((np.array([i]), (r.weight * r.slope * t)[None],
                            (r.weight * r.bend * np.outer(t, t))[None]))
+        f = self.free
+        if way == "on-demand":  # where the Hessian as it is will not do
+            p, slope, _ = self.direction(x, "none")
+            try:
+                np.linalg.cholesky(self.H[np.ix_(f, f)])
+                return p, slope, counts
+            except np.linalg.LinAlgError:
+                pass
         for nodes, gradient, hessian in pieces:
             if not len(nodes):
                 continue
-            if clamp:
-                hessian, least, most = projected(hessian)
+            if way != "none":
+                hessian, least, most = projected(hessian, way)
                 counts += (least, most)
             at = (2 * nodes[:, :, None] + np.arange(2)).reshape(len(nodes), -1)
             np.add.at(g, at, self.w * gradient)
             np.add.at(H, (at[:, :, None], at[:, None, :]), self.w * hessian)
-        f = self.free
         p = np.zeros(size)
         p[f] = -np.linalg.solve(H[np.ix_(f, f)], g[f])
         self.g, self.H = g, H
@@ -268,11 +277,11 @@ class Step:
     def residual(self, p):
         return np.abs(p).sum(1).max() / self.h
 
-    def minimise(self, tolerance, clamp=True, search=True, most=300):
+    def minimise(self, tolerance, way="clamp", search=True, most=300):
         """Algorithm 3: a record of each update."""
         x, records = self.x_n.copy(), []
         while len(records) < most:
-            p, slope, counts = self.direction(x, clamp)
+            p, slope, counts = self.direction(x, way)
             r = Record(x=x, p=p, slope=slope, residual=self.residual(p),
                        alpha=1.0, projected=counts)
             if not r.residual > tolerance:
@@ -289,12 +298,17 @@ class Step:
         return records, x
 
 
-def acceleration(b, x, n=None):
-    a = np.zeros_like(x)
+def force(b, x, n=None):
+    """m g - grad P, N."""
+    f = b.m[:, None] * b.g * np.ones_like(x)
     for nodes, gradient, _ in blocks(b, x, n):
         for k in range(nodes.shape[1]):
-            np.add.at(a, nodes[:, k], -gradient[:, 2 * k:2 * k + 2])
-    return np.where(b.pinned[:, None], 0, a / b.m[:, None] + b.g)
+            np.add.at(f, nodes[:, k], -gradient[:, 2 * k:2 * k + 2])
+    return f
+
+
+def acceleration(b, x):
+    return np.where(b.pinned[:, None], 0, force(b, x) / b.m[:, None])
 
 
 def explicit(b, x, v, h, method):
