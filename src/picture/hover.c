@@ -61,8 +61,8 @@ static void node_force(const System *system, const double *x, int node,
         if (kind != &friction_energy) /* it has no energy outside of a step */
             kind->gradient(&at, f);
     for (int k = 0; k < 2; k++)
-        force[k] = f ? f[2 * node + k] + system->m[node] * system->gravity[k]
-                     : NAN;
+        force[k] =
+            f ? f[2 * node + k] + system->m[node] * system->gravity[k] : NAN;
     free(f);
 }
 

@@ -131,18 +131,20 @@ static void draw_direction(const SpringPen *pen, const double *p,
     const Box *box = &pen->stage->box;
     const Trace *trace = pen->pane->trace;
     double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
+    char number[48];
     double factor = stage_arrows(pen->paper, pen->stage,
                                  pen->pane->simulation->system.nodes,
                                  arrow_stride(pen), pen->x, p, grown,
                                  0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0 || !pen->stage->text)
         return;
+    plot_number(number, sizeof number, factor);
     if (factor == 1)
         stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
                      "search direction p");
     else
         stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
-                     "search direction p \u00d7 %g", factor);
+                     "search direction p \u00d7 %s", number);
 }
 
 /* The run of this number as its contacts see it. */

@@ -28,7 +28,7 @@ numeric='newton terms line_search cholesky supernodes sparse integrators explici
     reference orders scenes'
 slow='contact multigrid solvers pages picture show track stress command'
 checks='check_log.sh check_scenes.sh check_files.sh check_scripts.sh
-    check_faults.sh check_pages.sh check_window.sh'
+    check_faults.sh check_pages.sh check_numbers.sh check_window.sh'
 killers_for() { # file, what the list names
     module=$(basename "${1%.*}")
     own=$2
@@ -86,7 +86,7 @@ run_killer() {
     case $1 in
     *.sh)
         [ -f "tests/checks/$1" ] || return 9
-        build build/elasto || return 2
+        build build/elasto build/release/tests/unit/texts || return 2
         check_passes "$1" || check_passes "$1" || return 1 # not by chance
         ;;
     *)

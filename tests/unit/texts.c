@@ -26,7 +26,7 @@ static struct {
     double x, y;
     char words[400];
 } texts[MOST];
-static Plot plots[PLOTS]; /* whose axes were written */
+static Plot plots[PLOTS];                       /* whose axes were written */
 static int first_tick[PLOTS], last_tick[PLOTS]; /* texts of each */
 static int count, drawn;
 static bool listens, within; /* the lines of a paragraph are one text */
@@ -63,8 +63,8 @@ int __wrap_paper_paragraph(Paper *paper, Face face, double size, Colour colour,
 {
     keep(box.x, box.y, markup);
     within = true;
-    int used = __real_paper_paragraph(paper, face, size, colour, box, lines,
-                                      markup);
+    int used =
+        __real_paper_paragraph(paper, face, size, colour, box, lines, markup);
     within = false;
     return used;
 }
@@ -103,7 +103,9 @@ static void put_number(double value)
     if (isfinite(value))
         printf("%.17g", value);
     else
-        printf("%s", isnan(value) ? "NaN" : value > 0 ? "Infinity" : "-Infinity");
+        printf("%s", isnan(value) ? "NaN"
+                     : value > 0  ? "Infinity"
+                                  : "-Infinity");
 }
 
 static void put_numbers(const char *name, const double *value, int size)
@@ -135,30 +137,40 @@ static void put_words(const char *words)
     printf("\"");
 }
 
-/* What is given, and not calculated: numbers of the command line, the mesh,
- * and where obstacles are now. */
+/* Masses, springs, triangles: they stay from step to step. */
+static void put_mesh(const System *system)
+{
+    const Term *term = system_find_term(system, &cell_energy);
+    const Cells *cells = term ? term->data : NULL;
+    put_numbers("m", system->m, system->nodes);
+    put_numbers("l2", system->l2, system->springs);
+    put_whole("e", system->e, 2 * system->springs);
+    if (!cells)
+        return;
+    const double shape[] = {cells->area, cells->c};
+    put_whole("cells", cells->node, 3 * cells->triangles);
+    put_whole("sides", cells->spring, 3 * cells->triangles);
+    put_numbers("shape", shape, 2);
+}
+
+/* What is given, and not calculated: numbers of the command line, and where
+ * obstacles are now. */
 static void put_given(const Simulation *simulation)
 {
     const Options *o = &simulation->options;
     const System *system = &simulation->system;
     const Contact *contact = contact_of(system);
-    const Cells *cells = NULL;
-    const Term *term = system_find_term(system, &cell_energy);
-    cells = term ? term->data : NULL;
     printf(",\"scene\":\"%s\",\"filter\":\"%s\",\"search\":\"%s\","
            "\"solver\":\"%s\"",
            simulation->scene->name, filter_name(o->filter),
            line_search_name(o->line_search), solver_name(o->solver));
     const double given[] = {
-        o->timestep, o->stiffness, o->tolerance, o->stretch,   o->side,
-        o->density,  o->friction,  o->damping,   o->slip_speed, o->yield,
-        o->hardening, o->segments, o->gravity};
+        o->timestep,  o->stiffness, o->tolerance, o->stretch,    o->side,
+        o->density,   o->friction,  o->damping,   o->slip_speed, o->yield,
+        o->hardening, o->segments,  o->gravity};
     put_numbers("given", given, sizeof given / sizeof *given);
-    put_numbers("m", system->m, system->nodes);
-    put_numbers("l2", system->l2, system->springs);
     put_numbers("k", system->k, system->springs);
     put_numbers("g", system->gravity, 2);
-    put_whole("e", system->e, 2 * system->springs);
     int pinned[4096];
     for (int i = 0; system->pinned && i < system->nodes; i++)
         pinned[i] = system->pinned[i];
@@ -172,22 +184,16 @@ static void put_given(const Simulation *simulation)
     put_whole("cell", cell, 2);
     const double line[] = {simulation->exhibit.line.target};
     put_numbers("line_target", line, 1);
-    const double field[] = {system_find_term(system, &central_field)
-                                ? ((Pull *)system_find_term(
-                                       system, &central_field)->data)->k
-                                : 0};
+    const double field[] = {
+        system_find_term(system, &central_field)
+            ? ((Pull *)system_find_term(system, &central_field)->data)->k
+            : 0};
     put_numbers("omega2", field, 1);
     const Pull *hand = hand_energy_of(system);
     if (hand) {
         const double pull[] = {hand->node, hand->k, hand->target[0],
                                hand->target[1]};
         put_numbers("hand", pull, 4);
-    }
-    if (cells) {
-        const double shape[] = {cells->area, cells->c};
-        put_whole("cells", cells->node, 3 * cells->triangles);
-        put_whole("sides", cells->spring, 3 * cells->triangles);
-        put_numbers("shape", shape, 2);
     }
     if (contact)
         put_numbers("barrier", &contact->barrier.d_hat, 2);
@@ -196,9 +202,9 @@ static void put_given(const Simulation *simulation)
         const Contact *own = contact_of(simulation->run[r].system);
         for (int i = 0; own && i < own->obstacles; i++) {
             const Obstacle *b = &own->obstacle[i];
-            const double row[] = {r,         b->kind,     b->o[0], b->o[1],
-                                  b->n[0],   b->n[1],     b->radius,
-                                  b->friction, b->node, b->v[0],   b->v[1]};
+            const double row[] = {r,       b->kind, b->o[0],   b->o[1],
+                                  b->n[0], b->n[1], b->radius, b->friction,
+                                  b->node, b->v[0], b->v[1]};
             printf("%s", r + i ? "," : "");
             printf("{\"r\":0");
             put_numbers("b", row, 11);
@@ -208,8 +214,9 @@ static void put_given(const Simulation *simulation)
     printf("]");
 }
 
-/* Positions, velocities: the state after the player's step. */
-static void put_state(void)
+/* Positions, velocities: the state after the player's step.  stepped: it was
+ * made from the one before, with the same mesh. */
+static void put_state(bool stepped)
 {
     for (int i = 0; i < player.lanes; i++) {
         const Simulation *simulation = &lane(i)->track.simulation;
@@ -217,6 +224,8 @@ static void put_state(void)
         put_words(player.line);
         printf(",\"time\":%.17g", simulation_time(simulation));
         put_given(simulation);
+        if (!stepped)
+            put_mesh(&simulation->system);
         printf(",\"runs\":[");
         for (int r = 0; r < simulation->runs; r++) {
             const TimeIntegrator *run = &simulation->run[r];
@@ -253,6 +262,7 @@ static void put_frame(const char *name, Pick hover)
     Show *show = &player.show;
     assert_int_equal(paper_create(WIDE, HIGH, &paper), 0);
     show->hover = hover;
+    player_sample(&player);
     player_fill(&player);
     count = drawn = 0;
     listens = true;
@@ -279,9 +289,10 @@ static void put_frame(const char *name, Pick hover)
     printf("],\"plots\":[");
     for (int i = 0; i < drawn; i++) {
         const Plot *p = &plots[i];
-        const double row[] = {p->box.x,  p->box.y, p->box.width, p->box.height,
-                              p->x.low,  p->x.high, p->x.log,    p->y.low,
-                              p->y.high, p->y.log, first_tick[i], last_tick[i]};
+        const double row[] = {p->box.x,      p->box.y,      p->box.width,
+                              p->box.height, p->x.low,      p->x.high,
+                              p->x.log,      p->y.low,      p->y.high,
+                              p->y.log,      first_tick[i], last_tick[i]};
         printf("%s{\"r\":0", i ? "," : "");
         put_numbers("p", row, 12);
         printf("}");
@@ -312,12 +323,12 @@ int main(void)
             open = true;
             hover = (Pick){0};
             player_sample(&player);
-            put_state();
+            put_state(false);
         } else if (strncmp(line, "run ", 4) == 0) {
             for (long left = atol(words); left > 0; left--) {
                 Status status = player_step(&player);
                 player_pause_if_due(&player);
-                put_state();
+                put_state(true);
                 left = status ? 0 : left; /* beyond all numbers, or its end */
             }
         } else if (strncmp(line, "hover ", 6) == 0) {
@@ -334,7 +345,7 @@ int main(void)
             if (player.message[0])
                 fprintf(stderr, "%s: %s\n", line, player.message);
             player.message[0] = '\0';
-            put_state();
+            put_state(false);
         }
     }
     if (open)
