@@ -294,7 +294,6 @@ class Step:
             r.change = self.change(x, p, r.alpha)
             x = x + r.alpha * p
             records.append(r)
-        self.last = r.residual
         return records, x
 
 
@@ -330,7 +329,7 @@ def scalar_newton(f, x, tolerance, search=False, most=60):
         with np.errstate(all="ignore"):
             value, g, H = f(x)
         p = -g / H if H else math.inf
-        if not math.isfinite(p) or abs(p) <= tolerance or len(records) == most:
+        if not math.isfinite(p) or abs(g) <= tolerance or len(records) == most:
             return records, x, p
         alpha = 1.0
         while search and f(x + alpha * p)[0] - value > 0 and alpha > 1e-20:
