@@ -38,7 +38,7 @@ static EnergyUnit energy_unit(double high)
     if (high >= 1e16 || high < 1e-6)
         return (EnergyUnit){1, "J"};
     size_t i = 0;
-    while (high < units[i].joule)
+    while (high < 0.9995 * units[i].joule) /* 1 with three digits */
         i++;
     return units[i];
 }

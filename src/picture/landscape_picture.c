@@ -329,12 +329,16 @@ static void draw_direction(Paper *paper, const Plot *plot,
     plot_disc(paper, plot, descent->point, 7, COLOUR_TEXT);
 }
 
-static void draw_words(Paper *paper, const Stage *stage, const Descent *descent)
+static void draw_words(Paper *paper, const Stage *stage, const Descent *descent,
+                       unsigned parts)
 {
     Legend legend = {0, 0};
     stage_legend(paper, stage, &legend, COLOUR_FAINT,
-                 "contours: E in J s\u00b2");
-    stage_legend(paper, stage, &legend, COLOUR_SHADED, "shade: E not convex");
+                 "contours: %s in J s\u00b2",
+                 parts == PART_BOTH      ? "E"
+                 : parts == PART_INERTIA ? "inertia"
+                                         : "elasticity");
+    stage_legend(paper, stage, &legend, COLOUR_SHADED, "shade: not convex");
     stage_legend(paper, stage, &legend, COLOUR_P, "direction p, downhill");
     if (descent->slope > 0 ||
         (descent->count > 0 && descent->record[descent->count - 1].slope > 0))
@@ -407,7 +411,8 @@ static SpringCount landscape_draw(Paper *paper, const Stage *stage,
     draw_direction(paper, &plot, &simulation->descent,
                    simulation->exhibit.parts == PART_BOTH);
     if (!show->bare && stage->text)
-        draw_words(paper, stage, &simulation->descent);
+        draw_words(paper, stage, &simulation->descent,
+                   simulation->exhibit.parts);
     return (SpringCount){0, 0};
 }
 

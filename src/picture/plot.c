@@ -63,8 +63,9 @@ void plot_number(char *text, size_t size, double value)
     snprintf(plain, sizeof plain, "%.2e", most);
     char *power = strchr(plain, 'e');
     if (!power || (most >= 1e-3 && most < 1e5) || most == 0) {
-        double digit = most >= 1000 ? pow(10, floor(log10(most)) - 2) : 1;
-        if (most >= 1000)
+        bool long_number = most >= 999.5; /* with three digits: 1000 */
+        double digit = long_number ? pow(10, floor(log10(most)) - 2) : 1;
+        if (long_number)
             snprintf(plain, sizeof plain, "%.0f",
                      floor(most / digit + 0.5) * digit);
         else

@@ -923,6 +923,17 @@ static void the_tip_is_inside_its_plot(void **unused)
     take_down(&stand);
 }
 
+/* What is a unit but for rounding is called by it. */
+static void energies_near_a_unit_are_that(void **unused)
+{
+    (void)unused;
+    static Stand stand;
+    stand_up("arrows --integrator midpoint", 3, 1440, 900, &stand);
+    stand.history.value[0][stand.history.count - 1] = 0.99999999;
+    drawn_text(&stand, "implicit midpoint 1 J");
+    take_down(&stand);
+}
+
 /* The strip says where a search ended that found no minimum, what one step of a
  * scene is, and who makes it. */
 static void ends_and_steps_have_their_names(void **unused)
@@ -1335,6 +1346,7 @@ int main(void)
         cmocka_unit_test(contacts_slide_or_hold),
         cmocka_unit_test(formulas_can_be_read),
         cmocka_unit_test(the_tip_is_inside_its_plot),
+        cmocka_unit_test(energies_near_a_unit_are_that),
         cmocka_unit_test(ends_and_steps_have_their_names),
         cmocka_unit_test(the_last_residual_passes),
         cmocka_unit_test(energies_before_an_explosion_are_seen),
