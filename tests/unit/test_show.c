@@ -889,7 +889,7 @@ static void formulas_can_be_read(void **unused)
         const char *text;
     } rows[] = {{0.69, "0.69"},     {-0.5511, "(-0.5511)"},
                 {-0.0, "0"},        {1.468e-6, "(1.468e-06)"},
-                {-3e9, "(-3e+09)"}, {12, "12"}};
+                {3e9, "(3e+09)"}, {12, "12"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[32];
         factor_text(text, sizeof text, rows[i].value);
