@@ -176,7 +176,7 @@ bench: build/elasto-bench
 	./build/elasto-bench $(ARGS)
 
 figures:
-	gnuplot -c src/bench/bench_figures.gnuplot build/bench tests/data
+	gnuplot -c src/bench/figures.gnuplot build/bench tests/data
 
 handout: build/elasto
 	./build/elasto --handout build/handout.html

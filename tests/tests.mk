@@ -16,7 +16,7 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 # These need more than the demo has; make allocations fail; read what is drawn;
 # count CHOLMOD's calls.
 wrap = $(1:%=-Wl,--wrap=%)
-$(B)/tests/unit/test_orders: $(B)/bench/bench_reference.o
+$(B)/tests/unit/test_orders: $(B)/bench/reference.o
 $(B)/tests/unit/test_terms: $(B)/tests/unit/oracle.o
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \

@@ -1,196 +1,178 @@
-/* bench.c - the program elasto-bench: run time against error, and where the
- * time goes.  Each part prints a table and writes a CSV file. */
+/* bench.c - the program elasto-bench: run time against error, and how long
+ * steps and frames take. */
+#include "bench/bench.h"
+
+#include <SDL_version.h>
+#include <cholmod.h>
 #include <errno.h>
 #include <getopt.h>
-#include <stdio.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
-#include "bench/bench_claims.h"
-#include "bench/bench_cost.h"
-#include "bench/bench_drawing.h"
-#include "bench/bench_filters.h"
-#include "bench/bench_memory.h"
-#include "bench/bench_problem.h"
-#include "bench/bench_solver.h"
-#include "bench/bench_starts.h"
-#include "bench/bench_tolerance.h"
-#include "bench/bench_work.h"
-
-typedef struct BenchPart {
-    const char *name;
-    const char *sentence;
+typedef struct Table {
+    const char *name, *sentence;
     Status (*run)(Bench *bench);
-} BenchPart;
+    const char *columns;
+} Table;
 
-/* memory first: the peak of the process is then that of the large square. */
-static const BenchPart bench_parts[] = {
-    {"memory", "one step of a large square: time and memory", bench_memory},
-    {"work_precision", "error against run time of all methods",
-     bench_work_precision},
-    {"solver", "milliseconds a step, and where they go", bench_solver},
-    {"starts", "every solver over nine starts", bench_starts},
-    {"saddles", "which ends are minima, and newton's", bench_saddles},
-    {"tolerance", "Newton's tolerance, its cost and its error",
-     bench_tolerance},
-    {"filters", "what is done with negative eigenvalues", bench_filters},
-    {"drawing", "milliseconds a frame", bench_drawing},
-    {"claims", "what is said about this program", bench_claims},
-    {NULL, NULL, NULL},
+static const Table tables[] = {
+    {"work", "error against run time of all methods", bench_work,
+     "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"
+     "error_m,energy_drift,unconverged,failed"},
+    {"steps", "milliseconds a step: the slides' program, newton, multigrid",
+     bench_steps,
+     "segments,solver,starts,median_ms,least_ms,most_ms,updates,smooth_ms,"
+     "buckling_ms,energy_end_percent,"
+     "unconverged"},
+    {"frames", "milliseconds a frame", bench_frames,
+     "segments,bare_ms,full_ms"},
+    {NULL, NULL, NULL, NULL},
 };
 
-/* The command line. */
-typedef struct BenchCommand {
-    Bench bench;
-    const BenchPart *only; /* NULL: all */
-    bool help;
-} BenchCommand;
-
-static const struct option bench_option_rows[] = {
-    {"quick", no_argument, NULL, 'q'},
-    {"only", required_argument, NULL, 'p'},
-    {"output", required_argument, NULL, 'o'},
-    {"help", no_argument, NULL, 'h'},
-    {NULL, 0, NULL, 0},
-};
-
-static void print_bench_help(void)
+double bench_cpu(void)
 {
-    puts("usage: elasto-bench [options]   run time against error\n"
-         "  --quick         seconds instead of minutes: does it all work?\n"
-         "  --only PART     one of the parts below\n"
-         "  --output DIR    where the CSV files go     [build/bench]\n"
-         "  --help\n"
-         "parts:");
-    for (const BenchPart *part = bench_parts; part->name; part++)
-        printf("  %-15s %s\n", part->name, part->sentence);
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The part with this name, or NULL after a line on standard error. */
-static const BenchPart *find_part(const char *name)
+static int compare_doubles(const void *a, const void *b)
 {
-    for (const BenchPart *part = bench_parts; part->name; part++)
-        if (strcmp(part->name, name) == 0)
-            return part;
-    fprintf(stderr, "elasto-bench: --only: '%s' is none of:", name);
-    for (const BenchPart *part = bench_parts; part->name; part++)
-        fprintf(stderr, " %s", part->name);
-    fputc('\n', stderr);
-    return NULL;
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
-/* One option; false after a line on standard error. */
-static bool apply_bench_option(int code, char **argv, BenchCommand *command)
+double bench_median(double *values, int count)
 {
-    switch (code) {
-    case 'q':
-        return command->bench.quick = true;
-    case 'h':
-        return command->help = true;
-    case 'p':
-        return (command->only = find_part(optarg)) != NULL;
-    case 'o':
-        command->bench.folder = optarg;
-        if (optarg[0] != '\0')
-            return true;
-        fputs("elasto-bench: --output: the name is empty\n", stderr);
-        return false;
-    case ':':
-        fprintf(stderr, "elasto-bench: %s: the value is missing\n",
-                argv[optind - 1]);
-        return false;
-    default:
-        fprintf(stderr, "elasto-bench: '%s' is no option; see --help\n",
-                argv[optind - 1]);
-        return false;
-    }
+    qsort(values, (size_t)count, sizeof *values, compare_doubles);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-static bool parse_bench(int argc, char **argv, BenchCommand *command)
+void bench_row(Bench *bench, const char *format, ...)
 {
-    int code;
-    *command = (BenchCommand){.bench.folder = "build/bench"};
-    command->bench.progress = isatty(STDERR_FILENO);
-    opterr = 0;
-    while ((code = getopt_long(argc, argv, ":", bench_option_rows, NULL)) != -1)
-        if (!apply_bench_option(code, argv, command))
-            return false;
-    if (optind < argc)
-        fprintf(stderr, "elasto-bench: '%s' is no option; see --help\n",
-                argv[optind]);
-    return optind == argc;
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(bench->csv.file, format, arguments);
+    va_end(arguments);
+    fputc('\n', bench->csv.file);
 }
 
-/* Makes the folder and those it is in; false after a line on standard error. */
-static bool make_folders(const char *folder)
+void bench_claim(const char *what, double measured, double at_most)
+{
+    printf("  claim: %s: %.3g, at most %g: %s\n", what, measured, at_most,
+           measured <= at_most ? "met" : "NOT MET");
+}
+
+Options slides_options(int segments)
+{
+    char program[] = "elasto", message[128], *arguments[] = {program, NULL};
+    Options options;
+    options_parse(1, arguments, &options, message, sizeof message);
+    options.segments = segments;
+    return options;
+}
+
+/* Versions and flags in one line. */
+static void describe_machine(const Bench *bench, FILE *file)
+{
+    fprintf(file,
+            "# elasto %s; SuiteSparse %d.%d.%d; SDL %d.%d.%d; compiler %s; "
+            "flags %s; one thread; %s run\n",
+            ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
+            SUITESPARSE_SUBSUB_VERSION, SDL_MAJOR_VERSION, SDL_MINOR_VERSION,
+            SDL_PATCHLEVEL, __VERSION__, BENCH_FLAGS,
+            bench->quick ? "quick" : "full");
+}
+
+/* The table and its file, which appears when it is whole. */
+static Status run_table(Bench *bench, const Table *table)
 {
     char path[4096];
-    size_t length = strlen(folder);
-    errno = length < sizeof path ? 0 : ENAMETOOLONG;
-    for (size_t i = 1; i <= length && !errno; i++)
-        if (folder[i] == '/' || folder[i] == '\0') {
-            memcpy(path, folder, i);
-            path[i] = '\0';
-            if (mkdir(path, 0777) == 0 || errno == EEXIST)
-                errno = 0;
-        }
-    if (errno)
-        fprintf(stderr, "elasto-bench: %s: %s\n", folder, strerror(errno));
-    return errno == 0;
-}
-
-/* Libraries are loaded, and from here on all of them use one thread. */
-static Status warm_up(void)
-{
-    Options options = slides_options(4);
-    Cost cost;
-    return cost_measure(&options, SOLVER_NEWTON, 3, 10, &cost);
-}
-
-/* Runs the parts that are asked for. */
-static Status run_parts(BenchCommand *command)
-{
-    char machine[1024];
-    bench_machine(&command->bench, machine, sizeof machine);
-    puts(machine);
-    Status status = warm_up();
-    for (const BenchPart *part = bench_parts; part->name && !status; part++) {
-        if (command->only && command->only != part)
-            continue;
-        double start = clock_now();
-        printf("\n%s: %s\n", part->name, part->sentence);
-        status = part->run(&command->bench);
-        printf("  (%.1f s)\n", clock_now() - start);
-        fflush(stdout);
-        if (status && status != STATUS_FILE_FAILED)
-            fprintf(stderr, "elasto-bench: %s: %s\n", part->name,
-                    status_text(status));
+    errno = 0;
+    snprintf(path, sizeof path, "%s/%s.csv", bench->folder, table->name);
+    Status status = output_open(path, &bench->csv);
+    if (!status) {
+        describe_machine(bench, bench->csv.file);
+        fprintf(bench->csv.file, "%s\n", table->columns);
+        printf("\n%s: %s\n", table->name, table->sentence);
+        status = table->run(bench);
     }
+    if (status)
+        output_discard(&bench->csv, false);
+    else
+        status = output_close(&bench->csv);
+    if (status == STATUS_FILE_FAILED)
+        fprintf(stderr, "elasto-bench: %s: %s\n", path, output_reason(errno));
+    else if (status)
+        fprintf(stderr, "elasto-bench: %s: %s\n", table->name,
+                status_text(status));
     return status;
+}
+
+static int print_help(void)
+{
+    puts("usage: elasto-bench [options] [TABLE]   run time against error\n"
+         "  --quick         seconds instead of minutes: does it all work?\n"
+         "  --output DIR    where the CSV files go     [build/bench]\n"
+         "  --help\n"
+         "tables (all, if none is named):");
+    for (const Table *table = tables; table->name; table++)
+        printf("  %-8s %s\n", table->name, table->sentence);
+    return 0;
+}
+
+/* The one line about a wrong command line. */
+static int misused(const char *word)
+{
+    fprintf(stderr,
+            "elasto-bench: '%s' is no option and no table; see --help\n", word);
+    return 2;
+}
+
+static bool is_table(const char *word)
+{
+    for (const Table *table = tables; table->name; table++)
+        if (strcmp(word, table->name) == 0)
+            return true;
+    return false;
 }
 
 int main(int argc, char **argv)
 {
-    enum { FINE = 0, FAILED = 1, MISUSED = 2 };
-    BenchCommand command;
+    static const struct option rows[] = {
+        {"quick", no_argument, NULL, 'q'},
+        {"output", required_argument, NULL, 'o'},
+        {"help", no_argument, NULL, 'h'},
+        {NULL, 0, NULL, 0}};
+    Bench bench = {.folder = "build/bench"};
+    int code;
+    opterr = 0;
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
     setenv("ELASTO_THREADS", "1", 0); /* unless it is set: one thread */
-    if (!parse_bench(argc, argv, &command))
-        return MISUSED;
-    Status status = STATUS_OK;
-    if (command.help)
-        print_bench_help();
-    else if (!make_folders(command.bench.folder))
-        return FAILED;
-    else
-        status = run_parts(&command);
-    errno = 0;
-    if (fflush(stdout) || ferror(stdout)) {
-        fprintf(stderr, "elasto-bench: standard output: %s\n",
-                strerror(errno ? errno : EIO));
-        return FAILED;
+    while ((code = getopt_long(argc, argv, ":", rows, NULL)) != -1)
+        if (code == 'h')
+            return print_help();
+        else if (code == 'q')
+            bench.quick = true;
+        else if (code == 'o')
+            bench.folder = optarg;
+        else
+            return misused(argv[optind - 1]);
+    if (argc - optind > 1 || (optind < argc && !is_table(argv[optind])))
+        return misused(argv[argc - 1]);
+    if (mkdir(bench.folder, 0777) && errno != EEXIST) {
+        fprintf(stderr, "elasto-bench: %s: %s\n", bench.folder,
+                strerror(errno));
+        return 1;
     }
-    return status ? FAILED : FINE;
+    describe_machine(&bench, stdout);
+    Status status = STATUS_OK;
+    for (const Table *table = tables; table->name && !status; table++)
+        if (optind == argc || strcmp(argv[optind], table->name) == 0)
+            status = run_table(&bench, table);
+    return status || fflush(stdout) || ferror(stdout);
 }

@@ -1,4 +1,4 @@
-/* bench_reference.h - where the masses really are, from a program of its own:
+/* reference.h - where the masses really are, from a program of its own:
  * own forces, extended precision, and a kind of method that the demo has not.
  *
  * Each interval H is crossed by leapfrog with 1, 2, ... 6 steps; the six
@@ -7,8 +7,8 @@
  * 1965; Hairer, Norsett, Wanner: Solving Ordinary Differential Equations I,
  * II.9).  Springs only: no pins, no central field.
  */
-#ifndef ELASTO_BENCH_REFERENCE_H
-#define ELASTO_BENCH_REFERENCE_H
+#ifndef ELASTO_REFERENCE_H
+#define ELASTO_REFERENCE_H
 
 #include "model/system.h"
 
@@ -31,8 +31,5 @@ void reference_free(Reference *reference);
 
 /* sqrt(sum m |x - reference|^2 / sum m), m.  x [2n] in. */
 double reference_distance(const Reference *reference, const double *x);
-
-/* The same between two of them. */
-double reference_difference(const Reference *a, const Reference *b);
 
 #endif

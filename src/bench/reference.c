@@ -1,4 +1,4 @@
-#include "bench/bench_reference.h"
+#include "bench/reference.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -122,26 +122,14 @@ void reference_free(Reference *reference)
     *reference = (Reference){0};
 }
 
-/* Adds m d^2 for coordinate i to sum[0], its share of the mass to sum[1]. */
-static void add_weighted(const System *system, int i, long double d,
-                         long double sum[2])
-{
-    sum[0] += system->m[i / 2] * d * d;
-    sum[1] += 0.5L * system->m[i / 2];
-}
-
 double reference_distance(const Reference *reference, const double *x)
 {
-    long double sum[2] = {0, 0};
-    for (int i = 0; i < 2 * reference->system->nodes; i++)
-        add_weighted(reference->system, i, reference->x[i] - x[i], sum);
-    return (double)sqrtl(sum[0] / sum[1]);
-}
-
-double reference_difference(const Reference *a, const Reference *b)
-{
-    long double sum[2] = {0, 0};
-    for (int i = 0; i < 2 * a->system->nodes; i++)
-        add_weighted(a->system, i, a->x[i] - b->x[i], sum);
-    return (double)sqrtl(sum[0] / sum[1]);
+    const System *system = reference->system;
+    long double sum = 0, mass = 0;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        long double d = reference->x[i] - x[i];
+        sum += system->m[i / 2] * d * d;
+        mass += 0.5L * system->m[i / 2];
+    }
+    return (double)sqrtl(sum / mass);
 }

@@ -1,0 +1,63 @@
+#include "bench/bench.h"
+#include "picture/picture.h"
+#include "play/view.h"
+
+enum { FRAMES = 31 };
+
+/* Median processor time of a frame of this size, from an empty paper until it
+ * is shown, in ms. */
+static Status time_frames(const Show *show, int width, int height, double *ms)
+{
+    double spent[FRAMES];
+    View *view = NULL;
+    Status status = view_create_surface(width, height, &view);
+    for (int i = 0; i < FRAMES && !status; i++) {
+        double start = bench_cpu();
+        Paper *paper = view_paper(view);
+        if (!paper) {
+            status = STATUS_OUT_OF_MEMORY;
+            break;
+        }
+        show_draw(paper, show);
+        status = view_show(view);
+        spent[i] = 1e3 * (bench_cpu() - start);
+    }
+    if (!status)
+        *ms = bench_median(spent, FRAMES);
+    view_free(view);
+    return status;
+}
+
+Status bench_frames(Bench *bench)
+{
+    static Show show;
+    static History history;
+    Status status = STATUS_OK;
+    double bare = 0, full = 0;
+    puts("  segments  bare, 900 x 900  all of 1280 x 800");
+    for (int n = 4; n <= (bench->quick ? 8 : 256) && !status; n *= 2) {
+        Simulation simulation;
+        Options options = slides_options(n);
+        options.integrator = integrator_method("verlet");
+        status = simulation_create(&options, NULL, NULL, &simulation);
+        if (!status) {
+            history_clear(&history);
+            show_sample(&simulation, &history, NULL);
+            show_create(&simulation, &show);
+            show.pane[0].history = &history;
+            show_describe(&show);
+            status = time_frames(&show, 1280, 800, &full);
+            show.bare = true;
+        }
+        if (!status)
+            status = time_frames(&show, 900, 900, &bare);
+        simulation_free(&simulation);
+        if (!status) {
+            printf("  %8d %16.2f %18.2f\n", n, bare, full);
+            bench_row(bench, "%d,%.6g,%.6g", n, bare, full);
+        }
+        if (n == 128)
+            bench_claim("ms to draw a bare frame of 128 segments", bare, 4);
+    }
+    return status;
+}

@@ -1,0 +1,264 @@
+/* Error against run time: every method crosses the same time in 8, 16, 32, ...
+ * steps, until it takes too long or is as exact as anybody needs. */
+#include "bench/bench.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "bench/reference.h"
+
+typedef struct Motion {
+    const char *name;
+    double stiffness, stretch; /* J/m^2, at the start */
+    double spin, time;         /* rad/s at the start, s */
+    int segments[4];           /* 0: no more */
+} Motion;
+
+/* Stiffness 10^4 times larger makes everything 100 times as fast.  The last
+ * one is where implicit methods are at home: stiff springs that hardly move,
+ * in a square that turns slowly. */
+static const Motion motions[] = {
+    {"soft", 1e5, 1.1, 0, 0.1, {16, 64, 128, 0}},
+    {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
+    {"spinning", 1e9, 1, 10, 0.1, {16, 0}},
+};
+enum { MOTIONS = sizeof motions / sizeof *motions };
+
+/* Newton's factors take too long on squares larger than this; it gives up
+ * after so many updates of a step. */
+enum { NEWTON_SEGMENTS = 64, MAX_UPDATES = 2000 };
+
+enum { LADDERS = 40, RUNGS = 24, FIRST_STEPS = 8, REPEATS = 3 };
+
+/* Errors that the table asks for; the one that the first rung may have, m. */
+static const double targets[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+static const double first_error = 1e-2;
+
+typedef struct Problem {
+    const Motion *motion;
+    Simulation simulation; /* its system is what runs are made with */
+    double *v;             /* [2n] m/s at the start */
+    double energy;         /* J at the start */
+    Reference exact;
+} Problem;
+
+/* One run, or the fastest of several equal ones. */
+typedef struct Rung {
+    long steps, unconverged;
+    double tolerance, seconds;
+    double error; /* m, root mean square over the masses */
+    double drift; /* |energy at the end / at the start - 1| */
+    bool failed;  /* not finite, not converged, or gone by a side */
+} Rung;
+
+typedef struct Ladder {
+    const IntegratorMethod *method;
+    Solver solver;
+    int rungs;
+    Rung rung[RUNGS];
+} Ladder;
+
+static Status create_problem(const Motion *motion, int segments,
+                             Problem *problem)
+{
+    Options options = slides_options(segments);
+    options.stiffness = motion->stiffness;
+    options.stretch = motion->stretch;
+    options.integrator = integrator_method("verlet");
+    *problem = (Problem){.motion = motion};
+    Simulation *simulation = &problem->simulation;
+    Status status = simulation_create(&options, NULL, NULL, simulation);
+    if (status)
+        return status;
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x;
+    problem->v = malloc(2 * (size_t)system->nodes * sizeof *problem->v);
+    if (!problem->v)
+        return STATUS_OUT_OF_MEMORY;
+    for (int i = 0; i < system->nodes; i++) {
+        problem->v[2 * i] = -motion->spin * x[2 * i + 1];
+        problem->v[2 * i + 1] = motion->spin * x[2 * i];
+    }
+    problem->energy =
+        system_potential(system, x) + system_kinetic(system, problem->v);
+    return reference_create(system, x, problem->v, motion->time,
+                            2 * reference_intervals(system, x, motion->time),
+                            &problem->exact);
+}
+
+/* From nothing to the end, once. */
+static Status run_once(const Problem *problem, const Ladder *ladder, Rung *rung)
+{
+    NewtonSettings settings = {.h = problem->motion->time / (double)rung->steps,
+                               .tolerance = rung->tolerance,
+                               .solver = ladder->solver,
+                               .max_iterations = MAX_UPDATES};
+    System system = problem->simulation.system; /* the same arrays */
+    TimeIntegrator run;
+    double start = bench_cpu();
+    Status status =
+        time_integrator_create(ladder->method, &system, &settings,
+                               problem->simulation.run[0].x, problem->v, &run);
+    rung->unconverged = 0;
+    while (!status && run.steps < rung->steps) {
+        status = time_integrator_step(&run);
+        if (status_is_unconverged(status)) {
+            rung->unconverged++;
+            status = STATUS_OK;
+        }
+    }
+    rung->seconds = bench_cpu() - start;
+    if (status != STATUS_OUT_OF_MEMORY) {
+        double energy =
+            system_potential(&system, run.x) + system_kinetic(&system, run.v);
+        rung->error = reference_distance(&problem->exact, run.x);
+        rung->drift = fabs(energy / problem->energy - 1);
+        rung->failed = status || rung->unconverged > 0 ||
+                       !(rung->error < problem->simulation.options.side);
+        status = STATUS_OK;
+    }
+    time_integrator_free(&run);
+    return status;
+}
+
+/* What Newton leaves undone in a step is a change of velocity of at most its
+ * tolerance; the sum over all steps is steps * tolerance * time / 2.  That may
+ * be a tenth of the error that is expected.
+ *   longest, finest  s, m: no rung above, none after an error below */
+static Status climb(const Problem *problem, double longest, double finest,
+                    Ladder *ladder)
+{
+    double expected = first_error;
+    for (long steps = FIRST_STEPS; ladder->rungs < RUNGS; steps *= 2) {
+        Rung *rung = &ladder->rung[ladder->rungs++];
+        double fastest = INFINITY;
+        *rung = (Rung){.steps = steps};
+        rung->tolerance =
+            0.2 * expected / ((double)steps * problem->motion->time);
+        for (int i = 0; i < REPEATS && (i == 0 || !rung->failed); i++) {
+            Status status = run_once(problem, ladder, rung);
+            if (status)
+                return status;
+            fastest = fmin(fastest, rung->seconds);
+        }
+        rung->seconds = fastest;
+        if (2 * fastest > longest || (!rung->failed && rung->error < finest))
+            break;
+        expected = fmin(rung->failed ? first_error : rung->error, first_error) /
+                   (1 << ladder->method->order);
+    }
+    return STATUS_OK;
+}
+
+/* Run time, s, at which the error is reached: interpolated between two rungs;
+ * INFINITY if none does. */
+static double seconds_for(const Ladder *ladder, double error)
+{
+    const Rung *last = NULL;
+    for (int i = 0; i < ladder->rungs; i++) {
+        const Rung *next = &ladder->rung[i];
+        if (next->failed)
+            continue;
+        if (next->error <= error) {
+            if (!last)
+                return next->seconds;
+            double part =
+                log(last->error / error) / log(last->error / next->error);
+            return last->seconds * pow(next->seconds / last->seconds, part);
+        }
+        last = next;
+    }
+    return INFINITY;
+}
+
+static const char *solver_of(const Ladder *ladder)
+{
+    return ladder->method->implicit ? solver_name(ladder->solver) : "none";
+}
+
+/* For each error the fastest explicit and the fastest implicit method. */
+static void print_targets(const Ladder *ladders, int count)
+{
+    puts("   error m  best explicit             ms  best implicit"
+         "                  ms  implicit/explicit");
+    for (size_t t = 0; t < sizeof targets / sizeof *targets; t++) {
+        const Ladder *best[2] = {NULL, NULL};
+        double ms[2] = {INFINITY, INFINITY};
+        for (int i = 0; i < count; i++) {
+            int kind = ladders[i].method->implicit;
+            double spent = 1e3 * seconds_for(&ladders[i], targets[t]);
+            if (spent < ms[kind]) {
+                best[kind] = &ladders[i];
+                ms[kind] = spent;
+            }
+        }
+        if (!best[0] || !best[1])
+            continue;
+        printf("   %7.0e  %-16s %11.3f  %-14s %-9s %8.3f  %8.3g: implicit %s\n",
+               targets[t], best[0]->method->name, ms[0], best[1]->method->name,
+               solver_of(best[1]), ms[1], ms[1] / ms[0],
+               ms[1] > ms[0] ? "loses" : "wins");
+    }
+}
+
+static void write_ladder(Bench *bench, const Problem *problem,
+                         const Ladder *ladder)
+{
+    for (int i = 0; i < ladder->rungs; i++) {
+        const Rung *rung = &ladder->rung[i];
+        bench_row(bench, "%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%.6g,%ld,%d",
+                  problem->motion->name, problem->simulation.options.segments,
+                  ladder->method->name, solver_of(ladder),
+                  ladder->method->order, rung->steps, rung->tolerance,
+                  rung->seconds, fmin(rung->error, 1e300),
+                  fmin(rung->drift, 1e300), rung->unconverged, rung->failed);
+    }
+}
+
+/* All methods on one problem. */
+static Status climb_all(Bench *bench, const Problem *problem)
+{
+    static Ladder ladders[LADDERS];
+    int count = 0, segments = problem->simulation.options.segments;
+    double longest = bench->quick ? 0.01 : segments / 64.0 + 0.25;
+    Status status = STATUS_OK;
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++)
+        for (int s = 0; s < (row->implicit ? SOLVER_COUNT : 1); s++) {
+            if (status || count == LADDERS)
+                return status;
+            if (row->implicit && s == SOLVER_NEWTON &&
+                segments > NEWTON_SEGMENTS)
+                continue;
+            Ladder *ladder = &ladders[count++];
+            *ladder = (Ladder){.method = row, .solver = (Solver)s};
+            status =
+                climb(problem, longest, bench->quick ? 1e-5 : 1e-8, ladder);
+            write_ladder(bench, problem, ladder);
+        }
+    print_targets(ladders, count);
+    return status;
+}
+
+Status bench_work(Bench *bench)
+{
+    Status status = STATUS_OK;
+    for (int m = 0; m < MOTIONS; m++)
+        for (int i = 0; motions[m].segments[i] && !status; i++) {
+            const Motion *motion = &motions[m];
+            int segments = bench->quick ? 4 : motion->segments[i];
+            Problem problem;
+            if (bench->quick && i > 0)
+                break;
+            printf("\n  %s: %d segments, k %.0e J/m^2, stretch %g, spin %g "
+                   "rad/s, %g s\n",
+                   motion->name, segments, motion->stiffness, motion->stretch,
+                   motion->spin, motion->time);
+            status = create_problem(motion, segments, &problem);
+            if (!status)
+                status = climb_all(bench, &problem);
+            reference_free(&problem.exact);
+            simulation_free(&problem.simulation);
+            free(problem.v);
+        }
+    return status;
+}
