@@ -141,6 +141,10 @@ verdict every_picture_is_whole "$(
         open { print >("picture_" n) }
         END { print n >"count" }' handout.html
     [ "$(cat count)" = "$pages" ] || echo "$(cat count) pictures"
+    for part in look try; do
+        [ "$(grep -c "<b class=\"$part\">" handout.html)" = "$pages" ] ||
+            echo "not every page has words after $part"
+    done
     i=1
     while read -r name; do
         base64 -d "picture_$i" >picture.png 2>/dev/null || echo "$name: base 64"

@@ -17,7 +17,7 @@
 #include "scenes/state.h"
 
 /* A scene is a row of defaults: the square with the same options makes the
- * same bits. */
+ * same bits, with normals of any length. */
 static void the_square_with_options_is_the_scene(void **unused)
 {
     (void)unused;
@@ -27,8 +27,8 @@ static void the_square_with_options_is_the_scene(void **unused)
         {"drop",
          "square --segments 16 --stretch 1 --timestep 0.005 --tolerance 1e-4 "
          "--gravity 9.81 --cells on --turn 25 --at -0.3,0.75 --velocity 0.9,-1 "
-         "--friction 0.3 --ground 0,1,0,-0.5 --ground 1,0,-1.1,0 --ground "
-         "-1,0,1.1,0"},
+         "--friction 0.3 --ground 0,2,0,-0.5 --ground 1,0,-1.1,0 --ground "
+         "-0.5,0,1.1,0"},
         {"dent",
          "square --segments 16 --stiffness 2e5 --stretch 1 --timestep 0.004 "
          "--tolerance 1e-4 --gravity 9.81 --cells on --at 0,0.62 --velocity "

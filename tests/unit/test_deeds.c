@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/clock.h"
+#include "model/pull_energy.h"
 #include "picture/picture.h"
 #include "scenes/scene.h"
 
@@ -406,7 +407,13 @@ static void hands_pin_and_hold(void **unused)
     CHECK(player.holds);
     CHECK_STATUS(obey("step"), STATUS_OK); /* nothing let go of it */
     CHECK(player.lane[0].track.settings.held && player.holds);
-    obey_all((const char *const[]){"drag 1 1", "step", "release", NULL});
+    for (int y = 1; y < 3; y++) { /* also straight upwards */
+        obey_all((const char *const[]){y == 1 ? "drag 1 1" : "drag 1 2", "step",
+                                       NULL});
+        const Pull *hand = hand_energy_of(&player_simulation(&player)->system);
+        CHECK(hand && hand->target[0] == 1 && hand->target[1] == y);
+    }
+    CHECK_STATUS(obey("release"), STATUS_OK);
     CHECK(!player.lane[0].track.settings.held && !player.holds);
     /* Back where it was held: nobody holds it now. */
     CHECK_STATUS(obey("goto 1"), STATUS_OK);

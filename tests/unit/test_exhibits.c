@@ -11,6 +11,7 @@
 #include "scenes/mass_scene.h"
 #include "scenes/race_scene.h"
 #include "scenes/spring_scene.h"
+#include "scenes/overshoot_scene.h"
 #include "scenes/tangent_scene.h"
 
 /* ---- one mass ----------------------------------------------------------- */
@@ -664,6 +665,9 @@ static void predictions_are_compared(void **unused)
     simulation_predict(&simulation, -11, 123);
     simulation_step(&simulation);
     CHECK_NEAR(simulation.prediction.distance, 0.644958598563875, 1e-12);
+    overshoot_drag(&simulation, 0, 1.5, NAN); /* x alone counts */
+    overshoot_drag(&simulation, 0, NAN, 1);
+    CHECK(simulation.descent.point[0] == 1.5 && simulation.steps == 0);
     simulation_free(&simulation);
     /* a square is no single point */
     simulation_from_line("square", NULL, NULL, &simulation);

@@ -229,8 +229,8 @@ static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
                      : part.f;
         sum.p += w * part.p;
         sum.pq += w * t * part.pq;
-        *noise = (Jet){noise->f + 1e-13L * size.f, noise->p + 1e-13L * size.p,
-                       0, noise->pq + 1e-13L * size.pq};
+        *noise = (Jet){noise->f + 1e-12L * size.f, noise->p + 1e-12L * size.p,
+                       0, noise->pq + 1e-12L * size.pq};
         spot.jitter = &random;
         for (int i = 0; i < 8; i++) {
             Jet other = oracle_energy(&spot, kind);

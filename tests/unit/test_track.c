@@ -135,6 +135,10 @@ static void thinned_states_come_back(void **unused)
         check_all_steps(&track, STEPS, hash);
         check_going_on(&track, 33, STEPS, hash);
         CHECK(track_bytes(&track) <= track.limit);
+        size_t used = 0;
+        for (long k = 0; k < track.kept_count; k++)
+            used += track.kept[k].size;
+        CHECK(track.used == used);
         track_free(&track);
     }
 }
