@@ -247,7 +247,7 @@ static int make_handout(const Options *options, Player *player)
          status == STATUS_FILE_FAILED ? output_reason(errno)
          : message[0]                 ? message
                                       : status_text(status));
-    return EXIT_FAILED;
+    return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
 }
 
 /* The words of the command line that decide what is simulated, for messages. */

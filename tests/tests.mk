@@ -91,7 +91,9 @@ pictures: build/elasto
 	done <tests/data/pictures.txt
 	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
 	  --segments 10 --steps 75 --size 360x360 --script build/bare.txt \
-	  --film tests/data/relax.gif && echo tests/data/relax.gif
+	  --film build/relax.apng && ffmpeg -v error -nostdin -y \
+	  -i build/relax.apng -vf "fps=25,split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1" \
+	  tests/data/relax.gif && echo tests/data/relax.gif
 	@mkdir -p build/films; while read -r name every steps line; do \
 	  ./build/elasto $$line --headless --quiet --steps $$steps \
 	    --size 300x300 --film build/films/$$name.apng && \

@@ -9,6 +9,7 @@
 #ifndef ELASTO_FILM_H
 #define ELASTO_FILM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "picture/canvas.h"
@@ -28,6 +29,9 @@ typedef struct Film {
     int process, pipe;  /* of ffmpeg, where a process is above 0 */
     const char *reason; /* why it failed, if errno does not say it; or NULL */
 } Film;
+
+/* Whether there is a program ffmpeg in the path. */
+bool film_is_possible(void);
 
 /* Begins a film; nothing is written before the first frame.
  *   name     in, its end says the kind

@@ -28,7 +28,8 @@ typedef struct Recording {
     long films;         /* that ended with a frame; of the last one: */
     long film_frames;
     char film_name[RECORDING_NAME_SIZE];
-    long film_every;    /* it has those of every so manyth step; 0: all */
+    long film_every;    /* it has those of every so manyth step, once; 0: all,
+                           as often as the speed asks for */
     bool points;        /* the log tells of points */
     int panes;          /* of more than one the log tells which: 1 ... */
     Output states, log; /* not open: not written */

@@ -48,14 +48,13 @@ static const FilmKind *kind_of(const char *name)
     return NULL;
 }
 
-/* Whether a program of this name is in the path. */
-static bool program_exists(const char *name)
+bool film_is_possible(void)
 {
     char file[4096];
     const char *path = getenv("PATH");
     while (path && *path) {
         int length = (int)strcspn(path, ":");
-        snprintf(file, sizeof file, "%.*s/%s", length, path, name);
+        snprintf(file, sizeof file, "%.*s/ffmpeg", length, path);
         if (access(file, X_OK) == 0)
             return true;
         path += length + (path[length] == ':');
@@ -72,7 +71,7 @@ Status film_open(const char *name, Film *film, char *message, size_t size)
         snprintf(message, size,
                  "--film: '%s' does not end in .mp4, .webm, .gif or .apng",
                  shown);
-    else if (!program_exists("ffmpeg"))
+    else if (!film_is_possible())
         snprintf(message, size,
                  "--film: '%s' needs the program ffmpeg: apt-get install "
                  "ffmpeg; --frames DIR needs nothing",

@@ -1,6 +1,7 @@
 #include "play/handout.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,10 +168,10 @@ static Status play_page(const LecturePage *page,
     options.size[1] = moves ? FILM_HEIGHT : STILL_HEIGHT;
     options.steps = page->film;
     status = player_create(&options, 1, "elasto", stop, player);
-    player->recording.film_every = page->every;
+    double every = page->every > 1 ? page->every : 1;
+    player->recording.film_every = (long)every;
     player->recording.film.rate =
-        page->lines ? 1
-                    : (double)FILM_RATE / (page->every > 1 ? page->every : 1);
+        page->lines ? 1 : fmin(player_rate(player), FILM_RATE) / every;
     if (!status && (page->open || page->lines))
         status = play_lines(player, page);
     else if (!status)
@@ -247,6 +248,13 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
     message[0] = '\0';
     if (!name)
         return STATUS_OUT_OF_MEMORY;
+    if (!film_is_possible()) {
+        snprintf(message, size,
+                 "its pictures need the program ffmpeg: apt-get "
+                 "install ffmpeg");
+        free(name);
+        return STATUS_INVALID_INPUT;
+    }
     snprintf(name, room, "%s.film.apng", options->handout);
     Status status = output_open(options->handout, &output);
     if (!status) {

@@ -208,10 +208,11 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
 {
     Film *film = &recording->film;
     Status status = STATUS_OK;
-    int every = recording->film_every > 1 ? (int)recording->film_every : 1;
-    if (film_runs(film) && step % every == 0)
-        status = note_film(recording, film_add(film, canvas, shown),
-                           film->output.name);
+    long every = recording->film_every;
+    if (film_runs(film) && (every == 0 || step % every == 0))
+        status =
+            note_film(recording, film_add(film, canvas, every == 0 ? shown : 1),
+                      film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;

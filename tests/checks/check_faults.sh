@@ -324,6 +324,7 @@ did you mean --segments?|--segment5
 'circle'.*one scene|square circle
 --tolerance.*'circle'.*no minimum|circle --tolerance 1
 side by side|--segments 1,2,3 --stiffness 1,2,3
+does not end|--headless --film n.avi --timestep 0.004,0.01
 END
 }
 verdict bad_lines_are_refused "$(bad_lines)"

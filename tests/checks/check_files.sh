@@ -93,8 +93,7 @@ verdict nothing_is_lost_or_made_by_what_is_refused "$(refusals <<END
 1|symbolic links|--states round
 2|--segments|--states k.csv --segments 5000
 2|--density|--states k.csv --log l.csv --density 1,1e-320
-2|does not end|--film n.avi --timestep 0.004,0.01
-1|No such file|--states k.csv --log d/e/k --timestep 0.004,0.01
+1|No such file|--states k.csv --log d/e/k
 END
 )"
 
@@ -228,9 +227,14 @@ else
     echo 'skipped stopped_films_play: no ffmpeg'
 fi
 verdict without_ffmpeg_one_line_says_so "$(
-    PATH=/nonexistent "$elasto" --headless --film a.gif 2>error
-    [ $? = 2 ] && [ "$(wc -l <error)" -eq 1 ] &&
-        grep -q "'a.gif' needs the program ffmpeg: apt-get" error || cat error
+    for line in '--headless --film a.gif' '--handout a.html'; do
+        # shellcheck disable=SC2086
+        PATH=/nonexistent "$elasto" $line 2>error
+        code=$?
+        [ $code = 2 ] && [ "$(wc -l <error)" -eq 1 ] &&
+            grep -q "the program ffmpeg: apt-get" error ||
+            echo "$line: $code: $(cat error)"
+    done
     no_parts 'no ffmpeg'
 )"
 
@@ -305,7 +309,6 @@ names() {
 1 --frames= /frames
 2 --film= .avi
 2 --script= .script
-2 --handout= .html
 2 --
 2 --side=
 2 --steps=
@@ -313,6 +316,8 @@ names() {
 END
     run 2 --states "$odd" --log "$odd"
     run 2 --script script
+    "$elasto" --handout "$odd/x" 2>>error
+    [ "$(wc -l <error)" -eq 2 ] || cat error
     LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error && cat error
     run 0 --states "$odd"
     whole "$odd"
