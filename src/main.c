@@ -244,9 +244,9 @@ static int make_handout(const Options *options, Player *player)
     if (!status)
         return EXIT_FINE;
     tell("%s: %s", options->handout,
-         status == STATUS_FILE_FAILED ? output_reason(errno)
-         : message[0]                 ? message
-                                      : status_text(status));
+         message[0]                     ? message
+         : status == STATUS_FILE_FAILED ? output_reason(errno)
+                                        : status_text(status));
     return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
 }
 

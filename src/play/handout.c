@@ -179,6 +179,8 @@ static Status play_page(const LecturePage *page,
     if (status && status == player->lane[0].track.simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
     Status finished = player_finish(player);
+    if (player->recording.message[0])
+        snprintf(message, size, "%s", player->recording.message);
     if (!status && *stop)
         status = STATUS_INTERRUPTED;
     player_free(player);

@@ -229,6 +229,8 @@ static Status obey_script(Player *player)
         if (status == STATUS_INVALID_INPUT) {
             char line[128];
             command_format(command, line, sizeof line);
+            one_line(line, line, sizeof line);
+            one_line(player->message, player->message, sizeof player->message);
             fprintf(stderr, "script: step %ld: '%s': %s\n", player->step, line,
                     player->message);
             player->message[0] = '\0';

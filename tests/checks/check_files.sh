@@ -299,6 +299,7 @@ fi
 names() {
     odd=$(printf 'no\nwhere\033[31m\302\233m\233m\342\200\256\342\201\246x')
     printf '0 %s\n' "$odd" >script
+    printf '0 page %s\n' "${odd#*where}" >other
     while read -r expected option rest; do
         run "$expected" "$option$odd$rest"
         LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error &&
@@ -316,8 +317,9 @@ names() {
 END
     run 2 --states "$odd" --log "$odd"
     run 2 --script script
+    "$elasto" --headless --steps 1 --quiet --script other 2>>error
     "$elasto" --handout "$odd/x" 2>>error
-    [ "$(wc -l <error)" -eq 2 ] || cat error
+    [ "$(wc -l <error)" -eq 3 ] || cat error
     LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error && cat error
     run 0 --states "$odd"
     whole "$odd"
