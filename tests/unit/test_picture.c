@@ -981,7 +981,7 @@ static void log_has_every_update(void **unused)
         int commas = 0;
         for (char *c = line; *c; c++)
             commas += *c == ',';
-        assert_int_equal(commas, 12);
+        assert_int_equal(commas, 13);
         rows++;
     }
     assert_int_equal(rows, simulation_counters(&simulation).iterations);
