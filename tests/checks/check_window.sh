@@ -576,6 +576,21 @@ in_a_step() {
 }
 verdict a_window_ends_in_the_middle_of_a_step "$(in_a_step)"
 
+# A q that is typed into a number while a step is made ends nothing.
+typed_in_a_step() {
+    side=900
+    begin square --segments 90 --solver newton --paused
+    key Tab n
+    xdotool type --delay 5 1q
+    key Escape
+    a=$(shot a)
+    [ "$a" = 1 ] || echo "it is at step $a, not 1"
+    key q
+    end 0
+    side=500
+}
+verdict a_typed_q_ends_no_step "$(typed_in_a_step)"
+
 # SDL takes another renderer, or the program says that there is none.
 no_renderer() {
     look_for_opengl

@@ -57,7 +57,7 @@ killers_for() { # file, what the list names
     */play/output.[ch] | */play/recording.[ch])
         near='picture check_files.sh command check_log.sh check_faults.sh' ;;
     */play/film.[ch] | */play/png*) near='film picture' ;;
-    */play/*) near='deeds player track picture layout hand command check_scripts.sh' ;;
+    */play/*) near='session deeds player track picture layout hand command check_scripts.sh' ;;
     *) near='command check_files.sh check_faults.sh check_window.sh' ;;
     esac
     rest=
