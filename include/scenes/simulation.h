@@ -26,6 +26,7 @@ typedef struct Descent {
     NewtonRecord record[DESCENT_MAX]; /* the first DESCENT_MAX of them */
     double point[2];                  /* the present iterate */
     double value;                     /* f or E there */
+    double began;                     /* E where the search began */
     double direction[2];              /* p there, m; 0 if there is none */
     double slope;                     /* grad . p there; < 0 is downhill */
     bool by_gradient;    /* Algorithm 1 runs: its loop tests |g|, not |p|/h */

@@ -184,7 +184,7 @@ static const char *end_words(const Simulation *simulation)
     const Descent *descent = &simulation->descent;
     const ScalarFunction *f = &descent->scalar.f;
     int down = 0;
-    if (!simulation->done || simulation->status)
+    if (!simulation->done || descent->residual > simulation->options.tolerance)
         return NULL;
     if (f->at)
         down = scalar_at(f, descent->point[0]).second < 0 ? 2 : 0;
@@ -203,15 +203,15 @@ void show_describe(Show *show)
     if (!show->topic)
         show->topic = simulation->scene->title ? simulation->scene->title
                                                : simulation->scene->name;
+    const char *end = end_words(simulation);
+    if (end)
+        say(show->sentence, SHOW_TEXT, "%s", end);
     bool whole = !pane->trace || !pane->trace->line || pane->trace->given_up;
     if (whole && pane->trouble && pane->trouble != STATUS_INTERRUPTED)
         say(show->sentence, SHOW_TEXT, "%s",
             trouble_words(simulation, pane->trouble));
     else if (pane->trace && pane->trace->line)
         describe_line(show, simulation, pane->trace);
-    const char *end = end_words(simulation);
-    if (end)
-        say(show->sentence, SHOW_TEXT, "%s", end);
     if (!show->lecture) /* its pages have words of their own */
         say(show->sentence, SHOW_TEXT, "%s", scene_sentence(simulation));
     describe_method(show, simulation);

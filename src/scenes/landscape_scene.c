@@ -91,6 +91,12 @@ static void find_direction(Simulation *simulation, double p[2])
     descent->slope = newton->at.g[0] * p[0] + newton->at.g[1] * p[1];
 }
 
+/* Without a line search an end above the start is no success. */
+static bool is_above(const Descent *descent)
+{
+    return descent->value > descent->began + 1e-12 * fabs(descent->began);
+}
+
 /* Shows the iterate where the picture and the states look for it, and what the
  * loop's test says of it if Newton (status) goes on.  Where the search failed
  * its direction stays to be seen. */
@@ -109,6 +115,8 @@ static Status show_node(Simulation *simulation, Status status)
         status = descent->residual <= simulation->options.tolerance ? STATUS_OK
                  : isfinite(descent->slope) ? STATUS_RUNNING
                                             : STATUS_SINGULAR;
+    if (own && status == STATUS_OK && is_above(descent))
+        status = STATUS_DIVERGED;
     simulation->done = status != STATUS_RUNNING;
     bool none = status == STATUS_OK || !isfinite(descent->slope);
     for (int i = 0; i < 2; i++)
@@ -154,11 +162,13 @@ void aim_landscape(Simulation *simulation)
         run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
     memcpy(run->new_x, run->x, size); /* run->x follows the iterates */
     choose_test(simulation);
+    simulation->descent.began = INFINITY; /* until it is known */
     Status status =
         newton_start(run->newton, run->new_x, NULL, run->h * run->h);
     status =
         show_node(simulation, is_whole(simulation) ? status : STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
+    simulation->descent.began = simulation->descent.value;
 }
 
 Status create_landscape(Simulation *simulation, const NewtonSettings *settings)

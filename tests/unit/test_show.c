@@ -887,8 +887,8 @@ static void formulas_can_be_read(void **unused)
     static const struct {
         double value;
         const char *text;
-    } rows[] = {{0.69, "0.69"},     {-0.5511, "(-0.5511)"},
-                {-0.0, "0"},        {1.468e-6, "(1.468e-06)"},
+    } rows[] = {{0.69, "0.69"},   {-0.5511, "(-0.5511)"},
+                {-0.0, "0"},      {1.468e-6, "(1.468e-06)"},
                 {3e9, "(3e+09)"}, {12, "12"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[32];
@@ -944,6 +944,9 @@ static void ends_and_steps_have_their_names(void **unused)
     } rows[] = {
         {"landscape --start 0.05,-0.05 --filter none --line-search none",
          "the gradient is 0, but this is a saddle", "iteration 2",
+         "Newton's method"},
+        {"landscape --filter none --line-search none",
+         "the gradient is 0, but this is a saddle", "iteration 4",
          "Newton's method"},
         {"landscape", "without projection Newton may go uphill; clamped, never",
          "iteration 5", "Newton's method"},
