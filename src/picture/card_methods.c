@@ -17,7 +17,8 @@ static const Formula formulas[] = {
      "v^{n+1} = v^{n} + h a({x}^{n})",
      "radius \u00d7 \u221a(1 + (h\u03c9)\u00b2) a step: it grows"},
     {"symplectic-euler", "v^{n+1} = v^{n} + h a({x}^{n})",
-     "{x}^{n+1} = {x}^{n} + h v^{n+1}", "stays on an ellipse"},
+     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
+     "stays on an ellipse while h\u03c9 < 2"},
     {"backward-euler", "v^{n+1} = v^{n} + h a({x}^{n+1})",
      "{x}^{n+1} = {x}^{n} + h v^{n+1}",
      "radius / \u221a(1 + (h\u03c9)\u00b2) a step: it shrinks"},
@@ -25,7 +26,7 @@ static const Formula formulas[] = {
      "v^{n+\u00bd} = v^{n} + \u00bdh a({x}^{n});   "
      "{x}^{n+1} = {x}^{n} + h v^{n+\u00bd}",
      "v^{n+1} = v^{n+\u00bd} + \u00bdh a({x}^{n+1})",
-     "stays on an ellipse, nearly the circle"},
+     "on an ellipse, nearly the circle, while h\u03c9 < 2"},
     {"bdf2", "{x}^{n+1} = (4{x}^{n} \u2212 {x}^{n\u22121})/3 + \u2154h v^{n+1}",
      "v^{n+1} = (4v^{n} \u2212 v^{n\u22121})/3 + \u2154h a({x}^{n+1})",
      "shrinks, by far less than backward Euler"},

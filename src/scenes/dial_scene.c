@@ -11,6 +11,8 @@ static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 /* m: a shorter p changes E by less than E's rounding, and is taken whole. */
 static const double DIAL_NEAR = 1e-6;
 
+static const double DIAL_BESIDE = 1e-9; /* m, from the line of the pins */
+
 enum { DIAL_UPDATES = 100, DIAL_HALVINGS = 40 };
 
 void dial_defaults(Options *options)
@@ -55,9 +57,13 @@ static void dial_derivatives(const Simulation *simulation, double h,
     }
 }
 
-/* Algorithm 3 for two unknowns; it ends at the size of rounding. */
+/* Algorithm 3 for two unknowns; it ends at the size of rounding.  On the line
+ * of the pins there may be a saddle, where the gradient is 0, too: it begins
+ * beside it. */
 void dial_minimise(const Simulation *simulation, double h, double point[2])
 {
+    if (fabs(point[1]) < DIAL_BESIDE)
+        point[1] = copysign(DIAL_BESIDE, point[1]);
     for (int update = 0; update < DIAL_UPDATES; update++) {
         double g[2], H[3], alpha = 1;
         dial_derivatives(simulation, h, point, g, H);

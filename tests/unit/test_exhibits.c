@@ -275,6 +275,25 @@ static void dial_turns_from_target_to_rest(void **unused)
     simulation_free(&simulation);
 }
 
+/* With x_tilde on the line of the pins a short step ends there; a longer one
+ * does not end on the saddle that is there then. */
+static void dial_ends_on_no_saddle(void **unused)
+{
+    (void)unused;
+    Simulation simulation;
+    simulation_from_line("dial", NULL, NULL, &simulation);
+    dial_drag(&simulation, 0, 0.2, 0);
+    const Walk *walk = &simulation.exhibit.walk;
+    CHECK_NEAR(walk->point[0][1], 0, 1e-12);
+    CHECK_NEAR(fabs(walk->point[WALK_POINTS - 1][1]), sqrt(1.25), 1e-4);
+    for (int i = 0; i < WALK_POINTS; i++) {
+        simulation.run[0].h = walk->h[i];
+        CHECK(landscape_bends_down(&simulation, walk->point[i][0],
+                                   walk->point[i][1]) == 0);
+    }
+    simulation_free(&simulation);
+}
+
 /* ---- inertia and elasticity on the map ---------------------------------- */
 
 static void landscape_has_two_parts(void **unused)
@@ -688,6 +707,7 @@ int main(void)
         cmocka_unit_test(tangent_is_dragged),
         cmocka_unit_test(dial_walks_over_minimisers),
         cmocka_unit_test(dial_turns_from_target_to_rest),
+        cmocka_unit_test(dial_ends_on_no_saddle),
         cmocka_unit_test(landscape_has_two_parts),
         cmocka_unit_test(landscape_minimises_what_it_shows),
         cmocka_unit_test(landscape_is_dragged),

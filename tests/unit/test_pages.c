@@ -313,6 +313,10 @@ static void claim_newton(void)
     const double *x = simulation.descent.point;
     CHECK(landscape_bends_down(&simulation, x[0], x[1]) == 1);
     simulation_free(&simulation);
+    /* and from below the saddle it climbs there: no success */
+    open_page("newton", "--start 0.1,-0.35", NULL, NULL, &simulation);
+    CHECK_STATUS(run_steps(&simulation, 100), STATUS_DIVERGED);
+    simulation_free(&simulation);
 }
 
 static void claim_overshoot(void)
