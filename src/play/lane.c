@@ -242,7 +242,7 @@ void lane_sample_again(Lane *lane, long step)
         return;
     history_cut(&lane->history, nextafter(lane_time(lane), -INFINITY));
     trail_cut(&lane->trail, 1);
-    lane->sampled = step - 1;
+    show_sample(&lane->track.simulation, &lane->history, &lane->trail);
 }
 
 Status lane_clone(const Lane *lane, int number, NewtonObserver observer,

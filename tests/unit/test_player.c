@@ -796,7 +796,6 @@ static void what_is_dragged_is_shown_as_it_is(void **unused)
         player_sample(&player);
         CHECK_STATUS(obey("handle 0 0.5 0.25"), STATUS_OK);
         CHECK_STATUS(obey("handle 1 1.5 2.25"), STATUS_OK);
-        player_sample(&player);
         CHECK(lane->history.count == step + 1 && lane->trail.count == step + 1);
         /* (0.5^2 + 0.25^2 + 1^2 + 2^2) / 2 */
         CHECK_NEAR(lane->history.value[0][step], 2.65625, 0);
