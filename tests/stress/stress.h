@@ -132,6 +132,10 @@ extern uint64_t stress_contact_seed;
 bool stress_contact(Tally *tally, char *reason);
 bool stress_contact_small(Tally *tally, char *reason);
 
+/* Random squares of springs that flow; `judged` counts updates. */
+bool stress_flow(Tally *tally, char *reason);
+bool stress_flow_small(Tally *tally, char *reason);
+
 extern const StressCase stress_cases[]; /* ends with a NULL name */
 
 /* Adds what a watch saw. */

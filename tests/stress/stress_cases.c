@@ -325,6 +325,8 @@ const StressCase stress_cases[] = {
     {"interrupted", false, false, interrupted},
     {"contact", false, false, stress_contact_small},
     {"contact, 20 000", true, false, stress_contact},
+    {"flow", false, false, stress_flow_small},
+    {"flow, 20 000", true, false, stress_flow},
     {"a million steps", true, false, million_steps},
     {NULL, false, false, NULL},
 };
