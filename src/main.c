@@ -28,32 +28,50 @@ static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */
 static bool main_begun;    /* and it was created */
 
+/* A time in seconds: of the wall, or of the processor for this program. */
+static double seconds(clockid_t clock)
+{
+    struct timespec time;
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static double main_used; /* s, of the processor, when the alarm was set */
+
+/* Looks after a second whether the program has gone on. */
+static void set_alarm(void)
+{
+    main_used = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    alarm(1);
+}
+
 /* SIGINT, SIGTERM, SIGHUP: end after the present Newton iteration.  A second
  * one ends at once, whatever the program waits for: a library, a screen.
  * timeout(1) sends each signal twice, to the program and to its group: what
  * follows within a tenth of a second is still the first. */
 static void on_signal(int number)
 {
-    static struct timespec first;
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    double passed = (double)(now.tv_sec - first.tv_sec) +
-                    1e-9 * (double)(now.tv_nsec - first.tv_nsec);
+    static double first; /* s */
     if (!main_stop)
-        first = now;
-    else if (passed > 0.1) {
+        first = seconds(CLOCK_MONOTONIC);
+    else if (seconds(CLOCK_MONOTONIC) - first > 0.1) {
         signal(number, SIG_DFL);
         raise(number);
     }
     main_stop = 1;
-    alarm(1);
+    set_alarm();
 }
 
-/* A second after it: whoever still waits for a screen waits in vain. */
+/* A program that has done nothing since a signal waits for a screen, and in
+ * vain. */
 static void on_alarm(int number)
 {
+    const double least = 0.05; /* s */
     (void)number;
-    view_let_go();
+    if (seconds(CLOCK_PROCESS_CPUTIME_ID) - main_used > least)
+        set_alarm();
+    else
+        view_let_go();
 }
 
 /* Signals that end the run; and those of pipes without a reader and of files
