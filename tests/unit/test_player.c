@@ -230,6 +230,23 @@ static double way_that_is_left(void)
     return far / sqrt(l2);
 }
 
+/* Asking whether it rests leaves no trace: the same bits as without. */
+static void compare_with_plain_run(const char *line)
+{
+    Simulation plain;
+    const TimeIntegrator *run = &player_simulation(&player)->run[0];
+    simulation_from_line(line, NULL, NULL, &plain);
+    for (int i = 0; i < 5; i++) {
+        CHECK_STATUS(player_step(&player), STATUS_OK);
+        player_pause_if_due(&player);
+    }
+    for (long i = 0; i < player.step; i++)
+        CHECK_STATUS(simulation_step(&plain), STATUS_OK);
+    CHECK_SAME_BITS(plain.run[0].x, run->x, (int)run->size);
+    CHECK_SAME_BITS(plain.run[0].v, run->v, (int)run->size);
+    simulation_free(&plain);
+}
+
 /* "At rest" is said of a square that goes nowhere, however well it is computed
  * from there; of one that only the tolerance holds it is said that it does: in
  * long steps, in short ones, at a turning point, in the air.  A node that is a
@@ -262,6 +279,7 @@ static void rest_is_told_from_tolerance(void **unused)
               rows[i].rests);
         player_fill(&player);
         CHECK((strcmp(player.show.state, "at rest") == 0) == rows[i].rests);
+        compare_with_plain_run(rows[i].line);
         double way = way_that_is_left();
         CHECK(rows[i].rests ? way <= 0.02 : way >= 0.04);
         end();
