@@ -28,19 +28,15 @@ typedef struct Box {
 typedef struct Canvas {
     int width, height; /* pixels */
     Box clip;          /* inside the picture; nothing is drawn beyond it */
-    int above, below;  /* rows of the clip that lines leave to others */
     uint32_t *pixels;  /* [width height] row by row, no gaps */
-    bool eights;       /* lines are drawn eight pixels at once */
 } Canvas;
+
+/* The colour between two, `part` of the second, 0 ... 1; opaque. */
+Colour canvas_mix(Colour one, Colour other, double part);
 
 /* White.  width, height 1 ... CANVAS_MAX_SIZE; canvas out.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status canvas_create(int width, int height, Canvas *canvas);
-
-/* Whether the processor can draw eight pixels at once, and the environment
- * variable ELASTO_LANES, 4 or more, does not forbid it; the pixels are those of
- * one at a time. */
-bool canvas_has_eights(void);
 
 /* Accepts NULL and a zeroed struct. */
 void canvas_free(Canvas *canvas);
@@ -59,11 +55,6 @@ void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
 /* Line of this width in pixels; the ends are cut off straight. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour);
-
-/* Many of them: line k is from point ends[2 k] to point ends[2 k + 1].
- * at [..][2]: x, y in pixels; ends [count][2] */
-void canvas_lines(Canvas *canvas, const double *at, const int *ends, long count,
-                  double width, Colour colour);
 
 /* The same in dashes of `on` pixels with gaps of `off` pixels, both > 0.
  * phase  pixels of the pattern that lie before the line, in/out: a polyline

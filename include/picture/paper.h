@@ -9,7 +9,6 @@
 
 #include <stddef.h>
 
-#include "base/crew.h"
 #include "picture/text.h"
 
 /* What is kept between frames. */
@@ -28,7 +27,6 @@ typedef struct Paper {
     uint64_t key[KEEP_COUNT]; /* of what is kept; 0: nothing */
     double *places;           /* [room] pixels of nodes, while one is drawn */
     size_t room;
-    Crew *crew; /* draws many springs; NULL: not yet needed */
 } Paper;
 
 /* White paper of this size in pixels, ready for the em that its layout has;

@@ -18,11 +18,6 @@ typedef struct Stage {
     double em; /* pixels */
 } Stage;
 
-/* Springs drawn, and those left out because they would be below 2 pixels. */
-typedef struct SpringCount {
-    long drawn, skipped;
-} SpringCount;
-
 /* A card in the column. */
 typedef struct Card {
     const char *name;  /* as tables and scripts call it: "listing" */
@@ -48,7 +43,7 @@ typedef struct Picture {
     bool own_handles;         /* it draws and picks the scene's handles */
     /* The part of the world that fits the stage: left, bottom, right, top. */
     void (*bounds)(const Show *show, int pane, double bounds[4]);
-    SpringCount (*draw)(Paper *paper, const Stage *stage, const Show *show);
+    void (*draw)(Paper *paper, const Stage *stage, const Show *show);
     /* What is under pixel (x, y). */
     Pick (*pick)(const Show *show, const Stage *stage, double x, double y);
     /* The small card beside what the mouse is over; may be NULL. */
@@ -66,8 +61,7 @@ const Picture *picture_of(const struct Scene *scene);
 int picture_cards(const Picture *picture);
 int picture_card(const Picture *picture, const char *name);
 
-/* Draws all of the paper: stage, cards, strip, row, time line, last line.
- * Returns what became of the springs. */
-SpringCount show_draw(Paper *paper, const Show *show);
+/* Draws all of the paper: stage, cards, strip, row, time line, last line. */
+void show_draw(Paper *paper, const Show *show);
 
 #endif

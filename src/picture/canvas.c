@@ -8,6 +8,11 @@
 #include "picture/blend.h"
 
 /* Allocates a white picture. */
+Colour canvas_mix(Colour one, Colour other, double part)
+{
+    return mix(one, other, (uint32_t)(256 * part));
+}
+
 Status canvas_create(int width, int height, Canvas *canvas)
 {
     *canvas = (Canvas){0};
@@ -21,7 +26,6 @@ Status canvas_create(int width, int height, Canvas *canvas)
     canvas->width = width;
     canvas->height = height;
     canvas->clip = (Box){0, 0, width, height};
-    canvas->eights = canvas_has_eights();
     canvas_clear(canvas, 0xffffffff);
     return STATUS_OK;
 }
@@ -156,6 +160,52 @@ static void narrow(double a, double b, double least, int *left, int *right)
         *right = (int)floor(i) + 1;
 }
 
+/* A small opaque triangle inside the clip: each pixel whose middle lies in it.
+ * turn: twice its area, > 0 if its corners go round to the right.  Returns
+ * false if it is not small, and draws nothing. */
+static bool fill_small(Canvas *canvas, const double c[6], double turn,
+                       Colour colour)
+{
+    enum { SMALL = 12 }; /* pixels a side */
+    const Box *clip = &canvas->clip;
+    double low[2] = {c[0], c[1]}, high[2] = {c[0], c[1]};
+    for (int k = 2; k < 6; k++) {
+        low[k % 2] = c[k] < low[k % 2] ? c[k] : low[k % 2];
+        high[k % 2] = c[k] > high[k % 2] ? c[k] : high[k % 2];
+    }
+    if (!(low[0] >= clip->x && low[1] >= clip->y &&
+          high[0] < clip->x + clip->width && high[1] < clip->y + clip->height &&
+          high[0] - low[0] < SMALL && high[1] - low[1] < SMALL))
+        return false;
+    Box box = {(int)low[0], (int)low[1], 0, 0};
+    box.width = (int)high[0] + 1 - box.x;
+    box.height = (int)high[1] + 1 - box.y;
+    double along[3], across[3], first[3]; /* each edge: a x + b y + c >= 0 */
+    double x = box.x + 0.5, y = box.y + 0.5;
+    for (int k = 0; k < 3; k++) {
+        const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
+        double dx = turn > 0 ? q[0] - p[0] : p[0] - q[0];
+        double dy = turn > 0 ? q[1] - p[1] : p[1] - q[1];
+        along[k] = -dy;
+        across[k] = dx;
+        first[k] = dx * (y - p[1]) - dy * (x - p[0]);
+    }
+    for (int j = 0; j < box.height; j++) {
+        uint32_t *row = canvas_row(canvas, box.y + j) + box.x;
+        double a = first[0], b = first[1], d = first[2];
+        for (int i = 0; i < box.width; i++) {
+            if (a >= 0 && b >= 0 && d >= 0)
+                row[i] = colour;
+            a += along[0];
+            b += along[1];
+            d += along[2];
+        }
+        for (int k = 0; k < 3; k++)
+            first[k] += across[k];
+    }
+    return true;
+}
+
 /* Coverage from the distances to the three edges.  In each row the pixels that
  * no edge comes near are not looked at one by one. */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
@@ -165,6 +215,13 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
+    if (!smooth && colour >> 24 == 255 && fill_small(canvas, c, turn, colour))
+        return;
+    double reach = smooth ? 1 : 0;
+    Box box = touched(canvas, fmin(c[0], fmin(c[2], c[4])) - reach,
+                      fmin(c[1], fmin(c[3], c[5])) - reach,
+                      fmax(c[0], fmax(c[2], c[4])) + reach,
+                      fmax(c[1], fmax(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -173,11 +230,6 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         edge[k][1] = dx / n;
         edge[k][2] = (dy * p[0] - dx * p[1]) / n;
     }
-    double reach = smooth ? 1 : 0;
-    Box box = touched(canvas, fmin(c[0], fmin(c[2], c[4])) - reach,
-                      fmin(c[1], fmin(c[3], c[5])) - reach,
-                      fmax(c[0], fmax(c[2], c[4])) + reach,
-                      fmax(c[1], fmax(c[3], c[5])) + reach);
     uint32_t full = opacity(colour);
     double most = smooth ? 0.5 : 0, slack = 1e-6; /* far above the rounding */
     for (int j = box.y; j < box.y + box.height; j++) {

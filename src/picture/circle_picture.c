@@ -37,8 +37,7 @@ Colour circle_colour(const Simulation *simulation, int run)
 }
 
 /* Trails, and a disc where each run is now. */
-static SpringCount circle_draw(Paper *paper, const Stage *stage,
-                               const Show *show)
+static void circle_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
@@ -53,7 +52,7 @@ static SpringCount circle_draw(Paper *paper, const Stage *stage,
         stage_disc(paper, stage, simulation->run[r].x, 7 * paper->unit,
                    circle_colour(simulation, r));
     if (show->bare || !stage->text)
-        return (SpringCount){0, 0};
+        return;
     stage_legend(paper, stage, &legend, COLOUR_GREY, "exact: |{x}| = 1 m");
     for (int r = 0; r < simulation->runs; r++) {
         char radius[48];
@@ -63,7 +62,6 @@ static SpringCount circle_draw(Paper *paper, const Stage *stage,
                      "%s: %s m", simulation->run[r].method->label, radius);
     }
     stage_scale(paper, stage);
-    return (SpringCount){0, 0};
 }
 
 /* The node of the nearest run. */

@@ -24,6 +24,7 @@
 
 /* The slides' letters, the same wherever they stand. */
 #define COLOUR_X        0xff0000ffu /* positions, springs; as on the slides */
+#define COLOUR_FOLDED   0xff0a0a3cu /* faces of cells that have turned over */
 #define COLOUR_X_TILDE  0xff8e3fb0u /* where inertia alone leads */
 #define COLOUR_P        0xffc96a00u /* the search direction, and its model */
 #define COLOUR_ALPHA    0xff00796bu /* step lengths */

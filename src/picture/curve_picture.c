@@ -143,8 +143,7 @@ static void draw_iterates(Paper *paper, const Plot *plot,
 }
 
 /* f, model, iterates, words. */
-static SpringCount curve_draw(Paper *paper, const Stage *stage,
-                              const Show *show)
+static void curve_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Descent *descent = &show->pane[stage->pane].simulation->descent;
     const ScalarFunction *f = &descent->scalar.f;
@@ -157,14 +156,13 @@ static SpringCount curve_draw(Paper *paper, const Stage *stage,
     draw_refused(paper, &plot, f, &update);
     draw_iterates(paper, &plot, descent, stage->text);
     if (show->bare || !stage->text)
-        return (SpringCount){0, 0};
+        return;
     stage_legend(paper, stage, &legend, COLOUR_X,
                  "f(x) = ln(e^{x} + e^{\u2212x})");
     stage_legend(paper, stage, &legend, COLOUR_P, "quadratic model at x^{%d}",
                  update.number);
     if (update.refused > 0)
         stage_legend(paper, stage, &legend, COLOUR_WARNING, "refused lengths");
-    return (SpringCount){0, 0};
 }
 
 /* The present iterate, which is dragged along the curve. */

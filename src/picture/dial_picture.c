@@ -38,7 +38,7 @@ static void dial_steps(Paper *paper, const Plot *plot, const Walk *walk,
     }
 }
 
-static SpringCount dial_draw(Paper *paper, const Stage *stage, const Show *show)
+static void dial_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     bool text = stage->text && !show->bare;
@@ -49,7 +49,7 @@ static SpringCount dial_draw(Paper *paper, const Stage *stage, const Show *show)
     dial_path(paper, &plot, &simulation->exhibit.walk, &labels);
     plot_disc(paper, &plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!text)
-        return (SpringCount){0, 0};
+        return;
     stage_pixel(stage, simulation->run[0].x, now);
     stage_pixel(stage, simulation->exhibit.target, target);
     labels_disc(&labels, now, 9 * paper->unit);
@@ -61,7 +61,6 @@ static SpringCount dial_draw(Paper *paper, const Stage *stage, const Show *show)
                  "{xt}: inertia is lowest");
     stage_legend(paper, stage, &legend, COLOUR_X, "minimiser of E for every h");
     stage_legend(paper, stage, &legend, COLOUR_TEXT, "for the h of now");
-    return (SpringCount){0, 0};
 }
 
 static Pick dial_pick(const Show *show, const Stage *stage, double x, double y)

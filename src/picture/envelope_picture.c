@@ -98,8 +98,7 @@ static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
         paper_line(paper, c[i], c[(i + 1) % 4], width, colour);
 }
 
-static SpringCount envelope_draw(Paper *paper, const Stage *stage,
-                                 const Show *show)
+static void envelope_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const EnvelopeMap *map = &simulation->exhibit.map;
@@ -114,15 +113,13 @@ static SpringCount envelope_draw(Paper *paper, const Stage *stage,
     envelope_frame(paper, envelope_box(stage, map->column, map->row), 2.4,
                    COLOUR_TEXT);
     if (show->bare || !stage->text)
-        return (SpringCount){0, 0};
+        return;
     envelope_axes(paper, stage);
     stage_legend(paper, stage, &legend, envelope_shades[3],
                  "converged: darker is more updates");
     stage_legend(paper, stage, &legend, COLOUR_UNDONE,
                  "too loose a tolerance: nothing was done");
-    stage_legend(paper, stage, &legend, COLOUR_REFUSED,
-                 "said: not converged");
-    return (SpringCount){0, 0};
+    stage_legend(paper, stage, &legend, COLOUR_REFUSED, "said: not converged");
 }
 
 static Pick envelope_pick(const Show *show, const Stage *stage, double x,

@@ -397,8 +397,7 @@ static void keep_places(Paper *paper, const Stage *stage, const Show *show,
 }
 
 /* From the ground up. */
-static SpringCount landscape_draw(Paper *paper, const Stage *stage,
-                                  const Show *show)
+static void landscape_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Plot plot = landscape_ground(paper, stage, show);
@@ -413,7 +412,6 @@ static SpringCount landscape_draw(Paper *paper, const Stage *stage,
     if (!show->bare && stage->text)
         draw_words(paper, stage, &simulation->descent,
                    simulation->exhibit.parts);
-    return (SpringCount){0, 0};
 }
 
 /* The present iterate, or a place to start from. */

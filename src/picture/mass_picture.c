@@ -159,7 +159,7 @@ static Colour run_colour(const Simulation *simulation, int run, Colour alone)
     return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
 }
 
-static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
+static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
@@ -188,13 +188,12 @@ static SpringCount mass_draw(Paper *paper, const Stage *stage, const Show *show)
         stage_disc(paper, stage, simulation->run[r].x, 8 * paper->unit,
                    run_colour(simulation, r, COLOUR_X));
     if (show->bare || !stage->text)
-        return (SpringCount){0, 0};
+        return;
     stage_legend(paper, stage, &legend, COLOUR_GREY, "the exact path");
     for (int r = 0; r < simulation->runs && simulation->runs > 1; r++)
         stage_legend(paper, stage, &legend, circle_colour(simulation, r), "%s",
                      simulation->run[r].method->label);
     stage_scale(paper, stage);
-    return (SpringCount){0, 0};
 }
 
 static Pick mass_pick(const Show *show, const Stage *stage, double x, double y)

@@ -23,7 +23,6 @@ void paper_free(Paper *paper)
     text_free(paper->text);
     for (int k = 0; k < KEEP_COUNT; k++)
         canvas_free(&paper->kept[k]);
-    crew_free(paper->crew);
     free(paper->places);
     *paper = (Paper){0};
 }

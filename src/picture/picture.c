@@ -85,14 +85,14 @@ static void draw_label(Paper *paper, const Layout *layout, const Show *show,
 }
 
 /* One pane and what the mouse is over in it. */
-static SpringCount draw_pane(Paper *paper, const Layout *layout,
-                             const Show *show, int pane)
+static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
+                      int pane)
 {
     const Picture *picture = picture_of(show->pane[pane].simulation->scene);
     Stage stage = {layout->pane[pane], show_camera(show, layout, pane), pane,
                    !show->bare && paper->em >= LEAST_EM, paper->em};
     Box before = canvas_clip(&paper->canvas, stage.box);
-    SpringCount count = picture->draw(paper, &stage, show);
+    picture->draw(paper, &stage, show);
     if (!picture->own_handles)
         stage_handles(paper, &stage, show);
     stage_switches(paper, &stage, show);
@@ -103,31 +103,26 @@ static SpringCount draw_pane(Paper *paper, const Layout *layout,
         show->hover.kind != PICK_NONE && !show->hand.on)
         picture->hover(paper, &stage, show);
     canvas_clip(&paper->canvas, before);
-    return count;
 }
 
-SpringCount show_draw(Paper *paper, const Show *show)
+void show_draw(Paper *paper, const Show *show)
 {
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
-    SpringCount sum = {0, 0};
     paper->em = layout.em;
     paper->unit = layout.em / 14;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
     for (int pane = 0; pane < layout.panes; pane++) {
-        SpringCount count = draw_pane(paper, &layout, show, pane);
-        sum.drawn += count.drawn;
-        sum.skipped += count.skipped;
+        draw_pane(paper, &layout, show, pane);
         if (layout.panes > 1)
             draw_rules(paper, &layout.pane[pane]);
     }
     if (show->bare)
-        return sum;
+        return;
     if (layout.column.width > 0 && show->page.kind != PAGE_NONE)
         canvas_rectangle(&paper->canvas, layout.column.x, layout.column.y,
                          layout.column.width, layout.column.height,
                          COLOUR_WHITE);
     cards_draw(paper, &layout, show);
     frame_draw(paper, &layout, show);
-    return sum;
 }

@@ -20,8 +20,7 @@ static void plain_bounds(const Show *show, int pane, double bounds[4])
 }
 
 /* Springs and nodes of every run. */
-static SpringCount plain_draw(Paper *paper, const Stage *stage,
-                              const Show *show)
+static void plain_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const System *system = &simulation->system;
@@ -39,7 +38,6 @@ static SpringCount plain_draw(Paper *paper, const Stage *stage,
     }
     if (stage->text)
         stage_scale(paper, stage);
-    return (SpringCount){0, 0};
 }
 
 static Pick plain_pick(const Show *show, const Stage *stage, double x, double y)

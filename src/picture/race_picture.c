@@ -71,7 +71,7 @@ static void race_names(Paper *paper, const Plot *plot, const Race *race,
     }
 }
 
-static SpringCount race_draw(Paper *paper, const Stage *stage, const Show *show)
+static void race_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Plot plot = {stage->box,
@@ -97,7 +97,6 @@ static SpringCount race_draw(Paper *paper, const Stage *stage, const Show *show)
         race_method_curve(paper, &plot, &simulation->exhibit.race, i, &labels);
     if (stage->text && !show->bare)
         race_names(paper, &plot, &simulation->exhibit.race, &labels);
-    return (SpringCount){0, 0};
 }
 
 static Pick race_pick(const Show *show, const Stage *stage, double x, double y)

@@ -77,8 +77,7 @@ static void spring_coil(Paper *paper, const Stage *stage, const double *x,
 }
 
 /* Shorter than at rest: projection changes its block. */
-static SpringCount spring_draw(Paper *paper, const Stage *stage,
-                               const Show *show)
+static void spring_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const double *x = simulation->run[0].x, origin[2] = {0, 0};
@@ -93,13 +92,12 @@ static SpringCount spring_draw(Paper *paper, const Stage *stage,
     stage_arrow(paper, stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
     stage_disc(paper, stage, x, 9 * paper->unit, COLOUR_X);
     if (show->bare || !stage->text)
-        return (SpringCount){1, 0};
+        return;
     stage_legend(paper, stage, &legend, COLOUR_FORCE, "force");
     stage_legend(paper, stage, &legend, COLOUR_FAINT, "rest length");
     stage_legend(paper, stage, &legend, COLOUR_PROJECT,
                  "shorter than l: it has an eigenvalue below 0");
     stage_scale(paper, stage);
-    return (SpringCount){1, 0};
 }
 
 static Pick spring_pick(const Show *show, const Stage *stage, double x,

@@ -1,6 +1,7 @@
 #include "picture/square_pen.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "model/fracture.h"
 #include "model/plasticity.h"
@@ -66,6 +67,7 @@ SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
         pen.range = plastic_range(system, pen.ep);
     if (pen.range > 0)
         pen.width *= 1.4;
+    pen.strain = square_picture_strain_range(simulation);
     pen.projected = trace && trace->line >= LINE_PROJECT &&
                     trace->line <= LINE_SEARCH && !show->strain &&
                     simulation->options.filter != FILTER_NONE &&
@@ -102,96 +104,135 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
 }
 
-/* All in one colour, as many at once as no broken one parts. */
-static void draw_plain_springs(const SpringPen *pen, const System *system)
+/* The springs of a cell: below, above, left, right, both diagonals. */
+static void cell_springs(const SquareMesh *mesh, int cell, int spring[6])
 {
-    for (int s = 0, end; s < system->springs; s = end + 1) {
-        end = s;
-        while (end < system->springs &&
-               !(system->breaks && spring_is_broken(system, end)))
-            end++;
-        canvas_lines(&pen->paper->canvas, pen->at, system->e + 2 * (size_t)s,
-                     end - s, pen->width, COLOUR_X);
-    }
+    int columns = mesh->segments, rows = mesh->rows;
+    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
+    int low = i * (rows + 1) + j, left = upright + i * rows + j;
+    int diagonal = upright + (columns + 1) * rows + 2 * cell;
+    const int of_cell[6] = {low,         low + 1,  left,
+                            left + rows, diagonal, diagonal + 1};
+    memcpy(spring, of_cell, sizeof of_cell);
 }
 
-static void draw_whole_springs(const SpringPen *pen, const System *system)
+void square_pen_springs(const SpringPen *pen, const System *system)
 {
-    if (!pen->projected && !(pen->range > 0))
-        draw_plain_springs(pen, system);
-    else
-        for (int s = 0; s < system->springs; s++)
-            if (!spring_is_broken(system, s))
-                draw_spring(pen, system->e[2 * (size_t)s],
-                            system->e[2 * (size_t)s + 1], system->l2[s],
-                            pen->ep ? pen->ep[s] : 0);
+    for (int s = 0; s < system->springs; s++)
+        if (!spring_is_broken(system, s))
+            draw_spring(pen, system->e[2 * (size_t)s],
+                        system->e[2 * (size_t)s + 1], system->l2[s],
+                        pen->ep ? pen->ep[s] : 0);
 }
 
-/* More springs than this are shared by two threads, each in its band of the
- * picture: the pixels are those of one. */
-enum { BANDED_SPRINGS = 10000, BANDS = 2, SPRING_NANOSECONDS = 70 };
-
-typedef struct BandJob {
-    const SpringPen *pen;
-    const System *system;
-} BandJob;
-
-/* What can be seen of all springs in some bands of the picture. */
-static void draw_bands(const void *job, int first, int end)
+/* > 0 if the triangle a b c was not turned over: twice its area, in units in
+ * which no product overflows. */
+static double turn(const double *x, int a, int b, int c)
 {
-    const BandJob *all = job;
-    int height = all->pen->paper->canvas.clip.height;
-    for (int band = first; band < end; band++) {
-        Paper paper = *all->pen->paper;
-        SpringPen pen = *all->pen;
-        paper.canvas.above = height * band / BANDS;
-        paper.canvas.below = height - height * (band + 1) / BANDS;
-        pen.paper = &paper;
-        draw_whole_springs(&pen, all->system);
-    }
+    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
+                 *r = x + 2 * (size_t)c;
+    double one[2] = {q[0] - p[0], q[1] - p[1]};
+    double other[2] = {r[0] - p[0], r[1] - p[1]};
+    double unit = fmax(fabs(one[0]), fabs(one[1]));
+    unit = unit > 1e100 ? 1 / unit : 1;
+    return unit * one[0] * other[1] - unit * one[1] * other[0];
 }
 
-long square_pen_springs(const SpringPen *pen, const System *system)
+/* A face of four nodes, anticlockwise at rest. */
+static bool is_folded(const double *x, const int node[4])
 {
-    Paper *paper = pen->paper;
-    const BandJob job = {pen, system};
-    long drawn = system->springs;
-    for (int s = 0; system->breaks && s < system->springs; s++)
-        drawn -= spring_is_broken(system, s);
-    if (drawn > BANDED_SPRINGS && !paper->crew)
-        paper->crew = crew_create(0);
-    if (drawn <= BANDED_SPRINGS || !paper->crew) {
-        draw_whole_springs(pen, system);
-        return drawn;
-    }
-    crew_begin(paper->crew);
-    crew_run(paper->crew, draw_bands, &job, BANDS,
-             (double)SPRING_NANOSECONDS * (double)drawn);
-    return drawn;
+    return turn(x, node[0], node[1], node[2]) < 0 ||
+           turn(x, node[0], node[2], node[3]) < 0;
 }
 
-long square_pen_coarse(const SpringPen *pen, const SquareMesh *mesh, int stride)
+/* From dark at 0 over the springs' blue at 1/2 to light at 1. */
+static Colour shade(double part)
 {
-    int n = mesh->segments, rows = mesh->rows, row = rows + 1;
-    double l2 = mesh->side / n * (mesh->side / n);
-    long drawn = 0;
-    for (int i = 0; i <= n; i += stride)
-        for (int j = 0; j <= rows; j += stride) {
-            int di = i + stride <= n ? stride : n - i;
-            int dj = j + stride <= rows ? stride : rows - j;
-            int node = i * row + j, right = node + di * row;
-            double diagonal = l2 * (di * di + dj * dj);
-            if (di > 0)
-                draw_spring(pen, node, right, l2 * di * di, 0);
-            if (dj > 0)
-                draw_spring(pen, node, node + dj, l2 * dj * dj, 0);
-            if (di > 0 && dj > 0) {
-                draw_spring(pen, node, right + dj, diagonal, 0);
-                draw_spring(pen, node + dj, right, diagonal, 0);
+    double dark = fmin(fmax(1 - 2 * part, 0), 1);
+    double light = fmin(fmax(2 * part - 1, 0), 1);
+    return canvas_mix(canvas_mix(COLOUR_X, COLOUR_FOLDED, 0.75 * dark),
+                      COLOUR_WHITE, 0.7 * light);
+}
+
+/* A face says what its springs would: plastic flow, strain, or which of them
+ * are projected; else how far it is stretched and turned.  node [4]
+ * anticlockwise, from the lower left. */
+static Colour face_colour(const SpringPen *pen, const int node[4], double side,
+                          double plastic)
+{
+    const double *a = pen->x + 2 * (size_t)node[0];
+    const double *b = pen->x + 2 * (size_t)node[1];
+    const double *c = pen->x + 2 * (size_t)node[2];
+    const double *d = pen->x + 2 * (size_t)node[3];
+    double one[2] = {c[0] - a[0], c[1] - a[1]};
+    double other[2] = {d[0] - b[0], d[1] - b[1]};
+    double l2 = 2 * side * side;
+    double length = sqrt(one[0] * one[0] + one[1] * one[1]);
+    double width = sqrt(other[0] * other[0] + other[1] * other[1]);
+    double strain = (length + width) / (2 * sqrt(l2)) - 1;
+    if (pen->plastic)
+        return colour_map_plastic(plastic, pen->range);
+    if (pen->range > 0)
+        return colour_map_strain(strain, pen->range);
+    if (pen->projected &&
+        (spring_projected(a, c, l2) || spring_projected(b, d, l2)))
+        return COLOUR_PROJECT;
+    double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
+    double turned = (one[1] - one[0]) / length; /* 0 at rest */
+    return shade(0.55 + 0.9 * seen + 0.3 * turned);
+}
+
+/* The largest plastic strain of a cell's springs; 0 where none flows. */
+static double cell_plastic(const SpringPen *pen, const SquareMesh *mesh,
+                           int cell)
+{
+    int spring[6];
+    double most = 0;
+    cell_springs(mesh, cell, spring);
+    for (int k = 0; pen->ep && k < 6; k++)
+        if (fabs(pen->ep[spring[k]]) > fabs(most))
+            most = pen->ep[spring[k]];
+    return most;
+}
+
+/* The faces that have folded over, or the others; stride: cells in one.
+ * Returns how many it has left out. */
+static int draw_faces(const SpringPen *pen, const SquareMesh *mesh, int stride,
+                      bool folded)
+{
+    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
+    int left_out = 0;
+    double side = stride * mesh->side / columns;
+    for (int i = 0; i < columns; i += stride)
+        for (int j = 0; j < rows; j += stride) {
+            int right = i + stride < columns ? i + stride : columns;
+            int up = j + stride < rows ? j + stride : rows;
+            const int node[4] = {i * row + j, right * row + j, right * row + up,
+                                 i * row + up};
+            double p[8];
+            if (is_folded(pen->x, node) != folded) {
+                left_out++;
+                continue;
             }
-            drawn += (di > 0) + (dj > 0) + 2 * (di > 0 && dj > 0);
+            Colour colour = COLOUR_FOLDED;
+            if (!folded)
+                colour = face_colour(pen, node, side,
+                                     cell_plastic(pen, mesh, i * rows + j));
+            for (int k = 0; k < 8; k++)
+                p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
+            const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
+            canvas_triangle(&pen->paper->canvas, p, false, colour);
+            canvas_triangle(&pen->paper->canvas, half, false, colour);
         }
-    return drawn;
+    return left_out;
+}
+
+void square_pen_faces(const SpringPen *pen, const SquareMesh *mesh)
+{
+    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->segments);
+    if (draw_faces(pen, mesh, stride, false) > 0)
+        draw_faces(pen, mesh, stride, true);
+    square_outline(pen->paper, pen->stage, mesh, pen->x, false, COLOUR_X);
 }
 
 double square_pen_radius(const SpringPen *pen, bool bare)
@@ -263,27 +304,10 @@ void square_ghost(Paper *paper, const Stage *stage,
     square_outline(paper, stage, &simulation->mesh, x, true, colour);
 }
 
-/* > 0 if the triangle a b c was not turned over: twice its area, in units in
- * which no product overflows. */
-static double turn(const double *x, int a, int b, int c)
-{
-    const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
-                 *r = x + 2 * (size_t)c;
-    double one[2] = {q[0] - p[0], q[1] - p[1]};
-    double other[2] = {r[0] - p[0], r[1] - p[1]};
-    double unit = fmax(fabs(one[0]), fabs(one[1]));
-    unit = unit > 1e100 ? 1 / unit : 1;
-    return unit * one[0] * other[1] - unit * one[1] * other[0];
-}
-
 bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
 {
-    int columns = mesh->segments, rows = mesh->rows;
-    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
-    int low = i * (rows + 1) + j, left = upright + i * rows + j;
-    int diagonal = upright + (columns + 1) * rows + 2 * cell;
-    const int spring[6] = {low,         low + 1,  left,
-                           left + rows, diagonal, diagonal + 1};
+    int spring[6];
+    cell_springs(mesh, cell, spring);
     for (int k = 0; system->breaks && k < 6; k++)
         if (spring_is_broken(system, spring[k]))
             return true;
@@ -294,8 +318,7 @@ bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
 {
     int row = mesh->rows + 1;
     int a = cell / mesh->rows * row + cell % mesh->rows;
-    int b = a + row, c = b + 1, d = a + 1;
-    return turn(x, a, b, c) < 0 || turn(x, a, c, d) < 0;
+    return is_folded(x, (const int[4]){a, a + row, a + row + 1, a + 1});
 }
 
 int square_pen_cells(const SpringPen *pen, const Simulation *simulation,

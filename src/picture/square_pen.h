@@ -18,6 +18,7 @@ typedef struct SpringPen {
     double spacing;         /* pixels, of two nodes at rest */
     double width;           /* pixels */
     double range;           /* of the strains; 0: all blue */
+    double strain;          /* of the shades of faces, all blue */
     bool plastic;           /* the colour is the plastic strain ... */
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
@@ -29,12 +30,12 @@ typedef struct SpringPen {
 SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
                      int run);
 
-/* All springs but the broken ones.  Return how many were drawn. */
-long square_pen_springs(const SpringPen *pen, const System *system);
+/* All springs but the broken ones. */
+void square_pen_springs(const SpringPen *pen, const System *system);
 
-/* The springs of a mesh of every stride-th node, the last one included. */
-long square_pen_coarse(const SpringPen *pen, const SquareMesh *mesh,
-                       int stride);
+/* The cells of a fine square as shaded faces, those that have folded over dark,
+ * and its outline; of cells below a pixel, larger ones in their place. */
+void square_pen_faces(const SpringPen *pen, const SquareMesh *mesh);
 
 /* Radius of the nodes' discs, pixels. */
 double square_pen_radius(const SpringPen *pen, bool bare);

@@ -16,6 +16,7 @@
 #include "scenes/scene.h"
 
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
+enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
@@ -387,31 +388,26 @@ static void draw_tolerance(const SpringPen *pen, Legend *legend)
 }
 
 /* From the ground up. */
-static SpringCount square_draw(Paper *paper, const Stage *stage,
-                               const Show *show)
+static void square_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     SpringPen pen = square_pen(paper, stage, show, 0);
     const Simulation *simulation = pen.pane->simulation;
     const System *system = &simulation->system;
-    SpringCount count = {0, 0};
     Legend legend = {0, 0};
     if (pen.contact)
         draw_obstacles(&pen);
     draw_other_runs(paper, stage, show);
     pen = square_pen(paper, stage, show, 0); /* they took its places */
     if (!pen.at)
-        return count;
-    int stride =
-        (int)fmin(fmax(ceil(2 / pen.spacing), 1), simulation->mesh.segments);
+        return;
     int folded = show->bare ? 0 : draw_ground(&pen, show, &legend);
-    if (stride <= 1 || fracture_of(system))
-        count.drawn = square_pen_springs(&pen, system);
+    if (pen.spacing >= LEAST_CELL || fracture_of(system))
+        square_pen_springs(&pen, system);
     else
-        count.drawn = square_pen_coarse(&pen, &simulation->mesh, stride);
-    count.skipped = system->springs - count.drawn;
+        square_pen_faces(&pen, &simulation->mesh);
     square_pen_nodes(&pen, system, show->bare);
     if (show->bare)
-        return count;
+        return;
     if (pen.contact)
         draw_forces(&pen, &legend);
     draw_signs(&pen, show, folded, &legend);
@@ -424,7 +420,6 @@ static SpringCount square_draw(Paper *paper, const Stage *stage,
             draw_colour_bar(paper, stage, pen.range, pen.plastic,
                             show->panes > 1 ? PANE_LABEL : 0);
     }
-    return count;
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */

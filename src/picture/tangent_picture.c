@@ -194,8 +194,7 @@ static void tangent_handle_rings(Paper *paper, const Plot plot[2],
     }
 }
 
-static SpringCount tangent_draw(Paper *paper, const Stage *stage,
-                                const Show *show)
+static void tangent_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const Descent *descent = &simulation->descent;
@@ -216,14 +215,13 @@ static SpringCount tangent_draw(Paper *paper, const Stage *stage,
     if (!show->bare)
         tangent_handle_rings(paper, plot, show, simulation);
     if (show->bare || !stage->text)
-        return (SpringCount){0, 0};
+        return;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,
                 "g(x) = m (x \u2212 {xt}) + h\u00b2 P\u2032(x)");
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[1].box.x + paper->em,
                 plot[1].box.y - 1.7 * paper->em, ALIGN_LEFT,
                 "E(x) = m/2 (x \u2212 {xt})\u00b2 + h\u00b2 P(x)");
-    return (SpringCount){0, 0};
 }
 
 /* By x alone: whichever is nearer. */

@@ -151,57 +151,6 @@ static void lines_have_their_area(void **unused)
     canvas_free(&canvas);
 }
 
-/* Lines drawn eight pixels at once, where the processor can, have the pixels of
- * those drawn one by one: short and long, thin and thick, of all slopes, over
- * whatever is there, near the clip's and a band's rims and across them; one by
- * one and many in one call. */
-static void eight_pixels_are_those_of_one(void **unused)
-{
-    (void)unused;
-    enum { LINES = 40, WIDE = 160, HIGH = 90 };
-    Random random = {17};
-    Canvas canvas[3];
-    for (int c = 0; c < 3; c++)
-        assert_int_equal(canvas_create(WIDE, HIGH, &canvas[c]), 0);
-    canvas[0].eights = false;
-    for (int round = 0; round < 400; round++) {
-        double at[4 * LINES];
-        int ends[2 * LINES];
-        double width = random_logarithmic(&random, 0.3, 6);
-        double length = random_logarithmic(&random, 0.5, 150);
-        Colour colour = (Colour)random_below(&random, 0x1000000);
-        colour |= (round % 3 ? 255u : (Colour)random_below(&random, 256)) << 24;
-        Box clip = {0, 0, WIDE, HIGH};
-        if (round % 2)
-            clip = (Box){5, random_below(&random, 9), WIDE - 20, HIGH - 15};
-        int above = round % 4 ? 0 : random_below(&random, 40);
-        for (int i = 0; i < 4 * LINES; i += 4) {
-            double angle = random_uniform(&random, 0, 6.3);
-            angle = i % 3 ? angle : floor(angle) * 0.785398163397448;
-            at[i] = random_uniform(&random, -2, WIDE + 2);
-            at[i + 1] = random_uniform(&random, -2, HIGH + 2);
-            at[i + 2] = at[i] + length * cos(angle);
-            at[i + 3] = at[i + 1] + length * sin(angle);
-            ends[i / 2] = i / 2;
-            ends[i / 2 + 1] = i / 2 + 1;
-        }
-        for (int c = 0; c < 3; c++) {
-            canvas_clip(&canvas[c], clip);
-            canvas[c].above = above;
-            canvas[c].below = above / 2;
-        }
-        for (int c = 0; c < 2; c++)
-            for (const double *p = at; p < at + 4 * LINES; p += 4)
-                canvas_line(&canvas[c], p[0], p[1], p[2], p[3], width, colour);
-        canvas_lines(&canvas[2], at, ends, LINES, width, colour);
-        for (int c = 1; c < 3; c++)
-            assert_memory_equal(canvas[0].pixels, canvas[c].pixels,
-                                WIDE * HIGH * sizeof(Colour));
-    }
-    for (int c = 0; c < 3; c++)
-        canvas_free(&canvas[c]);
-}
-
 static void discs_have_their_area(void **unused)
 {
     (void)unused;
@@ -1067,7 +1016,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_canvas_has_limits),
         cmocka_unit_test(lines_have_their_area),
-        cmocka_unit_test(eight_pixels_are_those_of_one),
         cmocka_unit_test(discs_have_their_area),
         cmocka_unit_test(shapes_are_clipped),
         cmocka_unit_test(rectangles_mix_by_alpha),
