@@ -302,16 +302,21 @@ class Frame:
 
     @functools.cached_property
     def descent(self):
-        """The search from step 0 to here: records, x, p, what is tested."""
-        first = self.states[self.lane, 0]
-        tolerance, search = first.b.tolerance, self.s.raw["search"] != "none"
+        """The last update, x now, p there, what is tested there."""
+        x, raw = self.s.x, self.s.raw
+        search = self.s.made.raw["search"] != "none"
+        old = self.states[self.lane, self.step - 1] if self.step else None
         if self.s.scene != "landscape":
-            records, x, p = scalar_newton(self.function, float(first.x[0, 0]),
-                                          tolerance, search, self.step)
+            x, records = float(x[0, 0]), []
+            if old:
+                records = scalar_newton(self.function, float(old.x[0, 0]), 0, search,
+                                        1)[0]
+            p = scalar_newton(self.function, x, 0, search, 0)[2]
             return records, x, p, abs(self.function(x)[1])
-        E = self.landscape(first.x)
-        records, x = E.minimise(0 if self.plain else tolerance, self.clamp, search,
-                                self.step)
+        made = self.s.made.raw
+        records = self.landscape(old.x, made).minimise(
+            0, made["filter"], search, 1)[0] if old else []
+        E = self.landscape(x, raw)
         p = E.direction(x, self.clamp)[0]
         return records, x, p, (np.hypot(*E.g[:2]) if self.plain else E.residual(p))
 
@@ -321,13 +326,13 @@ class Frame:
             return log_two_cosh
         return line_energy(self.s.raw["line_target"][0], self.s.h)
 
-    def landscape(self, x):
-        """E of the free node around the scene's x_tilde."""
-        parts = self.s.raw["parts"][0]
+    def landscape(self, x, raw):
+        """The parts of E on the map."""
+        parts = raw["parts"][0]
         b = Record(**{**vars(self.s.b), "m": (parts & 1) * self.s.b.m})
         E = Step(b, x, 0 * x, self.s.h)
         E.w *= parts >> 1
-        E.tilde[0] = self.s.raw["target"]
+        E.tilde[0] = raw["target"]
         return E
 
     def part(self, x, parts=None):
@@ -341,7 +346,7 @@ class Frame:
 
     def slope_of(self, clamp):
         """grad E . p at the iterate for the parts on the map."""
-        return self.landscape(self.s.x).direction(self.s.x, clamp)[1]
+        return self.landscape(self.s.x, self.s.raw).direction(self.s.x, clamp)[1]
 
 
 # ---- rules -----------------------------------------------------------------
@@ -476,7 +481,7 @@ def _(f, residual, no, tolerance):
             f.s.b.tolerance or no == "not ", Near(f.s.b.tolerance)]
 
 
-rule("line 7: ‖{p}‖_{∞}/h is not above # m/s: its bound is below, and {p} is "
+rule("line 7: ‖{p}‖_{∞}/h is not above # m/s: its ~ is below, and {p} is "
      "not needed")(given("tolerance", 3))
 rule("≤ # m/s: it ends")(given("tolerance", 3))
 rule("line 8: the step of # s is done")(given("h", 3))
@@ -667,7 +672,8 @@ def vector(f, name):
         return [Near(x, decimals=4) for x in f.minimiser]
     i, b = f.raw["hover"][1], f.s.b
     tilde = f.x[i] + f.s.h * f.s.v[i]
-    if f.trace is not None and f.s.step and f.s.runs[0].method == "backward-euler":
+    if f.trace is not None and f.trace.i >= 0 and f.s.step and (
+            f.s.runs[0].method == "backward-euler"):
         tilde = f.minimisation.tilde[i]
     true = {"{x}": f.x, "v": f.s.v, "{xt}": [tilde] * (i + 1)}.get(name)
     true = force(b, f.x, f.s.n)[i] if true is None else true[i]
@@ -860,7 +866,7 @@ def minimiser(f):
     x = f.s.x.copy()
     x[0] = f.s.raw["target"]
     for h in np.geomspace(1e-3, f.s.h, 25):
-        E = f.landscape(x)
+        E = f.landscape(x, {**f.s.raw, "parts": [3]})
         E.h, E.w = h, h * h
         E.x_n = x
         x = E.minimise(1e-13 / h)[1]
@@ -873,7 +879,7 @@ Frame.minimiser = property(lambda f: f.once("dial", lambda: minimiser(f)))
 def update(f):
     """The last update of a descent, or the one to come: number, x, p."""
     records, x, p, _ = f.descent
-    last = len(records) - 1
+    last = f.step - 1
     return (last, records[-1].x, records[-1].p) if records else (0, x, p)
 
 
@@ -1640,7 +1646,7 @@ def plan(long):
         yield from ("run 2", "hover spring 5", "frame %s later" % name)
         if name in LINES or long and not page:
             yield from ("finer", "finer")
-            for i in range(11 if long else 7):
+            for i in range(8 if long else 7):
                 yield from ("next", "frame %s line %d" % (name, i))
         yield from ("hover node 1", TOUCHED.get(name, "set stiffness 5e4"),
                     "frame %s touched" % name, "run 3",
