@@ -306,11 +306,23 @@ static void put_frame(const char *name, Pick hover)
     printf("]}\n");
 }
 
+static void put_lists(void)
+{
+    printf("{\"pages\":[");
+    for (const LecturePage *page = lecture_pages; page->name; page++)
+        printf("%s\"%s\"", page > lecture_pages ? "," : "", page->name);
+    printf("],\"scenes\":[");
+    for (const Scene *scene = scenes; scene->name; scene++)
+        printf("%s\"%s\"", scene > scenes ? "," : "", scene->name);
+    printf("]}\n");
+}
+
 int main(void)
 {
     char line[512];
     bool open = false;
     Pick hover = {0};
+    put_lists();
     while (fgets(line, sizeof line, stdin)) {
         char *words = line + strcspn(line, " \n");
         line[strcspn(line, "\n")] = '\0';
