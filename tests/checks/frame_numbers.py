@@ -64,6 +64,7 @@ def judge(token, item):
     return None if near(shown, *item) else "%.12g" % item[0]
 
 MEASURED = Is(lambda x: x >= 0, "measured")
+BEFORE = Is(lambda x: not math.isnan(x), "told of a step before")
 
 # ---- states
 
@@ -143,7 +144,7 @@ class State:
         self.lost, self.before = dict(old.lost), old
         self.cells = self.cells | old.cells
         whole = body_of(self.raw)
-        whole.k = old.b.k  # springs break at the end of a step
+        whole.k = self.whole_k(old)
         E = strains(whole, self.x)[2]
         if b.yield_strain:
             e = E - old.n.ep
@@ -192,26 +193,38 @@ class State:
                      + (self.b.m * np.abs(self.x @ self.b.g)).sum()
                      + 1e-12 * (self.b.k * self.b.l2).sum())
 
-    def minimisation(self):
+    def minimisation(self, run=0):
         """E of the step that led here, with the numbers of then."""
         made, old = self.made, self.before
-        b = body_of(made.raw)
-        b.k = old.b.k
-        E = Step(b, old.x, old.v, made.h, old.n.ep, old.n.kappa, old.b)
-        method, h, x, v = self.runs[0].method, made.h, old.x, old.v
+        b = body_of(made.raw, run)
+        b.k = made.whole_k(old)
+        h, x, v = made.h, old.runs[run].x, old.runs[run].v
+        E = Step(b, x, v, h, old.n.ep, old.n.kappa, body_of(old.raw, run))
+        E.start[b.pinned] = self.runs[run].x[b.pinned]  # pins are moved first
+        method = made.runs[run].method
         if method == "midpoint":
             E.w, E.tilde = h * h / 4, x + h / 2 * v
-        if method == "bdf2" and old.before.runs[0].method == "bdf2":
+        if method == "bdf2" and old.runs[0].method == "bdf2":
             E.w = 4 / 9 * h * h
-            E.tilde = (4 * x - old.before.x) / 3 + 2 * h / 9 * (
-                4 * v - old.before.v)
+            E.tilde = (4 * x - old.before.x) / 3 + 2 * h / 9 * (4 * v - old.before.v)
         if method == "sdirk2":
             g = 1 - math.sqrt(0.5)
             E.w, E.tilde = (g * h)**2, x + g * h * v
             u = (E.minimise(1e-9)[1] - x) / (g * h)
-            E.tilde = x + (1 - g) * h * u + g * h * (
-                v + (1 - g) / g * (u - v))
+            E.tilde = x + (1 - g) * h * u + g * h * (v + (1 - g) / g * (u - v))
         return E
+
+    def whole_k(self, old):
+        """Before springs broke, at the end of the step from the old state."""
+        return np.where((self.b.k == 0) & (old.b.k > 0), self.b.stiffness, self.b.k)
+
+    def with_numbers(self, given, mu=None):
+        """The same state with other numbers: what that did is work."""
+        raw, ratio = dict(self.raw), given[1] / self.raw["given"][1]
+        raw.update(given=given, k=[ratio * k for k in raw["k"]],
+                   obstacles=[{"b": [*o["b"][:7], m, *o["b"][8:]]} for o, m in zip(
+                       raw["obstacles"], mu or [o["b"][7] for o in raw["obstacles"]])])
+        return State(raw).changed(self)
 
 class Frame:
     """Texts, and the states and the place in a step that they speak of."""
@@ -405,24 +418,42 @@ def residual(f, sign):
 def alpha(f, how=""):
     return [f.alpha()] + ([searched(f, how)] if how and f.trace else [])
 
+TOLD = set()  # of this run: it stays while the run goes on
+
 def outcomes(f, was, had, now, has):
     """E and updates of the step with both settings, calculated twice."""
-    rows = []
+    rows, made = [], f.s.made
+    told = (was, had, now, has)
+    if told in TOLD or any(o.v.any() for o in f.s.b.obstacles):
+        return [BEFORE] * 4
+    TOLD.add(told)
     for words in was, now:
-        way, search = f.clamp, f.s.raw["search"] != "none"
+        way, search, s = f.clamp, f.s.raw["search"] != "none", f.s
+        name = words.split(" ")[0]
         if "projection" in words:
             way = "none" if words == "no projection" else words.split()[-1]
+        elif name in SETTINGS:  # with this number from its start
+            numbers, at = list(made.raw["given"]), GIVEN.index(SETTINGS[name][0])
+            factor = value(words.split(" ")[1]) / numbers[at]
+            numbers[at] *= factor
+            mu = [o["b"][7] * (factor if name == "μ" else 1)
+                  for o in made.raw["obstacles"]]
+            s = made.with_numbers(numbers, mu)
+            s.made, s.before = s, made.before.with_numbers(numbers, mu)
         else:
             search = words != "full step"
         if f.trace is None:
             start = f.descent[0][-1].x
             rows += [scalar_newton(f.function, start, 0, search, 1)[0][0].change, 1]
             continue
-        E = f.minimisation
-        with np.errstate(all="ignore"):
-            records, x = E.minimise(f.s.b.tolerance, way, search)
-        rows += [(E.value(x) - E.value(E.x_n), 3, 1e-15 * abs(E.value(E.x_n))),
-                 len(records)]
+        changes, updates, size = [], 0, 0
+        for run in range(len(f.s.runs)):
+            E = s.minimisation(run)
+            with np.errstate(all="ignore"):
+                records, x = E.minimise(s.b.tolerance, way, search)
+            changes.append(float(E.value(x) - E.value(E.start)))
+            updates, size = updates + len(records), size + abs(E.value(E.start))
+        rows += [(sum(changes), 3, 1e-15 * size), updates]
     return rows
 
 def explosion(f):
@@ -570,12 +601,12 @@ def lane_total(f):
 
 def scale(f, metre):
     """The bar's length, by where the middle of its number is."""
-    left, pixels = f.raw["panes"][0]["stage"]
     if f.s.scene == "circle" and f.turn("metre") == 1:
         return [1]  # the radius
-    length = 2 * (f.at[0] - left - EM) / pixels
-    return [Is(lambda x: ROUND.test(x) and near(x * metre, length, 2, 3 / pixels),
-               "%.4g m" % length)]
+    stages = [pane["stage"] for pane in f.raw["panes"]]
+    return [Is(lambda x: ROUND.test(x) and any(
+        near(x * metre, 2 * (f.at[0] - left - EM) / pixels, 2, 3 / pixels)
+        for left, pixels in stages), "as long as the bar")]
 
 # ---- rules: # a number, ~ any words; the function gets the frame and the words
 
@@ -962,15 +993,18 @@ MORE = {
     "trust ahead": "envelope; cell 200; frame; cell 430; frame; cell 520; frame",
 }
 
-def read(program, lines):
-    """Plays; yields frames with the states so far."""
-    answer = subprocess.run([program], input="\n".join(lines) + "\n", text=True,
+def read(program, lines, books=True):
+    """Plays; yields frames with the states so far; books: with a ledger."""
+    lines = "".join(line + "\n" for line in lines)
+    answer = subprocess.run([program], input=lines, text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if answer.returncode:
         sys.exit("not ok numbers: %s: %s" % (program, answer.stderr[-200:]))
     states, last = {}, {}
     for line in answer.stdout.splitlines():
         raw = json.loads(line)
+        if "begin" in raw:
+            TOLD.clear()
         if "pages" in raw:
             PAGES[:], SCENES[:] = raw["pages"], raw["scenes"]
         elif "begin" in raw:
@@ -984,14 +1018,19 @@ def read(program, lines):
                             if name in old})
             state = State(raw)
             old, at = last.get(lane, last.get(0)), (lane, raw["state"])
-            if old is None or state.scene != old.scene:
+            if not books:
+                pass
+            elif old is None or state.scene != old.scene:
                 states, last = {}, {}
                 state.first()
             elif state.step == old.step + 1:
                 state.after(old)
             elif state.step == old.step and state.step and at in states and (
                     state.x.shape != old.x.shape or (state.x != old.x).any()):
-                state.after(states[lane, state.step - 1])  # taken again
+                mu = [o["b"][7] for o in raw["obstacles"]]
+                start = states[lane, state.step - 1].with_numbers(raw["given"], mu)
+                states[lane, state.step - 1] = start
+                state.after(start)  # taken again
             elif state.step == old.step:
                 state.changed(old)
             else:
@@ -1004,7 +1043,8 @@ def main():
     program, long = sys.argv[1], len(sys.argv) > 2
     list(read(program, []))
     for name, line in RUNS.items() if long else ():
-        for _, states in read(program, ["begin " + line, "run 301", "frame x"]):
+        lines = ["begin " + line, "run 301", "frame x"]
+        for _, states in read(program, lines, name in ("dent", "tear")):
             PLAYED[name] = [states[0, n] for n in range(302)]
     rules, wrong, left, sums = list(all_rules()), [], [], np.zeros(3, int)
     for raw, states in read(program, plan(long)):

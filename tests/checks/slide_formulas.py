@@ -201,7 +201,7 @@ class Step:
 
     def __init__(self, b, x, v, h, ep=None, kappa=None, before=None):
         self.b, self.h, self.w, self.x_n = b, h, h * h, x
-        self.tilde = x + h * v + self.w * b.g
+        self.tilde, self.start = x + h * v + self.w * b.g, x.copy()
         self.free = np.repeat(~b.pinned, 2)
         self.n = Record(ep=ep, kappa=kappa, x=x, body=before or b,
                         E=strains(b, x)[2], theta=b.eta / h)
@@ -279,7 +279,7 @@ class Step:
 
     def minimise(self, tolerance, way="clamp", search=True, most=300):
         """Algorithm 3: a record of each update."""
-        x, records = self.x_n.copy(), []
+        x, records = self.start.copy(), []
         while len(records) < most:
             p, slope, counts = self.direction(x, way)
             r = Record(x=x, p=p, slope=slope, residual=self.residual(p),
