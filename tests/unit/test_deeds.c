@@ -421,6 +421,9 @@ static void hands_pin_and_hold(void **unused)
     CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
     CHECK_STATUS(obey("step"), STATUS_OK);
     CHECK(!player.lane[0].track.settings.held);
+    CHECK_STATUS(obey("goto 0"), STATUS_OK);
+    CHECK_STATUS(obey("goto 99"), STATUS_OK); /* the newest there is */
+    CHECK(player.step == player.newest && player.step > 0);
     end();
 }
 
