@@ -2,14 +2,17 @@
  * driver puts each line in as the Input that a window would send.
  *
  *     begin LINE               a new player of this command line
- *     key K ...                "N", "Shift+N", "Return": as the window names
- * them type TEXT                a key for each letter press, move, release,
- * right, wheel, at a PLACE: X Y                  pixels; +X +Y from where the
- * mouse was h                    the number of the row that has this name step
- * 12              of the time line run N                    until the run has
- * come to this step at N, newest N           the step that is shown, and the
- * last one scene NAME, page N       0: none number NAME VALUE        what the
- * row shows says WORDS               in the last line files N that were written
+ *     key K ...                "N", "Shift+N", "Return": the window's names
+ *     type TEXT                a key for each letter
+ *     press, move, release,    at a PLACE: X Y in pixels; +X +Y from where the
+ *     right, wheel             mouse was; the number of the row with this name;
+ *                              a step of the time line
+ *     run N                    until the run has come to this step
+ *     at N, newest N           the step that is shown, and the last one
+ *     scene NAME, page N       page 0: none
+ *     number NAME VALUE        what the row shows
+ *     says WORDS               in the last line
+ *     files N                  that were written
  *     replays LINE             Y's script leads to the same bits
  *     mark M [WHAT]            the picture without its message; or of it the
  *     same M [WHAT]            cards; or the hash of the state
