@@ -295,6 +295,8 @@ bool lane_walks(const Lane *lane)
     return lane->taped && lane->tape.places > 2;
 }
 
+/* The sum of the changes may be off by some units in the last place of the
+ * highest E; only whether it is a tenth of that is asked. */
 int lane_peak(const Lane *lane, double *rise)
 {
     enum { FAR = 10 };
