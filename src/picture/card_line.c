@@ -162,7 +162,7 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
                : trace->passed && trace->line ? "no {p} was needed"
                : trace->line        ? "from line 4 on, where {p} is known"
                : trace->updates > 0 ? "it was not kept"
-                                    : "no update was needed");
+                                    : "no update: the start passes the test");
 }
 
 static const char *line_title(const Show *show)

@@ -206,7 +206,7 @@ static double next_time(const Player *player)
     return time + pace;
 }
 
-/* Whether nothing moved in this step: no update was needed, and nothing is
+/* Whether nothing moved in this step: no update was made, and nothing is
  * held. */
 static bool is_idle(const Lane *lane)
 {
@@ -285,7 +285,7 @@ static void tell_tolerance(Player *player)
     else
         player_note(player,
                     "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
-                    "%.3g m pass in each step of %.3g s; a smaller one goes on",
+                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
                     tolerance, tolerance * h, h);
 }
 
