@@ -206,5 +206,5 @@ bool stress_flow(Tally *tally, char *reason)
 
 bool stress_flow_small(Tally *tally, char *reason)
 {
-    return flow_scenes(300, tally, reason);
+    return flow_scenes(120, tally, reason);
 }
