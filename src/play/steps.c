@@ -325,7 +325,7 @@ static Status let_go(Player *player)
     Command release = {.kind = COMMAND_RELEASE};
     if (!player->lane[0].track.settings.held || player->holds)
         return STATUS_OK;
-    return player_obey(player, &release);
+    return player_change_all(player, &release); /* as a script does by itself */
 }
 
 /* All lanes, one step of the player. */
