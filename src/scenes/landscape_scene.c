@@ -72,15 +72,44 @@ static bool is_whole(const Simulation *simulation)
     return simulation->exhibit.parts == PART_BOTH;
 }
 
+/* The Hessian of the parts that are on the map, springs filtered: H_xx, H_xy,
+ * H_yy.  Returns how many springs the filter changed. */
+static int node_hessian(const Simulation *simulation, Filter filter, double x,
+                        double y, double H[3])
+{
+    const System *system = &simulation->system;
+    const double *pins = simulation->run[0].x;
+    double weight = simulation->run[0].h * simulation->run[0].h;
+    unsigned parts = simulation->exhibit.parts;
+    int projected = 0;
+    H[0] = H[2] = parts & PART_INERTIA ? system->m[0] : 0;
+    H[1] = 0;
+    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {x - pin[0], y - pin[1]};
+        double own[3];
+        projected +=
+            spring_hessian(d, system->l2[s], system->k[s], filter, own);
+        for (int i = 0; i < 3; i++)
+            H[i] += weight * own[i];
+    }
+    return projected;
+}
+
+/* On demand: two unknowns are projected at once. */
+static Filter own_filter(const Simulation *simulation)
+{
+    Filter filter = simulation->options.filter;
+    return filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
+}
+
 /* p, and what the loop tests there: of Algorithm 1 |g|, else |p|/h. */
 static void find_direction(Simulation *simulation, double p[2])
 {
     Descent *descent = &simulation->descent;
     const Newton *newton = simulation->run[0].newton;
-    Filter filter = simulation->options.filter;
     double g[2];
-    filter = filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
-    descent->slope = landscape_direction(simulation, filter, p);
+    descent->slope = landscape_direction(simulation, own_filter(simulation), p);
     part_gradient(simulation, descent->point, g);
     descent->residual = descent->by_gradient
                             ? hypot(g[0], g[1])
@@ -211,14 +240,17 @@ static double part_difference(const void *function, double alpha)
 static Status step_part(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    double *x = simulation->run[0].x;
-    NewtonRecord record = {.step = simulation->steps + 1,
-                           .iteration = (int)simulation->steps,
-                           .residual = descent->residual,
-                           .alpha = 1,
-                           .slope = descent->slope,
-                           .factorised = true,
-                           .from = {x[0], x[1]}};
+    double *x = simulation->run[0].x, H[3];
+    NewtonRecord record = {
+        .step = simulation->steps + 1,
+        .iteration = (int)simulation->steps,
+        .residual = descent->residual,
+        .alpha = 1,
+        .slope = descent->slope,
+        .projected =
+            node_hessian(simulation, own_filter(simulation), x[0], x[1], H),
+        .factorised = true,
+        .from = {x[0], x[1]}};
     Status status = STATUS_RUNNING;
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK &&
         line_search_backtrack(part_difference, simulation, &record.alpha,
@@ -322,27 +354,6 @@ double landscape_value(const Simulation *simulation, double x, double y)
     u[0] = x - newton->at.E.x_n[0];
     u[1] = y - newton->at.E.x_n[1];
     return incremental_potential_value(&newton->at.E, u, at);
-}
-
-/* The Hessian of the parts that are on the map, springs filtered: H_xx, H_xy,
- * H_yy. */
-static void node_hessian(const Simulation *simulation, Filter filter, double x,
-                         double y, double H[3])
-{
-    const System *system = &simulation->system;
-    const double *pins = simulation->run[0].x;
-    double weight = simulation->run[0].h * simulation->run[0].h;
-    unsigned parts = simulation->exhibit.parts;
-    H[0] = H[2] = parts & PART_INERTIA ? system->m[0] : 0;
-    H[1] = 0;
-    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
-        const double *pin = pins + 2 * system->e[2 * s + 1];
-        const double d[2] = {x - pin[0], y - pin[1]};
-        double own[3];
-        spring_hessian(d, system->l2[s], system->k[s], filter, own);
-        for (int i = 0; i < 3; i++)
-            H[i] += weight * own[i];
-    }
 }
 
 int landscape_bends_down(const Simulation *simulation, double x, double y)

@@ -210,7 +210,7 @@ class State:
         if method == "sdirk2":
             g = 1 - math.sqrt(0.5)
             E.w, E.tilde = (g * h)**2, x + g * h * v
-            u = (E.minimise(1e-9)[1] - x) / (g * h)
+            u = (E.minimise(self.b.tolerance)[1] - x) / (g * h)
             E.tilde = x + (1 - g) * h * u + g * h * (v + (1 - g) / g * (u - v))
         return E
 
