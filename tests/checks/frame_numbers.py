@@ -21,7 +21,7 @@ import numpy as np
 from slide_formulas import (GIVEN, LONG, Record, Step, blocks, force, friction,
                             line_energy, log_two_cosh, potential, scalar_newton,
                             square, strains, touching)
-from page_words import PLAYED, RUNS, WORDS, Is
+from page_words import PLAYED, RUNS, WORDS, Is, flies
 
 NUMBER = (r"(1/\d+|[-+]?(?:10\^\{-?\d+\}|\d+(?:\.\d+)?"
           r"(?:·10\^\{-?\d+\}|e[-+]?\d+)?|∞))")
@@ -694,6 +694,8 @@ RULES = [
     ("l² = # m²,  strain # %", lambda f, *_: strain(f)),
     # small scenes
     ("exact: |{x}| = # m", lambda f, n: [1]),
+    ("stays on an ellipse~ while hω < #", lambda f, *_: [
+        Is(lambda h: flies(h) and not flies(0.99 * h), "the limit")]),
     *[(name + " Euler: # m", lambda f, n, m=name + "-euler": [
         np.hypot(*next(r for r in f.s.runs if r.method == m).x[0])])
       for name in ("forward", "symplectic", "backward")],

@@ -248,7 +248,7 @@ def order(method):
             u = E.minimise(1e-9)[1] - x
             x, v = (x + 2 * u, 4 * u / h - v) if half else (x + u, u / h)
         return x
-    exact = end(4096, "verlet")
+    exact = end(1024, "verlet")
     errors = [np.abs(end(n, method) - exact).max() for n in (64, 128)]
     return math.log2(errors[0] / errors[1])
 
