@@ -27,6 +27,7 @@ NUMBER = (r"(1/\d+|[-+]?(?:10\^\{-?\d+\}|\d+(?:\.\d+)?"
           r"(?:·10\^\{-?\d+\}|e[-+]?\d+)?|∞))")
 UP = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 EM = 21  # pixels, in frames of this size
+np.seterr(all="ignore")  # explosions leave the range of a double
 
 def plain(text):
     """Minus signs and powers of ten in one way of writing."""
@@ -449,8 +450,7 @@ def outcomes(f, was, had, now, has):
         changes, updates, size = [], 0, 0
         for run in range(len(f.s.runs)):
             E = s.minimisation(run)
-            with np.errstate(all="ignore"):
-                records, x = E.minimise(s.b.tolerance, way, search)
+            records, x = E.minimise(s.b.tolerance, way, search)
             changes.append(float(E.value(x) - E.value(E.start)))
             updates, size = updates + len(records), size + abs(E.value(E.start))
         rows += [(sum(changes), 3, 1e-15 * size), updates]
@@ -458,8 +458,7 @@ def outcomes(f, was, had, now, has):
 
 def explosion(f):
     E = f.minimisation
-    with np.errstate(all="ignore"):
-        records, x = E.minimise(f.s.b.tolerance, f.clamp, f.s.raw["search"] != "none")
+    records, x = E.minimise(f.s.b.tolerance, f.clamp, f.s.raw["search"] != "none")
     rises = [float(E.value(r.x + r.alpha * r.p) - E.value(E.x_n)) for r in records]
     return [int(np.argmax(rises)) + 1, len(records), max(rises),
             (max(np.abs(r.x).max() for r in records), 4)]

@@ -174,8 +174,7 @@ def way_off(h):
 def first(n, h, stretch, way, search, tolerance=0.01):
     b, x = square(n, stretch=stretch)
     E = Step(b, x, 0 * x, h)
-    with np.errstate(all="ignore"):
-        records = E.minimise(tolerance, way, search)[0]
+    records = E.minimise(tolerance, way, search)[0]
     return records, max(float(E.value(r.x + r.alpha * r.p) - E.value(x))
                         for r in records)
 

@@ -10,7 +10,6 @@ LONG = np.longdouble
 GIVEN = ("h stiffness tolerance stretch side density mu damping slip_speed yield_strain"
          " hardening segments gravity").split()
 
-
 def square(n, side=1.0, density=1000.0, k=1e5, stretch=1.4, height=None):
     """square_mesh.py of the slides: nodes, springs, masses, lengths."""
     node = np.array([(i, j) for i in range(n + 1) for j in range(n + 1)])
@@ -30,20 +29,16 @@ def square(n, side=1.0, density=1000.0, k=1e5, stretch=1.4, height=None):
                   obstacles=[], hand=None, yield_strain=0, hardening=0, eta=0)
     return body, x * (stretch, 1)
 
-
 def f_barrier(s):
     inside = s < 1
     s = np.where(inside, s, 1)
     return np.where(inside, (s - 1) * np.log(s), 0)
 
-
 def f_slope(s):
     return np.log(s) + 1 - 1 / s if s < 1 else 0.0
 
-
 def f_bend(s):
     return (1 + s) / s**2 if s < 1 else 0.0
-
 
 D_CELL = np.zeros((4, 6))
 D_CELL[:, 2:] = np.eye(4)
@@ -51,12 +46,10 @@ D_CELL[:2, :2] = D_CELL[2:, :2] = -np.eye(2)
 S_CELL = np.array([[0, 0, 0, 1], [0, 0, -1, 0], [0, -1, 0, 0], [1, 0, 0, 0.0]])
 Q_CELL = D_CELL.T @ S_CELL @ D_CELL
 
-
 def strains(b, x):
     d = x[b.e[:, 0]] - x[b.e[:, 1]]
     q = (d * d).sum(1)
     return d, q, (q - b.l2) / b.l2
-
 
 def law(b, E, n=None):
     """V(E), V', V'' of each spring: elastic, plastic (n.ep, n.kappa: what has
@@ -78,7 +71,6 @@ def law(b, E, n=None):
         bend = bend + n.theta
     return V, tau, bend
 
-
 def touching(b, x):
     """Pairs within d_hat: obstacle, node, gap, direction to the node, |x - x_b|."""
     for o in b.obstacles:
@@ -98,12 +90,10 @@ def touching(b, x):
         for i in np.flatnonzero(near):
             yield o, i, d[i], o.n if o.kind == 0 else way[i] / r[i], r[i]
 
-
 def cell_J(b, x):
     whole = (b.k[b.sides] > 0).all(1)
     y = x[b.cells[whole]].reshape(-1, 6)
     return y, np.einsum("ti,ij,tj->t", y, Q_CELL, y) / 2 / (2 * b.area), whole
-
 
 def potential(b, x, n=None):
     """P(x) by its parts, J."""
@@ -120,7 +110,6 @@ def potential(b, x, n=None):
         d = x[int(b.hand[0])] - b.hand[2:]
         part["hand"] = b.hand[1] * (d * d).sum() / 2
     return part
-
 
 def blocks(b, x, n=None):
     """What P is made of: nodes, gradient, Hessian of each kind of piece."""
@@ -162,7 +151,6 @@ def blocks(b, x, n=None):
                f2[:, None, None] * gJ[:, :, None] * gJ[:, None, :]
                + f1[:, None, None] * Q_CELL / (2 * b.area))
 
-
 def friction(b, n, x, h):
     """Pairs of the step's start (n.x, obstacles n.body): W, gradient, t t^T."""
     rows = []
@@ -182,7 +170,6 @@ def friction(b, n, x, h):
                            bend=2 / e * max(0, 1 - a)))
     return rows
 
-
 def projected(H, way):
     """Eigenvalues below 0 set to 0, or with "abs" to their size; how many
     blocks had one: at least, most."""
@@ -194,7 +181,6 @@ def projected(H, way):
     P = np.einsum("nij,nj,nkj->nik", V, 
                   abs(low) if way == "abs" else np.maximum(low, 0), V)
     return np.where(rough, P, H), sure, most
-
 
 class Step:
     """E of one step of backward Euler, from x and v at its start."""
@@ -296,7 +282,6 @@ class Step:
             records.append(r)
         return records, x
 
-
 def force(b, x, n=None):
     """m g - grad P, N."""
     f = b.m[:, None] * b.g * np.ones_like(x)
@@ -305,29 +290,24 @@ def force(b, x, n=None):
             np.add.at(f, nodes[:, k], -gradient[:, 2 * k:2 * k + 2])
     return f
 
-
 def acceleration(b, x):
     return np.where(b.pinned[:, None], 0, force(b, x) / b.m[:, None])
 
-
 def explicit(b, x, v, h, method):
-    with np.errstate(all="ignore"):
-        if method == "forward-euler":
-            return x + h * v, v + h * acceleration(b, x)
-        if method == "symplectic-euler":
-            v = v + h * acceleration(b, x)
-            return x + h * v, v
-        v = v + h / 2 * acceleration(b, x)
-        x = x + h * v
-        return x, v + h / 2 * acceleration(b, x)
-
+    if method == "forward-euler":
+        return x + h * v, v + h * acceleration(b, x)
+    if method == "symplectic-euler":
+        v = v + h * acceleration(b, x)
+        return x + h * v, v
+    v = v + h / 2 * acceleration(b, x)
+    x = x + h * v
+    return x, v + h / 2 * acceleration(b, x)
 
 def scalar_newton(f, x, tolerance, search=False, most=60):
     """Algorithm 1 in one variable; f gives value, slope, curvature."""
     records = []
     while True:
-        with np.errstate(all="ignore"):
-            value, g, H = f(x)
+        value, g, H = f(x)
         p = -g / H if H else math.inf
         if not math.isfinite(p) or abs(g) <= tolerance or len(records) == most:
             return records, x, p
@@ -338,11 +318,9 @@ def scalar_newton(f, x, tolerance, search=False, most=60):
                               change=f(x + alpha * p)[0] - value))
         x = x + alpha * p
 
-
 def log_two_cosh(x):
     c = math.cosh(x) if abs(x) < 700 else math.inf
     return abs(x) + math.log1p(math.exp(-2 * abs(x))), math.tanh(x), 1 / c / c
-
 
 def line_energy(target, h, m=1.0, k=10.0, l2=1.0):
     def E(x):
