@@ -3,20 +3,22 @@
  *
  * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u), whose directions
  * come from conjugate gradients on the clamped Hessian, preconditioned by one
- * multigrid V-cycle each; steps are the lowest point in the plane of the
- * direction and the last update.  Where few nodes move much, windows around
- * them are minimised in between (tips.h).
+ * multigrid V-cycle each (v_cycle.h); the step along one is exact, as E is a
+ * quartic there.  Where folds run, tiles of nodes relax in between (tiles.h).
+ * No update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
- * to a remainder r = -g - H p.  H - M is positive semi-definite, so the error
- * is at most |r|_(M^-1) in the norm of M, and the residual, max over nodes of
- * |p_x| + |p_y|, over h, is known up to sqrt(2/m)/h |r|_(M^-1) with the
- * smallest m.  The iteration goes on until that decides the test, to either
- * side.  Before a step ends, conjugate gradients on the Hessian as it is look
- * for a direction along which E bends down; if there is one, that is the next
- * way to go: the end is a minimum, not a saddle.
+ * to a remainder r = -g - H p, here computed in double precision.  H - M is
+ * positive semi-definite, so the error is at most |r|_(M^-1) in the norm of M,
+ * and the residual, max over nodes of |p_x| + |p_y|, over h, is known up to
+ * sqrt(2/m)/h |r|_(M^-1) with the smallest m.  The iteration goes on until that
+ * decides the test, to either side; what is not decided is not converged.
+ * Before a step ends, conjugate gradients on the Hessian as it is look for a
+ * direction along which E bends down, where that is asked for; if there is one,
+ * that is the next way to go: the end is a minimum, not a saddle.
  *
- * Results have the same bits for every width of lanes and number of threads.
+ * A step depends on nothing but what it is given.  Results have the same bits
+ * for every width of registers and number of threads.
  */
 #ifndef ELASTO_MULTIGRID_H
 #define ELASTO_MULTIGRID_H
@@ -45,31 +47,27 @@ typedef struct MultigridRecord {
     double slope;    /* g.p, J s^2 */
     double alpha;    /* along p */
     double change;   /* of E, J s^2, by all it did */
-    int trials;      /* points of the plane that were looked at */
+    int trials;      /* points along p that were looked at */
 } MultigridRecord;
 
 /* Done since the object was made. */
 typedef struct MultigridCounters {
     long iterations, gradients;
     long cycles;       /* V-cycles */
-    long set_ups;      /* of their tensors */
     long certificates; /* tests decided by conjugate gradients */
-    long windows;      /* phases of local minimisation */
-    long local;        /* iterations in them */
+    long local;        /* sweeps of tiles */
     long saddles;      /* ends with negative curvature, left again */
 } MultigridCounters;
 
 typedef struct Multigrid Multigrid;
 
 /* Allocates for segments x segments cells.
- *   lanes    2, 4, 8; 0: what the processor has (ELASTO_LANES limits it)
  *   threads  1, 2; 0: what the machine has (ELASTO_THREADS limits it)
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY (then *multigrid is NULL). */
-Status multigrid_create(int segments, int lanes, int threads,
-                        Multigrid **multigrid);
+Status multigrid_create(int segments, int threads, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
-/* Begins a step.  Its arrays are not needed afterwards.
+/* Begins a step.  Of its arrays u_tilde and pinned are needed until it ends.
  * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
 Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
 
@@ -86,7 +84,7 @@ Status multigrid_iterate(Multigrid *multigrid);
  * been asked for.  Returns RUNNING where it found the way down, else OK. */
 Status multigrid_leave(Multigrid *multigrid);
 
-/* u [2n] m, out: the present iterate. */
+/* u [2n] m, out: the present iterate; pinned nodes are not written. */
 void multigrid_displacement(const Multigrid *multigrid, double *u);
 
 /* m/s, of the present iterate: where the test was decided, as it was; else an
@@ -95,9 +93,5 @@ double multigrid_residual(const Multigrid *multigrid);
 
 const MultigridRecord *multigrid_record(const Multigrid *multigrid);
 const MultigridCounters *multigrid_counters(const Multigrid *multigrid);
-
-/* Numbers in one register, and threads of the last loops. */
-int multigrid_lanes(const Multigrid *multigrid);
-int multigrid_threads(const Multigrid *multigrid);
 
 #endif

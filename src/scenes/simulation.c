@@ -480,7 +480,7 @@ double simulation_bytes(const Options *options)
     if (options->integrator && !options->integrator->implicit)
         return 250 * n;
     if (expects_multigrid(options))
-        return 880 * n;
+        return 655 * n;
     return (130 * log2(n) + 750) * n;
 }
 

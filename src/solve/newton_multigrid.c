@@ -118,7 +118,7 @@ Status newton_multigrid_start(Newton *newton)
     const NewtonSettings *settings = &newton->settings;
     Status status = STATUS_OK;
     if (!newton->multigrid)
-        status = multigrid_create(system->segments, 0, 0, &newton->multigrid);
+        status = multigrid_create(system->segments, 0, &newton->multigrid);
     if (status)
         return status;
     double start = clock_now();

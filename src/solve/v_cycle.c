@@ -1,380 +1,637 @@
 #include "solve/v_cycle.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
-#include "solve/grid_kernels.h"
-#include "solve/v_cycle_kernels.h"
+#include "solve/grid_loops.h"
 
-/* The coarsest of two levels or more has at most so many cells a side, and
- * this many smoothings, an odd number. */
-enum { COARSEST = 8, COARSEST_SMOOTHINGS = 7 };
+/* The coarsest level has at most so many nodes a side, and is smoothed so many
+ * times each way; the others once. */
+enum { COARSEST = 9, COARSEST_TIMES = 3 };
 
-/* Shares of a block Jacobi step.  No eigenvalue of D A is above 2, since
- * d.K d <= 2 (a.K a + b.K b) for d = a - b; the coarser level takes care of
- * those below 1/2, about.  The finest level smooths once before it goes to the
- * coarser one, and once after.  The others, which cost little, smooth twice, so
- * that their result is nearly the exact one; their shares are 1 over the roots
- * of Chebyshev's polynomial of degree 2 for eigenvalues 1/2 ... 2. */
-static const double OMEGA_FINEST = 0.7, OMEGA[2] = {0.5617, 1.389};
+/* What threads share: a level's rows in so many parts, of so many rows or more.
+ * Nanoseconds that a node takes, about. */
+enum { PARTS = 8, LEAST_ROWS = 16 };
+static const double NODE_COST = 3;
 
-/* Up to so many segments the cycle is in double precision. */
-enum { PRECISE_SEGMENTS = 32 };
-
-/* What kernels may read beyond the last plane. */
-enum { V_SLACK = 128 };
-
-/* Nanoseconds that a row takes for each of its nodes, about. */
-static const double V_LIGHT = 0.4, V_HEAVY = 1.5;
-
-/* Where a level is larger than the cache that is near, loops that follow each
- * other go through it in panels, whose tensors have so many bytes; at least so
- * many rows, an even number. */
-enum { PANEL_BYTES = 1 << 18, LEAST_ROWS = 8 };
-
-/* Loops that follow each other at most. */
-enum { V_MAX_STAGES = 3 };
-
-struct VCycle {
-    const Grid *grid;
-    const VKernels *kernels;
-    VLevel level[V_MAX_LEVELS]; /* the finest first */
-    int levels;
-    double length, mass; /* units, powers of two: 1/m, 1/kg */
-    double unit;         /* of r */
-    double now, bend;    /* its r.z and z.H z */
-    double beta, alpha;  /* d = z + beta d, p += alpha d */
-    bool first;          /* no step yet: p is 0, and d nothing */
-    double *sums;        /* [rows * V_SUMS] */
-};
-
-/* Every array of a level, with how many planes it has, in one piece. */
-static bool create_v_level(const VCycle *cycle, int nodes, VLevel *level)
+void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
 {
-    level->layout = grid_layout(nodes);
-    int finest = level == cycle->level ? 2 : 0;
-    for (int i = 0; i < 2; i++)
-        level->omega[i] = finest ? OMEGA_FINEST : OMEGA[i];
-    struct {
-        void **array;
-        int planes;
-    } arrays[9 + SPRING_KINDS * V_TENSOR] = {
-        {&level->m, 1},      {&level->D, 3},      {&level->b, 2},
-        {&level->x, 2},      {&level->r, 2},      {&level->p, finest},
-        {&level->d, finest}, {&level->y, finest}, {&level->w, finest}};
-    int count = 9, planes = 0;
-    for (int kind = 0; kind < SPRING_KINDS; kind++)
-        for (int t = 0; t < V_TENSOR; t++, count++) {
-            arrays[count].array = &level->K[kind][t];
-            arrays[count].planes = 1;
+    *cycle = (VCycle){.grid = grid};
+    for (int nodes = grid->rows.nodes, more = 1; more; nodes = nodes / 2 + 1) {
+        Level *level = &cycle->level[cycle->levels++];
+        more = nodes > COARSEST;
+        level->rows = rows_of(nodes);
+        size_t bytes = (size_t)level->rows.plane * sizeof(float);
+        for (int i = 0; i < 3 * KINDS; i++)
+            level->K[i / 3][i % 3] = memory_piece(memory, bytes);
+        for (int i = 0; i < 3; i++)
+            level->D[i] = memory_piece(memory, bytes);
+        level->m = memory_piece(memory, bytes);
+        float **vectors[] = {&level->x, &level->b, &level->w};
+        for (int i = 0; i < 3; i++)
+            *vectors[i] = memory_piece(memory, 2 * bytes);
+    }
+    size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
+    float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
+    for (int i = 0; i < 3; i++)
+        *vectors[i] = memory_piece(memory, bytes);
+    cycle->sums = memory_piece(memory, 2 * (size_t)grid->rows.nodes *
+                                           sizeof *cycle->sums);
+}
+
+/* ---- loops in stages ----
+ *
+ * Loops that follow each other go through a level's rows together, each a row
+ * behind the one before, whose neighbouring rows it needs: what one leaves is
+ * still near when the next one reads it.  Two threads share the rows in parts.
+ * Near their edges a stage would need rows of the part beside; it leaves those,
+ * one more for each stage, and a second pass does them. */
+
+typedef struct Stages {
+    const VCycle *cycle;
+    const Level *level, *coarse; /* coarse: NULL at the coarsest */
+    int rows, parts, high;       /* of all, and rows of a part */
+    bool seams;                  /* the second pass */
+    bool product;                /* the last stage is wanted */
+} Stages;
+
+/* Whether the row is a stage's in this part. */
+INLINE bool has_row(const Stages *s, int part, int stage, int row)
+{
+    int edge = (part + 1) * s->high;
+    if (s->seams)
+        return row >= edge - stage && row < edge + stage && row < s->rows;
+    int first = part > 0 ? part * s->high + stage : 0;
+    return row >= first && row < (part + 1 < s->parts ? edge - stage : s->rows);
+}
+
+/* Rows that the first stage looks at, so that each stage comes to its own. */
+#define EACH_ROW_OF(s, part, stages)                                           \
+    for (int top = (s)->seams ? ((part) + 1) * (s)->high - (stages)            \
+                              : (part) * (s)->high,                            \
+             row = top;                                                        \
+         row < ((s)->seams ? top + 4 * (stages) : top + (s)->high + (stages)); \
+         row++)
+
+static void run_stages(CrewWork *loop, Stages s)
+{
+    Crew *crew = s.cycle->grid->crew;
+    int nodes = s.level->rows.nodes;
+    s.rows = s.coarse && 2 * s.coarse->rows.nodes > nodes
+                 ? 2 * s.coarse->rows.nodes - 1
+                 : nodes;
+    s.parts = crew ? s.rows / LEAST_ROWS : 1;
+    s.parts = s.parts > PARTS ? PARTS : s.parts < 1 ? 1 : s.parts;
+    s.high = (s.rows + s.parts - 1) / s.parts;
+    double cost = NODE_COST * nodes * nodes;
+    crew_run(crew, loop, &s, s.parts, cost);
+    s.seams = true;
+    if (s.parts > 1)
+        crew_run(crew, loop, &s, s.parts - 1, 0.25 * cost);
+}
+
+/* ---- tensors ---- */
+
+/* Those of springs that start in a row: iso and along clamped (psd.h). */
+INLINE void tensor_row(const VCycle *cycle, int i, bool uniform)
+{
+    const Grid grid = *cycle->grid;
+    const Level level = cycle->level[0];
+    const double length = cycle->length, length2 = length * length;
+    const double unit = cycle->mass / length2;
+    for (int odd = 0; odd < 2; odd++)
+        for (Place at = grid_place(&grid, i, odd); at.first < at.end;
+             at.first += WIDE_LANES)
+            EACH_OF (WIDE_LANES) {
+                const int q = at.first + e;
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        float dx = (float)(length * s.dx), dy = (float)(length * s.dy);        \
+        float c = (float)(unit * s.c), t = (float)(length2 * s.s);             \
+        float iso = t > 0 ? t : 0;                                             \
+        float along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);            \
+        along = along > 0 ? along : 0;                                         \
+        level.K[kind][0][q] = c * (iso + along * dx * dx);                     \
+        level.K[kind][1][q] = c * along * dx * dy;                             \
+        level.K[kind][2][q] = c * (iso + along * dy * dy);                     \
+    }
+                OWN_SPRINGS(ADD, at)
+#undef ADD
+            }
+}
+
+INLINE void invert_row(const Level *of, int i)
+{
+    const Level level = *of;
+    for (int odd = 0; odd < 2; odd++)
+        for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+             at.first += WIDE_LANES)
+            EACH_OF (WIDE_LANES) {
+                const int q = at.first + e;
+                float mass = level.m[q], xx = mass, xy = 0, yy = mass;
+#define ADD(kind, to, numbers)                                                 \
+    xx += level.K[kind][0][q + (numbers)];                                     \
+    xy += level.K[kind][1][q + (numbers)];                                     \
+    yy += level.K[kind][2][q + (numbers)];
+                ALL_SPRINGS(ADD, at)
+#undef ADD
+                float det = xx * yy - xy * xy;
+                bool moves = (det > 0) & (mass > 0);
+                float over = moves ? 1 / (moves ? det : 1) : 0;
+                level.D[0][q] = yy * over;
+                level.D[1][q] = -xy * over;
+                level.D[2][q] = xx * over;
+            }
+}
+
+/* WIDE_LANES columns of a coarse row, from column `first` on, to their places:
+ * even ones and odd ones. */
+INLINE void split(const Rows *rows, int I, int first, const float *line,
+                  float *to)
+{
+    float *even = to + place_of(rows, I, first), *odd = even + rows->half;
+    EACH_OF (WIDE_LANES / 2) {
+        even[e] = line[2 * e];
+        odd[e] = line[2 * e + 1];
+    }
+}
+
+/* The even and odd columns of the three finer rows around coarse row I, from
+ * coarse column `first` on. */
+#define THREE_ROWS(fine, I, from, first)                                       \
+    const float *const e0 = (from) + place_of(&(fine), 2 * (I), 0) + (first);  \
+    const float *const e1 = e0 + (fine).pitch, *const em = e0 - (fine).pitch;  \
+    const float *const o0 = e0 + (fine).half, *const o1 = e1 + (fine).half;    \
+    const float *const om = em + (fine).half
+
+/* A coarse tensor is the mean of the four finer ones it stands for. */
+INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
+{
+    const Rows fine = level->rows, rows = coarse->rows;
+    for (int first = 0; first < rows.nodes; first += WIDE_LANES)
+        for (int t = 0; t < 3; t++) {
+            float line[WIDE_LANES];
+#define MEAN(kind, sum)                                                        \
+    {                                                                          \
+        THREE_ROWS(fine, I, level->K[kind][t], first);                         \
+        EACH_OF (WIDE_LANES)                                                   \
+            line[e] = 0.25f * (sum);                                           \
+        split(&rows, I, first, line, coarse->K[kind][t]);                      \
+        (void)(em + (om - em));                                                \
+    }
+            MEAN(RIGHT, e0[e] + e1[e] +
+                            0.5f * ((o0[e - 1] + o1[e - 1]) + (o0[e] + o1[e])))
+            MEAN(UP, e0[e] + o0[e] + 0.5f * ((em[e] + om[e]) + (e1[e] + o1[e])))
+            MEAN(DIAGONAL, (e0[e] + o0[e]) + (e1[e] + o1[e]))
+            MEAN(ANTIDIAGONAL, (e0[e] + e1[e]) + (o0[e - 1] + o1[e - 1]))
+#undef MEAN
         }
-    for (int i = 0; i < count; i++)
-        planes += arrays[i].planes;
-    size_t real = cycle->kernels->real;
-    size_t plane = (size_t)level->layout.plane * real;
-    char *next =
-        grid_memory((size_t)planes * plane + V_SLACK * real, &level->memory);
-    for (int i = 0; i < count && next; i++) {
-        *arrays[i].array = next;
-        next += (size_t)arrays[i].planes * plane;
-    }
-    size_t lines =
-        (size_t)(nodes / 2 + 1) * V_LINES * (size_t)level->layout.pitch;
-    level->line = calloc(lines + V_SLACK, real);
-    return next && level->line;
 }
 
-VCycle *v_cycle_create(const Grid *grid)
+/* One plane of coarse row I: to = P^T from. */
+INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
+                         const float *from, float *to)
 {
-    VCycle *cycle = calloc(1, sizeof *cycle);
-    if (!cycle)
-        return NULL;
-    int n = grid->segments;
-    cycle->grid = grid;
-    cycle->kernels =
-        v_cycle_kernels(grid->kernels->lanes, n <= PRECISE_SEGMENTS);
-    cycle->sums = malloc((size_t)(n + 1) * V_SUMS * sizeof *cycle->sums);
-    if (!cycle->sums) {
-        v_cycle_free(cycle);
-        return NULL;
+    const Rows fine = *finer;
+    for (int first = 0; first < coarse->nodes; first += WIDE_LANES) {
+        float line[WIDE_LANES];
+        THREE_ROWS(fine, I, from, first);
+        EACH_OF (WIDE_LANES)
+            line[e] = e0[e] + 0.5f * ((em[e] + e1[e]) + (o0[e - 1] + o0[e])) +
+                      0.25f * ((om[e - 1] + om[e]) + (o1[e - 1] + o1[e]));
+        split(coarse, I, first, line, to);
     }
-    for (bool more = true; more; n = (n + 1) / 2) {
-        more = n > COARSEST || cycle->levels == 0;
-        if (!create_v_level(cycle, n + 1, &cycle->level[cycle->levels++])) {
-            v_cycle_free(cycle);
-            return NULL;
+}
+
+FAST static void set_up_stages(const void *job, int first, int end)
+{
+    const Stages *s = job;
+    const bool finest = s->level == s->cycle->level;
+    const int nodes = s->level->rows.nodes;
+    for (int part = first; part < end; part++)
+        EACH_ROW_OF (s, part, 3) {
+            int i = row;
+            if (finest && i < nodes && has_row(s, part, 0, i)) {
+                if (s->cycle->grid->uniform)
+                    tensor_row(s->cycle, i, true);
+                else
+                    tensor_row(s->cycle, i, false);
+            }
+            i = row - 1;
+            if (i < nodes && has_row(s, part, 1, i))
+                invert_row(s->level, i);
+            i = row - 2;
+            if (s->coarse && i % 2 == 0 && has_row(s, part, 2, i))
+                coarsen_row(s->level, s->coarse, i / 2);
         }
-    }
-    return cycle;
 }
 
-void v_cycle_free(VCycle *cycle)
-{
-    if (!cycle)
-        return;
-    for (int l = 0; l < cycle->levels; l++) {
-        free(cycle->level[l].memory);
-        free(cycle->level[l].line);
-    }
-    free(cycle->sums);
-    free(cycle);
-}
-
-typedef struct VCall {
-    VKernel *kernel;
-    const VJob *job;
-    int first;
-} VCall;
-
-static void call_v_kernel(const void *call, int first, int end)
-{
-    const VCall *c = call;
-    c->kernel(c->job, c->first + first, c->first + end);
-}
-
-/* Rows first ... end - 1 of the level that the kernel writes to.
- *   cost  nanoseconds a node */
-static void run_panel(const VCycle *cycle, VKernel *kernel, VJob job,
-                      const VLevel *writes, int first, int end, double cost)
-{
-    if (first >= end)
-        return;
-    job.grid = cycle->grid;
-    job.length = cycle->length;
-    job.mass = cycle->mass;
-    job.sums = cycle->sums;
-    VCall call = {kernel, &job, first};
-    crew_run(cycle->grid->crew, call_v_kernel, &call, end - first,
-             cost * (end - first) * writes->layout.nodes);
-}
-
-/* All its rows. */
-static void run_rows(const VCycle *cycle, VKernel *kernel, VJob job,
-                     const VLevel *writes, double cost)
-{
-    run_panel(cycle, kernel, job, writes, 0, writes->layout.nodes, cost);
-}
-
-/* How far a panel reaches that begins at this row: what one loop leaves there
- * is still near when the next one reads it.  An even row, or past the last. */
-static int panel_end(const VCycle *cycle, const VLevel *level, int first)
-{
-    size_t row = (size_t)level->layout.pitch * cycle->kernels->real;
-    int rows = 2 * (int)(PANEL_BYTES / (2 * SPRING_KINDS * V_TENSOR * row));
-    int end = first + (rows > LEAST_ROWS ? rows : LEAST_ROWS);
-    return end < level->layout.nodes ? end : level->layout.nodes;
-}
-
-/* A loop over all rows of a level, one of several that follow each other. */
-typedef struct VStage {
-    VKernel *kernel;
-    VJob job;
-    double cost;
-} VStage;
-
-/* Does them panel by panel; each may read a row beyond its own of what the one
- * before it writes. */
-static void run_stages(const VCycle *cycle, const VLevel *level,
-                       const VStage *stage, int stages)
-{
-    int nodes = level->layout.nodes, done[V_MAX_STAGES] = {0};
-    for (int end; done[0] < nodes;) {
-        end = panel_end(cycle, level, done[0]);
-        for (int s = 0; s < stages; s++) {
-            int ready = end < nodes ? end - s : nodes;
-            run_panel(cycle, stage[s].kernel, stage[s].job, level, done[s],
-                      ready, stage[s].cost);
-            done[s] = ready;
-        }
-    }
-}
-
-/* A power of two near 1/a. */
 static double unit_of(double a)
 {
-    return ldexp(1, -ilogb(a));
+    return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
 }
 
-void v_cycle_set_nodes(VCycle *cycle)
+/* Their number, and each level with the next coarser one. */
+static Stages stages_of(const VCycle *cycle, int number)
 {
-    const VKernels *kernels = cycle->kernels;
-    cycle->mass = unit_of(cycle->grid->lightest);
-    VLevel *level = cycle->level;
-    run_rows(cycle, kernels->set_nodes, (VJob){.level = level}, level, V_LIGHT);
-    for (; level + 1 < cycle->level + cycle->levels; level++)
-        run_rows(cycle, kernels->coarsen_nodes,
-                 (VJob){.level = level, .coarse = level + 1}, level + 1,
-                 V_HEAVY);
+    const Level *level = &cycle->level[number];
+    return (Stages){.cycle = cycle,
+                    .level = level,
+                    .coarse = number + 1 < cycle->levels ? level + 1 : NULL};
 }
 
-void v_cycle_set_up(VCycle *cycle)
+static void set_up(VCycle *cycle)
 {
-    const VKernels *kernels = cycle->kernels;
-    cycle->length = unit_of(sqrt(cycle->grid->rest[SPRING_DIAGONAL]));
-    for (int l = 0; l < cycle->levels; l++) {
-        const VLevel *level = &cycle->level[l], *coarse = level + 1;
-        VJob job = {.level = level, .coarse = coarse};
-        int nodes = level->layout.nodes;
-        for (int first = 0, end; first < nodes; first = end) {
-            end = panel_end(cycle, level, first);
-            if (l == 0)
-                run_panel(cycle, kernels->tensors, job, level, first, end,
-                          4 * V_HEAVY);
-            run_panel(cycle, kernels->invert, job, level, first, end, V_HEAVY);
-            if (l + 1 < cycle->levels)
-                run_panel(
-                    cycle, kernels->coarsen_tensors, job, coarse, first / 2,
-                    end < nodes ? end / 2 : coarse->layout.nodes, 4 * V_HEAVY);
+    for (int l = 0; l < cycle->levels && !cycle->set_up; l++)
+        run_stages(set_up_stages, stages_of(cycle, l));
+    cycle->set_up = true;
+}
+
+void v_cycle_read_system(VCycle *cycle)
+{
+    const Grid *grid = cycle->grid;
+    const Rows *rows = &grid->rows;
+    cycle->mass = unit_of(grid->lightest);
+    cycle->length = unit_of(sqrt(grid->l2_all[DIAGONAL]));
+    for (int i = 0; i < rows->nodes; i++)
+        for (int j = 0; j < rows->nodes; j++) {
+            int q = place_of(rows, i, j), at = q + grid->node_shift[i];
+            double m = grid->per_m[at] > 0 ? cycle->mass * grid->m[at] : 0;
+            cycle->level->m[q] = (float)m;
+        }
+    for (Level *l = cycle->level; l + 1 < cycle->level + cycle->levels; l++) {
+        const Level *coarse = l + 1;
+        int last = l->rows.nodes - 1;
+        for (int I = 0; I < coarse->rows.nodes; I++) {
+            restrict_row(&l->rows, &coarse->rows, I, l->m, coarse->m);
+            for (int J = 0; J < coarse->rows.nodes; J++) {
+                int i = 2 * I < last ? 2 * I : last;
+                int j = 2 * J < last ? 2 * J : last;
+                if (l->m[place_of(&l->rows, i, j)] == 0)
+                    coarse->m[place_of(&coarse->rows, I, J)] = 0;
+            }
         }
     }
 }
 
-/* out is in after its smoothing number i. */
-static VStage smoothing(const VCycle *cycle, const VLevel *level, int i,
-                        void *in, void *out)
+/* ---- the V-cycle: A x = b ---- */
+
+/* ax, ay += what the tensor at `at` makes of (dx, dy). */
+INLINE void pull(const Level *level, int kind, int at, float dx, float dy,
+                 float *ax, float *ay)
 {
-    VJob job = {
-        .level = level, .in = in, .out = out, .factor = level->omega[i]};
-    return (VStage){cycle->kernels->smooth, job, V_HEAVY};
+    float xy = level->K[kind][1][at];
+    *ax += level->K[kind][0][at] * dx + xy * dy;
+    *ay += xy * dx + level->K[kind][2][at] * dy;
 }
 
-/* The coarsest level: from x to r and back, until x is smooth. */
-static void smooth_coarsest(const VCycle *cycle, const VLevel *level)
+/* Which springs of a node lead to colours that came before it. */
+typedef struct Pulls {
+    bool row, cross;
+} Pulls;
+
+/* From x = 0, one colour of a row.  Springs to colours that came before make
+ * x = D (b + what they pull); those to colours that come after pull what is
+ * then left, w = b - A x. */
+INLINE void first_row(const Level *of, int i, int odd, Pulls pulls, bool left)
 {
-    VStage to_r = smoothing(cycle, level, 1, level->x, level->r);
-    VStage to_x = smoothing(cycle, level, 0, level->r, level->x);
-    for (int i = 1; i < COARSEST_SMOOTHINGS; i += 2) {
-        run_stages(cycle, level, &to_r, 1);
-        run_stages(cycle, level, &to_x, 1);
+    const Level level = *of;
+    const int plane = level.rows.plane;
+    float *const x = level.x, *const y = x + plane;
+    float *const wx = level.w, *const wy = wx + plane;
+    const float *const bx = level.b, *const by = bx + plane;
+    for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+         at.first += WIDE_LANES)
+        EACH_OF (WIDE_LANES) {
+            const int q = at.first + e;
+            float ax = left ? 0 : bx[q], ay = left ? 0 : by[q];
+            const float D = level.D[0][q], moves = D != 0 ? 1 : 0;
+#define ADD(kind, to, numbers)                                                 \
+    pull(&level, kind, q + (numbers), x[q + (to)], y[q + (to)], &ax, &ay);
+            if (pulls.row) {
+                ROW_SPRINGS(ADD, at)
+            }
+            if (pulls.cross) {
+                CROSS_SPRINGS(ADD, at)
+            }
+#undef ADD
+            if (left) {
+                wx[q] = moves * ax;
+                wy[q] = moves * ay;
+            } else {
+                x[q] = D * ax + level.D[1][q] * ay;
+                y[q] = level.D[1][q] * ax + level.D[2][q] * ay;
+            }
+        }
+}
+
+/* One colour of a row: x += D (b - A x); or w = A x, adding up x.b and x.w. */
+INLINE void apply_row(const Level *of, int i, int odd, bool smooths, float *xb,
+                      float *xw)
+{
+    const Level level = *of;
+    const int plane = level.rows.plane;
+    float *const x = level.x, *const y = x + plane;
+    float *const wx = level.w, *const wy = wx + plane;
+    const float *const bx = level.b, *const by = bx + plane;
+    for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+         at.first += WIDE_LANES)
+        EACH_OF (WIDE_LANES) {
+            const int q = at.first + e;
+            const float D = level.D[0][q], hx = x[q], hy = y[q];
+            float ax = level.m[q] * hx, ay = level.m[q] * hy;
+#define ADD(kind, to, numbers)                                                 \
+    pull(&level, kind, q + (numbers), hx - x[q + (to)], hy - y[q + (to)], &ax, \
+         &ay);
+            ALL_SPRINGS(ADD, at)
+#undef ADD
+            float rx = bx[q] - ax, ry = by[q] - ay;
+            if (smooths) {
+                x[q] = hx + (D * rx + level.D[1][q] * ry);
+                y[q] = hy + (level.D[1][q] * rx + level.D[2][q] * ry);
+            } else {
+                xb[e] += hx * bx[q] + hy * by[q];
+                xw[e] += hx * ax + hy * ay;
+                wx[q] = D != 0 ? ax : 0;
+                wy[q] = D != 0 ? ay : 0;
+            }
+        }
+}
+
+INLINE void smooth_row(const Level *level, int i, bool back)
+{
+    apply_row(level, i, back, true, NULL, NULL);
+    apply_row(level, i, !back, true, NULL, NULL);
+}
+
+/* sums  [2] out, x.b and x.w of the row */
+INLINE void product_row(const Level *level, int i, double *sums)
+{
+    float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
+    apply_row(level, i, 0, false, xb, xw);
+    apply_row(level, i, 1, false, xb, xw);
+    sums[0] = sums[1] = 0;
+    for (int e = 0; e < WIDE_LANES; e++) {
+        sums[0] += (double)xb[e];
+        sums[1] += (double)xw[e];
     }
 }
 
-/* What the last kernel has summed up in the rows of the finest level. */
-static double sum_rows(const VCycle *cycle, int which)
+/* One plane of row i: to += P from; 0 stays where nodes are held. */
+INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
+                        const float *from, float *to)
 {
+    const Rows fine = level->rows;
+    const float *const a = from + place_of(coarse, i / 2, 0);
+    const float *const z = from + place_of(coarse, (i + 1) / 2, 0);
+    const int half = coarse->half, at = place_of(&fine, i, 0);
+    float *const even = to + at, *const odd = even + fine.half;
+    const float *const D = level->D[0] + at, *const odd_D = D + fine.half;
+    for (int first = 0; 2 * first < fine.count[0]; first += WIDE_LANES / 2)
+        EACH_OF (WIDE_LANES / 2) {
+            const int J = first + e;
+            float here = 0.5f * (a[J] + z[J]);
+            float after = 0.5f * (a[half + J] + z[half + J]);
+            float next = 0.5f * (a[J + 1] + z[J + 1]);
+            even[2 * J] += D[2 * J] != 0 ? here : 0;
+            even[2 * J + 1] += D[2 * J + 1] != 0 ? after : 0;
+            odd[2 * J] += odd_D[2 * J] != 0 ? 0.5f * (here + after) : 0;
+            odd[2 * J + 1] += odd_D[2 * J + 1] != 0 ? 0.5f * (after + next) : 0;
+        }
+}
+
+/* From x = 0 forward, and b of the coarser level: even rows, then odd ones, of
+ * each the even columns, then the odd ones. */
+FAST static void descend(const void *job, int first, int end)
+{
+    const Stages *s = job;
+    const Level *l = s->level;
+    const int nodes = l->rows.nodes;
+    for (int part = first; part < end; part++)
+        EACH_ROW_OF (s, part, 4) {
+            int i = row;
+            if (i % 2 == 0 && i < nodes && has_row(s, part, 0, i)) {
+                first_row(l, i, 0, (Pulls){false, false}, false);
+                first_row(l, i, 1, (Pulls){true, false}, false);
+            }
+            i = row - 1;
+            if (i % 2 != 0 && i < nodes && has_row(s, part, 1, i)) {
+                first_row(l, i, 0, (Pulls){false, true}, false);
+                first_row(l, i, 1, (Pulls){true, true}, false);
+                first_row(l, i, 0, (Pulls){true, false}, true);
+                first_row(l, i, 1, (Pulls){false, false}, true);
+            }
+            i = row - 2;
+            if (i % 2 == 0 && i < nodes && has_row(s, part, 2, i)) {
+                first_row(l, i, 0, (Pulls){true, true}, true);
+                first_row(l, i, 1, (Pulls){false, true}, true);
+            }
+            i = row - 3;
+            if (s->coarse && i % 2 == 0 && has_row(s, part, 3, i))
+                for (int c = 0; c < 2; c++)
+                    restrict_row(&l->rows, &s->coarse->rows, i / 2,
+                                 l->w + c * l->rows.plane,
+                                 s->coarse->b + c * s->coarse->rows.plane);
+        }
+}
+
+/* x += P of the coarser level's, then backward in the opposite order; and
+ * w = A x where it is wanted. */
+FAST static void ascend(const void *job, int first, int end)
+{
+    const Stages *s = job;
+    const Level *l = s->level;
+    const int nodes = l->rows.nodes;
+    for (int part = first; part < end; part++)
+        EACH_ROW_OF (s, part, 4) {
+            int i = row;
+            if (s->coarse && i < nodes && has_row(s, part, 0, i))
+                for (int c = 0; c < 2; c++)
+                    prolong_row(l, &s->coarse->rows, i,
+                                s->coarse->x + c * s->coarse->rows.plane,
+                                l->x + c * l->rows.plane);
+            for (int stage = 1; stage <= 2; stage++) {
+                i = row - stage;
+                if ((i % 2 != 0) == (stage == 1) && i < nodes &&
+                    has_row(s, part, stage, i))
+                    smooth_row(l, i, true);
+            }
+            i = row - 3;
+            if (s->product && i < nodes && has_row(s, part, 3, i))
+                product_row(l, i, s->cycle->sums + 2 * i);
+        }
+}
+
+/* All of the coarsest level at once, forward or backward. */
+FAST static void smooth_coarsest(const Level *l, bool back)
+{
+    for (int second = 0; second < 2; second++)
+        for (int i = back != second; i < l->rows.nodes; i += 2)
+            smooth_row(l, i, back);
+}
+
+/* x = about A^-1 b; of the finest level also w = A x, and sums. */
+static void v_cycle(VCycle *cycle)
+{
+    for (int l = 0; l < cycle->levels; l++)
+        run_stages(descend, stages_of(cycle, l));
+    for (int t = 1; t < 2 * COARSEST_TIMES - 1; t++)
+        smooth_coarsest(&cycle->level[cycle->levels - 1], t >= COARSEST_TIMES);
+    for (int l = cycle->levels - 1; l >= 0; l--) {
+        Stages stages = stages_of(cycle, l);
+        stages.product = l == 0;
+        run_stages(ascend, stages);
+    }
+    cycle->cycles++;
+}
+
+/* ---- conjugate gradients ---- */
+
+typedef struct Update {
+    const VCycle *cycle;
+    float alpha, beta;
+    bool begins;
+} Update;
+
+FAST static void take(const Grid *grid, double factor, const double *a,
+                      float *b)
+{
+    EACH_OF (2 * grid->rows.plane)
+        b[e] = (float)(factor * a[e]);
+}
+
+/* p = factor x, or p += it. */
+FAST static void give(const Grid *grid, double factor, const float *x,
+                      bool adds, double *p)
+{
+    const double old = adds;
+    EACH_OF (2 * grid->rows.plane)
+        p[e] = old * p[e] + factor * x[e];
+}
+
+/* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d; sums
+ * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band.  At first d is x and
+ * A d is w, where they stand, and p = alpha d. */
+INLINE void advance_band(const Update *update, int band, bool begins)
+{
+    const VCycle cycle = *update->cycle;
+    const Grid grid = *cycle.grid;
+    const Level level = cycle.level[0];
+    const int plane = grid.rows.plane;
+    const float alpha = update->alpha, beta = update->beta;
+    double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
+    for (int i = band * BAND; i < band * BAND + BAND && i < grid.rows.nodes;
+         i++)
+        for (int odd = 0; odd < 2; odd++)
+            for (Place at = grid_place(&grid, i, odd); at.first < at.end;
+                 at.first += LANES)
+                EACH_OF (LANES) {
+                    const int qx = at.first + e, qy = qx + plane;
+                    float dx = level.x[qx], dy = level.x[qy], px = 0, py = 0;
+                    float Adx = level.w[qx], Ady = level.w[qy];
+                    if (!begins) {
+                        cycle.d[qx] = dx += beta * cycle.d[qx];
+                        cycle.d[qy] = dy += beta * cycle.d[qy];
+                        cycle.Ad[qx] = Adx += beta * cycle.Ad[qx];
+                        cycle.Ad[qy] = Ady += beta * cycle.Ad[qy];
+                        px = cycle.p[qx];
+                        py = cycle.p[qy];
+                    }
+                    cycle.p[qx] = px += alpha * dx;
+                    cycle.p[qy] = py += alpha * dy;
+                    float bx = level.b[qx] - alpha * Adx;
+                    float by = level.b[qy] - alpha * Ady;
+                    level.b[qx] = bx;
+                    level.b[qy] = by;
+                    double size = (double)(fabsf(px) + fabsf(py));
+                    most[e] = size > most[e] ? size : most[e];
+                    sum[e] +=
+                        grid.per_m[qx + at.node] * (double)(bx * bx + by * by);
+                }
+    for (int e = 0; e < LANES; e++)
+        largest = most[e] > largest ? most[e] : largest;
+    grid.sums[band * MAX_SUMS] = sum_of(sum);
+    grid.sums[band * MAX_SUMS + 1] = largest;
+}
+
+FAST static void advance(const void *job, int first, int end)
+{
+    const Update *update = job;
+    for (int band = first; band < end; band++) {
+        if (update->begins)
+            advance_band(update, band, true);
+        else
+            advance_band(update, band, false);
+    }
+}
+
+/* Does it with the next x.  Returns |b|_(M^-1)^2 and the largest of p. */
+static double run_update(VCycle *cycle, Update update, double *largest)
+{
+    const Grid *grid = cycle->grid;
     double sum = 0;
-    for (int i = 0; i < cycle->level->layout.nodes; i++)
-        sum += cycle->sums[i * V_SUMS + which];
+    crew_run(grid->crew, advance, &update, grid->bands,
+             NODE_COST * grid->rows.nodes * grid->rows.nodes);
+    *largest = 0;
+    for (int band = 0; band < grid->bands; band++) {
+        sum += grid->sums[band * MAX_SUMS];
+        *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
+    }
+    float *x = cycle->level->x, *w = cycle->level->w;
+    if (update.begins) {
+        cycle->level->x = cycle->d;
+        cycle->level->w = cycle->Ad;
+        cycle->d = x;
+        cycle->Ad = w;
+    }
     return sum;
 }
 
-/* From level->b and the first smoothing, level->x; returns where the result is.
- *   multiplied  of the finest level: level->w is A times it */
-static void *v_descend(const VCycle *cycle, int l, bool multiplied)
+bool v_decides(const Grid *grid, double largest, double square, double length)
 {
-    const VKernels *kernels = cycle->kernels;
-    const VLevel *level = &cycle->level[l], *coarse = level + 1;
-    if (l == cycle->levels - 1) {
-        smooth_coarsest(cycle, level);
-        return level->x;
+    return fabs(largest - length) >= sqrt(2 / grid->lightest * square);
+}
+
+double v_solve(VCycle *cycle, double sign, const double *a, double square,
+               VEnd end, bool adds, double *p)
+{
+    const Grid *grid = cycle->grid;
+    double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
+    double last = 0, alpha = 1, rest = INFINITY;
+    set_up(cycle);
+    take(grid, sign * unit, a, cycle->level->b);
+    for (int i = 0; i < end.cycles; i++) {
+        double xb = 0, xw = 0;
+        v_cycle(cycle);
+        for (int row = 0; row < grid->rows.nodes; row++) {
+            xb += cycle->sums[2 * row];
+            xw += cycle->sums[2 * row + 1];
+        }
+        double beta = i > 0 ? xb / last : 0;
+        double bend = xw - beta * xb / alpha; /* d.A d */
+        if (!(bend > 0 && xb > 0) || !isfinite(xb / bend))
+            break;
+        last = xb;
+        alpha = xb / bend;
+        Update update = {cycle, (float)alpha, (float)beta, i == 0};
+        rest = run_update(cycle, update, &largest) / (unit * unit);
+        largest *= cycle->mass / unit;
+        if (rest <= end.share * end.share * square ||
+            (end.length > 0 && v_decides(grid, largest, rest, end.length)))
+            break;
     }
-    bool once = l == 0;
-    void *x = once ? level->x : level->r, *next = once ? level->r : level->x;
-    VStage second = smoothing(cycle, level, 1, next, x);
-    if (!once)
-        run_stages(cycle, level, &second, 1);
-    VJob descend = {.level = level, .coarse = coarse, .in = x};
-    run_rows(cycle, kernels->descend, descend, coarse, 5 * V_HEAVY);
-    VJob prolong = {.level = level, .coarse = coarse, .out = x};
-    prolong.in = v_descend(cycle, l + 1, false);
-    VJob multiply = {.level = level, .in = level->r, .out = level->w};
-    VStage stage[] = {{kernels->prolong, prolong, V_LIGHT},
-                      smoothing(cycle, level, 1, x, next),
-                      {kernels->multiply, multiply, V_HEAVY}};
-    if (!once)
-        stage[2] = smoothing(cycle, level, 0, next, x);
-    run_stages(cycle, level, stage, once && !multiplied ? 2 : 3);
-    return level->r;
+    if (rest == INFINITY) /* no step: nothing is found */
+        memset(cycle->p, 0, 2 * (size_t)grid->rows.plane * sizeof *cycle->p);
+    give(grid, cycle->mass / unit, cycle->p, adds, p);
+    return largest;
 }
 
-/* Takes s r as b of the finest level, and smooths once. */
-static void take(VCycle *cycle, double s, const double *r, double size)
+void v_precondition(VCycle *cycle, const double *a, double square, double *z)
 {
-    const VLevel *level = cycle->level;
-    cycle->unit = size > 0 && isfinite(size) ? unit_of(size) : 1;
-    VJob job = {.level = level, .in = r, .factor = s * cycle->unit};
-    VStage stage[] = {{cycle->kernels->take, job, V_LIGHT},
-                      {cycle->kernels->begin, job, V_LIGHT}};
-    run_stages(cycle, level, stage, 2);
-}
-
-/* Gives what has the units of B r. */
-static void give(const VCycle *cycle, const void *x, double *out)
-{
-    const VLevel *level = cycle->level;
-    VJob job = {.level = level,
-                .in = x,
-                .out = out,
-                .factor = cycle->mass / cycle->unit};
-    run_rows(cycle, cycle->kernels->give, job, level, V_LIGHT);
-}
-
-void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z)
-{
-    take(cycle, 1, r, size);
-    give(cycle, v_descend(cycle, 0, false), z);
-}
-
-/* z = B b, w = H z, and their products. */
-static void precondition(VCycle *cycle)
-{
-    v_descend(cycle, 0, true);
-    cycle->now = sum_rows(cycle, V_DOT);
-    cycle->bend = sum_rows(cycle, V_BEND);
-}
-
-void v_solve_begin(VCycle *cycle, double s, const double *r, double size)
-{
-    take(cycle, s, r, size);
-    cycle->first = true;
-    precondition(cycle);
-}
-
-/* What was new is the last one. */
-static void swap(void **now, void **last)
-{
-    void *was = *last;
-    *last = *now;
-    *now = was;
-}
-
-bool v_solve_step(VCycle *cycle, VRemainder *remainder)
-{
-    VLevel *level = cycle->level;
-    double bend = cycle->bend; /* d.H d */
-    if (!cycle->first)
-        bend -= cycle->beta * cycle->now / cycle->alpha;
-    cycle->alpha = cycle->now / bend;
-    if (!(bend > 0) || !isfinite(cycle->alpha))
-        return false;
-    VJob job = {.level = level,
-                .factor = cycle->alpha,
-                .beta = cycle->beta,
-                .first = cycle->first};
-    run_rows(cycle, cycle->kernels->update, job, level, V_LIGHT);
-    swap(&level->r, &level->d);
-    swap(&level->w, &level->y);
-    cycle->first = false;
-    double largest = 0, units = cycle->mass / cycle->unit;
-    for (int i = 0; i < level->layout.nodes; i++)
-        largest = fmax(largest, cycle->sums[i * V_SUMS + V_LARGEST]);
-    remainder->largest = units * largest;
-    remainder->square =
-        sum_rows(cycle, V_SQUARE) * cycle->mass / (cycle->unit * cycle->unit);
-    return true;
-}
-
-void v_solve_next(VCycle *cycle)
-{
-    double last = cycle->now;
-    precondition(cycle);
-    cycle->beta = cycle->now / last;
-}
-
-void v_solve_end(const VCycle *cycle, double *p)
-{
-    if (cycle->first)
-        grid_clear(cycle->grid, p);
-    else
-        give(cycle, cycle->level->p, p);
+    double unit = unit_of(sqrt(square * cycle->grid->lightest));
+    set_up(cycle);
+    take(cycle->grid, unit, a, cycle->level->b);
+    v_cycle(cycle);
+    give(cycle->grid, cycle->mass / unit, cycle->level->x, false, z);
 }

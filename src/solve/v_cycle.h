@@ -1,64 +1,72 @@
-/* v_cycle.h - a geometric multigrid V-cycle for the clamped Hessian of grid.h:
- * the preconditioner of conjugate gradients.
+/* v_cycle.h - p = -H^-1 g without a factor: conjugate gradients in single
+ * precision on the clamped Hessian H, preconditioned by a multigrid V-cycle.
  *
- * Each spring's Hessian is a symmetric 2x2 tensor K (the block of its nodes is
- * [[K, -K], [-K, K]]).  The next coarser level has every second node; its
- * springs have the mean tensor of the four finer ones that each stands for
- * (in two dimensions stiffness does not change with the length), its masses
- * are P^T m.  P is bilinear interpolation, P^T the restriction, and a damped
- * block Jacobi iteration smooths: once before and once after on the finest
- * level, twice on the coarser ones.  All that is symmetric, so the cycle is a
- * symmetric positive definite matrix.
+ * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
+ * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
+ * is every second node: its tensors are means of the finer ones, as stiffness
+ * does not depend on the spacing in two dimensions; its masses are P^T m with P
+ * bilinear.  Where the finer node in a node's place is pinned, it is held.
  *
- * Its numbers are of single precision, and so are the conjugate gradients that
- * it has beside it: they find directions, and what a test needs to know of them
- * is computed again in double precision.  Up to 32 segments, where a fold can
- * hang on the last bits of a direction, they are of double precision.
+ * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
+ * even or odd), before and, in the opposite order, after what the coarser level
+ * adds; so it is symmetric and positive definite.  Nodes of a colour do not
+ * see each other, so the bits do not depend on threads or lanes.
  */
 #ifndef ELASTO_V_CYCLE_H
 #define ELASTO_V_CYCLE_H
 
 #include "solve/grid.h"
 
-typedef struct VCycle VCycle;
+enum { MAX_LEVELS = 24 };
 
-/* Allocates for this grid, which must outlive it.  NULL: out of memory. */
-VCycle *v_cycle_create(const Grid *grid);
-void v_cycle_free(VCycle *cycle);
+typedef struct Level {
+    Rows rows;
+    float *K[KINDS][3]; /* [plane] tensors xx, xy, yy at their first node */
+    float *D[3];        /* [plane] inverse 2x2 blocks; 0 where held, outside */
+    float *m;           /* [plane] 0 where held */
+    float *x, *b, *w;   /* [2 planes] about A^-1 b; what is left, or A x */
+} Level;
 
-/* Masses and pins, after grid_set_nodes. */
-void v_cycle_set_nodes(VCycle *cycle);
+typedef struct VCycle {
+    const Grid *grid;
+    Level level[MAX_LEVELS]; /* the finest first */
+    int levels;
+    float *p, *d, *Ad;   /* [2 planes] of conjugate gradients */
+    double *sums;        /* [2 * rows] of the finest level */
+    double length, mass; /* units of the levels, powers of two: 1/m, 1/kg */
+    bool set_up;         /* the tensors are those at grid->x; set to false when
+                            that moves */
+    long cycles;         /* done so far */
+} VCycle;
 
-/* The tensors of all levels at grid->x. */
-void v_cycle_set_up(VCycle *cycle);
+/* Where conjugate gradients may end. */
+typedef struct VEnd {
+    double share;  /* the remainder, in the norm M^-1, fell to so much of it */
+    double length; /* m; > 0: or whether the largest |p_x| + |p_y| is above this
+                      is certain, see v_decides */
+    int cycles;    /* or so many V-cycles */
+} VEnd;
 
-/* z = B r.  size  a number about as large as the largest of r. */
-void v_cycle_apply(VCycle *cycle, const double *r, double size, double *z);
+void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 
-/* ---- conjugate gradients for H p = s r, in the precision of the cycle and
- * with the tensors of its finest level: exact to some 6 digits of r, where a
- * new begin with the remainder goes on.
- *
- * H B b is computed for each remainder b, in the loops of the cycle itself,
- * where tensors are near; H d follows from it (Chronopoulos and Gear, 1989). */
+/* Masses and pins, from the grid's. */
+void v_cycle_read_system(VCycle *cycle);
 
-/* p = 0, d = s B r. */
-void v_solve_begin(VCycle *cycle, double s, const double *r, double size);
+/* p = about sign H^-1 a; or, where it adds, p += it.
+ *   a       [2 planes] anything at pins
+ *   square  |a|_(M^-1)^2
+ * Returns the largest |p_x| + |p_y| of the nodes, m, as p will be. */
+double v_solve(VCycle *cycle, double sign, const double *a, double square,
+               VEnd end, bool adds, double *p);
 
-/* What a step leaves. */
-typedef struct VRemainder {
-    double square;  /* |s r - H p|_(M^-1)^2 */
-    double largest; /* max over nodes of |p_x| + |p_y| */
-} VRemainder;
+/* z = B a, one V-cycle.  square, a: as above */
+void v_precondition(VCycle *cycle, const double *a, double square, double *z);
 
-/* p is the lowest point along d.
- * Returns false, and p is what it was, where that point does not exist. */
-bool v_solve_step(VCycle *cycle, VRemainder *remainder);
-
-/* The next d. */
-void v_solve_next(VCycle *cycle);
-
-/* p, out [2 planes]. */
-void v_solve_end(const VCycle *cycle, double *p);
+/* Whether the largest |p_x| + |p_y| of the exact direction is on the same side
+ * of `length` as this one: H - M is positive semi-definite, so the error is at
+ * most the remainder's |r|_(M^-1) in the norm of M, and no node's share of it
+ * more than sqrt(2/m) times that.
+ *   square  |r|_(M^-1)^2 */
+bool v_decides(const Grid *grid, double largest, double square, double length);
 
 #endif

@@ -43,7 +43,7 @@ killers_for() { # file, what the list names
         own="$own terms body" ;;
     */model/*) own="$own terms body barrier mesh" ;;
     */solve/newton_multigrid.c) own="$own solvers" ;;
-    */solve/*grid* | */solve/v_cycle* | */solve/tips.c | */solve/plane_*)
+    */solve/*grid* | */solve/v_cycle* | */solve/tiles.c)
         own="$own multigrid solvers" ;;
     */base/quartic.[ch]) own="$own line_search solvers" ;;
     */step/*) own="$own integrators explicit orders" ;;

@@ -43,25 +43,27 @@ for part in Makefile include src tests; do
 done
 cp -p "$sources"/build/config.mk tree/build
 
-# build COMPILER LEVEL: tree/build/elasto
+# build COMPILER LEVEL [MACROS]: tree/build/elasto
 build() {
     rm -f tree/build/elasto
     "${MAKE:-make}" -s -C tree build/elasto CC="$1" CFLAGS="$2 -w" \
+        CPPFLAGS="${3:-}" \
         >log 2>&1 || tail -n 3 log
 }
 
 first=
 for threads in 1 2; do
-    OPENBLAS_NUM_THREADS=$threads OMP_NUM_THREADS=$threads states "$elasto" \
-        >table
+    ELASTO_THREADS=$threads states "$elasto" >table
     compare "build/elasto, threads: $threads" table
 done
-for lanes in 2 4 8; do
-    for threads in 1 2; do
-        ELASTO_LANES=$lanes ELASTO_THREADS=$threads states "$elasto" >table
-        compare "build/elasto, lanes: $lanes, threads: $threads" table
+# Multigrid's loops for each width of registers: FAST, see grid_loops.h.
+if grep -qw avx2 /proc/cpuinfo; then
+    for width in '' '__attribute__((target(\"avx2\")))'; do
+        build "${CC:-cc}" -O2 "-DFAST=\"$width\""
+        [ ! -x tree/build/elasto ] || states tree/build/elasto >table
+        compare "FAST=$width" table
     done
-done
+fi
 for compiler in gcc clang; do
     for level in -O0 -O2 -O3; do
         if ! command -v "$compiler" >/dev/null; then

@@ -1,0 +1,254 @@
+#include <math.h>
+#include <string.h>
+
+#include "solve/grid_loops.h"
+
+/* What a loop over bands of rows is given. */
+typedef struct Pass {
+    const Grid *grid;
+    const double *a, *b;
+    double *out;
+} Pass;
+
+/* Nanoseconds a node takes, about: it decides only who works. */
+static const double HEAVY = 3;
+
+/* Runs a loop over all bands and adds up what each of them has summed. */
+static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
+{
+    const Grid *grid = pass.grid;
+    crew_run(grid->crew, loop, &pass, grid->bands,
+             cost * grid->rows.nodes * grid->rows.nodes);
+    for (int s = 0; s < sums; s++)
+        sum[s] = 0;
+    for (int band = 0; band < grid->bands; band++)
+        for (int s = 0; s < sums; s++)
+            sum[s] += grid->sums[band * MAX_SUMS + s];
+}
+
+/* The nodes of a band, LANES at once: nodes q, with `at`. */
+#define EACH_NODE_OF(grid, band)                                               \
+    for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
+         i++)                                                                  \
+        for (int odd = 0; odd < 2; odd++)                                      \
+            for (Place at = grid_place(&(grid), i, odd); at.first < at.end;    \
+                 at.first += LANES)                                            \
+                EACH_OF (LANES)
+
+/* What the loops have in common: the bands, and the parts of their sums. */
+#define BANDS                                                                  \
+    const Pass *pass = job;                                                    \
+    const Grid grid = *pass->grid;                                             \
+    const int plane = grid.rows.plane;                                         \
+    const double *const x = grid.x, *const y = x + plane;                      \
+    (void)x;                                                                   \
+    (void)y;                                                                   \
+    for (int band = first; band < end; band++)
+
+INLINE void gradient(const void *job, int first, int end, bool uniform)
+{
+    BANDS
+    {
+        const double *const ax = grid.away, *const ay = ax + plane;
+        double *const gx = pass->out, *const gy = gx + plane;
+        double sum[3][LANES] = {{0}};
+        EACH_NODE_OF (grid, band) {
+            const int q = at.first + e;
+            double fx = grid.m[q + at.node] * ax[q];
+            double fy = grid.m[q + at.node] * ay[q];
+            sum[1][e] += fx;
+            sum[2][e] += fy;
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        fx += s.c * s.s * s.dx;                                                \
+        fy += s.c * s.s * s.dy;                                                \
+    }
+            ALL_SPRINGS(ADD, at)
+#undef ADD
+            gx[q] = fx;
+            gy[q] = fy;
+            sum[0][e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
+        }
+        for (int s = 0; s < 3; s++)
+            grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);
+    }
+}
+
+/* Makes a loop of its two variants. */
+#define LOOP(name)                                                             \
+    FAST static void name##_loop(const void *job, int first, int end)          \
+    {                                                                          \
+        if (((const Pass *)job)->grid->uniform)                                \
+            name(job, first, end, true);                                       \
+        else                                                                   \
+            name(job, first, end, false);                                      \
+    }
+LOOP(gradient)
+
+double grid_gradient(const Grid *grid, double *g, double moment[2])
+{
+    double sum[3];
+    run(gradient_loop, (Pass){.grid = grid, .out = g}, HEAVY, 3, sum);
+    moment[0] = sum[1];
+    moment[1] = sum[2];
+    return sum[0];
+}
+
+/* By how much more one end of a spring moves than the other. */
+#define ALONG_SPRING(to)                                                       \
+    double ux = px[q] - px[q + (to)], uy = py[q] - py[q + (to)]
+
+/* out = -b - H p, H clamped, and |out|_(M^-1)^2; or H p, and p.H p. */
+INLINE void product(const void *job, int first, int end, bool uniform,
+                    bool clamped)
+{
+    BANDS
+    {
+        const double *const px = pass->a, *const py = px + plane;
+        const double *const bx = pass->b, *const by = bx + plane;
+        double *const to_x = pass->out, *const to_y = to_x + plane;
+        double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
+        EACH_NODE_OF (grid, band) {
+            const int q = at.first + e;
+            double size = fabs(px[q]) + fabs(py[q]);
+            double fx = grid.m[q + at.node] * px[q];
+            double fy = grid.m[q + at.node] * py[q];
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        ALONG_SPRING(to);                                                      \
+        double iso = s.s > 0 || !clamped ? s.s : 0;                            \
+        double along = clamped ? 2 + (s.s - iso) / safe(s.d2) : 2;             \
+        along = (along > 0 ? along : 0) * (s.dx * ux + s.dy * uy);             \
+        fx += s.c * (iso * ux + along * s.dx);                                 \
+        fy += s.c * (iso * uy + along * s.dy);                                 \
+    }
+            ALL_SPRINGS(ADD, at)
+#undef ADD
+            fx = clamped ? -bx[q] - fx : fx;
+            fy = clamped ? -by[q] - fy : fy;
+            to_x[q] = fx;
+            to_y[q] = fy;
+            sum[e] += clamped ? grid.per_m[q + at.node] * (fx * fx + fy * fy)
+                              : fx * px[q] + fy * py[q];
+            most[e] = size > most[e] ? size : most[e];
+        }
+        for (int e = 0; e < LANES; e++)
+            largest = most[e] > largest ? most[e] : largest;
+        grid.sums[band * MAX_SUMS] = sum_of(sum);
+        grid.sums[band * MAX_SUMS + 1] = largest;
+    }
+}
+
+INLINE void remainder_of(const void *job, int first, int end, bool uniform)
+{
+    product(job, first, end, uniform, true);
+}
+LOOP(remainder_of)
+
+INLINE void product_of(const void *job, int first, int end, bool uniform)
+{
+    product(job, first, end, uniform, false);
+}
+LOOP(product_of)
+
+double grid_remainder(const Grid *grid, const double *g, const double *p,
+                      double *rest, double *largest)
+{
+    double sum;
+    run(remainder_of_loop, (Pass){.grid = grid, .a = p, .b = g, .out = rest},
+        2 * HEAVY, 1, &sum);
+    *largest = 0;
+    for (int band = 0; band < grid->bands; band++)
+        *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
+    return sum;
+}
+
+double grid_product(const Grid *grid, const double *d, double *y)
+{
+    double sum;
+    run(product_of_loop, (Pass){.grid = grid, .a = d, .b = d, .out = y},
+        2 * HEAVY, 1, &sum);
+    return sum;
+}
+
+INLINE void along_line(const void *job, int first, int end, bool uniform)
+{
+    BANDS
+    {
+        const double *const gx = pass->a, *const gy = gx + plane;
+        const double *const px = pass->b, *const py = px + plane;
+        double sum[4][LANES] = {{0}};
+        EACH_NODE_OF (grid, band) {
+            const int q = at.first + e;
+            double f1 = 0, f2 = 0, f3 = 0, p2 = px[q] * px[q] + py[q] * py[q];
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        ALONG_SPRING(to);                                                      \
+        double B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;         \
+        f1 += s.c * (B * B + 2 * s.s * C);                                     \
+        f2 += s.c * B * C;                                                     \
+        f3 += s.c * C * C;                                                     \
+    }
+            OWN_SPRINGS(ADD, at)
+#undef ADD
+            sum[0][e] += gx[q] * px[q] + gy[q] * py[q];
+            sum[1][e] += 0.25 * f1 + 0.5 * grid.m[q + at.node] * p2;
+            sum[2][e] += 0.5 * f2;
+            sum[3][e] += 0.25 * f3;
+        }
+        for (int s = 0; s < 4; s++)
+            grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);
+    }
+}
+LOOP(along_line)
+
+void grid_along(const Grid *grid, const double *g, const double *p, double q[4])
+{
+    run(along_line_loop, (Pass){.grid = grid, .a = g, .b = p}, HEAVY, 4, q);
+}
+
+/* ---- without springs: all numbers of the planes ---- */
+
+FAST void grid_move(const Grid *grid, double a, const double *p)
+{
+    double *const away = grid->away, *const x = grid->x;
+    const double *const x_tilde = grid->x_tilde;
+    EACH_OF (2 * grid->rows.plane) {
+        away[e] += a * p[e];
+        x[e] = x_tilde[e] + away[e];
+    }
+}
+
+FAST void grid_shift(const Grid *grid, const double by[2])
+{
+    const Rows rows = grid->rows;
+    for (int i = 0; i < 4 * rows.nodes; i++) {
+        int from = place_of(&rows, i / 4, i % 2) + i / 2 % 2 * rows.plane;
+        const double shift = by[i / 2 % 2], *const x_tilde =
+                                                grid->x_tilde + from;
+        double *const away = grid->away + from, *const x = grid->x + from;
+        EACH_OF (rows.count[i % 2]) {
+            away[e] += shift;
+            x[e] = x_tilde[e] + away[e];
+        }
+    }
+}
+
+FAST double grid_dot(const Grid *grid, const double *a, const double *b)
+{
+    double sum[LANES] = {0};
+    for (int q = 0; q < 2 * grid->rows.plane; q += LANES)
+        EACH_OF (LANES)
+            sum[e] += a[q + e] * b[q + e];
+    return sum_of(sum);
+}
+
+FAST void grid_combine(const Grid *grid, double alpha, const double *x,
+                       double beta, double *y)
+{
+    EACH_OF (2 * grid->rows.plane)
+        y[e] = alpha * x[e] + beta * y[e];
+}

@@ -1,0 +1,111 @@
+/* grid_loops.h - how loops go through a grid: some nodes at once, each with its
+ * springs.  Plain loops over LANES nodes, which the compiler vectorises.
+ */
+#ifndef ELASTO_GRID_LOOPS_H
+#define ELASTO_GRID_LOOPS_H
+
+#include <stdint.h> /* any header of the library: says whether it is glibc */
+
+#include "solve/grid.h"
+
+/* A loop that is compiled for several widths of registers, of which the
+ * processor's is taken as the program starts.  Sums have one shape and products
+ * are not contracted, so that they agree in every bit. */
+#ifndef FAST
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
+    !defined(__clang__)
+#define FAST __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define FAST
+#endif
+#endif
+
+/* A part of such a loop. */
+#define INLINE static inline __attribute__((always_inline))
+
+/* Nodes of one row that stand side by side, and where their neighbours and
+ * their numbers are. */
+typedef struct Place {
+    int first, end;    /* places of the first node, past the last one */
+    int next;          /* from a node to the next row */
+    int before, after; /* ... to the columns before and after its own */
+    int own, below;    /* ... to the numbers of springs that start in its row,
+                          and in the row before */
+    int node;          /* ... to its mass */
+} Place;
+
+INLINE Place place_in_row(const Rows *rows, int i, int odd)
+{
+    int first = (i + 1) * rows->pitch + odd * rows->half;
+    int before = odd ? -rows->half : rows->half - 1;
+    return (Place){.first = first,
+                   .end = first + rows->count[odd],
+                   .next = rows->pitch,
+                   .before = before,
+                   .after = before + 1};
+}
+
+/* LANES (or WIDE_LANES) nodes from `first` on; e counts them. */
+#define EACH_OF(lanes)                                                         \
+    _Pragma("GCC unroll 1")                                                    \
+        _Pragma("GCC ivdep") for (int e = 0; e < (lanes); e++)
+
+/* The springs of a node: their kind, where their other node is, and where their
+ * numbers are.  Two are in the node's row, six lead to the next rows; four of
+ * all start at the node. */
+#define ROW_SPRINGS(F, at)                                                     \
+    F(UP, (at).after, (at).own)                                                \
+    F(UP, (at).before, (at).own + (at).before)
+#define CROSS_SPRINGS(F, at)                                                   \
+    F(RIGHT, (at).next, (at).own)                                              \
+    F(RIGHT, -(at).next, (at).below - (at).next)                               \
+    F(DIAGONAL, (at).next + (at).after, (at).own)                              \
+    F(DIAGONAL, (at).before - (at).next, (at).below + (at).before - (at).next) \
+    F(ANTIDIAGONAL, (at).next + (at).before, (at).own)                         \
+    F(ANTIDIAGONAL, (at).after - (at).next, (at).below + (at).after - (at).next)
+#define ALL_SPRINGS(F, at) ROW_SPRINGS(F, at) CROSS_SPRINGS(F, at)
+#define OWN_SPRINGS(F, at)                                                     \
+    F(RIGHT, (at).next, (at).own)                                              \
+    F(UP, (at).after, (at).own)                                                \
+    F(DIAGONAL, (at).next + (at).after, (at).own)                              \
+    F(ANTIDIAGONAL, (at).next + (at).before, (at).own)
+
+/* The same of row i of the step's grid, whose rows may share their numbers. */
+INLINE Place grid_place(const Grid *grid, int i, int odd)
+{
+    Place at = place_in_row(&grid->rows, i, odd);
+    at.own = grid->spring_shift[i + 1];
+    at.below = grid->spring_shift[i];
+    at.node = grid->node_shift[i];
+    return at;
+}
+
+/* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
+typedef struct Spring {
+    double dx, dy, d2, s, c;
+} Spring;
+
+/* From node q to node q + to; uniform is a constant of the loop. */
+INLINE Spring spring_of(const Grid *grid, bool uniform, int kind, int q, int to,
+                        int at)
+{
+    const double *x = grid->x, *y = x + grid->rows.plane;
+    double dx = x[q] - x[q + to], dy = y[q] - y[q + to];
+    double d2 = dx * dx + dy * dy;
+    double l2 = uniform ? grid->l2_all[kind] : grid->l2[kind][q + at];
+    return (Spring){dx, dy, d2, d2 - l2, grid->c[kind][q + at]};
+}
+
+/* What may divide. */
+INLINE double safe(double d2)
+{
+    return d2 + 1e-300;
+}
+
+/* The parts of a sum, in one order always. */
+INLINE double sum_of(const double s[LANES])
+{
+    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
+#endif

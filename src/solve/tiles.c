@@ -1,0 +1,190 @@
+#include "solve/tiles.h"
+
+#include "solve/grid_loops.h"
+
+/* Rows of a tile; it is LANES even and LANES odd columns wide. */
+enum { TILE_ROWS = 4 };
+
+/* Newton's step of a node is made longer by this factor; a shorter one is
+ * tried, too. */
+static const double OVER_RELAXED = 1.8, SHORTER = 0.25;
+
+/* A block of the Hessian is used as it is where its determinant is larger than
+ * this share of its trace's square; else clamped. */
+static const double DEFINITE = 0.0025;
+
+/* Tiles relax that may lower E by SHARE of what the best one may, of which
+ * their neighbours hear SPREAD, while the best stands out from the mean. */
+static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
+
+/* Nanoseconds that a sweep of a tile takes, about. */
+static const double TILE_COST = 700;
+
+void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
+{
+    int high = grid->segments / TILE_ROWS + 1;
+    int wide = (grid->rows.count[0] + LANES - 1) / LANES;
+    size_t count = (size_t)high * (size_t)wide;
+    *tiles = (Tiles){.grid = grid, .high = high, .wide = wide};
+    tiles->activity = memory_piece(memory, count * sizeof *tiles->activity);
+    tiles->change = memory_piece(memory, count * sizeof *tiles->change);
+    tiles->chosen = memory_piece(memory, count * sizeof *tiles->chosen);
+}
+
+/* How far to go where E changes by a (f1 + a (f2 + a (f3 + a f4))): the longest
+ * of three steps that lower it, or 0. */
+INLINE double step_of(double f1, double f2, double f3, double f4, double *lower)
+{
+    const double far[3] = {SHORTER, 1, OVER_RELAXED};
+    double go = 0;
+    *lower = 0;
+#define TRY(a)                                                                 \
+    {                                                                          \
+        double E = (a) * (f1 + (a) * (f2 + (a) * (f3 + (a)*f4)));              \
+        go = E < 0 ? (a) : go;                                                 \
+        *lower = E < 0 ? E : *lower;                                           \
+    }
+    TRY(far[0])
+    TRY(far[1])
+    TRY(far[2])
+#undef TRY
+    return go;
+}
+
+/* LANES nodes of a row, none of which share a spring. */
+INLINE void relax_nodes(const Grid *grid, Place at, bool uniform, double *sum)
+{
+    const int plane = grid->rows.plane;
+    const double *const tx = grid->x_tilde, *const ty = tx + plane;
+    double *const x = grid->x, *const y = x + plane;
+    double *const ax = grid->away, *const ay = ax + plane;
+    EACH_OF (LANES) {
+        const int q = at.first + e;
+        double mass = grid->m[q + at.node], gx = mass * ax[q];
+        double gy = mass * ay[q], xx = 0, xy = 0, yy = 0;
+        double cx = 0, cy = 0, c = 0, iso = mass, negative = 0;
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        Spring s = spring_of(grid, uniform, kind, q, to, numbers);             \
+        double f = s.c * s.s, fx = s.c * s.dx, fy = s.c * s.dy;                \
+        gx += f * s.dx;                                                        \
+        gy += f * s.dy;                                                        \
+        xx += fx * s.dx;                                                       \
+        xy += fx * s.dy;                                                       \
+        yy += fy * s.dy;                                                       \
+        cx += fx;                                                              \
+        cy += fy;                                                              \
+        c += s.c;                                                              \
+        iso += f;                                                              \
+        negative += f < 0 ? f : 0;                                             \
+    }
+        ALL_SPRINGS(ADD, at)
+#undef ADD
+        double A = iso + 2 * xx, B = 2 * xy, C = iso + 2 * yy, trace = A + C;
+        bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
+        double a = good ? A : A - negative, d = good ? C : C - negative;
+        double det = a * d - B * B;
+        bool moves = (det > 0) & (grid->per_m[q + at.node] > 0);
+        double over = moves ? -1 / (det > 0 ? det : 1) : 0;
+        double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
+        double p2 = px * px + py * py, f1 = gx * px + gy * py, lower;
+        double f2 = 0.5 * (A * px * px + 2 * B * px * py + C * py * py);
+        double f3 = p2 * (cx * px + cy * py), f4 = 0.25 * c * p2 * p2;
+        double go = step_of(f1, f2, f3, f4, &lower);
+        double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
+        ax[q] = to_x;
+        ay[q] = to_y;
+        x[q] = tx[q] + to_x;
+        y[q] = ty[q] + to_y;
+        sum[e] += lower;
+    }
+}
+
+/* Even rows, then odd ones, of each the even columns, then the odd ones. */
+INLINE double relax_tile(const Tiles *tiles, int tile, bool uniform)
+{
+    const Grid grid = *tiles->grid;
+    int top = tile / tiles->wide * TILE_ROWS, column = tile % tiles->wide;
+    double sum[LANES] = {0};
+    for (int colour = 0; colour < 4; colour++)
+        for (int i = top + colour / 2; i < top + TILE_ROWS; i += 2) {
+            if (i >= grid.rows.nodes)
+                break;
+            Place at = grid_place(&grid, i, colour % 2);
+            at.first += column * LANES;
+            if (at.first < at.end)
+                relax_nodes(&grid, at, uniform, sum);
+        }
+    return sum_of(sum);
+}
+
+FAST static void relax_chosen(const void *job, int first, int end)
+{
+    const Tiles *tiles = job;
+    for (int t = first; t < end; t++) {
+        int tile = tiles->chosen[t];
+        if (tiles->grid->uniform)
+            tiles->change[tile] = relax_tile(tiles, tile, true);
+        else
+            tiles->change[tile] = relax_tile(tiles, tile, false);
+    }
+}
+
+/* Tells the tiles around what this one has done. */
+static void spread_activity(const Tiles *tiles, int tile)
+{
+    int i = tile / tiles->wide, j = tile % tiles->wide;
+    for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < tiles->high; a++)
+        for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < tiles->wide; b++)
+            tiles->activity[a * tiles->wide + b] +=
+                SPREAD * tiles->change[tile];
+    tiles->activity[tile] = tiles->change[tile];
+}
+
+/* Sweeps of the tiles with at least this activity.  Tiles of a colour have no
+ * neighbours among each other, so it does not matter who relaxes first.
+ *   visits  out, how many they were
+ * Returns the change of E. */
+static double relax_active(Tiles *tiles, double activity, int *visits)
+{
+    double change = 0;
+    *visits = 0;
+    for (int colour = 0; colour < 4; colour++) {
+        int count = 0;
+        for (int i = colour / 2; i < tiles->high; i += 2)
+            for (int j = colour % 2; j < tiles->wide; j += 2)
+                if (tiles->activity[i * tiles->wide + j] <= activity)
+                    tiles->chosen[count++] = i * tiles->wide + j;
+        crew_run_uneven(tiles->grid->crew, relax_chosen, tiles, count,
+                        count * TILE_COST);
+        for (int t = 0; t < count; t++) {
+            spread_activity(tiles, tiles->chosen[t]);
+            change += tiles->change[tiles->chosen[t]];
+        }
+        *visits += count;
+    }
+    tiles->sweeps += *visits;
+    return change;
+}
+
+double tiles_relax(Tiles *tiles, double pace)
+{
+    int count = tiles->high * tiles->wide, visits;
+    for (int t = 0; t < count; t++)
+        tiles->activity[t] = 0;
+    double lowered = relax_active(tiles, 0, &visits), change = lowered;
+    for (int t = 0; t < count; t++)
+        tiles->activity[t] = tiles->change[t];
+    do {
+        double sum = 0, most = 0;
+        for (int t = 0; t < count; t++) {
+            sum += tiles->activity[t];
+            most = tiles->activity[t] < most ? tiles->activity[t] : most;
+        }
+        if (!(most < 0 && most <= STANDS_OUT * sum / count))
+            break;
+        lowered = relax_active(tiles, SHARE * most, &visits);
+        change += lowered;
+    } while (lowered < pace * visits);
+    return change;
+}

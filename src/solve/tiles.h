@@ -1,0 +1,35 @@
+/* tiles.h - where folds run: minimisation node by node between directions of
+ * the whole square.
+ *
+ * When the square buckles, a dislocation of some ten nodes runs along a row,
+ * less than a cell for each Newton direction of the whole square.  Here tiles
+ * of 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
+ * each node in turn makes Newton's step for itself alone, with its 2x2 block of
+ * the Hessian as it is.  Where E bends up there, a fold is followed that the
+ * clamped Hessian sees as flat.  What E does along such a step is a quartic
+ * with known coefficients, so the step may be longer by a factor and E never
+ * rises; and a tile knows by how much it fell.
+ */
+#ifndef ELASTO_TILES_H
+#define ELASTO_TILES_H
+
+#include "solve/grid.h"
+
+typedef struct Tiles {
+    const Grid *grid;
+    int high, wide;   /* tiles */
+    double *activity; /* [tiles] J s^2, what a tile may lower E by, < 0 */
+    double *change;   /* [tiles] J s^2, by its last sweep */
+    int *chosen;      /* [tiles] those that relax next */
+    long sweeps;      /* of tiles, done so far */
+} Tiles;
+
+void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
+
+/* Relaxes all tiles once, then those that lower E most, until none stands out
+ * or they lower it by less than the pace.
+ *   pace  J s^2, < 0, change of E by a sweep that is worth it
+ * Returns by how much E has changed, <= 0. */
+double tiles_relax(Tiles *tiles, double pace);
+
+#endif
