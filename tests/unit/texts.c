@@ -1,6 +1,6 @@
 /* texts.c - what the frames say: every text that is drawn, as a line of JSON,
- * with the states it speaks of; checks/numbers.py calculates the numbers in it
- * again.  It is told on standard input what to do, a line each:
+ * with the states it speaks of; checks/frame_numbers.py calculates the numbers
+ * in it again.  It is told on standard input what to do, a line each:
  *   begin OPTIONS...         another run
  *   run N                    so many steps of it
  *   hover spring|node NUMBER the mouse is there; hover none 0: nowhere
