@@ -45,6 +45,10 @@ typedef bool TermChange(Term *term, System *system, const double *x,
                         const double *v, double h);
 
 struct TermKind {
+    /* What the ledger calls the energy that it stores, and what it takes out
+     * for good (Term.lost); NULL: neither. */
+    const char *energy, *loss;
+
     /* Whether its numbers are finite and in their ranges; NULL: always. */
     bool (*valid)(const Place *at);
 

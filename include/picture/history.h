@@ -6,7 +6,7 @@
 #ifndef ELASTO_HISTORY_H
 #define ELASTO_HISTORY_H
 
-enum { HISTORY_SERIES = 12, HISTORY_POINTS = 1024 };
+enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
 
 typedef struct History {
     int series;                       /* rows in use, at most HISTORY_SERIES */
@@ -21,8 +21,12 @@ typedef struct History {
     double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
 } History;
 
-/* Empties it; names stay. */
+/* Empties it; it has no series any more. */
 void history_clear(History *history);
+
+/* The series of this name, which began with 0 where it is new; the last one
+ * where there is no room for another. */
+int history_series(History *history, const char *name);
 
 /* Appends a point; nothing happens if a number is not finite.
  *   time   s, in: above the one before

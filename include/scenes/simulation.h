@@ -62,21 +62,26 @@ typedef struct Simulation {
     NewtonCounters counted;    /* by solvers that are no more */
 } Simulation;
 
+/* A quantity of the ledger by its name: "elastic", "friction". */
+typedef struct Energy {
+    const char *name; /* not owned */
+    double value;     /* J */
+} Energy;
+
 /* The ledger of a run, J.  What it holds now:
- *   total = kinetic + elastic + gravity + contact + hand
+ *   total = kinetic + gravity + what the terms store (TermKind.energy)
  * and where the rest has gone since it began:
  *   total at the start + work
- *     = total + plastic + fracture + friction + damping + dissipated. */
+ *     = total + what the terms have taken out (TermKind.loss) + dissipated.
+ * Each term books for itself; several may share a name. */
+enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
+
 typedef struct Energies {
-    double kinetic;
-    double elastic; /* springs, with what hardening stores; central field */
-    double gravity;
-    double hand;    /* the spring between the mouse and a node */
-    double contact; /* barriers of obstacles and of cells */
-    double total;
-    double plastic, fracture, friction, damping; /* lost for good */
+    double kinetic, gravity, total;
     double work;       /* done by what moves walls, pins and the hand */
     double dissipated; /* by the integrator; < 0: it has made energy */
+    int rows;
+    Energy row[ENERGY_ROWS]; /* all, as legends have it: total first */
 } Energies;
 
 /* Sets up options->scene.  simulation out; free it in any case.
@@ -101,8 +106,9 @@ bool simulation_record(Simulation *simulation, const NewtonRecord *record);
 /* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);
 
-/* Energies of one run, computed now. */
+/* Energies of one run, computed now; one of them, 0 where no term has it. */
 Energies simulation_energies(const Simulation *simulation, int run);
+double energies_of(const Energies *energies, const char *name);
 
 /* Whether the tolerance may leave a body at rest hanging in the air, or let a
  * contact that creeps freeze: above a tenth of h |g| or of the slip speed.

@@ -384,6 +384,7 @@ static void free_cells(void *data)
 }
 
 const TermKind cell_energy = {
+    .energy = "contact",
     .valid = valid,
     .value = value,
     .gradient = gradient,

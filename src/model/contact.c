@@ -365,6 +365,7 @@ static void free_contact(void *data)
 }
 
 const TermKind contact_energy = {
+    .energy = "contact",
     .valid = valid,
     .value = value,
     .gradient = gradient,

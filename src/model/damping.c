@@ -78,6 +78,7 @@ static void free_damping(void *data)
 }
 
 const TermKind damping = {
+    .loss = "damping",
     .valid = valid,
     .begin = begin,
     .end = end,

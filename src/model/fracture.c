@@ -118,6 +118,7 @@ static void free_fracture(void *data)
 }
 
 const TermKind fracture = {
+    .loss = "fracture",
     .valid = valid,
     .end = end,
     .free = free_fracture,

@@ -201,6 +201,7 @@ static void free_friction(void *data)
 }
 
 const TermKind friction_energy = {
+    .loss = "friction",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -107,6 +107,7 @@ void mass_spring_bounds(const Place *at, double *stiffest, double *force)
 }
 
 const TermKind mass_spring_energy = {
+    .energy = "elastic",
     .value = value,
     .gradient = gradient,
     .entries = mass_spring_entries,

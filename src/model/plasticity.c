@@ -245,6 +245,8 @@ static void free_plasticity(void *data)
 }
 
 const TermKind plastic_energy = {
+    .energy = "elastic",
+    .loss = "plastic",
     .valid = valid,
     .value = value,
     .gradient = gradient,

@@ -93,8 +93,9 @@ static void bounds(const Place *at, double *stiffest, double *force)
     .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
     .free = free, .diagonal = true
 
-const TermKind central_field = {PULL, .averaged = &central_field};
-const TermKind hand_energy = {PULL, .averaged = &hand_energy};
+const TermKind central_field = {PULL, .energy = "elastic",
+                                .averaged = &central_field};
+const TermKind hand_energy = {PULL, .energy = "hand", .averaged = &hand_energy};
 
 Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {

@@ -65,10 +65,12 @@ static bool series_are_runs(const Simulation *simulation)
     return simulation->scene->picture == PICTURE_MASS && simulation->runs > 1;
 }
 
-static Colour series_colour(const Simulation *simulation, int series)
+static Colour series_colour(const Simulation *simulation,
+                            const History *history, int series)
 {
-    return series_are_runs(simulation) ? circle_colour(simulation, series)
-                                       : colour_of_energy(series);
+    return series_are_runs(simulation)
+               ? circle_colour(simulation, series)
+               : colour_of_energy(history->name[series]);
 }
 
 /* The last point of the history that is not later than this time; -1: none. */
@@ -259,7 +261,7 @@ static int write_legend(Paper *paper, Box inside, const Show *show,
                                           : energies_value(active->simulation,
                                                            history, s, time);
         x = draw_word(paper, &row, x, size,
-                      draw ? series_colour(active->simulation, s) : 0,
+                      draw ? series_colour(active->simulation, history, s) : 0,
                       history->name[s] ? history->name[s] : "", value);
         end = x > end ? x : end;
     }
@@ -319,7 +321,7 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
     for (int s = history->series - 1; !compares(show) && s >= 0; s--)
         if (worthy >> s & 1)
             draw_series(paper, &plot, history, s, s == 0 ? 1.8 : 1.4,
-                        series_colour(simulation, s));
+                        series_colour(simulation, history, s));
 }
 
 /* Of bodies apart only one is told of. */

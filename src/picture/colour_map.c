@@ -42,32 +42,49 @@ Colour colour_of_run(int run)
     return colours[run < 0 ? 0 : run % 6];
 }
 
-Colour colour_of_method(const char *name)
+/* A colour by its name. */
+typedef struct Named {
+    const char *name;
+    Colour colour;
+} Named;
+
+static Colour find_colour(const Named *rows, const char *name, Colour otherwise)
 {
-    static const struct {
-        const char *name;
-        Colour colour;
-    } rows[] = {{"forward-euler", 0xffd55e00u},
-                {"symplectic-euler", 0xff009e73u},
-                {"backward-euler", 0xff0072b2u},
-                {"verlet", 0xffb0559au},
-                {"midpoint", 0xff7a5c2eu},
-                {"avf4", 0xff56b4e9u},
-                {"bdf2", 0xff8a7a00u},
-                {"sdirk2", 0xff5a4fa2u},
-                {"avf", 0xff444444u}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return rows[i].colour;
-    return COLOUR_X;
+    for (; rows->name; rows++)
+        if (strcmp(rows->name, name) == 0)
+            return rows->colour;
+    return otherwise;
 }
 
-/* The total is black; the others follow in the order of the ledger. */
-Colour colour_of_energy(int energy)
+Colour colour_of_method(const char *name)
 {
-    static const Colour colours[] = {0xff1c1c1cu, 0xff3d9bd6u, 0xffb8860bu,
-                                     0xff6b8e23u, 0xffa0522du, 0xff8a8a8au,
-                                     0xff7b1fa2u, 0xffc2738bu, 0xff2f6f6fu,
-                                     0xff0072b2u, 0xff00a88fu, 0xffd55e00u};
-    return colours[energy < 0 ? 0 : energy % 12];
+    static const Named rows[] = {{"forward-euler", 0xffd55e00u},
+                                 {"symplectic-euler", 0xff009e73u},
+                                 {"backward-euler", 0xff0072b2u},
+                                 {"verlet", 0xffb0559au},
+                                 {"midpoint", 0xff7a5c2eu},
+                                 {"avf4", 0xff56b4e9u},
+                                 {"bdf2", 0xff8a7a00u},
+                                 {"sdirk2", 0xff5a4fa2u},
+                                 {"avf", 0xff444444u},
+                                 {NULL, 0}};
+    return find_colour(rows, name, COLOUR_X);
+}
+
+Colour colour_of_energy(const char *name)
+{
+    static const Named rows[] = {{"total", 0xff1c1c1cu},
+                                 {"kinetic", 0xff3d9bd6u},
+                                 {"elastic", 0xffb8860bu},
+                                 {"gravity", 0xff6b8e23u},
+                                 {"contact", 0xffa0522du},
+                                 {"hand", 0xff8a8a8au},
+                                 {"plastic", 0xff7b1fa2u},
+                                 {"fracture", 0xffc2738bu},
+                                 {"friction", 0xff2f6f6fu},
+                                 {"work", 0xff0072b2u},
+                                 {"dissipated", 0xff00a88fu},
+                                 {"damping", 0xffd55e00u},
+                                 {NULL, 0}};
+    return find_colour(rows, name, COLOUR_SHADED);
 }

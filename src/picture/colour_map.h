@@ -46,9 +46,11 @@
 #define COLOUR_SHADE  0xfffdf0d5u
 #define COLOUR_SHADED 0xff8a6100u
 
-/* Panes and integrators side by side, energies one by one: six of each. */
+/* Panes and integrators side by side. */
 Colour colour_of_run(int run);
-Colour colour_of_energy(int energy);
+
+/* An energy, by the name that the ledger gives it. */
+Colour colour_of_energy(const char *name);
 
 /* An integrator, by its name: the same colour alone and among others. */
 Colour colour_of_method(const char *name);

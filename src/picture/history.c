@@ -2,14 +2,29 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
-/* Empties it. */
 void history_clear(History *history)
 {
+    history->series = 0;
     history->count = 0;
     history->stride = 1;
     history->calls = 0;
     history->low = history->high = 0;
+}
+
+int history_series(History *history, const char *name)
+{
+    int s = 0;
+    while (s < history->series && strcmp(history->name[s], name) != 0)
+        s++;
+    if (s == HISTORY_SERIES)
+        return s - 1;
+    if (s == history->series) {
+        history->name[history->series++] = name;
+        memset(history->value[s], 0, sizeof history->value[s]);
+    }
+    return s;
 }
 
 /* Point `to` = point `from`. */

@@ -426,18 +426,12 @@ static void square_draw(Paper *paper, const Stage *stage, const Show *show)
 static void square_sample(const Simulation *simulation, History *history,
                           Trail *trail)
 {
-    static const char *const names[] = {
-        "total",   "kinetic",  "elastic",  "gravity", "contact",    "hand",
-        "plastic", "fracture", "friction", "work",    "dissipated", "damping"};
-    enum { NAMES = sizeof names / sizeof *names };
-    Energies e = simulation_energies(simulation, 0);
-    const double value[NAMES] = {
-        e.total,   e.kinetic,  e.elastic,  e.gravity, e.contact,    e.hand,
-        e.plastic, e.fracture, e.friction, e.work,    e.dissipated, e.damping};
+    Energies energies = simulation_energies(simulation, 0);
+    double value[HISTORY_SERIES] = {0};
     (void)trail;
-    history->series = NAMES;
-    for (int s = 0; s < NAMES; s++)
-        history->name[s] = names[s];
+    for (int i = 0; i < energies.rows; i++)
+        value[history_series(history, energies.row[i].name)] =
+            energies.row[i].value;
     history_add(history, simulation_time(simulation), value);
 }
 

@@ -7,7 +7,6 @@
 #include "model/cells.h"
 #include "model/contact.h"
 #include "model/damping.h"
-#include "model/fracture.h"
 #include "model/friction.h"
 #include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
@@ -389,11 +388,15 @@ Status simulation_change(Simulation *simulation, const Options *options)
     return status;
 }
 
-/* J, what one kind of term has taken out of the system. */
-static double lost_by(const System *system, const TermKind *kind)
+/* Adds to the row of this name, or makes one. */
+static void book(Energies *energies, const char *name, double value)
 {
-    const Term *term = system_find_term(system, kind);
-    return term ? term->lost : 0;
+    int i = 0;
+    while (i < energies->rows && strcmp(energies->row[i].name, name) != 0)
+        i++;
+    if (i == energies->rows)
+        energies->row[energies->rows++] = (Energy){name, 0};
+    energies->row[i].value += value;
 }
 
 Energies simulation_energies(const Simulation *simulation, int run)
@@ -401,27 +404,40 @@ Energies simulation_energies(const Simulation *simulation, int run)
     const TimeIntegrator *integrator = &simulation->run[run];
     const System *system = integrator->system;
     const double *x = integrator->x;
-    Energies energies = {
-        .kinetic = system_kinetic(system, integrator->v),
-        .gravity = system_gravity_potential(system, x),
-        .hand = system_energy_of(system, &hand_energy, x),
-        .contact = system_energy_of(system, &contact_energy, x) +
-                   system_energy_of(system, &cell_energy, x),
-        .plastic = lost_by(system, &plastic_energy),
-        .fracture = lost_by(system, &fracture),
-        .friction = lost_by(system, &friction_energy),
-        .damping = lost_by(system, &damping),
-        .work = simulation->work[run] + integrator->work,
-    };
-    energies.elastic =
-        system_potential(system, x) - energies.contact - energies.hand;
-    energies.total = energies.kinetic + energies.elastic + energies.gravity +
-                     energies.contact + energies.hand;
-    energies.dissipated = simulation->start[run] + energies.work -
-                          energies.total - energies.plastic -
-                          energies.fracture - energies.friction -
-                          energies.damping;
+    Energies energies = {.kinetic = system_kinetic(system, integrator->v),
+                         .gravity = system_gravity_potential(system, x),
+                         .work = simulation->work[run] + integrator->work};
+    double lost = 0;
+    energies.total = energies.kinetic + energies.gravity;
+    book(&energies, "total", 0);
+    book(&energies, "kinetic", energies.kinetic);
+    Place at = place_at(system, NULL, NULL, x);
+    for (const TermKind *kind; (kind = next_energy(&at)) != NULL;) {
+        double value = kind->energy ? kind->value(&at) : 0;
+        energies.total += value;
+        if (kind->energy)
+            book(&energies, kind->energy, value);
+    }
+    book(&energies, "gravity", energies.gravity);
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->loss) {
+            book(&energies, system->term[t].kind->loss, system->term[t].lost);
+            lost += system->term[t].lost;
+        }
+    energies.row[0].value = energies.total;
+    energies.dissipated =
+        simulation->start[run] + energies.work - energies.total - lost;
+    book(&energies, "work", energies.work);
+    book(&energies, "dissipated", energies.dissipated);
     return energies;
+}
+
+double energies_of(const Energies *energies, const char *name)
+{
+    for (int i = 0; i < energies->rows; i++)
+        if (strcmp(energies->row[i].name, name) == 0)
+            return energies->row[i].value;
+    return 0;
 }
 
 bool simulation_is_loose(const Simulation *simulation, double *needed)

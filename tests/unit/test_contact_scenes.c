@@ -184,7 +184,7 @@ static void what_is_symmetric_stays_so(void **unused)
         CHECK_NEAR(x[2 * node], -x[2 * image], 1e-10);
         CHECK_NEAR(x[2 * node + 1], x[2 * image + 1], 1e-10);
     }
-    CHECK(simulation_energies(&simulation, 0).plastic > 1000);
+    CHECK(energy_now(&simulation, 0, "plastic") > 1000);
     simulation_free(&simulation);
 }
 
@@ -376,25 +376,25 @@ static void what_hands_do_is_work(void **unused)
         int blocked = 0; /* the ceiling, by the node that is pinned */
         for (int deed = 0; deed < 24; deed++) {
             Energies before = simulation_energies(&simulation, 0);
-            double size = fabs(before.kinetic) + fabs(before.elastic) +
-                          fabs(before.gravity) + fabs(before.plastic) +
+            double size = fabs(before.kinetic) + fabs(OF(&before, elastic)) +
+                          fabs(before.gravity) + fabs(OF(&before, plastic)) +
                           fabs(before.work) + fabs(before.dissipated) + 1;
             meddle(&simulation, deed);
             Energies after = simulation_energies(&simulation, 0);
-            size += fabs(after.elastic) + fabs(after.hand);
+            size += fabs(OF(&after, elastic)) + fabs(OF(&after, hand));
             CHECK_NEAR(after.dissipated, before.dissipated, 1e-12 * size);
-            CHECK(after.plastic == before.plastic &&
-                  after.fracture == before.fracture &&
-                  after.friction == before.friction);
+            CHECK(OF(&after, plastic) == OF(&before, plastic) &&
+                  OF(&after, fracture) == OF(&before, fracture) &&
+                  OF(&after, friction) == OF(&before, friction));
             for (int step = 0; step < 4; step++) {
                 before = simulation_energies(&simulation, 0);
                 Status status = simulation_step(&simulation);
                 CHECK(status == STATUS_OK || status == STATUS_BLOCKED);
                 blocked += status == STATUS_BLOCKED;
                 after = simulation_energies(&simulation, 0);
-                CHECK(after.plastic >= before.plastic &&
-                      after.fracture >= before.fracture &&
-                      after.friction >= before.friction);
+                CHECK(OF(&after, plastic) >= OF(&before, plastic) &&
+                      OF(&after, fracture) >= OF(&before, fracture) &&
+                      OF(&after, friction) >= OF(&before, friction));
             }
         }
         CHECK(i == 2 || blocked == 0);

@@ -235,8 +235,11 @@ static void strain_has_its_colours(void **unused)
 static void history_spans_the_run(void **unused)
 {
     (void)unused;
-    static History history = {.series = 3};
+    static History history;
     history_clear(&history);
+    CHECK(history_series(&history, "one") == 0);
+    CHECK(history_series(&history, "two") == 1);
+    CHECK(history_series(&history, "three") == 2);
     for (int i = 0; i < 100000; i++) {
         const double value[HISTORY_SERIES] = {i, 2.0 * i, -i};
         history_add(&history, 0.5 * i, value);
@@ -257,6 +260,9 @@ static void history_spans_the_run(void **unused)
     CHECK(history.count == count);
     CHECK(history.time[count - 1] == 0.5 * 99999);
     CHECK(history.high == 2.0 * 99999 && history.low == -99999);
+    CHECK(history_series(&history, "two") == 1); /* a new one was 0 */
+    CHECK(history_series(&history, "late") == 3 && history.series == 4);
+    CHECK(history.value[3][0] == 0 && history.value[3][count - 1] == 0);
     history_cut(&history, 100);
     double cut = history.time[history.count - 1];
     CHECK(cut <= 100 && cut > 100 - 0.5 * history.stride);

@@ -276,8 +276,8 @@ static void elements_keep_their_past(void **unused)
         CHECK(broken < 0 || fracture_of(system)->broken == broken);
         CHECK(hash_of(&track) == hash[steps]);
         Energies after = simulation_energies(simulation, 0);
-        CHECK(before.plastic == after.plastic);
-        CHECK(before.fracture == after.fracture);
+        CHECK(OF(&before, plastic) == OF(&after, plastic));
+        CHECK(OF(&before, fracture) == OF(&after, fracture));
         CHECK_NEAR(after.dissipated, before.dissipated,
                    1e-9 * (1 + fabs(after.total)));
         for (int s = steps; s < steps + 3; s++) {

@@ -407,3 +407,9 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
     CHECK_STATUS(simulation_create(&options, observer, user, simulation),
                  STATUS_OK);
 }
+
+double energy_now(const Simulation *simulation, int run, const char *name)
+{
+    const Energies energies = simulation_energies(simulation, run);
+    return energies_of(&energies, name);
+}

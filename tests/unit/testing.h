@@ -131,4 +131,8 @@ void dense_from_sparse(const Sparse *A, double *dense);
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);
 
+/* One row of a ledger; of that of a run now, J. */
+#define OF(energies, name) energies_of(energies, #name)
+double energy_now(const Simulation *simulation, int run, const char *name);
+
 #endif
