@@ -616,7 +616,7 @@ def scale(f, metre):
 
 # ---- rules: # a number, ~ any words; the function gets the frame and the words
 
-SO, NOT = lambda f, *_: [], None
+SO = lambda f, *_: []
 RULES = [
     *[("%s # %s" % (name, unit), lambda f, n, a=name, u=joule: energy(f, a, u))
       for name in ("total kinetic elastic gravity contact hand plastic fracture "

@@ -10,7 +10,7 @@ LONG = np.longdouble
 GIVEN = ("h stiffness tolerance stretch side density mu damping slip_speed yield_strain"
          " hardening segments gravity").split()
 
-def square(n, side=1.0, density=1000.0, k=1e5, stretch=1.4, height=None):
+def square(n, side=1.0, density=1000.0, k=1e5, stretch=1.4):
     """square_mesh.py of the slides: nodes, springs, masses, lengths."""
     node = np.array([(i, j) for i in range(n + 1) for j in range(n + 1)])
     at = lambda i, j: i * (n + 1) + j
