@@ -126,18 +126,15 @@ static void read_springs(Grid *grid, const double *k, const double *l2,
     int n = grid->segments;
     double *arrays[2 * KINDS];
     for (int kind = 0; kind < KINDS; kind++) {
-        grid->l2_all[kind] = l2[spring_at(n, kind, 0, kind == ANTIDIAGONAL)];
         arrays[kind] = grid->c[kind];
         arrays[KINDS + kind] = grid->l2[kind];
     }
-    grid->uniform = true;
     for (int i = 0, at = 0; i <= n; i++) {
         for (int j = 0; j <= n; j++)
             for (int kind = 0; kind < KINDS; kind++) {
                 int s = spring_at(n, kind, i, j), q = place_of(rows, at, j);
                 grid->c[kind][q] = s < 0 ? 0 : 2 * weight * k[s] / l2[s];
                 grid->l2[kind][q] = s < 0 ? 0 : l2[s];
-                grid->uniform &= s < 0 || l2[s] == grid->l2_all[kind];
             }
         int next = share_row(rows, arrays, 2 * KINDS, at);
         grid->spring_shift[i + 1] = (next - 1 - i) * rows->pitch;

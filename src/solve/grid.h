@@ -58,9 +58,7 @@ typedef struct Grid {
      * of row i stand shift[i + 1] further than its nodes. */
     int *node_shift, *spring_shift; /* [nodes + 1] */
     double *c[KINDS];               /* [plane] kg/m^2; 0: no spring */
-    double *l2[KINDS];              /* [plane] m^2; not where uniform */
-    double l2_all[KINDS];           /* m^2, where uniform */
-    bool uniform;                   /* springs of a kind are equally long */
+    double *l2[KINDS];              /* [plane] m^2 */
     double *m, *per_m;              /* [plane] kg; 1/kg, 0 for pins */
     double lightest, mass;          /* kg, of nodes that move; of all */
     double *x, *x_tilde;            /* [2 planes] m */

@@ -31,7 +31,7 @@ static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \
         for (int odd = 0; odd < 2; odd++)                                      \
-            for (Place at = grid_place(&(grid), i, odd); at.first < at.end;    \
+            for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
                  at.first += LANES)                                            \
                 EACH_OF (LANES)
 
@@ -45,7 +45,7 @@ static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
     (void)y;                                                                   \
     for (int band = first; band < end; band++)
 
-INLINE void gradient(const void *job, int first, int end, bool uniform)
+FAST static void gradient(const void *job, int first, int end)
 {
     BANDS
     {
@@ -60,7 +60,7 @@ INLINE void gradient(const void *job, int first, int end, bool uniform)
             sum[2][e] += fy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         fx += s.c * s.s * s.dx;                                                \
         fy += s.c * s.s * s.dy;                                                \
     }
@@ -75,21 +75,10 @@ INLINE void gradient(const void *job, int first, int end, bool uniform)
     }
 }
 
-/* Makes a loop of its two variants. */
-#define LOOP(name)                                                             \
-    FAST static void name##_loop(const void *job, int first, int end)          \
-    {                                                                          \
-        if (((const Pass *)job)->grid->uniform)                                \
-            name(job, first, end, true);                                       \
-        else                                                                   \
-            name(job, first, end, false);                                      \
-    }
-LOOP(gradient)
-
 double grid_gradient(const Grid *grid, double *g, double moment[2])
 {
     double sum[3];
-    run(gradient_loop, (Pass){.grid = grid, .out = g}, HEAVY, 3, sum);
+    run(gradient, (Pass){.grid = grid, .out = g}, HEAVY, 3, sum);
     moment[0] = sum[1];
     moment[1] = sum[2];
     return sum[0];
@@ -100,8 +89,7 @@ double grid_gradient(const Grid *grid, double *g, double moment[2])
     double ux = px[q] - px[q + (to)], uy = py[q] - py[q + (to)]
 
 /* out = -b - H p, H clamped, and |out|_(M^-1)^2; or H p, and p.H p. */
-INLINE void product(const void *job, int first, int end, bool uniform,
-                    bool clamped)
+INLINE void product(const void *job, int first, int end, bool clamped)
 {
     BANDS
     {
@@ -116,7 +104,7 @@ INLINE void product(const void *job, int first, int end, bool uniform,
             double fy = grid.m[q + at.node] * py[q];
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
         double iso = s.s > 0 || !clamped ? s.s : 0;                            \
         double along = clamped ? 2 + (s.s - iso) / safe(s.d2) : 2;             \
@@ -141,23 +129,21 @@ INLINE void product(const void *job, int first, int end, bool uniform,
     }
 }
 
-INLINE void remainder_of(const void *job, int first, int end, bool uniform)
+FAST static void remainder_of(const void *job, int first, int end)
 {
-    product(job, first, end, uniform, true);
+    product(job, first, end, true);
 }
-LOOP(remainder_of)
 
-INLINE void product_of(const void *job, int first, int end, bool uniform)
+FAST static void product_of(const void *job, int first, int end)
 {
-    product(job, first, end, uniform, false);
+    product(job, first, end, false);
 }
-LOOP(product_of)
 
 double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *rest, double *largest)
 {
     double sum;
-    run(remainder_of_loop, (Pass){.grid = grid, .a = p, .b = g, .out = rest},
+    run(remainder_of, (Pass){.grid = grid, .a = p, .b = g, .out = rest},
         2 * HEAVY, 1, &sum);
     *largest = 0;
     for (int band = 0; band < grid->bands; band++)
@@ -168,12 +154,12 @@ double grid_remainder(const Grid *grid, const double *g, const double *p,
 double grid_product(const Grid *grid, const double *d, double *y)
 {
     double sum;
-    run(product_of_loop, (Pass){.grid = grid, .a = d, .b = d, .out = y},
-        2 * HEAVY, 1, &sum);
+    run(product_of, (Pass){.grid = grid, .a = d, .b = d, .out = y}, 2 * HEAVY,
+        1, &sum);
     return sum;
 }
 
-INLINE void along_line(const void *job, int first, int end, bool uniform)
+FAST static void along_line(const void *job, int first, int end)
 {
     BANDS
     {
@@ -185,7 +171,7 @@ INLINE void along_line(const void *job, int first, int end, bool uniform)
             double f1 = 0, f2 = 0, f3 = 0, p2 = px[q] * px[q] + py[q] * py[q];
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
         double B = 2 * (s.dx * ux + s.dy * uy), C = ux * ux + uy * uy;         \
         f1 += s.c * (B * B + 2 * s.s * C);                                     \
@@ -203,11 +189,10 @@ INLINE void along_line(const void *job, int first, int end, bool uniform)
             grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);
     }
 }
-LOOP(along_line)
 
 void grid_along(const Grid *grid, const double *g, const double *p, double q[4])
 {
-    run(along_line_loop, (Pass){.grid = grid, .a = g, .b = p}, HEAVY, 4, q);
+    run(along_line, (Pass){.grid = grid, .a = g, .b = p}, HEAVY, 4, q);
 }
 
 /* ---- without springs: all numbers of the planes ---- */

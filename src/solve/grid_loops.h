@@ -25,24 +25,24 @@
 
 /* Nodes of one row that stand side by side, and where their neighbours and
  * their numbers are. */
-typedef struct Place {
+typedef struct NodeRun {
     int first, end;    /* places of the first node, past the last one */
     int next;          /* from a node to the next row */
     int before, after; /* ... to the columns before and after its own */
     int own, below;    /* ... to the numbers of springs that start in its row,
                           and in the row before */
     int node;          /* ... to its mass */
-} Place;
+} NodeRun;
 
-INLINE Place place_in_row(const Rows *rows, int i, int odd)
+INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 {
     int first = (i + 1) * rows->pitch + odd * rows->half;
     int before = odd ? -rows->half : rows->half - 1;
-    return (Place){.first = first,
-                   .end = first + rows->count[odd],
-                   .next = rows->pitch,
-                   .before = before,
-                   .after = before + 1};
+    return (NodeRun){.first = first,
+                     .end = first + rows->count[odd],
+                     .next = rows->pitch,
+                     .before = before,
+                     .after = before + 1};
 }
 
 /* LANES (or WIDE_LANES) nodes from `first` on; e counts them. */
@@ -71,9 +71,9 @@ INLINE Place place_in_row(const Rows *rows, int i, int odd)
     F(ANTIDIAGONAL, (at).next + (at).before, (at).own)
 
 /* The same of row i of the step's grid, whose rows may share their numbers. */
-INLINE Place grid_place(const Grid *grid, int i, int odd)
+INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 {
-    Place at = place_in_row(&grid->rows, i, odd);
+    NodeRun at = nodes_in_row(&grid->rows, i, odd);
     at.own = grid->spring_shift[i + 1];
     at.below = grid->spring_shift[i];
     at.node = grid->node_shift[i];
@@ -85,15 +85,14 @@ typedef struct Spring {
     double dx, dy, d2, s, c;
 } Spring;
 
-/* From node q to node q + to; uniform is a constant of the loop. */
-INLINE Spring spring_of(const Grid *grid, bool uniform, int kind, int q, int to,
-                        int at)
+/* From node q to node q + to, with its numbers at q + at. */
+INLINE Spring spring_of(const Grid *grid, int kind, int q, int to, int at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
     double dx = x[q] - x[q + to], dy = y[q] - y[q + to];
     double d2 = dx * dx + dy * dy;
-    double l2 = uniform ? grid->l2_all[kind] : grid->l2[kind][q + at];
-    return (Spring){dx, dy, d2, d2 - l2, grid->c[kind][q + at]};
+    return (Spring){dx, dy, d2, d2 - grid->l2[kind][q + at],
+                    grid->c[kind][q + at]};
 }
 
 /* What may divide. */

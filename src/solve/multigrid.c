@@ -263,7 +263,7 @@ static Status multigrid_test(Multigrid *mg)
     const double tolerance = mg->step.tolerance;
     if (!isfinite(mg->square))
         return STATUS_NOT_FINITE;
-    if (mg->bound > tolerance) {
+    if (!(mg->bound <= tolerance)) {
         double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
         if (!(mg->bound <= fmin(worth, mg->test_below)))
             return STATUS_RUNNING;

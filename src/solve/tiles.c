@@ -17,6 +17,10 @@ static const double DEFINITE = 0.0025;
  * their neighbours hear SPREAD, while the best stands out from the mean. */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
+/* So often at most: where E falls by less than its rounding, nothing else may
+ * end it. */
+enum { MAX_ROUNDS = 10000 };
+
 /* Nanoseconds that a sweep of a tile takes, about. */
 static const double TILE_COST = 700;
 
@@ -38,21 +42,16 @@ INLINE double step_of(double f1, double f2, double f3, double f4, double *lower)
     const double far[3] = {SHORTER, 1, OVER_RELAXED};
     double go = 0;
     *lower = 0;
-#define TRY(a)                                                                 \
-    {                                                                          \
-        double E = (a) * (f1 + (a) * (f2 + (a) * (f3 + (a)*f4)));              \
-        go = E < 0 ? (a) : go;                                                 \
-        *lower = E < 0 ? E : *lower;                                           \
+    for (int i = 0; i < 3; i++) {
+        double a = far[i], E = a * (f1 + a * (f2 + a * (f3 + a * f4)));
+        go = E < 0 ? a : go;
+        *lower = E < 0 ? E : *lower;
     }
-    TRY(far[0])
-    TRY(far[1])
-    TRY(far[2])
-#undef TRY
     return go;
 }
 
 /* LANES nodes of a row, none of which share a spring. */
-INLINE void relax_nodes(const Grid *grid, Place at, bool uniform, double *sum)
+INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
 {
     const int plane = grid->rows.plane;
     const double *const tx = grid->x_tilde, *const ty = tx + plane;
@@ -65,7 +64,7 @@ INLINE void relax_nodes(const Grid *grid, Place at, bool uniform, double *sum)
         double cx = 0, cy = 0, c = 0, iso = mass, negative = 0;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(grid, uniform, kind, q, to, numbers);             \
+        Spring s = spring_of(grid, kind, q, to, numbers);                      \
         double f = s.c * s.s, fx = s.c * s.dx, fy = s.c * s.dy;                \
         gx += f * s.dx;                                                        \
         gy += f * s.dy;                                                        \
@@ -101,7 +100,7 @@ INLINE void relax_nodes(const Grid *grid, Place at, bool uniform, double *sum)
 }
 
 /* Even rows, then odd ones, of each the even columns, then the odd ones. */
-INLINE double relax_tile(const Tiles *tiles, int tile, bool uniform)
+INLINE double relax_tile(const Tiles *tiles, int tile)
 {
     const Grid grid = *tiles->grid;
     int top = tile / tiles->wide * TILE_ROWS, column = tile % tiles->wide;
@@ -110,10 +109,10 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool uniform)
         for (int i = top + colour / 2; i < top + TILE_ROWS; i += 2) {
             if (i >= grid.rows.nodes)
                 break;
-            Place at = grid_place(&grid, i, colour % 2);
+            NodeRun at = grid_nodes(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
-                relax_nodes(&grid, at, uniform, sum);
+                relax_nodes(&grid, at, sum);
         }
     return sum_of(sum);
 }
@@ -121,13 +120,8 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool uniform)
 FAST static void relax_chosen(const void *job, int first, int end)
 {
     const Tiles *tiles = job;
-    for (int t = first; t < end; t++) {
-        int tile = tiles->chosen[t];
-        if (tiles->grid->uniform)
-            tiles->change[tile] = relax_tile(tiles, tile, true);
-        else
-            tiles->change[tile] = relax_tile(tiles, tile, false);
-    }
+    for (int t = first; t < end; t++)
+        tiles->change[tiles->chosen[t]] = relax_tile(tiles, tiles->chosen[t]);
 }
 
 /* Tells the tiles around what this one has done. */
@@ -175,7 +169,7 @@ double tiles_relax(Tiles *tiles, double pace)
     double lowered = relax_active(tiles, 0, &visits), change = lowered;
     for (int t = 0; t < count; t++)
         tiles->activity[t] = tiles->change[t];
-    do {
+    for (int round = 0; round < MAX_ROUNDS; round++) {
         double sum = 0, most = 0;
         for (int t = 0; t < count; t++) {
             sum += tiles->activity[t];
@@ -185,6 +179,8 @@ double tiles_relax(Tiles *tiles, double pace)
             break;
         lowered = relax_active(tiles, SHARE * most, &visits);
         change += lowered;
-    } while (lowered < pace * visits);
+        if (!(lowered < pace * visits))
+            break;
+    }
     return change;
 }

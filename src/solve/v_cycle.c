@@ -93,20 +93,20 @@ static void run_stages(CrewWork *loop, Stages s)
 /* ---- tensors ---- */
 
 /* Those of springs that start in a row: iso and along clamped (psd.h). */
-INLINE void tensor_row(const VCycle *cycle, int i, bool uniform)
+INLINE void tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
     const double length = cycle->length, length2 = length * length;
     const double unit = cycle->mass / length2;
     for (int odd = 0; odd < 2; odd++)
-        for (Place at = grid_place(&grid, i, odd); at.first < at.end;
+        for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += WIDE_LANES)
             EACH_OF (WIDE_LANES) {
                 const int q = at.first + e;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = spring_of(&grid, uniform, kind, q, to, numbers);            \
+        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         float dx = (float)(length * s.dx), dy = (float)(length * s.dy);        \
         float c = (float)(unit * s.c), t = (float)(length2 * s.s);             \
         float iso = t > 0 ? t : 0;                                             \
@@ -125,7 +125,7 @@ INLINE void invert_row(const Level *of, int i)
 {
     const Level level = *of;
     for (int odd = 0; odd < 2; odd++)
-        for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+        for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
              at.first += WIDE_LANES)
             EACH_OF (WIDE_LANES) {
                 const int q = at.first + e;
@@ -157,13 +157,12 @@ INLINE void split(const Rows *rows, int I, int first, const float *line,
     }
 }
 
-/* The even and odd columns of the three finer rows around coarse row I, from
- * coarse column `first` on. */
-#define THREE_ROWS(fine, I, from, first)                                       \
-    const float *const e0 = (from) + place_of(&(fine), 2 * (I), 0) + (first);  \
-    const float *const e1 = e0 + (fine).pitch, *const em = e0 - (fine).pitch;  \
-    const float *const o0 = e0 + (fine).half, *const o1 = e1 + (fine).half;    \
-    const float *const om = em + (fine).half
+/* Of the finer rows around coarse row I, from its column `first` on: columns
+ * that coarse ones stand for, and those dj + 1/2 coarse columns from them. */
+#define FINER(from)                                                            \
+    const float *const a = (from) + place_of(&fine, 2 * I, 0) + first
+#define EVEN(di)    a[(di)*fine.pitch + e]
+#define ODD(di, dj) a[(di)*fine.pitch + fine.half + e + (dj)]
 
 /* A coarse tensor is the mean of the four finer ones it stands for. */
 INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
@@ -174,17 +173,19 @@ INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
             float line[WIDE_LANES];
 #define MEAN(kind, sum)                                                        \
     {                                                                          \
-        THREE_ROWS(fine, I, level->K[kind][t], first);                         \
+        FINER(level->K[kind][t]);                                              \
         EACH_OF (WIDE_LANES)                                                   \
             line[e] = 0.25f * (sum);                                           \
         split(&rows, I, first, line, coarse->K[kind][t]);                      \
-        (void)(em + (om - em));                                                \
     }
-            MEAN(RIGHT, e0[e] + e1[e] +
-                            0.5f * ((o0[e - 1] + o1[e - 1]) + (o0[e] + o1[e])))
-            MEAN(UP, e0[e] + o0[e] + 0.5f * ((em[e] + om[e]) + (e1[e] + o1[e])))
-            MEAN(DIAGONAL, (e0[e] + o0[e]) + (e1[e] + o1[e]))
-            MEAN(ANTIDIAGONAL, (e0[e] + e1[e]) + (o0[e - 1] + o1[e - 1]))
+            MEAN(RIGHT, EVEN(0) + EVEN(1) +
+                            0.5f * ((ODD(0, -1) + ODD(1, -1)) +
+                                    (ODD(0, 0) + ODD(1, 0))))
+            MEAN(UP,
+                 EVEN(0) + ODD(0, 0) +
+                     0.5f * ((EVEN(-1) + ODD(-1, 0)) + (EVEN(1) + ODD(1, 0))))
+            MEAN(DIAGONAL, (EVEN(0) + ODD(0, 0)) + (EVEN(1) + ODD(1, 0)))
+            MEAN(ANTIDIAGONAL, (EVEN(0) + EVEN(1)) + (ODD(0, -1) + ODD(1, -1)))
 #undef MEAN
         }
 }
@@ -196,10 +197,12 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
     const Rows fine = *finer;
     for (int first = 0; first < coarse->nodes; first += WIDE_LANES) {
         float line[WIDE_LANES];
-        THREE_ROWS(fine, I, from, first);
+        FINER(from);
         EACH_OF (WIDE_LANES)
-            line[e] = e0[e] + 0.5f * ((em[e] + e1[e]) + (o0[e - 1] + o0[e])) +
-                      0.25f * ((om[e - 1] + om[e]) + (o1[e - 1] + o1[e]));
+            line[e] =
+                EVEN(0) +
+                0.5f * ((EVEN(-1) + EVEN(1)) + (ODD(0, -1) + ODD(0, 0))) +
+                0.25f * ((ODD(-1, -1) + ODD(-1, 0)) + (ODD(1, -1) + ODD(1, 0)));
         split(coarse, I, first, line, to);
     }
 }
@@ -212,12 +215,8 @@ FAST static void set_up_stages(const void *job, int first, int end)
     for (int part = first; part < end; part++)
         EACH_ROW_OF (s, part, 3) {
             int i = row;
-            if (finest && i < nodes && has_row(s, part, 0, i)) {
-                if (s->cycle->grid->uniform)
-                    tensor_row(s->cycle, i, true);
-                else
-                    tensor_row(s->cycle, i, false);
-            }
+            if (finest && i < nodes && has_row(s, part, 0, i))
+                tensor_row(s->cycle, i);
             i = row - 1;
             if (i < nodes && has_row(s, part, 1, i))
                 invert_row(s->level, i);
@@ -253,7 +252,7 @@ void v_cycle_read_system(VCycle *cycle)
     const Grid *grid = cycle->grid;
     const Rows *rows = &grid->rows;
     cycle->mass = unit_of(grid->lightest);
-    cycle->length = unit_of(sqrt(grid->l2_all[DIAGONAL]));
+    cycle->length = unit_of(sqrt(grid->l2[DIAGONAL][place_of(rows, 0, 0)]));
     for (int i = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++) {
             int q = place_of(rows, i, j), at = q + grid->node_shift[i];
@@ -301,7 +300,7 @@ INLINE void first_row(const Level *of, int i, int odd, Pulls pulls, bool left)
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
-    for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+    for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
          at.first += WIDE_LANES)
         EACH_OF (WIDE_LANES) {
             const int q = at.first + e;
@@ -335,11 +334,11 @@ INLINE void apply_row(const Level *of, int i, int odd, bool smooths, float *xb,
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
-    for (Place at = place_in_row(&level.rows, i, odd); at.first < at.end;
+    for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
          at.first += WIDE_LANES)
         EACH_OF (WIDE_LANES) {
             const int q = at.first + e;
-            const float D = level.D[0][q], hx = x[q], hy = y[q];
+            const float hx = x[q], hy = y[q];
             float ax = level.m[q] * hx, ay = level.m[q] * hy;
 #define ADD(kind, to, numbers)                                                 \
     pull(&level, kind, q + (numbers), hx - x[q + (to)], hy - y[q + (to)], &ax, \
@@ -348,13 +347,13 @@ INLINE void apply_row(const Level *of, int i, int odd, bool smooths, float *xb,
 #undef ADD
             float rx = bx[q] - ax, ry = by[q] - ay;
             if (smooths) {
-                x[q] = hx + (D * rx + level.D[1][q] * ry);
+                x[q] = hx + (level.D[0][q] * rx + level.D[1][q] * ry);
                 y[q] = hy + (level.D[1][q] * rx + level.D[2][q] * ry);
             } else {
                 xb[e] += hx * bx[q] + hy * by[q];
                 xw[e] += hx * ax + hy * ay;
-                wx[q] = D != 0 ? ax : 0;
-                wy[q] = D != 0 ? ay : 0;
+                wx[q] = ax;
+                wy[q] = ay;
             }
         }
 }
@@ -524,7 +523,7 @@ INLINE void advance_band(const Update *update, int band, bool begins)
     for (int i = band * BAND; i < band * BAND + BAND && i < grid.rows.nodes;
          i++)
         for (int odd = 0; odd < 2; odd++)
-            for (Place at = grid_place(&grid, i, odd); at.first < at.end;
+            for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
                  at.first += LANES)
                 EACH_OF (LANES) {
                     const int qx = at.first + e, qy = qx + plane;

@@ -1,6 +1,6 @@
 /* Multigrid: loops against the formulas spring by spring, the V-cycle's
  * symmetry, the certified end against a solution in extended precision, and
- * the same bits for every width of registers and number of threads.
+ * the same bits for every number of threads, whatever was before.
  */
 #include "testing.h"
 
@@ -67,7 +67,8 @@ static void problem_disturb(Random *random, bool pins, Problem *problem)
         assert_non_null(problem->pinned);
         for (int i = 0; i < side; i++)
             problem->pinned[i * side + side - 1] = 1;
-        problem->pinned[random_below(random, n)] = 1;
+        for (int i = 0; i <= n / 20; i++)
+            problem->pinned[random_below(random, n)] = 1;
     }
     for (int i = 0; i < n; i++) {
         problem->m[i] *= random_logarithmic(random, 0.3, 3);
@@ -348,6 +349,16 @@ static void check_derivatives(Random *random, const Parts *parts)
     double norm2 = grid_gradient(grid, v[0], moment);
     check_vector(parts, v[0], g);
     CHECK_NEAR(norm2, inverse_mass_square(problem, g), 1e-13 * norm2);
+    for (int c = 0; c < 2; c++) {
+        double exact = 0, size = 0;
+        for (int i = c; i < 2 * problem->mesh.nodes; i += 2) {
+            double away =
+                problem->m[i / 2] * (problem->u[i] - problem->u_tilde[i]);
+            exact += is_pinned(problem, i / 2) ? 0 : away;
+            size += fabs(away);
+        }
+        CHECK_NEAR(moment[c], exact, 1e-14 * size);
+    }
     random_vector(random, parts, v[1], p);
     reference_product(problem, problem->u, true, p, y);
     for (int i = 0; i < size; i++)
@@ -413,7 +424,6 @@ static void loops_agree_with_the_formulas(void **state)
         if (i % 4 < 3)
             problem_disturb(&random, i % 2 == 1, &problem);
         parts_create(&problem, 1 + i % 2, &parts);
-        CHECK(parts.grid.uniform == (i % 4 == 3));
         check_derivatives(&random, &parts);
         check_line(&random, &parts);
         parts_free(&parts);
@@ -454,6 +464,53 @@ static void tiles_lower_what_they_say(void **state)
 }
 
 /* ---- the V-cycle ---- */
+
+/* Masses and tensors of the next coarser level, from their definition. */
+static void check_coarser(const Parts *parts)
+{
+    const Level *fine = parts->cycle.level, *coarse = fine + 1;
+    const Rows *f = &fine->rows;
+    /* Of each kind of spring, what it stands for: rows, columns, fourths. */
+    const double from[KINDS][6][3] = {
+        {{0, 0, 1},
+         {1, 0, 1},
+         {0, -1, .5},
+         {1, -1, .5},
+         {0, 1, .5},
+         {1, 1, .5}},
+        {{0, 0, 1},
+         {0, 1, 1},
+         {-1, 0, .5},
+         {-1, 1, .5},
+         {1, 0, .5},
+         {1, 1, .5}},
+        {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 1}},
+        {{0, 0, 1}, {1, 0, 1}, {0, -1, 1}, {1, -1, 1}}};
+    for (int node = 0; node < coarse->rows.nodes * coarse->rows.nodes; node++) {
+        int I = node / coarse->rows.nodes, J = node % coarse->rows.nodes;
+        int q = place_of(&coarse->rows, I, J);
+        double mass = 0;
+        for (int i = 2 * I - 1; i <= 2 * I + 1 && i < f->nodes; i++)
+            for (int j = 2 * J - 1; j <= 2 * J + 1 && j < f->nodes; j++)
+                if (i >= 0 && j >= 0)
+                    mass += (double)fine->m[place_of(f, i, j)] *
+                            (i == 2 * I ? 1 : 0.5) * (j == 2 * J ? 1 : 0.5);
+        CHECK(coarse->m[q] == 0 || fabs(coarse->m[q] - mass) < 1e-5 * mass);
+        for (int k = 0; k < KINDS * 3; k++) {
+            double K = 0, size = 0;
+            for (int t = 0; t < 6; t++) {
+                int i = 2 * I + (int)from[k / 3][t][0];
+                int j = 2 * J + (int)from[k / 3][t][1];
+                if (i < 0 || j < 0 || i >= f->nodes || j >= f->nodes)
+                    continue;
+                double part = (double)fine->K[k / 3][k % 3][place_of(f, i, j)];
+                K += 0.25 * from[k / 3][t][2] * part;
+                size += fabs(part);
+            }
+            CHECK_NEAR(coarse->K[k / 3][k % 3][q], K, 1e-6 * size);
+        }
+    }
+}
 
 /* 15 cycles leave of the remainder no more than this share, and say so where it
  * is not yet rounding; of nothing they make nothing. */
@@ -505,8 +562,10 @@ static void the_cycle_is_symmetric_and_positive(void **state)
         CHECK_NEAR(grid_dot(&parts.grid, v[0], v[3]),
                    grid_dot(&parts.grid, v[1], v[2]), 1e-5 * sqrt(aBa * bBb));
         parts.cycle.cycles = 0;
-        /* Three times what they leave where springs are broken. */
-        check_solution(&parts, segments[i / 2] < 16 ? 4e-7 : 8e-5);
+        if (parts.cycle.levels > 1)
+            check_coarser(&parts);
+        /* Three times what they leave where springs are broken, nodes held. */
+        check_solution(&parts, segments[i / 2] < 16 ? 4e-7 : 3e-3);
         free(plain);
         parts_free(&parts);
         problem_free(&problem);
@@ -536,23 +595,37 @@ static void advance(Problem *problem)
     }
 }
 
-/* No step may be called converged that is not: recomputed in extended
- * precision. */
+/* No step may be called converged that is not, and no update may raise E nor
+ * lower it by something else than it says: recomputed in extended precision. */
 static void check_steps(Problem *problem, int steps)
 {
     Multigrid *multigrid;
     CHECK_STATUS(multigrid_create(problem->mesh.segments, 0, &multigrid),
                  STATUS_OK);
-    double *zero = new_array(2 * problem->mesh.nodes);
+    size_t bytes = 2 * (size_t)problem->mesh.nodes * sizeof(double);
     for (int i = 0; i < steps; i++) {
-        long double start = reference_energy(problem, zero);
-        CHECK_STATUS(minimise(multigrid, problem), STATUS_OK);
+        memset(problem->u, 0, bytes);
+        MultigridStep step = step_of(problem);
+        long double start = reference_energy(problem, problem->u), E = start;
+        Status status = multigrid_start(multigrid, &step);
+        while (status == STATUS_RUNNING) {
+            status = multigrid_iterate(multigrid);
+            multigrid_displacement(multigrid, problem->u);
+            long double now = reference_energy(problem, problem->u);
+            CHECK_AT_MOST(now, E);
+            if (step.is_free) /* then its centre moves, too */
+                CHECK_AT_MOST(now - E, multigrid_record(multigrid)->change +
+                                           1e-15L * start);
+            else
+                CHECK_NEAR(now - E, multigrid_record(multigrid)->change,
+                           1e-15L * start);
+            E = now;
+        }
+        CHECK_STATUS(status, STATUS_OK);
         CHECK_AT_MOST(reference_residual(problem, problem->u, H),
                       TOLERANCE * (1 + 1e-9));
-        CHECK_AT_MOST(reference_energy(problem, problem->u), start);
         advance(problem);
     }
-    free(zero);
     multigrid_free(multigrid);
     problem_free(problem);
 }
@@ -571,6 +644,32 @@ static void steps_pass_the_test_of_algorithm_3(void **state)
         problem_disturb(&random, i % 2 == 1, &problem);
         check_steps(&problem, 3);
     }
+}
+
+/* Where the tolerance is the very residual that it finds, no remainder that
+ * rounding leaves decides the test: then it is not passed. */
+static void what_is_not_decided_is_not_converged(void **state)
+{
+    (void)state;
+    Multigrid *multigrid;
+    CHECK_STATUS(multigrid_create(16, 1, &multigrid), STATUS_OK);
+    for (int i = 0; i < 5; i++) {
+        Problem problem;
+        Status status = STATUS_OK;
+        problem_create(16, 1.1 + 0.05 * i, &problem);
+        MultigridStep step = step_of(&problem);
+        step.tolerance = reference_residual(&problem, problem.u, H);
+        for (int k = 0; k < 10; k++) {
+            status = multigrid_start(multigrid, &step);
+            if (multigrid_residual(multigrid) == step.tolerance)
+                break;
+            step.tolerance = multigrid_residual(multigrid);
+        }
+        CHECK(multigrid_residual(multigrid) == step.tolerance);
+        CHECK_STATUS(status, STATUS_RUNNING);
+        problem_free(&problem);
+    }
+    multigrid_free(multigrid);
 }
 
 /* A square in one point is a maximum of E, with no gradient at all; uniform
@@ -643,29 +742,68 @@ static void a_saddle_is_left_downhill(void **state)
     multigrid_free(multigrid);
 }
 
-static void bits_do_not_depend_on_lanes_or_threads(void **state)
+/* Steps with one thread and with two, and, from each of these starts, with a
+ * new object that knows of no step before: the same bits. */
+static void bits_depend_on_the_step_alone(void **state)
 {
     (void)state;
-    double *first = NULL;
-    for (int i = 0; i < 2; i++) {
+    for (int pins = 0; pins < 2; pins++) {
         Problem problem;
-        Multigrid *multigrid;
+        Multigrid *multigrid[3];
+        Random random = {5};
         problem_create(64, 1.4, &problem);
-        CHECK_STATUS(multigrid_create(64, 1 + i, &multigrid), STATUS_OK);
-        for (int step = 0; step < 9; step++) {
-            CHECK_STATUS(minimise(multigrid, &problem), STATUS_OK);
+        if (pins)
+            problem_disturb(&random, true, &problem);
+        for (int i = 0; i < 2; i++)
+            CHECK_STATUS(multigrid_create(64, 1 + i, &multigrid[i]), STATUS_OK);
+        double *first = new_array(2 * problem.mesh.nodes);
+        for (int step = 0; step < (pins ? 2 : 9); step++) {
+            CHECK_STATUS(multigrid_create(64, 2, &multigrid[2]), STATUS_OK);
+            for (int i = 0; i < 3; i++) {
+                CHECK_STATUS(minimise(multigrid[i], &problem), STATUS_OK);
+                if (i > 0)
+                    CHECK_SAME_BITS(problem.u, first, 2 * problem.mesh.nodes);
+                for (int k = 0; k < 2 * problem.mesh.nodes; k++)
+                    first[k] = problem.u[k];
+            }
+            multigrid_free(multigrid[2]);
             advance(&problem);
         }
-        CHECK(multigrid_counters(multigrid)->local > 0);
-        if (first)
-            CHECK_SAME_BITS(problem.x_n, first, 2 * problem.mesh.nodes);
-        else
-            first = memcpy(new_array(2 * problem.mesh.nodes), problem.x_n,
-                           2 * (size_t)problem.mesh.nodes * sizeof *first);
+        CHECK(multigrid_counters(multigrid[0])->local > 0);
+        for (int i = 0; i < 2; i++)
+            multigrid_free(multigrid[i]);
+        free(first);
+        problem_free(&problem);
+    }
+}
+
+/* Smooth steps take about as many directions and cycles at any size: here as
+ * many as they took when this was written, and one more. */
+static void smooth_steps_take_the_same_work_at_any_size(void **state)
+{
+    (void)state;
+    for (int segments = 16; segments <= 128; segments *= 2) {
+        Problem problem;
+        Multigrid *multigrid;
+        problem_create(segments, 1.4, &problem);
+        CHECK_STATUS(multigrid_create(segments, 0, &multigrid), STATUS_OK);
+        const MultigridCounters *did = multigrid_counters(multigrid);
+        for (int i = 0; i < 5; i++) {
+            MultigridStep step = step_of(&problem);
+            step.minimum = false;
+            step.u = NULL;
+            Status status = multigrid_start(multigrid, &step);
+            while (status == STATUS_RUNNING)
+                status = multigrid_iterate(multigrid);
+            multigrid_displacement(multigrid, problem.u);
+            advance(&problem);
+        }
+        CHECK_AT_MOST(did->iterations, 5 * 4);
+        CHECK_AT_MOST(did->cycles, 5 * 10);
+        CHECK(did->local == 0 && did->certificates >= 5);
         multigrid_free(multigrid);
         problem_free(&problem);
     }
-    free(first);
 }
 
 int main(void)
@@ -675,10 +813,12 @@ int main(void)
         cmocka_unit_test(tiles_lower_what_they_say),
         cmocka_unit_test(the_cycle_is_symmetric_and_positive),
         cmocka_unit_test(steps_pass_the_test_of_algorithm_3),
+        cmocka_unit_test(what_is_not_decided_is_not_converged),
         cmocka_unit_test(a_saddle_is_left),
         cmocka_unit_test(what_has_changed_is_read_again),
         cmocka_unit_test(a_saddle_is_left_downhill),
-        cmocka_unit_test(bits_do_not_depend_on_lanes_or_threads),
+        cmocka_unit_test(bits_depend_on_the_step_alone),
+        cmocka_unit_test(smooth_steps_take_the_same_work_at_any_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
