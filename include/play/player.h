@@ -7,7 +7,7 @@
 #include <signal.h>
 
 #include "play/lane.h"
-#include "play/numbers.h"
+#include "scenes/options.h"
 #include "play/recording.h"
 #include "play/view.h"
 
@@ -94,7 +94,7 @@ typedef struct Player {
     bool typing;    /* every key belongs into what is typed: */
     char typed[28]; /* for the selected number, or a page of the list */
     CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
-    const Number *number[NUMBERS_MOST]; /* what the row has */
+    const OptionRow *number[OPTIONS_MOST]; /* what the row has */
     int numbers;
     Mouse mouse;
     Show show; /* of the last frame */

@@ -103,9 +103,6 @@ Status track_follow(const Track *from, Track *to);
 Status track_change(Track *track, const Command *change, char *message,
                     size_t size);
 
-/* Whether this option can be changed while the run goes on. */
-bool track_can_change(const char *name);
-
 /* Forgets what came after the step that is shown. */
 void track_forget(Track *track);
 

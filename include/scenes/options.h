@@ -1,4 +1,7 @@
-/* options.h - the command line as a struct.
+/* options.h - the command line as a struct, and the table that knows of it.
+ *
+ * A row of the table is all that the command line, --help, the row of numbers
+ * in the window, commands of scripts and the labels of panes know of an option.
  */
 #ifndef ELASTO_OPTIONS_H
 #define ELASTO_OPTIONS_H
@@ -72,6 +75,84 @@ typedef struct Options {
 
 enum { OPTIONS_MAX_PANES = 6 };
 
+/* ---- the table ---------------------------------------------------------- */
+
+typedef enum OptionKind {
+    OPTION_SWITCH, /* bool; takes no value */
+    OPTION_WHOLE,  /* int or long [count] */
+    OPTION_NUMBER, /* double [count] */
+    OPTION_NAME,   /* int: the place of one of the row's names */
+    OPTION_METHOD, /* an integrator */
+    OPTION_TEXT,   /* a file, a folder: not empty */
+    OPTION_PAGE,   /* of the lecture; the value may be left out */
+} OptionKind;
+
+typedef struct OptionRow {
+    const char *name;  /* without its dashes; "": help begins a section of
+                          --help; NULL ends the table */
+    char letter;       /* short form, or 0 */
+    const char *value; /* what stands for the value in --help */
+    const char *help;  /* what it is */
+    OptionKind kind;
+    size_t offset, size;      /* of its field in Options */
+    int count;                /* numbers of one value; 0: one */
+    char between;             /* what stands between them; 0: a comma */
+    int times;                /* more than 1: it may be given so often; the */
+    size_t counter;           /* field is an array, its length an int here */
+    double standard;          /* the slides' number */
+    double low, high;         /* from ... to, both included */
+    const char *unit;         /* of the numbers, or "" */
+    const char *const *names; /* OPTION_NAME; NULL behind the last */
+    unsigned needs;           /* of enum SceneNeeds, one of them; 0: nothing */
+    /* Why it has no meaning with these options; NULL: it has one. */
+    const char *(*idle)(const Options *options);
+    bool compared; /* a list of values is side by side */
+    bool live;     /* it may change from one step to the next */
+    /* In the window: */
+    const char *label; /* in the markup of text.h; all that are compared */
+    int place;         /* in the row of numbers, from 1; 0: not there */
+    int letters;       /* the longest value has */
+    double pace;       /* what one pace adds; 0: by factors, or names */
+} OptionRow;
+
+extern const OptionRow option_rows[];
+enum { OPTIONS_MOST = 64 }; /* rows */
+
+/* The row with this name, or NULL. */
+const OptionRow *option_find(const char *name);
+
+/* Whether its values are names. */
+bool option_is_named(const OptionRow *row);
+
+/* The value of an option that is compared, as on the command line.
+ *   text  [size] out */
+void option_value(const OptionRow *row, const Options *options, char *text,
+                  size_t size);
+
+/* A number as somebody types it, "1/60", "0,02", "4 ms", written out with all
+ * its digits; another text as it is.  value [size] out */
+void option_meant(const OptionRow *row, const char *text, char *value,
+                  size_t size);
+
+/* Its unit as the window writes it, "J/m\u00b2"; "": none.
+ *   text  [size] out */
+void option_unit(const OptionRow *row, char *text, size_t size);
+
+/* The rows that the row of numbers has, in their places.
+ *   found  [OPTIONS_MOST] out
+ * Returns how many. */
+int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
+
+/* The value `paces` paces up (or, below 0, down), as text: by what the row says
+ * a pace adds; or a factor of 10 is 6 paces, and whole paces end on 1, 1.5, 2,
+ * 3, 5, 7; names follow one another in a circle.  Parts of a pace are for
+ * dragging.
+ *   text  [size] out */
+void option_paced(const OptionRow *row, const Options *options, double paces,
+                  char *text, size_t size);
+
+/* ---- what reads and writes it ------------------------------------------- */
+
 /* argv into options, whose texts point into argv.
  *   options  out
  *   message  [size] out, one line without newline after INVALID_INPUT: the
@@ -96,23 +177,8 @@ void options_panes(int argc, char **argv, char *text, size_t size);
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
-/* What somebody means who types a value for a number: "1/60", "0,02", "4 ms" in
- * the option's own unit, as options_set reads it; another text as it is.
- *   value  [size] out */
-void options_meant(const char *name, const char *text, char *value,
-                   size_t size);
-
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
-
-/* The value of an option that may be a list, as on the command line.
- *   text  [size] out
- * Returns whether there is such an option. */
-bool options_value(const Options *options, const char *name, char *text,
-                   size_t size);
-
-/* The names of these options, one after the other; NULL behind the last. */
-const char *options_compared(int i);
 
 /* The name of a value as on the command line. */
 const char *solver_name(Solver solver);

@@ -50,7 +50,6 @@ typedef struct Switch {
 
 typedef struct Scene {
     const char *name;     /* as on the command line */
-    const char *words;    /* others that it may be asked for by; NULL: none */
     const char *title;    /* above its picture; NULL: its name */
     const char *sentence; /* for --list and the window, at most 60 letters */
     PictureKind picture;

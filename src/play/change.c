@@ -78,7 +78,7 @@ static Status set_option(Player *player, const char *text)
     const Scene *scene = simulation->scene;
     Command change = {.kind = COMMAND_SET};
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
-    char old[COMMAND_TEXT_SIZE] = "";
+    char old[COMMAND_TEXT_SIZE], now[COMMAND_TEXT_SIZE];
     size_t length = strcspn(text, " ");
     int from, to;
     snprintf(name, sizeof name, "%.*s", (int)length, text);
@@ -98,25 +98,24 @@ static Status set_option(Player *player, const char *text)
         integrator_method_refuses(options.integrator, &simulation->system))
         return player_refuse(player, "a term of this scene refuses it");
     find_lanes(player, name, &from, &to);
-    const Number *number = number_find(name);
-    if (number)
-        number_value(number, &player_settings(player)->options, old);
+    const OptionRow *row = option_find(name);
+    option_value(row, &player_settings(player)->options, old, sizeof old);
+    option_value(row, &options, now, sizeof now);
     bool time = scene->needs & NEEDS_TIME;
     bool method = filter || search;
     bool iterates = scene->needs & NEEDS_START; /* a step is an update */
-    bool live = track_can_change(name) && (time || (method && iterates)) &&
+    bool live = row->live && (time || (method && iterates)) &&
                 (simulation->runs == 1 || strcmp(name, "integrator") != 0);
     if (!live) {
         Status status = restart_with(player, name, value, from, to);
         if (!status && method) /* races and maps of other runs */
-            player_note(player, "from the start: %s %s",
-                        number ? number->name : name, value);
+            player_note(player, "from the start: %s %s", row->label, value);
         player_reset_speed(player);
         return status;
     }
     bool within = player->fine > 0 && player_lane(player)->place >= 0;
     Status status =
-        (method || within) && strcmp(old, value) != 0
+        (method || within) && strcmp(old, now) != 0
             ? retake_step(player, &change, name, value, old, from, to)
             : player_change_lanes(player, &change, from, to);
     player_reset_speed(player);
@@ -140,16 +139,16 @@ static Status obey_set(Player *player, const char *option, const char *value)
 static Status pace_number(Player *player, const Command *command)
 {
     char value[COMMAND_TEXT_SIZE];
-    const Number *number[NUMBERS_MOST];
+    const OptionRow *number[OPTIONS_MOST];
     const Options now = player_numbers(player), *options = &now;
-    int count = numbers_of(options, number);
+    int count = options_row(options, number);
     if (count == 0)
         return player_refuse(player, "there is no number to change here");
     if (player->selected < 0 || player->selected >= count)
         player->selected = 0;
-    number_paced(number[player->selected], options,
-                 command->kind == COMMAND_RAISE ? 1 : -1, value);
-    return obey_set(player, number[player->selected]->option, value);
+    option_paced(number[player->selected], options,
+                 command->kind == COMMAND_RAISE ? 1 : -1, value, sizeof value);
+    return obey_set(player, number[player->selected]->name, value);
 }
 
 /* The value of the page, or of the command line, or of the scene by itself. */
@@ -157,11 +156,11 @@ static Status set_default(Player *player, const Command *command)
 {
     const char *option = command->text;
     char value[COMMAND_TEXT_SIZE];
-    const Number *number = number_find(option);
+    const OptionRow *row = option_find(option);
     const Options *now = &player->lane[0].track.options;
     Options options[OPTIONS_MAX_PANES];
     int count;
-    if (!number)
+    if (!row || !row->compared)
         return player_refuse(player, "there is no such number");
     Status status =
         now->page
@@ -170,7 +169,7 @@ static Status set_default(Player *player, const Command *command)
             : player_scene_options(player, now->scene->name, options, &count);
     if (status)
         return status;
-    number_value(number, options, value);
+    option_value(row, options, value, sizeof value);
     return obey_set(player, option, value);
 }
 
@@ -178,8 +177,8 @@ static Status set_default(Player *player, const Command *command)
 static Status select_number(Player *player, const Command *command)
 {
     (void)command;
-    const Number *number[NUMBERS_MOST];
-    int count = numbers_of(&player_settings(player)->options, number);
+    const OptionRow *number[OPTIONS_MOST];
+    int count = options_row(&player_settings(player)->options, number);
     int next = player->selected + 1;
     player_deselect(player);
     player->selected = next < count ? next : -1;

@@ -57,11 +57,11 @@ static Status pace(Player *player, int index, int paces)
     char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
     if (index < 0 || index >= player->numbers)
         return STATUS_OK;
-    const Number *number = player->number[index];
+    const OptionRow *row = player->number[index];
     Options options = player_numbers(player);
-    number_paced(number, &options, paces, text);
+    option_paced(row, &options, paces, text, sizeof text);
     snprintf(value, sizeof value, "%.31s", text);
-    return ask_set(player, number->option, value);
+    return ask_set(player, row->name, value);
 }
 
 /* A number follows the mouse: from its value where the drag began. */
@@ -70,27 +70,27 @@ static Status drag_number(Player *player)
     Mouse *mouse = &player->mouse;
     if (mouse->index >= player->numbers)
         return STATUS_OK;
-    const Number *number = player->number[mouse->index];
+    const OptionRow *row = player->number[mouse->index];
     char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
     char now[COMMAND_TEXT_SIZE];
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
-    if (number->kind == NUMBER_NAME) {
+    if (option_is_named(row)) {
         double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
         if (fabs(names) < 1)
             return STATUS_OK;
         mouse->last[0] = mouse->x;
         return pace(player, mouse->index, names > 0 ? 1 : -1);
     }
-    if (number->kind == NUMBER_STEP)
+    if (row->pace > 0)
         paces = rint(paces);
-    if (paces == rint(paces) && number->kind == NUMBER_FACTOR)
+    else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
-    number_paced(number, &mouse->options, paces, text);
+    option_paced(row, &mouse->options, paces, text, sizeof text);
     snprintf(value, sizeof value, "%.31s", text);
     Options options = player_numbers(player);
-    number_value(number, &options, now);
+    option_value(row, &options, now, sizeof now);
     return strcmp(now, value) == 0 ? STATUS_OK
-                                   : ask_set(player, number->option, value);
+                                   : ask_set(player, row->name, value);
 }
 
 /* ---- what is typed ------------------------------------------------------ */
@@ -114,6 +114,7 @@ static void key_letter(const char *key, char *letter, size_t size)
 static Status give_typed(Player *player)
 {
     char typed[sizeof player->typed], value[40], note[sizeof player->note];
+    char unit[16];
     memcpy(typed, player->typed, sizeof typed);
     if (player->selected < 0) {
         Command command = {.kind = COMMAND_PAGE};
@@ -123,18 +124,19 @@ static Status give_typed(Player *player)
             player_deselect(player);
         return status;
     }
-    const Number *number = player->number[player->selected];
-    options_meant(number->option, typed, value, sizeof value);
-    Status status = ask_set(player, number->option, value);
+    const OptionRow *row = player->number[player->selected];
+    option_meant(row, typed, value, sizeof value);
+    Status status = ask_set(player, row->name, value);
     if (status)
         return status;
     player_deselect(player);
     if (strcmp(typed, value) == 0)
         return STATUS_OK;
     memcpy(note, player->note, sizeof note);
+    option_unit(row, unit, sizeof unit);
     player_note(player, "%s is read as %.4g%s%s%s%s", typed,
-                strtod(value, NULL), number->unit ? " " : "",
-                number->unit ? number->unit : "", note[0] ? "; " : "", note);
+                strtod(value, NULL), unit[0] ? " " : "", unit,
+                note[0] ? "; " : "", note);
     return STATUS_OK;
 }
 
@@ -378,7 +380,7 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
         if (clicks == 2) {
             Command command = {.kind = COMMAND_DEFAULT};
             snprintf(command.text, sizeof command.text, "%s",
-                     player->number[hit.index]->option);
+                     player->number[hit.index]->name);
             return player_obey(player, &command);
         }
         mouse->drag = DRAG_NUMBER;
@@ -464,7 +466,7 @@ static Status released(Player *player)
         return ask(player, COMMAND_RELEASE);
     if (drag == DRAG_NUMBER && !mouse->moved &&
         mouse->index < player->numbers &&
-        player->number[mouse->index]->kind == NUMBER_NAME)
+        option_is_named(player->number[mouse->index]))
         return pace(player, mouse->index, 1);
     return STATUS_OK;
 }

@@ -41,7 +41,7 @@ static void value_words(const char *option, const char *value, char *text,
         snprintf(text, size, "%s",
                  strcmp(option, "filter") == 0 ? "no projection" : "full step");
     else
-        snprintf(text, size, "%s %s", number_find(option)->name, value);
+        snprintf(text, size, "%s %s", option_find(option)->label, value);
 }
 
 /* Whether it is the projection or the line search that changes. */

@@ -93,13 +93,15 @@ static void fill_help(Show *show)
 
 bool player_compares(const Player *player, const char *option)
 {
-    const Number *number = number_find(option);
+    const OptionRow *row = option_find(option);
     char first[COMMAND_TEXT_SIZE], other[COMMAND_TEXT_SIZE];
-    if (!number)
+    if (!row || !row->compared)
         return false;
-    number_value(number, &player->lane[0].track.settings.options, first);
+    option_value(row, &player->lane[0].track.settings.options, first,
+                 sizeof first);
     for (int i = 1; i < player->lanes; i++) {
-        number_value(number, &player->lane[i].track.settings.options, other);
+        option_value(row, &player->lane[i].track.settings.options, other,
+                     sizeof other);
         if (strcmp(first, other) != 0)
             return true;
     }
@@ -107,30 +109,28 @@ bool player_compares(const Player *player, const char *option)
 }
 
 /* A value as it is shown. */
-static void value_text(const Number *number, const Options *options,
+static void value_text(const OptionRow *row, const Options *options,
                        const Simulation *simulation, char *text, size_t size)
 {
-    char value[COMMAND_TEXT_SIZE];
-    const char *unit = number->unit;
-    if (strcmp(number->option, "tolerance") == 0 &&
-        simulation->descent.by_gradient)
-        unit = NULL; /* of a gradient */
-    number_value(number, options, value);
-    if (strcmp(number->option, "integrator") == 0)
+    char value[COMMAND_TEXT_SIZE], unit[16];
+    option_unit(row, unit, sizeof unit);
+    if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
+        unit[0] = '\0'; /* of a gradient */
+    option_value(row, options, value, sizeof value);
+    if (row->kind == OPTION_METHOD)
         snprintf(text, size, "%s",
                  simulation->runs > 1 && !options->integrator &&
                          simulation->run[0].method != simulation->run[1].method
                      ? "three Eulers"
                  : options->integrator ? options->integrator->label
                                        : integrator_methods[0].label);
-    else if (strcmp(number->option, "solver") == 0 && simulation->steps > 0 &&
+    else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
              simulation->run[0].newton->working != options->solver)
         snprintf(text, size, "%.12s: %s", value, /* who has made the step */
                  solver_name(simulation->run[0].newton->working));
     else
-        snprintf(text, size, "%.20s%s%s", value, unit ? " " : "",
-                 unit ? unit : "");
+        snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }
 
 /* The row of numbers. */
@@ -139,17 +139,17 @@ static void fill_settings(Player *player)
     Show *show = &player->show;
     const Lane *lane = &player->lane[player->active];
     const Options shown = player_numbers(player), *options = &shown;
-    player->numbers = numbers_of(options, player->number);
+    player->numbers = options_row(options, player->number);
     for (int i = 0; i < player->numbers; i++) {
-        const Number *number = player->number[i];
+        const OptionRow *row = player->number[i];
         Setting *setting = &show->setting[show->settings++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
-        setting->name = number->name;
-        setting->letters = number->letters;
-        value_text(number, options, &lane->track.simulation, setting->value,
+        setting->name = row->label;
+        setting->letters = row->letters;
+        value_text(row, options, &lane->track.simulation, setting->value,
                    SHOW_VALUE);
-        number_value(number, options, now);
-        number_value(number, &lane->track.options, start);
+        option_value(row, options, now, sizeof now);
+        option_value(row, &lane->track.options, start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
         setting->off = strcmp(now, "none") == 0;
     }
@@ -189,7 +189,7 @@ static void explain_number(const Player *player, Show *show)
     const Options *options = &simulation->options;
     int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
     const char *option =
-        i >= 0 && i < player->numbers ? player->number[i]->option : "";
+        i >= 0 && i < player->numbers ? player->number[i]->name : "";
     if (strcmp(option, "solver") == 0)
         solver_words(simulation, show->sentence);
     if (strcmp(option, "tolerance") == 0 &&
@@ -299,24 +299,23 @@ static void fill_hand(Player *player)
 
 void player_label_lanes(Player *player)
 {
-    const Number *number;
     for (int i = 0; i < player->lanes; i++) {
         Lane *lane = &player->lane[i];
         const Options *options = &lane->track.settings.options;
         size_t used = 0;
         lane->label[0] = '\0';
-        for (int k = 0; (number = number_row(k)); k++) {
+        for (const OptionRow *row = option_rows; row->name; row++) {
             char value[SHOW_VALUE];
-            if (!player_compares(player, number->option) ||
+            if (!player_compares(player, row->name) ||
                 used >= sizeof lane->label)
                 continue;
-            value_text(number, options, &lane->track.simulation, value,
+            value_text(row, options, &lane->track.simulation, value,
                        sizeof value);
-            bool alone = strcmp(number->option, "integrator") == 0;
-            used += (size_t)snprintf(
-                lane->label + used, sizeof lane->label - used, "%s%s%s%s",
-                used ? ", " : "", alone ? "" : number->name, alone ? "" : " ",
-                value);
+            bool alone = row->kind == OPTION_METHOD;
+            used += (size_t)snprintf(lane->label + used,
+                                     sizeof lane->label - used, "%s%s%s%s",
+                                     used ? ", " : "", alone ? "" : row->label,
+                                     alone ? "" : " ", value);
         }
         if (lane_is_over(lane, player->step) && used < sizeof lane->label)
             snprintf(lane->label + used, sizeof lane->label - used,

@@ -9,20 +9,6 @@
 #include "model/pull_energy.h"
 #include "scenes/scene.h"
 
-/* Options that may change from one step to the next. */
-static const char *const live_names[] = {
-    "timestep", "stiffness", "tolerance", "integrator",  "friction",
-    "damping",  "solver",    "filter",    "line-search", NULL,
-};
-
-bool track_can_change(const char *name)
-{
-    for (int i = 0; live_names[i]; i++)
-        if (strcmp(live_names[i], name) == 0)
-            return true;
-    return false;
-}
-
 long track_step_shown(const Track *track)
 {
     return track->simulation.steps;

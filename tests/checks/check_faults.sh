@@ -313,7 +313,7 @@ bad_lines() {
     done <<'END'
 --segments: '0' .*from 1 to 4096|--segments 0
 --timestep: 'nan' .*a number from 1e-30 to 1e30|--timestep=nan
---steps: '1.5' .*a whole number from 0 to 1e18|--steps=1.5
+--steps: '1.5' .*a whole number from 0 to 1e15|--steps=1.5
 --solver: 'NEWTON' .*none of: |--solver NEWTON
 --start: '1,2,3' .*X,Y|landscape --start=1,2,3
 --frames.*missing|--frames

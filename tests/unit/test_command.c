@@ -130,26 +130,6 @@ static void information_that_cannot_be_written_is_a_failure(void **unused)
     }
 }
 
-static void bad_lines_exit_with_2(void **unused)
-{
-    (void)unused;
-    run("--segments 0");
-    check_refused(2, "--segments", "'0'", "1 to 4096");
-    CHECK(result.out[0] == '\0');
-    run("--timestep nan --headless");
-    check_refused(2, "--timestep", "'nan'", "1e-30 to 1e30");
-    run("--filter absolute");
-    check_refused(2, "--filter", "'absolute'", "clamp, none");
-    run("--steps");
-    check_refused(2, "--steps", "missing", "");
-    run("--no-such-option");
-    check_refused(2, "--no-such-option", "--help", "");
-    run("nowhere");
-    check_refused(2, "'nowhere'", "--list", "");
-    run("--side ''");
-    check_refused(2, "--side", "''", "1e-30 to 1e30");
-}
-
 static void summaries_tell_what_was_done(void **unused)
 {
     (void)unused;
@@ -421,7 +401,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(version_is_one_line),
         cmocka_unit_test(list_names_the_scenes),
         cmocka_unit_test(information_that_cannot_be_written_is_a_failure),
-        cmocka_unit_test(bad_lines_exit_with_2),
         cmocka_unit_test(summaries_tell_what_was_done),
         cmocka_unit_test(states_are_clean_and_exact),
         cmocka_unit_test(logs_have_a_row_an_iteration),

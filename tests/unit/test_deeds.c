@@ -112,8 +112,6 @@ static void every_list_labels_its_panes(void **unused)
         for (int k = 0; k < i; k++)
             CHECK(strcmp(lane(i)->label, lane(k)->label) != 0);
     end();
-    for (int i = 0; options_compared(i); i++)
-        CHECK(number_find(options_compared(i)) != NULL);
 }
 
 /* What a change in a past step costs is told: the steps behind it. */
@@ -323,9 +321,9 @@ static void methods_are_switched(void **unused)
 static void numbers_are_selected_in_turn(void **unused)
 {
     (void)unused;
-    const Number *number[NUMBERS_MOST];
+    const OptionRow *number[OPTIONS_MOST];
     begin("square --segments 2");
-    int count = numbers_of(&player_settings(&player)->options, number);
+    int count = options_row(&player_settings(&player)->options, number);
     CHECK(count > 2);
     for (int i = 0; i < count; i++) {
         CHECK_STATUS(obey("select"), STATUS_OK);

@@ -14,7 +14,7 @@
 #include "picture/labels.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
-#include "play/numbers.h"
+#include "scenes/options.h"
 #include "play/player.h"
 #include "play/playing.h"
 #include "play/png_file.h"
@@ -490,15 +490,15 @@ static void friction_is_a_number_of_contact(void **unused)
 {
     (void)unused;
     static const char *const scenes_with[] = {"slope", "drop", "dent"};
-    const Number *found[NUMBERS_MOST];
+    const OptionRow *found[OPTIONS_MOST];
     for (int i = 0; i < 4; i++) {
         Simulation simulation;
         bool there = false;
         simulation_from_line(i < 3 ? scenes_with[i] : "square", NULL, NULL,
                              &simulation);
-        int count = numbers_of(&simulation.options, found);
+        int count = options_row(&simulation.options, found);
         for (int k = 0; k < count; k++)
-            there = there || strcmp(found[k]->option, "friction") == 0;
+            there = there || strcmp(found[k]->name, "friction") == 0;
         CHECK(there == (i < 3));
         simulation_free(&simulation);
     }

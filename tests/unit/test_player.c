@@ -1052,7 +1052,7 @@ static void material_numbers_change_live(void **unused)
         for (int again = 0; again < 2; again++) {
             if (n == 2) /* the selected number of the row */
                 for (int i = 0; i < player.numbers; i++)
-                    if (strcmp(player.number[i]->option, "damping") == 0)
+                    if (strcmp(player.number[i]->name, "damping") == 0)
                         player.selected = i;
             for (int i = 0; i < 59 && !again; i++)
                 CHECK_STATUS(obey("step"), STATUS_OK);

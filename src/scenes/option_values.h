@@ -1,0 +1,59 @@
+/* option_values.h - values of options: from what is typed, and back.
+ */
+#ifndef ELASTO_OPTION_VALUES_H
+#define ELASTO_OPTION_VALUES_H
+
+#include "scenes/options.h"
+
+/* Where the one line that explains a refusal goes. */
+typedef struct Complaint {
+    char *text;
+    size_t size;
+} Complaint;
+
+/* Something short to be printed inside a line. */
+typedef struct Text {
+    char text[256];
+} Text;
+
+/* Writes the line; returns INVALID_INPUT. */
+Status complain(const Complaint *complaint, const char *format, ...);
+
+/* What somebody typed: one line, and short enough to leave room. */
+Text typed(const char *word);
+
+/* 1e-30, 4096, 1e15: as people write it. */
+Text number_text(double number);
+
+/* Adds to a list: "--a, --b". */
+void add_name(Text *list, const char *before, const char *name);
+
+/* Name i of a row of names, methods or pages; NULL behind the last. */
+const char *option_name(const OptionRow *row, int i);
+
+/* The slides' numbers. */
+Options option_defaults(void);
+
+/* What the option is followed by on the command line, into its field; nothing
+ * for a page is the first.
+ * Returns OK or INVALID_INPUT with the reason. */
+Status option_apply(const OptionRow *row, const char *text, Options *options,
+                    const Complaint *complaint);
+
+/* The name that is most like a text, of those that were looked at. */
+typedef struct Nearest {
+    const char *text;
+    const char *kind, *name; /* "--", "segments"; name NULL: none is like it */
+    int unlike;              /* letters that are wrong; 0 at the beginning */
+} Nearest;
+
+/* Looks at one more name.  At most a third of its letters are wrong, missing,
+ * too many or swapped, or one of the two begins or ends with the other;
+ * capitals, '_' and '-' count as what they mean. */
+void look_at_name(Nearest *nearest, const char *kind, const char *name);
+
+/* "the scene drop", "--filter clamp": what the slides' word means here, or
+ * NULL. */
+const char *slide_word(const char *word);
+
+#endif
