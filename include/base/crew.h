@@ -37,7 +37,4 @@ void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
 void crew_run_uneven(Crew *crew, CrewWork *work, const void *job, int count,
                      double cost);
 
-/* How many threads the last loops had: 1 or 2. */
-int crew_threads(const Crew *crew);
-
 #endif

@@ -33,31 +33,9 @@ Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
 /* W, J. */
 double cell_value(const Corner *corner);
 
-/* grad W [6], N: of nodes a, b, c. */
-void cell_gradient(const Corner *corner, double g[6]);
-
 /* Entries a triangle has in one triangle of the Hessian: aa, bb, cc: xx xy yy;
  * ab, ac, bc: xx xy yx yy. */
 enum { CELL_ENTRIES = 21 };
-
-/* Those entries, J/m^2, projected as the filter says.  Returns whether
- * something negative was changed. */
-bool cell_hessian(const Corner *corner, Filter filter, double H[CELL_ENTRIES]);
-
-/* y += H q for the three nodes; q, y [2n]. */
-void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
-                   const double *q, double *y);
-
-/* Along a step with the edges P1, P2 J becomes J + J1 + J2. */
-void cell_along(const Corner *corner, const double P1[2], const double P2[2],
-                double *J1, double *J2);
-
-/* The largest alpha for which alpha times the step leaves at least the part
- * 1 - CONTACT_LIMIT of J; infinite: any. */
-double cell_reach(double J, double J1, double J2);
-
-/* W after the step minus W minus grad W.step, J, without cancellation. */
-double cell_remainder(const Corner *corner, double J1, double J2);
 
 /* ---- the term -------------------------------------------------------- */
 

@@ -68,28 +68,8 @@ const double *obstacle_point(const Obstacle *obstacle, const double *x);
 Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
                 double radius);
 
-/* W, J. */
-double contact_value(const Barrier *barrier, const Gap *gap);
-
 /* -dW/dd >= 0, N: the force that pushes the node along n. */
 double contact_force(const Barrier *barrier, const Gap *gap);
-
-/* H [3] (xx, xy, yy), J/m^2: W's Hessian in x_i, c f''/d_hat^2 n n^T, and where
- * nothing is projected the ball's curvature (c/d_hat) f'/r (I - n n^T), which
- * is negative.  In x_i and a ball's node it is [[H, -H], [-H, H]].
- * Returns whether something negative was changed. */
-bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
-                     double H[3]);
-
-/* The largest alpha for which alpha P leaves at least the part
- * 1 - CONTACT_LIMIT of the gap; infinite: any.  P [2] m, in: p of the node
- * minus p of a ball's node. */
-double contact_reach(const Gap *gap, const double P[2]);
-
-/* W at x + P minus W at x minus grad W.P, J, without cancellation.  P as
- * above, alpha times p. */
-double contact_remainder(const Barrier *barrier, const Gap *gap,
-                         const double P[2]);
 
 /* ---- the term -------------------------------------------------------- */
 

@@ -37,12 +37,6 @@ double spring_law_remainder(SpringLaw law, double e, double t);
 /* gamma >= 0: how far the spring flows at e. */
 double spring_law_flow(SpringLaw law, double e);
 
-/* H [3] J/m^2 of W in x_i, projected as the filter says:
- * (2k/l2) [l2 tau I + 2 tau' d d^T].  d [2] m, q = |d|^2.
- * Returns whether there was a negative eigenvalue that was changed. */
-bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
-                        double e, Filter filter, double H[3]);
-
 /* ---- the term -------------------------------------------------------- */
 
 /* A spring that may flow along the present direction. */

@@ -51,9 +51,6 @@ Status recording_check(const Options *options, char *message, size_t size);
  * all functions here do; INVALID_INPUT: message says why. */
 Status recording_open(const Options *options, int panes, Recording *recording);
 
-/* Whether frames are of use. */
-bool recording_wants_frames(const Recording *recording);
-
 /* One frame, if frames are asked for.  shown: for how many frames' time it
  * shall stand in a film. */
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,

@@ -249,8 +249,3 @@ void crew_run_uneven(Crew *crew, CrewWork *work, const void *job, int count,
 {
     run_chunks(crew, work, job, count, 1, true, cost);
 }
-
-int crew_threads(const Crew *crew)
-{
-    return crew && crew->threads == 2 ? 2 : 1;
-}

@@ -30,7 +30,7 @@ double cell_value(const Corner *corner)
 }
 
 /* grad J in e1 and e2 is (S e2, -S e1)/(2 A0) with S v = (v_y, -v_x). */
-void cell_gradient(const Corner *corner, double g[6])
+static void cell_gradient(const Corner *corner, double g[6])
 {
     double factor = corner->c / CELL_J_HAT / (2 * corner->area) *
                     barrier_slope(corner->J / CELL_J_HAT);
@@ -111,7 +111,8 @@ static bool edge_hessian(const Corner *corner, Filter filter, double H[16])
 
 /* Node a's rows and columns are minus the sums of the others': a common motion
  * changes nothing. */
-bool cell_hessian(const Corner *corner, Filter filter, double H[CELL_ENTRIES])
+static bool cell_hessian(const Corner *corner, Filter filter,
+                         double H[CELL_ENTRIES])
 {
     double E[16];
     bool changed = edge_hessian(corner, filter, E);
@@ -151,8 +152,9 @@ static void multiply_pair(const double B[4], const double *q_r,
     y_c[1] += B[1] * q_r[0] + B[3] * q_r[1];
 }
 
-void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
-                   const double *q, double *y)
+/* y += H q for the three nodes; q, y [2n]. */
+static void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
+                          const double *q, double *y)
 {
     const int pair[3][2] = {{0, 1}, {0, 2}, {1, 2}};
     for (int k = 0; k < 3; k++) {
@@ -162,8 +164,9 @@ void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
     }
 }
 
-void cell_along(const Corner *corner, const double P1[2], const double P2[2],
-                double *J1, double *J2)
+/* Along a step with the edges P1, P2 J becomes J + J1 + J2. */
+static void cell_along(const Corner *corner, const double P1[2],
+                       const double P2[2], double *J1, double *J2)
 {
     double q = 1 / (2 * corner->area);
     *J1 = q * (cross(P1, corner->e2) + cross(corner->e1, P2));
@@ -171,7 +174,7 @@ void cell_along(const Corner *corner, const double P1[2], const double P2[2],
 }
 
 /* J + alpha J1 + alpha^2 J2 = (1-F) J */
-double cell_reach(double J, double J1, double J2)
+static double cell_reach(double J, double J1, double J2)
 {
     double c0 = CONTACT_LIMIT * J, discriminant = J1 * J1 - 4 * J2 * c0;
     if (!(discriminant >= 0))
@@ -180,7 +183,8 @@ double cell_reach(double J, double J1, double J2)
     return denominator > 0 ? 2 * c0 / denominator : INFINITY;
 }
 
-double cell_remainder(const Corner *corner, double J1, double J2)
+/* W after the step minus W minus grad W.step, J, without cancellation. */
+static double cell_remainder(const Corner *corner, double J1, double J2)
 {
     double s = corner->J / CELL_J_HAT;
     return corner->c * (barrier_slope(s) * J2 / CELL_J_HAT +

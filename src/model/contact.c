@@ -35,7 +35,8 @@ Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
     return (Gap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
 }
 
-double contact_value(const Barrier *barrier, const Gap *gap)
+/* W, J. */
+static double contact_value(const Barrier *barrier, const Gap *gap)
 {
     return barrier->c * barrier_value(gap->d / barrier->d_hat);
 }
@@ -46,8 +47,12 @@ double contact_force(const Barrier *barrier, const Gap *gap)
            barrier_slope(gap->d / barrier->d_hat);
 }
 
-bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
-                     double H[3])
+/* H [3] (xx, xy, yy), J/m^2: W's Hessian in x_i, c f''/d_hat^2 n n^T, and where
+ * nothing is projected the ball's curvature (c/d_hat) f'/r (I - n n^T), which
+ * is negative.  In x_i and a ball's node it is [[H, -H], [-H, H]].
+ * Returns whether something negative was changed. */
+static bool contact_hessian(const Barrier *barrier, const Gap *gap,
+                            Filter filter, double H[3])
 {
     const double *n = gap->n;
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
@@ -65,7 +70,7 @@ bool contact_hessian(const Barrier *barrier, const Gap *gap, Filter filter,
 /* A ball: |D + alpha P| = r - F d is the quadratic equation
  * a alpha^2 + 2 b alpha + c0 = 0, whose smaller root is written so that nothing
  * cancels. */
-double contact_reach(const Gap *gap, const double P[2])
+static double contact_reach(const Gap *gap, const double P[2])
 {
     const double F = CONTACT_LIMIT;
     double pn = gap->n[0] * P[0] + gap->n[1] * P[1];
@@ -81,8 +86,8 @@ double contact_reach(const Gap *gap, const double P[2])
 
 /* Along P the distance of a ball's centre changes by pn + k, where k is what
  * the motion across adds: sqrt((r + pn)^2 + pt^2) - (r + pn). */
-double contact_remainder(const Barrier *barrier, const Gap *gap,
-                         const double P[2])
+static double contact_remainder(const Barrier *barrier, const Gap *gap,
+                                const double P[2])
 {
     const double *n = gap->n;
     double pn = n[0] * P[0] + n[1] * P[1], k = 0;

@@ -55,8 +55,8 @@ double spring_law_remainder(SpringLaw law, double e, double t)
 
 /* d is an eigenvector, with (2k/l2) (2 tau' q + l2 tau); across it is
  * (2k/l2) l2 tau. */
-bool spring_law_hessian(SpringLaw law, const double d[2], double l2, double k,
-                        double e, Filter filter, double H[3])
+static bool spring_law_hessian(SpringLaw law, const double d[2], double l2,
+                               double k, double e, Filter filter, double H[3])
 {
     double factor = 2 * k / l2, q = d[0] * d[0] + d[1] * d[1];
     double across = l2 * spring_law_slope(law, e);

@@ -104,11 +104,6 @@ Status recording_end_film(Recording *recording)
     return STATUS_OK;
 }
 
-bool recording_wants_frames(const Recording *recording)
-{
-    return recording->folder || film_runs(&recording->film);
-}
-
 /* Folder, film, states, log. */
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
