@@ -5,6 +5,9 @@
  * none of them: an implicit step takes it into its target u_tilde, an explicit
  * one adds it to the acceleration, and so free fall is exact in both.  Arrays
  * change only between steps, in a term's begin and end.
+ *
+ * Whoever changes it says so (system_changed): what solvers have computed from
+ * it carries the version it was computed for.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
@@ -26,6 +29,8 @@ struct System {
     bool breaks;           /* springs may be broken: k = 0 */
     int *order;            /* [n] elimination order, or NULL */
     int segments; /* n, where nodes and springs are those of square_mesh.h */
+    unsigned version; /* goes up with every change of numbers or terms */
+    unsigned pattern; /* goes up where the entries of the Hessian change too */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
 };
@@ -34,6 +39,10 @@ struct System {
  * springs' term where there are springs.
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
+
+/* After numbers were changed; with `pattern` also pins, or which nodes a term
+ * is about. */
+void system_changed(System *system, bool pattern);
 
 /* Allocates system->pinned, all 0.  Returns OK, OUT_OF_MEMORY. */
 Status system_create_pins(System *system);

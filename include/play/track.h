@@ -52,7 +52,6 @@ typedef struct Track {
     Settings start;    /* there: the same options, and its pins */
     Settings settings; /* now */
     bool keeps;        /* states are kept: somebody may go back */
-    bool remembers;    /* some step depends on more than the state before it */
     size_t limit;      /* of track_bytes */
 
     KeptState *kept; /* [kept_count] states of step 0, stride, 2 stride, ... */

@@ -14,11 +14,7 @@
 
 struct Scene;
 
-enum {
-    SIMULATION_MAX_RUNS = 3,
-    DESCENT_MAX = 256,
-    SIMULATION_FORGETS = 128 /* steps, a power of two */
-};
+enum { SIMULATION_MAX_RUNS = 3, DESCENT_MAX = 256 };
 
 /* The path of a minimisation that is shown iteration by iteration. */
 typedef struct Descent {
@@ -92,9 +88,8 @@ Status simulation_create(const Options *options, NewtonObserver observer,
 void simulation_free(Simulation *simulation);
 
 /* One step: of time in every run, or one Newton iteration; none where
- * simulation->done.  Before each SIMULATION_FORGETS-th step solvers forget what
- * they remember from step to step, so that any state can be reached again, bit
- * for bit, from a saved one at most that many steps before.
+ * simulation->done.  A pure function of the state (state.h) and the settings:
+ * solvers keep nothing from step to step that changes a bit.
  * OK; an unconverged status: the step was made; a failure or INTERRUPTED:
  * nothing moved in the run that failed. */
 Status simulation_step(Simulation *simulation);
@@ -135,9 +130,6 @@ double simulation_bytes(const Options *options);
 
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */
 long long simulation_matrix_entries(const Simulation *simulation);
-
-/* A run whose next steps depend on more than its state: see above. */
-bool simulation_remembers(const Simulation *simulation);
 
 /* The timestep, s, and the tolerance, m/s, from the next step on. */
 void simulation_set_timestep(Simulation *simulation, double h);

@@ -24,8 +24,7 @@ size_t state_size(const Simulation *simulation);
 /* bytes [state_bytes] out. */
 void state_save(const Simulation *simulation, StatePart part, void *bytes);
 
-/* As it was when these bytes were saved.  Solvers forget what they remember
- * from step to step; see SIMULATION_FORGETS.  Springs that are whole get the
+/* As it was when these bytes were saved.  Springs that are whole get the
  * stiffness of the simulation's options.
  *   bytes  [state_bytes] in, of a simulation with the same system */
 void state_restore(const void *bytes, StatePart part, Simulation *simulation);

@@ -27,6 +27,7 @@
 
 /* The parts of a time step; arrays as in system.h and square_mesh.h. */
 typedef struct MultigridStep {
+    unsigned version;            /* of m, pinned, k and l2: others, another */
     const double *x_n;           /* [2n] m */
     const double *u;             /* [2n] m, where to begin; NULL: 0 */
     const double *u_tilde;       /* [2n] m */
@@ -70,10 +71,6 @@ void multigrid_free(Multigrid *multigrid);
 /* Begins a step.  Of its arrays u_tilde and pinned are needed until it ends.
  * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
 Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
-
-/* After masses, pins, stiffnesses or lengths have changed: the next step reads
- * them again.  Accepts NULL. */
-void multigrid_forget(Multigrid *multigrid);
 
 /* One iteration.  Returns RUNNING; OK (converged); or why it cannot go on:
  * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE.  u is then the last iterate,

@@ -23,7 +23,7 @@ typedef enum Solver {
 enum { AUTO_NEWTON_SEGMENTS = 32 };
 
 /* What is known of a residual: p solved for it; p up to a remainder, as from
- * conjugate gradients or an older factor; or only that it is not above. */
+ * conjugate gradients; or only that it is not above. */
 typedef enum ResidualKind {
     RESIDUAL_VALUE,
     RESIDUAL_ESTIMATE,
@@ -42,7 +42,7 @@ typedef struct NewtonRecord {
     double slope;      /* grad E . p, J s^2: < 0 is downhill */
     double change;     /* of E, J s^2: by alpha p; multigrid: by all it did */
     int projected;     /* blocks of the Hessian that were projected */
-    bool factorised;   /* false: an older factor served */
+    bool factorised;   /* false: multigrid, or a bound passed the test */
     double shift;      /* kg, what the diagonal needed to be factored */
     double seconds;    /* this iteration took */
     Status status;     /* RUNNING, or how the minimisation ended here */
@@ -78,7 +78,6 @@ typedef struct NewtonCounters {
     long projected;  /* blocks projected, summed over factorisations */
     long trials;     /* energies looked at by the line search */
     long skipped;    /* tests passed by the gradient's size alone */
-    long certified;  /* tests passed with an old factor and an error bound */
     long cycles;     /* of multigrid */
     long local;      /* its iterations in windows */
     long saddles;    /* left along negative curvature */
@@ -92,18 +91,19 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 
 /* What guards the digits of a minimisation (rounding.c). */
 typedef struct Rounding {
-    double lightest; /* kg, the smallest mass */
-    double stiffest; /* J/m^2, the largest curvature of a term */
-    double force;    /* J/m, the largest of a spring without a length */
-    double concave;  /* 1/s^2, incremental_potential_concave for w = 1, wherever
-                        the nodes are */
-    bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
-    double first;    /* J s^2, E at the start; NAN: it can only fall */
-    double most;     /* J s^2, E may be, as at the start; INFINITY: any */
-    double E;        /* J s^2, at the iterate; NAN: not asked for yet */
-    double E_trial;  /* J s^2, where a step may lead */
-    double best;     /* m/s, smallest residual of this minimisation */
-    int stagnant;    /* iterations since it was the smallest */
+    unsigned version; /* of the system, for which the next four were found */
+    double lightest;  /* kg, the smallest mass */
+    double stiffest;  /* J/m^2, the largest curvature of a term */
+    double force;     /* J/m, the largest of a spring without a length */
+    double concave; /* 1/s^2, incremental_potential_concave for w = 1, wherever
+                       the nodes are */
+    bool blurred;   /* w stiffest > 1e10 lightest: factors are not exact */
+    double first;   /* J s^2, E at the start; NAN: it can only fall */
+    double most;    /* J s^2, E may be, as at the start; INFINITY: any */
+    double E;       /* J s^2, at the iterate; NAN: not asked for yet */
+    double E_trial; /* J s^2, where a step may lead */
+    double best;    /* m/s, smallest residual of this minimisation */
+    int stagnant;   /* iterations since it was the smallest */
 } Rounding;
 
 typedef struct Newton {
@@ -119,11 +119,9 @@ typedef struct Newton {
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */
     double *u_trial, *x_trial; /* [2n] m, where a step may lead; workspaces */
     SearchDirection search;    /* the Hessian and its factor */
-    bool factored;             /* it has one, of this iterate or one before */
     int clamps;      /* iterations that on-demand projection still clamps */
     int saddles;     /* that this minimisation has left */
     bool bends_down; /* the test is passed, but at no minimum */
-    bool resting;    /* the last minimisation needed no update */
     Rounding rounding;
     Multigrid *multigrid; /* NULL: was not needed yet */
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
@@ -167,13 +165,5 @@ Status newton_minimise(Newton *newton, const double *x_n, const double *u,
 /* Iterations after which a minimisation ends: max_iterations, or on squares of
  * more than a few cells fewer. */
 int newton_most_iterations(const Newton *newton);
-
-/* After stiffnesses, lengths or numbers of terms have changed: bounds are
- * computed again, and the factor is not used any more. */
-void newton_forget(Newton *newton);
-
-/* After the list of terms or the pins have changed: the Hessian's pattern and
- * its analysis are made again, too, with the next factor. */
-void newton_rebuild(Newton *newton);
 
 #endif

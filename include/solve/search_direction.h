@@ -16,7 +16,8 @@
 typedef struct SearchDirection {
     const System *system;  /* not owned */
     Filter filter;         /* of the Hessian in A */
-    CholeskyKind kind;     /* what cholesky was made for */
+    CholeskyKind kind;     /* what cholesky was made for, */
+    unsigned pattern;      /* and of which pattern of the system */
     Sparse A;              /* Hessian, one triangle, in elimination order */
     int *slot;             /* place of each triplet in A */
     Cholesky *cholesky;    /* NULL: no matrix was needed yet */
@@ -29,11 +30,8 @@ typedef struct SearchDirection {
 Status search_direction_create(const System *system, SearchDirection *search);
 void search_direction_free(SearchDirection *search);
 
-/* The next assembly makes the pattern and its analysis again. */
-void search_direction_rebuild(SearchDirection *search);
-
-/* Makes A and its analysis, unless it has them for this kind, and fills A with
- * the Hessian of E at u, x.
+/* Makes A and its analysis, unless it has them for this kind and pattern, and
+ * fills A with the Hessian of E at u, x.
  *   filter     NONE: the Hessian as it is, for a factor L D L^T, which allows
  *              negative eigenvalues; ON_DEMAND: as it is, for one that does not
  *   projected  out, blocks projected
@@ -70,20 +68,5 @@ Status search_direction_bends_down(SearchDirection *search, const Iterate *at,
  * Returns as search_direction_solve. */
 Status search_direction_judge(SearchDirection *search, const Iterate *at,
                               double *error);
-
-/* p = -H^-1 g for the Hessian at u, x with the factor of an older one: p holds
- * what search_direction_solve made of g, and conjugate gradients improve it.
- * H - M is positive semi-definite, so the error is bounded by what can be
- * computed: |p - exact|_M <= |g + H p|_(M^-1) = *error.
- *   filter  CLAMP or ABS
- *   most    solves, which end it
- *   enough  kg^(1/2) m, an error which ends it before
- *   at      p is in/out
- *   error   out, kg^(1/2) m
- *   solves  out
- * Returns OK, NOT_FINITE. */
-Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, int most, double enough,
-                               double *error, int *solves);
 
 #endif

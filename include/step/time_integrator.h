@@ -88,8 +88,4 @@ Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
 Status time_integrator_balances(const TimeIntegrator *integrator,
                                 double distance, bool *balances);
 
-/* After arrays of the system, or (rebuild) its list of terms or its pins, were
- * changed from outside: nothing computed from them is used again. */
-void time_integrator_forget(TimeIntegrator *integrator, bool rebuild);
-
 #endif

@@ -103,6 +103,8 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull)
     Pull *own = term ? term->data : malloc(sizeof *own);
     if (!own)
         return STATUS_OUT_OF_MEMORY;
+    if (term)
+        system_changed(system, true);
     *own = *pull;
     return term ? STATUS_OK : system_add_term(system, kind, own);
 }

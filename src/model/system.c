@@ -24,6 +24,12 @@ Status system_create(int nodes, int springs, System *system)
                        : STATUS_OK;
 }
 
+void system_changed(System *system, bool pattern)
+{
+    system->version++;
+    system->pattern += pattern;
+}
+
 Status system_create_pins(System *system)
 {
     system->pinned = calloc((size_t)system->nodes, sizeof *system->pinned);
@@ -60,6 +66,7 @@ Status system_insert_term(System *system, int place, const TermKind *kind,
     for (int t = system->terms++; t > place; t--)
         system->term[t] = system->term[t - 1];
     system->term[place] = (Term){.kind = kind, .data = data};
+    system_changed(system, true);
     return STATUS_OK;
 }
 
@@ -85,6 +92,7 @@ void system_remove_term(System *system, const TermKind *kind)
     Term *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];
+    system_changed(system, true);
 }
 
 /* A normal number > 0: not 0, denormal, infinite or NaN. */

@@ -228,8 +228,8 @@ static NewtonRecord as_line(const NewtonRecord *record)
     return line;
 }
 
-/* The round that comes next: where the solver is now.  A test that a bound or
- * an old factor decides leaves no direction that belongs there. */
+/* The round that comes next: where the solver is now.  A test that a bound
+ * decides leaves no direction that belongs there. */
 static void keep_next(Tape *tape, const Newton *newton)
 {
     TapeRound *round = &tape->round[tape->count];

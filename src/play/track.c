@@ -279,14 +279,11 @@ static Status apply_change(Track *track, const Command *change, char *message,
 
 /* ---- going back --------------------------------------------------------- */
 
-/* The last kept step from which `step` can be reached with the same bits. */
+/* The last kept step from which `step` can be reached. */
 static long nearest_kept(const Track *track, long step)
 {
-    long every = track->stride;
-    if (track->remembers && every < SIMULATION_FORGETS)
-        every = SIMULATION_FORGETS;
     long newest = (track->kept_count - 1) * track->stride;
-    return (step < newest ? step : newest) / every * every;
+    return (step < newest ? step : newest) / track->stride * track->stride;
 }
 
 /* Settings as they were when the state of this step was kept: all changes made
@@ -464,8 +461,6 @@ Status track_step(Track *track)
     long before = track_step_shown(track);
     track_forget(track);
     track->now = (StepRow){0};
-    track->remembers =
-        track->remembers || simulation_remembers(&track->simulation);
     Status status = simulation_step(&track->simulation);
     sum_up(track);
     if (track_step_shown(track) == before)

@@ -120,21 +120,11 @@ static void compare_prediction(Simulation *simulation)
     prediction->shown = true;
 }
 
-/* What solvers remember from step to step. */
-static void forget_runs(Simulation *simulation)
-{
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            newton_forget(simulation->run[i].newton);
-}
-
 Status simulation_step(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
     if (simulation->done)
         return STATUS_OK;
-    if (!scene->step && simulation->steps % SIMULATION_FORGETS == 0)
-        forget_runs(simulation);
     simulation->status =
         scene->step ? scene->step(simulation) : step_runs(simulation);
     if (simulation->status && !status_is_unconverged(simulation->status))
@@ -166,13 +156,6 @@ double simulation_time(const Simulation *simulation)
                simulation->options.timestep;
 }
 
-/* Projection on demand; all else begins each step afresh. */
-bool simulation_remembers(const Simulation *simulation)
-{
-    const Options *options = &simulation->options;
-    return options->filter == FILTER_ON_DEMAND;
-}
-
 void simulation_set_timestep(Simulation *simulation, double h)
 {
     simulation->time_before = simulation_time(simulation);
@@ -185,7 +168,6 @@ void simulation_set_timestep(Simulation *simulation, double h)
         if (run->newton)
             run->newton->settings.h = h;
     }
-    forget_runs(simulation);
 }
 
 void simulation_set_tolerance(Simulation *simulation, double tolerance)
@@ -195,7 +177,6 @@ void simulation_set_tolerance(Simulation *simulation, double tolerance)
         if (simulation->run[i].newton)
             simulation->run[i].newton->settings.tolerance = tolerance;
     simulation->descent.scalar.tolerance = tolerance;
-    forget_runs(simulation);
 }
 
 void simulation_set_solver(Simulation *simulation, Solver solver)
@@ -204,7 +185,6 @@ void simulation_set_solver(Simulation *simulation, Solver solver)
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             simulation->run[i].newton->settings.solver = solver;
-    forget_runs(simulation);
 }
 
 /* One without friction so far gets the term, which has entries in the Hessian;
@@ -219,7 +199,6 @@ static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
         contact->obstacle[k].friction = mu;
     if (mu > 0 && !system_find_term(run->system, &friction_energy))
         status = friction_add(run->system, slip_speed);
-    time_integrator_forget(run, true);
     return status;
 }
 
@@ -249,7 +228,6 @@ Status simulation_set_damping(Simulation *simulation, double eta)
         else if (eta > 0)
             status = damping_add(system, eta);
     }
-    forget_runs(simulation);
     return status;
 }
 
@@ -290,6 +268,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
         return STATUS_OUT_OF_MEMORY;
     system->pinned[node] = pinned;
     drop_empty_pins(system);
+    system_changed(system, true);
     double had[SIMULATION_MAX_RUNS];
     dissipated_so_far(simulation, had);
     for (int i = 0; i < simulation->runs; i++) {
@@ -298,7 +277,6 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
             continue;
         run->v[2 * node] = run->v[2 * node + 1] = 0;
         run->remembers = false;
-        time_integrator_forget(run, true);
     }
     book_change(simulation, had);
     return STATUS_OK;
@@ -335,16 +313,13 @@ Status simulation_grab(Simulation *simulation, int node, double x, double y)
     Pull wanted = {.node = node, .target = {x, y}};
     if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
         return STATUS_INVALID_INPUT;
-    bool other = !hand || hand->node != node;
-    if (other)
+    if (!hand || hand->node != node)
         simulation_release(simulation);
     hand = hand_energy_of(system);
     wanted.k = hand ? hand->k : hand_stiffness(simulation, node);
     book_hand(simulation, -1);
     Status status = pull_set(system, &hand_energy, &wanted);
     book_hand(simulation, 1);
-    for (int r = 0; r < simulation->runs && !status; r++)
-        time_integrator_forget(&simulation->run[r], other);
     return status;
 }
 
@@ -354,8 +329,6 @@ void simulation_release(Simulation *simulation)
         return;
     book_hand(simulation, -1);
     system_remove_term(&simulation->system, &hand_energy);
-    for (int r = 0; r < simulation->runs; r++)
-        time_integrator_forget(&simulation->run[r], true);
 }
 
 Status simulation_change(Simulation *simulation, const Options *options)

@@ -89,8 +89,6 @@ void spring_drag(Simulation *simulation, int handle, double x, double y)
     run->x[1] = y;
     run->v[0] = run->v[1] = 0;
     run->remembers = false;
-    if (run->newton)
-        newton_forget(run->newton); /* its factor is of another place */
 }
 
 int spring_switches(const Simulation *simulation,

@@ -40,7 +40,6 @@ typedef struct Cursor {
     StatePart part;
     unsigned char *at; /* NULL while counting */
     size_t bytes;
-    bool revived; /* a system has a term again */
 } Cursor;
 
 static void pass(Cursor *cursor, void *piece, size_t size)
@@ -67,14 +66,13 @@ static void pass_breaks(Cursor *cursor, System *system, double k)
 
 /* Friction or damping that had ended by the step of the state: what it lost
  * before is in the ledger.  NULL without memory. */
-static Term *revive(Cursor *cursor, System *system, const TermKind *kind,
+static Term *revive(System *system, const TermKind *kind,
                     const Options *options)
 {
     Status status = kind == &damping ? damping_add(system, 0)
                     : kind == &friction_energy
                         ? friction_add(system, options->slip_speed)
                         : STATUS_INVALID_INPUT;
-    cursor->revived = cursor->revived || !status;
     return status ? NULL : system_find_term(system, kind);
 }
 
@@ -89,7 +87,7 @@ static void pass_lost(Cursor *cursor, System *system, const Options *options)
         double lost = term ? term->lost : 0;
         pass(cursor, &lost, sizeof lost);
         if (!term && lost != 0)
-            term = revive(cursor, system, kinds[k], options);
+            term = revive(system, kinds[k], options);
         if (term && cursor->way == RESTORE)
             term->lost = lost;
     }
@@ -192,8 +190,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     run->work = head.work;
     run->status = head.status;
     run->remembers = head.remembers && cursor->part == STATE_ALL;
-    if (run->newton)
-        newton_forget(run->newton);
+    system_changed(run->system, false);
 }
 
 static void pass_all(Cursor *cursor, Simulation *simulation)
@@ -201,13 +198,11 @@ static void pass_all(Cursor *cursor, Simulation *simulation)
     pass_head(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);
-    for (int r = 0; cursor->revived && r < simulation->runs; r++)
-        time_integrator_forget(&simulation->run[r], true);
 }
 
 size_t state_bytes(const Simulation *simulation, StatePart part)
 {
-    Cursor cursor = {COUNT, part, NULL, 0, false};
+    Cursor cursor = {COUNT, part, NULL, 0};
     pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
     return cursor.bytes;
 }
@@ -221,13 +216,13 @@ size_t state_size(const Simulation *simulation)
 
 void state_save(const Simulation *simulation, StatePart part, void *bytes)
 {
-    Cursor cursor = {SAVE, part, bytes, 0, false};
+    Cursor cursor = {SAVE, part, bytes, 0};
     pass_all(&cursor, (Simulation *)simulation);
 }
 
 void state_restore(const void *bytes, StatePart part, Simulation *simulation)
 {
-    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0, false};
+    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0};
     pass_all(&cursor, simulation);
 }
 

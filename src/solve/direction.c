@@ -38,7 +38,6 @@ static Status factor_as(Newton *newton, Filter filter)
     assembled = clock_now();
     if (!status)
         status = search_direction_factor(&newton->search, &tries);
-    newton->factored = !status;
     newton->record.factorised = true;
     newton->record.projected = projected;
     newton->record.shift = newton->search.shift;
@@ -75,21 +74,6 @@ static Status newton_solve(Newton *newton)
     return status;
 }
 
-/* Whether the factor of an iterate before is worth a try: it may decide that
- * the test is passed, which is likely in a step after one without updates, and
- * after a direction that was nearly short enough. */
-static bool factor_may_serve(const Newton *newton)
-{
-    const SearchDirection *search = &newton->search;
-    if (newton->settings.filter == FILTER_NONE || !newton->factored ||
-        search->kind == CHOLESKY_INDEFINITE || search->shift > 0 ||
-        newton->rounding.blurred)
-        return false;
-    return newton->record.iteration < 0
-               ? newton->resting
-               : newton->record.residual <= 10 * newton->settings.tolerance;
-}
-
 /* The test of Algorithm 3 for a direction that is at most error away, in the
  * norm of the masses, from what it should be. */
 static Status newton_test(const Newton *newton, double error)
@@ -121,32 +105,6 @@ static Status newton_solve_and_test(Newton *newton)
     return status ? status : newton_test(newton, error);
 }
 
-/* More solves than this to refine a direction, and a new factor is cheaper. */
-enum { REFINE_MAX_SOLVES = 6 };
-
-/* Whether the test is passed by the direction with the factor of an earlier
- * iterate: it is refined until the test can be decided for the Hessian at x, by
- * the error's bound. */
-static bool old_factor_passes(Newton *newton)
-{
-    double error;
-    int solves;
-    Filter filter =
-        newton->settings.filter == FILTER_ABS ? FILTER_ABS : FILTER_CLAMP;
-    if (newton_solve_and_test(newton) != STATUS_OK)
-        return false;
-    double start = clock_now();
-    double left = newton->settings.tolerance - newton->residual;
-    Status status = search_direction_refine(
-        &newton->search, &newton->at, filter, REFINE_MAX_SOLVES,
-        0.5 * left / residual_per_norm(newton), &error, &solves);
-    newton->counters.solves += solves;
-    newton->counters.seconds_solve += clock_now() - start;
-    newton->residual = newton_residual(newton);
-    newton->kind = RESIDUAL_ESTIMATE;
-    return !status && newton_test(newton, error) == STATUS_OK;
-}
-
 /* Gradient and direction at x, and the test of Algorithm 3.
  * Returns OK (converged), RUNNING, or a failure. */
 static Status direction_at(Newton *newton)
@@ -172,10 +130,6 @@ static Status direction_at(Newton *newton)
             newton->counters.skipped++;
             return STATUS_OK;
         }
-    }
-    if (factor_may_serve(newton) && old_factor_passes(newton)) {
-        newton->counters.certified++;
-        return STATUS_OK;
     }
     Status status = newton_factor(newton);
     return status ? status : newton_solve_and_test(newton);
@@ -208,7 +162,6 @@ static Status look_for_minimum(Newton *newton, double times)
     if (status)
         return status;
     search_direction_add_masses(search, times - 1);
-    newton->factored = false;
     newton->counters.factorisations++;
     status = cholesky_factor(search->cholesky);
     return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM

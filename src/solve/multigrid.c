@@ -296,7 +296,8 @@ static Status count(Multigrid *mg, Status status)
 
 Status multigrid_start(Multigrid *mg, const MultigridStep *step)
 {
-    mg->known = mg->known && step->weight == mg->step.weight;
+    mg->known = mg->known && step->weight == mg->step.weight &&
+                step->version == mg->step.version;
     mg->step = *step;
     mg->record = (MultigridRecord){0};
     mg->saddles = 0;
@@ -310,12 +311,6 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     grid_read_state(&mg->grid, step);
     evaluate(mg);
     return count(mg, multigrid_test(mg));
-}
-
-void multigrid_forget(Multigrid *mg)
-{
-    if (mg)
-        mg->known = false;
 }
 
 Status multigrid_leave(Multigrid *mg)

@@ -33,8 +33,8 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
         at->x[i] += u[i];
     }
     newton->saddles = 0;
+    newton->clamps = 0;
     newton->sum = newton->size = 0;
-    newton->resting = newton->record.iteration < 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
     rounding_start(newton);
@@ -230,7 +230,7 @@ Status newton_create(const System *system, const NewtonSettings *settings,
     newton->x_trial = newton->u_trial + size;
     Status status = search_direction_create(system, &newton->search);
     if (!status)
-        newton_forget(newton);
+        rounding_bounds(newton);
     return status;
 }
 
@@ -242,20 +242,6 @@ void newton_free(Newton *newton)
     multigrid_free(newton->multigrid);
     free(newton->at.u);
     *newton = (Newton){0};
-}
-
-void newton_forget(Newton *newton)
-{
-    rounding_bounds(newton);
-    newton->factored = false;
-    newton->clamps = 0;
-    multigrid_forget(newton->multigrid);
-}
-
-void newton_rebuild(Newton *newton)
-{
-    newton_forget(newton);
-    search_direction_rebuild(&newton->search);
 }
 
 Status newton_tell(Newton *newton, const NewtonRecord *record)
@@ -278,7 +264,6 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
     sum->projected += counters->projected;
     sum->trials += counters->trials;
     sum->skipped += counters->skipped;
-    sum->certified += counters->certified;
     sum->cycles += counters->cycles;
     sum->local += counters->local;
     sum->saddles += counters->saddles;

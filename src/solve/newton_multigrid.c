@@ -125,7 +125,8 @@ Status newton_multigrid_start(Newton *newton)
     MultigridCounters before = *multigrid_counters(newton->multigrid);
     const Iterate *at = &newton->at;
     Place place = place_at(system, at->E.x_n, at->u, at->x);
-    MultigridStep step = {.x_n = at->E.x_n,
+    MultigridStep step = {.version = system->version,
+                          .x_n = at->E.x_n,
                           .u = at->u,
                           .u_tilde = newton->u_tilde,
                           .m = system->m,

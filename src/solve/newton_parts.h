@@ -11,7 +11,7 @@
 Status newton_tell(Newton *newton, const NewtonRecord *record);
 
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
- * each iterate, with as few factorisations as will do. */
+ * each iterate. */
 
 /* At the start of a minimisation: fills g, p, residual and, of the record, what
  * concerns them.  A gradient that vanishes passes the test, but may be that of
@@ -41,8 +41,7 @@ Status step_length(Newton *newton);
  * second kind of scene, and in every one without a line search, a minimisation
  * is held to what E really is. */
 
-/* Bounds of the system: before the first minimisation, and after stiffnesses
- * or masses changed. */
+/* Bounds of the system as it is. */
 void rounding_bounds(Newton *newton);
 
 /* At the start of a minimisation. */

@@ -33,6 +33,7 @@ void rounding_bounds(Newton *newton)
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
     double *zero = newton->search.b;
+    rounding->version = system->version;
     rounding->lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         rounding->lightest = fmin(rounding->lightest, system->m[i]);
@@ -51,6 +52,8 @@ void rounding_start(Newton *newton)
 {
     const Iterate *at = &newton->at;
     Rounding *rounding = &newton->rounding;
+    if (rounding->version != newton->system->version)
+        rounding_bounds(newton);
     rounding->best = INFINITY;
     rounding->stagnant = 0;
     rounding->E = NAN;

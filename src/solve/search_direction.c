@@ -33,7 +33,7 @@ Status search_direction_create(const System *system, SearchDirection *search)
     return STATUS_OK;
 }
 
-void search_direction_rebuild(SearchDirection *search)
+static void free_matrix(SearchDirection *search)
 {
     cholesky_free(search->cholesky);
     search->cholesky = NULL;
@@ -46,16 +46,17 @@ void search_direction_free(SearchDirection *search)
 {
     if (!search)
         return;
-    search_direction_rebuild(search);
+    free_matrix(search);
     free(search->b);
     *search = (SearchDirection){0};
 }
 
-/* Pattern and symbolic analysis: once, and again only when another kind of
- * factor is wanted. */
+/* Pattern and symbolic analysis: once, and again only when the system's
+ * pattern or the kind of factor is another. */
 static Status analyse(SearchDirection *search)
 {
-    search_direction_rebuild(search);
+    free_matrix(search);
+    search->pattern = search->system->pattern;
     Status status = incremental_potential_pattern(search->system, &search->A,
                                                   &search->slot);
     return status ? status
@@ -69,7 +70,8 @@ Status search_direction_assemble(SearchDirection *search, const Iterate *at,
 {
     CholeskyKind kind =
         filter == FILTER_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
-    bool known = search->cholesky && search->kind == kind;
+    bool known = search->cholesky && search->kind == kind &&
+                 search->pattern == search->system->pattern;
     search->kind = kind;
     search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
     Status status = known ? STATUS_OK : analyse(search);
@@ -206,24 +208,21 @@ Status search_direction_judge(SearchDirection *search, const Iterate *at,
     return status;
 }
 
-Status search_direction_refine(SearchDirection *search, const Iterate *at,
-                               Filter filter, int most, double enough,
-                               double *error, int *solves)
+/* p holds what the shifted factor makes of g: conjugate gradients improve it.
+ */
+static Status refine(SearchDirection *search, const Iterate *at)
 {
-    ConjugateGradients state = {at, filter, .enough = ALL_DIGITS};
+    ConjugateGradients state = {at, search->filter, .enough = ALL_DIGITS};
     Status status = STATUS_OK;
     for (int i = 0; i < 2 * search->system->nodes; i++) {
         search->z[i] = at->p[i]; /* factor^-1 (-g) already */
         at->p[i] = search->d[i] = 0;
         search->r[i] = -at->g[i];
     }
-    for (*solves = 0; !status && conjugate_step(search, &state); ++*solves) {
-        *error = system_inverse_mass_norm(search->system, search->r);
-        if (*solves == most || *error <= enough)
-            return STATUS_OK;
+    for (int solves = 0; !status && conjugate_step(search, &state) &&
+                         solves < CONJUGATE_MAX_SOLVES;
+         solves++)
         status = apply_factor(search, search->r, search->z);
-    }
-    *error = system_inverse_mass_norm(search->system, search->r);
     return status;
 }
 
@@ -232,12 +231,7 @@ Status search_direction_solve(SearchDirection *search, const Iterate *at)
     Status status = apply_factor(search, at->g, at->p);
     for (int i = 0; i < 2 * search->system->nodes; i++)
         at->p[i] = -at->p[i];
-    if (status || search->shift == 0)
-        return status;
-    double error;
-    int solves;
-    return search_direction_refine(search, at, search->filter,
-                                   CONJUGATE_MAX_SOLVES, 0, &error, &solves);
+    return status || search->shift == 0 ? status : refine(search, at);
 }
 
 /* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */

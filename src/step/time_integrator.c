@@ -80,7 +80,7 @@ static void change_terms(TimeIntegrator *integrator, bool at_end)
                               integrator->h);
     }
     if (changed)
-        time_integrator_forget(integrator, false);
+        system_changed(system, false);
 }
 
 Status time_integrator_step(TimeIntegrator *integrator)
@@ -152,14 +152,4 @@ Status time_integrator_balances(const TimeIntegrator *integrator,
     bool decided = *balances || status == STATUS_RUNNING;
     newton_free(&newton);
     return decided ? STATUS_OK : status;
-}
-
-/* Verlet remembers the acceleration; the others' memory is of motion alone. */
-void time_integrator_forget(TimeIntegrator *integrator, bool rebuild)
-{
-    Newton *newton = integrator->newton;
-    if (newton && rebuild)
-        newton_rebuild(newton);
-    if (newton && !rebuild)
-        newton_forget(newton);
 }

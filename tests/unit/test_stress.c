@@ -170,34 +170,6 @@ static void light_nodes_are_not_overlooked(void **unused)
     }
 }
 
-/* With the factor of the very Hessian one step of conjugate gradients is all
- * there is to do. */
-static void refining_with_the_right_factor_is_one_step(void **unused)
-{
-    (void)unused;
-    Simulation simulation;
-    simulation_from_line("--segments 3", NULL, NULL, &simulation);
-    Newton *newton = simulation.run[0].newton;
-    double error;
-    int solves, n = 2 * simulation.system.nodes;
-    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 16e-6),
-                 STATUS_RUNNING);
-    double size = system_inverse_mass_norm(&simulation.system, newton->at.g);
-    double p[2 * 16];
-    CHECK(n == 2 * 16);
-    memcpy(p, newton->at.p, sizeof p);
-    Iterate at = newton->at;
-    at.p = p;
-    CHECK_STATUS(search_direction_refine(&newton->search, &at, FILTER_CLAMP, 6,
-                                         1e-10 * size, &error, &solves),
-                 STATUS_OK);
-    CHECK(solves == 0);
-    CHECK_AT_MOST(error, 1e-12 * size);
-    for (int i = 0; i < n; i++)
-        CHECK_NEAR(p[i], newton->at.p[i], 1e-12);
-    simulation_free(&simulation);
-}
-
 /* A direction that bends down leads downhill, and nothing is left over of the
  * one that was found before. */
 static void bends_are_found_afresh(void **unused)
@@ -537,7 +509,6 @@ int main(void)
         cmocka_unit_test(two_exact_formulas_agree),
         cmocka_unit_test(averaged_formulas_agree),
         cmocka_unit_test(products_are_those_of_the_matrix),
-        cmocka_unit_test(refining_with_the_right_factor_is_one_step),
         cmocka_unit_test(bends_are_found_afresh),
         cmocka_unit_test(shifts_are_small),
         cmocka_unit_test(shifted_solves_find_the_masses),

@@ -1,0 +1,166 @@
+/* A step is a pure function of the state and the settings: whoever makes it,
+ * whatever was made before, the next state has the same bits.
+ */
+#include "testing.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/scene.h"
+#include "scenes/state.h"
+
+enum { STEPS = 60 }; /* no multiple of 37 */
+
+/* Options of this command line. */
+static Options line_options(const char *line)
+{
+    Simulation simulation;
+    simulation_from_line(line, NULL, NULL, &simulation);
+    Options options = simulation.options;
+    simulation_free(&simulation);
+    return options;
+}
+
+/* The state after the next step; bytes [state_bytes] out. */
+static void step(Simulation *simulation, void *bytes)
+{
+    Status status = simulation_step(simulation);
+    CHECK(!status || status_is_unconverged(status));
+    state_save(simulation, STATE_ALL, bytes);
+}
+
+/* Other settings for a step, in which they count, and those from before again:
+ * nothing of it may stay. */
+static void disturb(const Options *options, Simulation *used)
+{
+    int last = used->system.nodes - 1;
+    bool pinned = simulation_is_pinned(used, last);
+    bool damps = used->run[0].method->at_end && used->system.springs > 0;
+    simulation_set_timestep(used, 2 * options->timestep);
+    CHECK_STATUS(simulation_pin(used, last, !pinned), STATUS_OK);
+    CHECK_STATUS(simulation_grab(used, 0, 0.1, 0.2), STATUS_OK);
+    if (damps)
+        CHECK_STATUS(simulation_set_damping(used, 1e8), STATUS_OK);
+    simulation_step(used);
+    if (damps) {
+        const Newton *newton = used->run[0].newton;
+        double stiffest, force;
+        system_bounds(newton->system, &stiffest, &force);
+        CHECK(newton->rounding.stiffest == stiffest);
+    }
+    if (damps)
+        CHECK_STATUS(simulation_set_damping(used, options->damping), STATUS_OK);
+    simulation_release(used);
+    CHECK_STATUS(simulation_pin(used, last, pinned), STATUS_OK);
+    simulation_set_timestep(used, options->timestep);
+}
+
+/* From `first`, a simulation that was never used makes the next step, and one
+ * that has made many others does. */
+static void check_step(const Options *options, Simulation *used,
+                       const unsigned char *states, size_t size, int first)
+{
+    const unsigned char *from = states + (size_t)first * size;
+    unsigned char *bytes = malloc(size);
+    Simulation fresh;
+    CHECK(bytes != NULL);
+    CHECK_STATUS(simulation_create(options, NULL, NULL, &fresh), STATUS_OK);
+    for (int i = 0; i < 3; i++) {
+        static const char *const after[] = {"none", "other steps",
+                                            "other settings"};
+        Simulation *simulation = i == 0 ? &fresh : used;
+        if (i == 2)
+            disturb(options, used);
+        state_restore(from, STATE_ALL, simulation);
+        step(simulation, bytes);
+        if (memcmp(bytes, from + size, size) != 0)
+            fail_msg("%s, %s: step %d has other bits after %s",
+                     options->scene->name, used->run[0].method->label,
+                     first + 1, after[i]);
+    }
+    simulation_free(&fresh);
+    free(bytes);
+}
+
+/* Steps made one after the other, and then each of them again, in another
+ * order. Returns false where this method refuses the scene. */
+static bool check_run(const Options *options)
+{
+    Simulation simulation;
+    Status status = simulation_create(options, NULL, NULL, &simulation);
+    size_t size = status ? 0 : state_bytes(&simulation, STATE_ALL);
+    unsigned char *states = malloc((STEPS + 1) * size + 1);
+    CHECK(states != NULL);
+    CHECK(!status || status == STATUS_INVALID_INPUT);
+    if (!status)
+        state_save(&simulation, STATE_ALL, states);
+    for (int i = 0; i < STEPS && !status; i++)
+        step(&simulation, states + (size_t)(i + 1) * size);
+    for (int i = 0; i < STEPS && !status; i++)
+        check_step(options, &simulation, states, size, i * 37 % STEPS);
+    simulation_free(&simulation);
+    free(states);
+    return !status;
+}
+
+/* Every scene in which time passes, with every method that can. */
+static void steps_are_pure(void **unused)
+{
+    (void)unused;
+    int runs = 0;
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        char line[80];
+        snprintf(line, sizeof line, "%s%s", scene->name,
+                 scene->needs & NEEDS_MESH ? " --segments 4" : "");
+        if (!(scene->needs & NEEDS_TIME) || scene->step)
+            continue;
+        Options options = line_options(line);
+        runs += check_run(&options);
+        for (const IntegratorMethod *method = integrator_methods; method->name;
+             method++) {
+            options.integrator = method;
+            options.timestep = method->implicit ? options.timestep : 1e-4;
+            runs += check_run(&options);
+        }
+    }
+    CHECK(runs > 40);
+}
+
+/* With every way to find a step, and terms that remember something. */
+static void all_solvers_are_pure(void **unused)
+{
+    (void)unused;
+    static const char *const lines[] = {
+        "--segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
+        "--segments 4 --filter on-demand --stretch 2.5 --timestep 0.01",
+        "--segments 8 --filter on-demand --stretch 2.5 --timestep 0.01",
+        "--segments 3 --filter none --stretch 1.1",
+        "--segments 3 --filter abs",
+        "--segments 3 --line-search none --stretch 1.1",
+        "--segments 3 --solver multigrid",
+        "--segments 9 --solver multigrid --minimum",
+        "--segments 5 --solver multigrid --damping 0.01",
+        "hang --segments 4 --damping 0.05",
+        "--segments 4 --yield 0.1 --hardening 0.1",
+        "--segments 4 --tear 0.2 --stretch 1.3",
+        "--segments 8 --tear 0.2 --stretch 1.3 --solver multigrid",
+        "drop --segments 4 --damping 0.01",
+        "dent --segments 4",
+        "tear --segments 6",
+        "squeeze --segments 4 --filter on-demand",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Options options = line_options(lines[i]);
+        CHECK(check_run(&options));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_are_pure),
+        cmocka_unit_test(all_solvers_are_pure),
+    };
+    return cmocka_run_group_tests_name("pure", tests, NULL, NULL);
+}
