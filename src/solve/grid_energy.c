@@ -35,14 +35,11 @@ static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
                  at.first += LANES)                                            \
                 EACH_OF (LANES)
 
-/* What the loops have in common: the bands, and the parts of their sums. */
+/* How each loop begins. */
 #define BANDS                                                                  \
     const Pass *pass = job;                                                    \
     const Grid grid = *pass->grid;                                             \
     const int plane = grid.rows.plane;                                         \
-    const double *const x = grid.x, *const y = x + plane;                      \
-    (void)x;                                                                   \
-    (void)y;                                                                   \
     for (int band = first; band < end; band++)
 
 FAST static void gradient(const void *job, int first, int end)

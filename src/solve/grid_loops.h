@@ -45,10 +45,14 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
                      .after = before + 1};
 }
 
-/* LANES (or WIDE_LANES) nodes from `first` on; e counts them. */
-#define EACH_OF(lanes)                                                         \
-    _Pragma("GCC unroll 1")                                                    \
-        _Pragma("GCC ivdep") for (int e = 0; e < (lanes); e++)
+/* LANES (or WIDE_LANES) nodes from `first` on, of which none changes what
+ * another one reads; e counts them. */
+#ifdef __clang__
+#define AT_ONCE
+#else
+#define AT_ONCE _Pragma("GCC unroll 1") _Pragma("GCC ivdep")
+#endif
+#define EACH_OF(lanes) AT_ONCE for (int e = 0; e < (lanes); e++)
 
 /* The springs of a node: their kind, where their other node is, and where their
  * numbers are.  Two are in the node's row, six lead to the next rows; four of

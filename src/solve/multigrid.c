@@ -127,20 +127,16 @@ static bool decide_test(Multigrid *mg)
     return false;
 }
 
-/* Random numbers of -1 ... 1 for every node, the same ones always. */
+/* Random numbers of -1 ... 1 where nodes move, the same ones always. */
 static void random_remainder(Multigrid *mg)
 {
-    const Rows *rows = &mg->grid.rows;
+    const float *m = mg->cycle.level->m;
     uint64_t state = 1;
-    for (int c = 0; c < 2; c++)
-        for (int i = 0; i < rows->nodes; i++)
-            for (int j = 0; j < rows->nodes; j++) {
-                int q = place_of(rows, i, j);
-                bool moves = mg->grid.per_m[q + mg->grid.node_shift[i]] > 0;
-                state = state * 6364136223846793005u + 1442695040888963407u;
-                double number = (double)(int64_t)state / 9223372036854775808.0;
-                mg->rest[c * rows->plane + q] = moves ? number : 0;
-            }
+    for (int q = 0; q < 2 * mg->grid.rows.plane; q++) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        double number = (double)(int64_t)state / 9223372036854775808.0;
+        mg->rest[q] = m[q % mg->grid.rows.plane] > 0 ? number : 0;
+    }
 }
 
 /* p = B rest; returns rest.p. */
@@ -195,23 +191,23 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Goes along p to where E is lowest.  Returns OK, LINE_SEARCH_LIMIT,
- * NOT_DESCENT, NOT_FINITE. */
+/* Goes along p to where E is lowest, and adds to the record by how much that
+ * changed E.  Returns OK, LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
 static Status search_step(Multigrid *mg)
 {
     MultigridRecord *record = &mg->record;
     Quartic along;
     grid_along(&mg->grid, mg->g, mg->p, along.q);
     record->slope = along.q[0];
-    record->alpha = record->change = record->trials = 0;
+    record->alpha = record->trials = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
-    if (!(record->slope < 0))
+    if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
     record->alpha = lowest(&along, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change = quartic_value(&along, record->alpha);
+    record->change += quartic_value(&along, record->alpha);
     grid_move(&mg->grid, record->alpha, mg->p);
     return STATUS_OK;
 }
@@ -232,15 +228,13 @@ static bool leaves_saddle(Multigrid *mg)
     if (!mg->step.minimum || mg->saddles == MAX_SADDLES || !find_curvature(mg))
         return false;
     double sense = grid_dot(grid, mg->g, mg->d) > 0 ? -1 : 1;
-    Quartic along;
-    int trials;
     grid_combine(grid, sense, mg->d, 0, mg->p);
-    grid_along(grid, mg->g, mg->p, along.q);
-    double alpha = lowest(&along, &trials);
-    if (!(alpha > 0))
+    MultigridRecord before = mg->record;
+    Status status = search_step(mg);
+    before.change = mg->record.change; /* the rest is of the iteration */
+    mg->record = before;
+    if (status)
         return false;
-    grid_move(grid, alpha, mg->p);
-    mg->record.change += quartic_value(&along, alpha);
     begin_iterations(mg);
     mg->saddles++;
     mg->counters.saddles++;
@@ -327,7 +321,7 @@ Status multigrid_iterate(Multigrid *mg)
         mg->residual = residual_of(
             mg, v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p));
     }
-    mg->record.residual = mg->residual;
+    mg->record = (MultigridRecord){.residual = mg->residual};
     Status status = search_step(mg);
     if (!status) {
         mg->stalls = mg->stalls || (mg->iterations >= DIRECTIONS &&

@@ -7,7 +7,7 @@
 
 /* The coarsest level has at most so many nodes a side, and is smoothed so many
  * times each way; the others once. */
-enum { COARSEST = 9, COARSEST_TIMES = 3 };
+enum { COARSEST = 5, COARSEST_TIMES = 2 };
 
 /* What threads share: a level's rows in so many parts, of so many rows or more.
  * Nanoseconds that a node takes, about. */
