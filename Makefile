@@ -153,7 +153,7 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 
 # ---- the lecture's listings -------------------------------------------------
 # The text of these sources is compiled into the program as a table of lines.
-LISTED = src/lecture.c src/scenes/scalar_newton.c src/scenes/circle_scene.c \
+LISTED = src/lecture.c src/scenes/descent.c src/scenes/mass_scenes.c \
          src/scenes/dial_scene.c src/scenes/race_scene.c \
          src/scenes/envelope_scene.c src/model/contact.c \
          src/model/friction.c src/model/plasticity.c src/model/fracture.c

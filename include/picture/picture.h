@@ -41,10 +41,13 @@ typedef struct Picture {
     const Card *const *cards; /* NULL at the end */
     bool stretched;           /* x and y have scales of their own */
     bool own_handles;         /* it draws and picks the scene's handles */
-    /* The part of the world that fits the stage: left, bottom, right, top. */
+    bool places;              /* a click is a place to start from, or a guess */
+    /* The part of the world that fits the stage: left, bottom, right, top;
+     * NULL: always the same. */
     void (*bounds)(const Show *show, int pane, double bounds[4]);
+    double around[4];
     void (*draw)(Paper *paper, const Stage *stage, const Show *show);
-    /* What is under pixel (x, y). */
+    /* What is under pixel (x, y); NULL: nothing but handles and places. */
     Pick (*pick)(const Show *show, const Stage *stage, double x, double y);
     /* The small card beside what the mouse is over; may be NULL. */
     void (*hover)(Paper *paper, const Stage *stage, const Show *show);

@@ -26,16 +26,18 @@ enum LandscapePart {
     PART_BOTH = 3
 };
 
-/* E of one mass on one spring along a line (tangent_scene.h). */
-typedef struct LineEnergy {
-    double m;      /* kg */
-    double k;      /* J/m^2 */
-    double l2;     /* m^2 */
-    double h;      /* s */
-    double target; /* m, x_tilde */
-} LineEnergy;
+/* What is minimised, at a point: E or f, its gradient and its Hessian, J s^2
+ * and m; of one unknown the first of each counts, the others are 0. */
+typedef struct Local {
+    double value, g[2], H[3]; /* xx, xy, yy */
+    int projected;            /* springs that a filter has changed in H */
+} Local;
 
-/* The minimiser of E for one time step after the other (dial_scene.h). */
+/* A function of one unknown. */
+struct Simulation;
+typedef Local ScalarEnergy(const struct Simulation *simulation, double x);
+
+/* The minimiser of E for one time step after the other. */
 enum { WALK_POINTS = 41 };
 
 typedef struct Walk {
@@ -43,7 +45,7 @@ typedef struct Walk {
     double point[WALK_POINTS][2]; /* m */
 } Walk;
 
-/* One run of the race: a method with a time step (race_scene.h). */
+/* One run of the race: a method with a time step. */
 enum { RACE_POINTS = 64 };
 
 typedef struct RacePoint {
@@ -62,7 +64,7 @@ typedef struct Race {
     RacePoint point[RACE_POINTS];
 } Race;
 
-/* Where the square converges (envelope_scene.h): a row for each stiffness, a
+/* Where the square converges: a row for each stiffness, a
  * column for each time step. */
 enum { ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
@@ -81,10 +83,9 @@ typedef struct EnvelopeMap {
 
 typedef struct Exhibit {
     double began[4]; /* m, m/s: x and v from which one mass's exact path goes */
-    double target[2]; /* m, x_tilde of the landscape's free node */
-    unsigned parts;   /* enum LandscapePart, on the map */
-    bool root;        /* one spring: the energy with the square root too */
-    LineEnergy line;
+    double target[2]; /* m, x_tilde; of one unknown its x */
+    unsigned parts;   /* that are switched on: enum LandscapePart; of one spring
+                         1: the energy with the square root too */
     Walk walk;
     Race race;
     EnvelopeMap map;

@@ -83,11 +83,14 @@ typedef struct Scene {
     int (*handles)(const Simulation *simulation,
                    double at[SCENE_MAX_HANDLES][2]);
     void (*drag)(Simulation *simulation, int handle, double x, double y);
+    const char *grips; /* a letter each: x, the mass or the iterate; v, the tip
+                          of its velocity; t, x_tilde */
     /* The parts that can be switched; out.  Returns how many; NULL: none.
      * flip switches one of them. */
     int (*switches)(const Simulation *simulation,
                     Switch out[SCENE_MAX_SWITCHES]);
     void (*flip)(Simulation *simulation, int number);
+    const char *parts[SCENE_MAX_SWITCHES]; /* what they are called */
 } Scene;
 
 /* The table; the first row is the default; it ends with a NULL name. */

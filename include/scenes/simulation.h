@@ -7,7 +7,7 @@
 #define ELASTO_SIMULATION_H
 
 #include "scenes/options.h"
-#include "scenes/scalar_newton.h"
+#include "solve/newton.h"
 #include "model/square_mesh.h"
 
 #include "scenes/exhibit.h"
@@ -25,9 +25,9 @@ typedef struct Descent {
     double began;                     /* E where the search began */
     double direction[2];              /* p there, m; 0 if there is none */
     double slope;                     /* grad . p there; < 0 is downhill */
-    bool by_gradient;    /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
-    double residual;     /* what is tested, there: |g|, or |p|/h, m/s */
-    ScalarNewton scalar; /* Newton in one variable, if it is */
+    bool by_gradient;     /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
+    double residual;      /* what is tested, there: |g|, or |p|/h, m/s */
+    ScalarEnergy *scalar; /* of one unknown; NULL: of two */
 } Descent;
 
 typedef struct Simulation {

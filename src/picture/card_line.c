@@ -168,7 +168,7 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
 static const char *line_title(const Show *show)
 {
     bool scalar =
-        show->pane[show->active].simulation->descent.scalar.f.at != NULL;
+        show->pane[show->active].simulation->descent.scalar;
     return scalar ? "f({x} + {alpha} {p}) \u2212 f({x})"
                   : "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2";
 }

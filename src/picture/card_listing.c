@@ -90,7 +90,7 @@ static const Listing *find_listing(const Simulation *simulation)
 {
     const Listing *row = listings;
     const IntegratorMethod *method = simulation->run[0].method;
-    if (simulation->descent.scalar.f.at)
+    if (simulation->descent.scalar)
         return &scalar_listing;
     if (simulation->descent.by_gradient)
         return &plain_listing;

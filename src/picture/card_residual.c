@@ -151,7 +151,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
 static const char *residual_title(const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
-    bool scalar = simulation->descent.scalar.f.at != NULL;
+    bool scalar = simulation->descent.scalar;
     return scalar ? simulation->scene->picture == PICTURE_TANGENT
                         ? "Residual |g|"
                         : "Residual |f \u2032|"

@@ -6,7 +6,7 @@
 
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "scenes/landscape_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
 static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
@@ -15,13 +15,10 @@ static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
 static double descent_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    const Simulation *simulation = space->simulation;
-    const ScalarFunction *f = &simulation->descent.scalar.f;
-    double x = space->from[0] + alpha * space->p[0];
-    double y = space->from[1] + alpha * space->p[1];
-    double value =
-        f->at ? scalar_at(f, x).value : landscape_value(simulation, x, y);
-    return value - space->value;
+    return descent_value(space->simulation,
+                         space->from[0] + alpha * space->p[0],
+                         space->from[1] + alpha * space->p[1]) -
+           space->value;
 }
 
 /* The last update of a descent; before the first one, the one to come.  The
@@ -30,7 +27,6 @@ static const Trace *descent_trace(const Simulation *simulation,
                                   DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
-    const ScalarFunction *f = &descent->scalar.f;
     Trace *trace = &space->trace;
     int last = descent->count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
@@ -52,13 +48,11 @@ static const Trace *descent_trace(const Simulation *simulation,
         space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
                            : descent->direction[k];
     }
-    if (f->at)
+    if (descent->scalar)
         space->from[1] = space->p[1] = 0;
     if (space->p[0] == 0 && space->p[1] == 0)
         return trace;
-    space->value =
-        f->at ? scalar_at(f, space->from[0]).value
-              : landscape_value(simulation, space->from[0], space->from[1]);
+    space->value = descent_value(simulation, space->from[0], space->from[1]);
     trace->difference = descent_difference;
     trace->function = space;
     trace->slope = made ? record->slope : descent->slope;

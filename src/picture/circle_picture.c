@@ -3,18 +3,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/kinds.h"
 #include "picture/marks.h"
-
-static const double CIRCLE_REACH = 1.75; /* m, seen around the middle */
-
-static void circle_bounds(const Show *show, int pane, double bounds[4])
-{
-    (void)show;
-    (void)pane;
-    bounds[2] = bounds[3] = CIRCLE_REACH;
-    bounds[0] = bounds[1] = -CIRCLE_REACH;
-}
 
 /* The exact path and its radius. */
 static void draw_exact_circle(Paper *paper, const Stage *stage)
@@ -109,7 +98,7 @@ static const Card *const circle_cards[] = {&card_page, &card_radius,
 const Picture circle_picture = {
     .name = "circle",
     .cards = circle_cards,
-    .bounds = circle_bounds,
+    .around = {-1.75, -1.75, 1.75, 1.75},
     .draw = circle_draw,
     .pick = circle_pick,
     .sample = circle_sample,

@@ -6,8 +6,7 @@
 #include "picture/cards.h"
 #include "picture/plot.h"
 #include "picture/show.h"
-#include "scenes/landscape_scene.h"
-#include "scenes/race_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
 /* Formats into a text of SHOW_TEXT bytes that is still empty. */
@@ -24,7 +23,7 @@ static void say(char *text, size_t size, const char *format, ...)
 /* What went wrong, as one says it in a lecture. */
 static const char *trouble_words(const Simulation *simulation, Status status)
 {
-    if (status == STATUS_DIVERGED && simulation->descent.scalar.f.at)
+    if (status == STATUS_DIVERGED && simulation->descent.scalar)
         return "it flies away: no curvature is left, so there is no next step";
     static const struct {
         Status status;
@@ -182,15 +181,12 @@ static const char *scene_sentence(const Simulation *simulation)
 static const char *end_words(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
-    const ScalarFunction *f = &descent->scalar.f;
     int down = 0;
     if (!simulation->done || descent->residual > simulation->options.tolerance)
         return NULL;
-    if (f->at)
-        down = scalar_at(f, descent->point[0]).second < 0 ? 2 : 0;
-    else if (simulation->scene->picture == PICTURE_LANDSCAPE)
-        down = landscape_bends_down(simulation, descent->point[0],
-                                    descent->point[1]);
+    if (simulation->scene->step == step_descent)
+        down = descent_bends_down(simulation, descent->point[0],
+                                  descent->point[1]);
     return down == 2   ? "the gradient is 0, but this is a maximum"
            : down == 1 ? "the gradient is 0, but this is a saddle"
                        : NULL;

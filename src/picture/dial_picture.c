@@ -6,7 +6,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/labels.h"
-#include "scenes/dial_scene.h"
+#include "scenes/small_scenes.h"
 
 /* The path of the minimiser, a disc for every power of ten of h. */
 static void dial_path(Paper *paper, const Plot *plot, const Walk *walk,
@@ -63,31 +63,23 @@ static void dial_draw(Paper *paper, const Stage *stage, const Show *show)
     stage_legend(paper, stage, &legend, COLOUR_TEXT, "for the h of now");
 }
 
-static Pick dial_pick(const Show *show, const Stage *stage, double x, double y)
-{
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    (void)show;
-    camera_world(&stage->camera, x, y, pick.point);
-    return pick;
-}
-
 static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     const double *target = simulation->exhibit.target;
+    double inertia = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
+    double elastic =
+        landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
     Lines lines = {0};
     lines_add(&lines, COLOUR_TEXT, "h = %.4g s", h);
     lines_add(&lines, COLOUR_X, "{x} = (%.4f, %.4f) m", x[0], x[1]);
     lines_add(&lines, COLOUR_X_TILDE, "from {xt}: %.4g m",
               hypot(x[0] - target[0], x[1] - target[1]));
-    lines_add(&lines, COLOUR_TEXT, "inertia %.4g J s\u00b2",
-              landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    lines_add(&lines, COLOUR_TEXT, "inertia %.4g J s\u00b2", inertia);
     lines_add(&lines, COLOUR_TEXT, "elasticity h\u00b2 P %.4g J s\u00b2",
-              landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]));
-    lines_add(&lines, COLOUR_TEXT, "P = %.4g J",
-              landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]) /
-                  (h * h));
+              elastic);
+    lines_add(&lines, COLOUR_TEXT, "P = %.4g J", elastic / (h * h));
     lines_draw(paper, inside, &lines);
 }
 
@@ -104,7 +96,6 @@ static const Card *const dial_cards[] = {&card_page, &card_dial_numbers, NULL};
 const Picture dial_picture = {
     .name = "dial",
     .cards = dial_cards,
-    .bounds = landscape_bounds,
+    .around = LANDSCAPE_AROUND,
     .draw = dial_draw,
-    .pick = dial_pick,
 };

@@ -5,10 +5,7 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "scenes/envelope_scene.h"
-
-/* Powers of ten: h in s across, k in J/m^2 upwards; half a cell around. */
-static const double ENVELOPE_BOUNDS[4] = {-10.6, -8.6, 3.6, 17.6};
+#include "scenes/small_scenes.h"
 
 /* From few updates (light) to many (dark), by powers of two. */
 static const Colour envelope_shades[] = {0xffe3f2e8u, 0xffbfe3ccu, 0xff94cfb0u,
@@ -18,14 +15,6 @@ enum { ENVELOPE_SHADES = sizeof envelope_shades / sizeof *envelope_shades };
 
 #define COLOUR_REFUSED 0xffe08a1eu
 #define COLOUR_UNDONE  0xff9c92c4u
-
-static void envelope_bounds(const Show *show, int pane, double bounds[4])
-{
-    (void)show;
-    (void)pane;
-    for (int i = 0; i < 4; i++)
-        bounds[i] = ENVELOPE_BOUNDS[i];
-}
 
 static Colour envelope_colour(const EnvelopeCell *cell)
 {
@@ -222,7 +211,7 @@ const Picture envelope_picture = {
     .name = "envelope",
     .cards = envelope_cards,
     .stretched = true,
-    .bounds = envelope_bounds,
+    .around = {-10.6, -8.6, 3.6, 17.6}, /* half a cell around */
     .draw = envelope_draw,
     .pick = envelope_pick,
 };

@@ -7,31 +7,34 @@
 #include "picture/picture.h"
 #include "picture/plot.h"
 
-/* One mass and the arrows of its next step. */
-extern const Picture mass_picture;
-
-/* Newton in one dimension: g and its tangents above E and its parabolas. */
-extern const Picture tangent_picture;
-
-/* The landscape with the path of the minimiser for every h. */
-extern const Picture dial_picture;
-
-/* What dial and landscape share: what fits the stage; the map of the parts of E
- * that are on, springs, pins and x_tilde. */
-void landscape_bounds(const Show *show, int pane, double bounds[4]);
-Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show);
+/* Integrators on the circle: trails around the exact one, radius over time.
+ * One mass and the arrows of its next step. */
+extern const Picture circle_picture, mass_picture;
 
 /* The circle's colour of a run: its own, by its method, whatever else runs. */
 Colour circle_colour(const Simulation *simulation, int run);
 
-/* One spring: force, eigenvalues, energy over its length. */
-extern const Picture spring_picture;
+/* Newton in one unknown: f, its quadratic model where the last update began,
+ * its minimum, and the iterates; g and its tangents above E and its parabolas.
+ */
+extern const Picture curve_picture, tangent_picture;
 
-/* Error over run time, a curve for each method. */
-extern const Picture race_picture;
+/* Contours of E over the position of the free node, and Newton's path; the same
+ * with the path of the minimiser for every h. */
+extern const Picture landscape_picture, dial_picture;
 
-/* Where the square converges, and the cell under the mouse in small. */
-extern const Picture envelope_picture;
+/* What both show of the world, m; the map of the parts of E that are on,
+ * springs, pins and x_tilde. */
+#define LANDSCAPE_AROUND                                                       \
+    {                                                                          \
+        -1.87, -1.87, 1.87, 1.87                                               \
+    }
+Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show);
+
+/* One spring: force, eigenvalues, energy over its length.  Error over run time,
+ * a curve for each method.  Where the square converges, and the cell under the
+ * mouse in small. */
+extern const Picture spring_picture, race_picture, envelope_picture;
 
 /* What the lecture's page says; nothing outside of the lecture. */
 extern const Card card_page;

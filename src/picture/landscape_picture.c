@@ -5,27 +5,16 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/kinds.h"
 #include "picture/labels.h"
 #include "picture/marks.h"
-#include "scenes/landscape_scene.h"
+#include "scenes/small_scenes.h"
 
 enum { MAP_CELLS = 120, MAP_LABEL_ROOM = 54, MAP_NUMBER_ROOM = 27 };
-
-static const double MAP_REACH = 1.7; /* m, at least, up, down, left, right */
 
 /* J s^2; both valleys have their bottom below 1. */
 static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
-
-void landscape_bounds(const Show *show, int pane, double bounds[4])
-{
-    (void)show;
-    (void)pane;
-    bounds[2] = bounds[3] = 1.1 * MAP_REACH;
-    bounds[0] = bounds[1] = -1.1 * MAP_REACH;
-}
 
 /* ---- the map, drawn once for a view of it ------------------------------- */
 
@@ -37,8 +26,8 @@ static void shade_map(Paper *paper, const Plot *plot,
     double metre = (plot->x.high - plot->x.low) / box->width;
     for (int j = 0; j < box->height; j += 2)
         for (int i = 0; i < box->width; i += 2)
-            if (landscape_bends_down(simulation, plot->x.low + (i + 1) * metre,
-                                     plot->y.high - (j + 1) * metre))
+            if (descent_bends_down(simulation, plot->x.low + (i + 1) * metre,
+                                   plot->y.high - (j + 1) * metre))
                 canvas_rectangle(&paper->canvas, box->x + i, box->y + j, 2, 2,
                                  COLOUR_SHADE);
 }
@@ -309,8 +298,7 @@ static void draw_other_direction(Paper *paper, const Plot *plot, Labels *labels,
             descent->slope);
         return;
     }
-    slope =
-        landscape_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
+    slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
     if (hypot(p[0] - descent->direction[0], p[1] - descent->direction[1]) >
         1e-9)
         draw_named_direction(paper, plot, labels, descent->point, p,
@@ -350,7 +338,8 @@ Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const System *system = &simulation->system;
-    Plot plot = stage_plot(paper, stage, "x in m", NULL);
+    Plot plot = stage_plot(paper, stage, &stage_room, (Axis){.label = "x in m"},
+                           (Axis){0});
     show_map(paper, &plot, simulation, stage->text && !show->bare);
     draw_pinned_springs(paper, &plot, simulation);
     Box before = canvas_clip(&paper->canvas, plot.box);
@@ -414,27 +403,13 @@ static void landscape_draw(Paper *paper, const Stage *stage, const Show *show)
                    simulation->exhibit.parts);
 }
 
-/* The present iterate, or a place to start from. */
-static Pick landscape_pick(const Show *show, const Stage *stage, double x,
-                           double y)
-{
-    const Descent *descent = &show->pane[stage->pane].simulation->descent;
-    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
-    double at[2];
-    camera_world(&stage->camera, x, y, pick.point);
-    stage_pixel(stage, descent->point, at);
-    if (hypot(at[0] - x, at[1] - y) < 14)
-        pick.kind = PICK_START;
-    return pick;
-}
-
 static const Card *const landscape_cards[] = {&card_page, &card_listing,
                                               &card_line, &card_residual, NULL};
 
 const Picture landscape_picture = {
     .name = "landscape",
     .cards = landscape_cards,
-    .bounds = landscape_bounds,
+    .places = true,
+    .around = LANDSCAPE_AROUND,
     .draw = landscape_draw,
-    .pick = landscape_pick,
 };

@@ -249,31 +249,45 @@ void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
     va_end(arguments);
 }
 
-Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
-                const char *y_label)
+const StageRoom stage_room = {3.2, 4, 2.4, 4.2};
+
+/* What the camera sees from low to high. */
+static void set_range(Axis *axis, double low, double high)
 {
-    Plot plot = {stage->box,
-                 {0, 1, false, false, x_label},
-                 {0, 1, false, false, y_label}};
+    axis->low = axis->log ? pow(10, low) : low;
+    axis->high = axis->log ? pow(10, high) : high;
+}
+
+Plot stage_plot(Paper *paper, const Stage *stage, const StageRoom *room, Axis x,
+                Axis y)
+{
+    Plot plot = {stage->box, x, y};
     double low[2], high[2];
     if (stage->text) {
-        plot.box.x += paper_pixels(paper, 3.2);
-        plot.box.width -= paper_pixels(paper, 4);
-        plot.box.y += paper_pixels(paper, 2.4);
-        plot.box.height -= paper_pixels(paper, 4.2);
+        plot.box.x += paper_pixels(paper, room->left);
+        plot.box.width -= paper_pixels(paper, room->wide);
+        plot.box.y += paper_pixels(paper, room->above);
+        plot.box.height -= paper_pixels(paper, room->high);
         if (plot.box.width < 1 || plot.box.height < 1)
             plot.box = stage->box;
     }
     Box box = plot.box;
     camera_world(&stage->camera, box.x, box.y + box.height, low);
     camera_world(&stage->camera, box.x + box.width, box.y, high);
-    plot.x.low = low[0];
-    plot.x.high = high[0];
-    plot.y.low = low[1];
-    plot.y.high = high[1];
+    set_range(&plot.x, low[0], high[0]);
+    if (y.high == 0)
+        set_range(&plot.y, low[1], high[1]);
     if (stage->text)
         plot_axes(paper, &plot);
     return plot;
+}
+
+void bounds_around(double reach, double most, double factor, double bounds[4])
+{
+    while (reach < most && reach < 1e100)
+        reach *= factor;
+    bounds[2] = bounds[3] = reach;
+    bounds[0] = bounds[1] = -reach;
 }
 
 Box stage_note(Paper *paper, const Stage *stage, double x, double y, int width,

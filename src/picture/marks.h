@@ -65,9 +65,20 @@ void stage_legend(Paper *paper, const Stage *stage, Legend *legend,
 void stage_key(Paper *paper, const Stage *stage, Legend *legend, double length,
                Colour colour, const char *format, ...);
 
-/* Axes over the whole stage, with numbers where there is room for words. */
-Plot stage_plot(Paper *paper, const Stage *stage, const char *x_label,
-                const char *y_label);
+/* Axes over the whole stage, with numbers where there is room for words; what a
+ * logarithmic one shows is the power of ten that the camera sees.
+ *   room  ems left, left and right, above, above and below of the axes
+ *   y     where high is not 0: its own range */
+typedef struct StageRoom {
+    double left, wide, above, high;
+} StageRoom;
+extern const StageRoom stage_room;
+Plot stage_plot(Paper *paper, const Stage *stage, const StageRoom *room, Axis x,
+                Axis y);
+
+/* A square view around the middle, of at least so many metres, in which `most`
+ * fits; it grows by this factor, so that it does not move all the time. */
+void bounds_around(double reach, double most, double factor, double bounds[4]);
 
 /* A small card beside pixel (x, y), inside the stage, and beside the body where
  * there is room.  Returns where its contents go.

@@ -6,7 +6,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/labels.h"
-#include "scenes/mass_scene.h"
+#include "scenes/small_scenes.h"
 
 enum { MASS_CORNERS = 120 };
 
@@ -19,7 +19,6 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
 {
     const Simulation *simulation = show->pane[pane].simulation;
     const double *began = simulation->exhibit.began;
-    double reach = MASS_REACH;
     double most = hypot(hypot(began[0], began[1]), hypot(began[2], began[3]));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
@@ -27,10 +26,7 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
         most = fmax(most, hypot(step.new_x[0], step.new_x[1]));
         most = fmax(most, hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
     }
-    while (reach < 1.1 * most && reach < 1e100)
-        reach *= 1.4142135623730951;
-    bounds[2] = bounds[3] = reach;
-    bounds[0] = bounds[1] = -reach;
+    bounds_around(MASS_REACH, 1.1 * most, M_SQRT2, bounds);
 }
 
 /* The exact path: a circle where v is across and as long as x. */
@@ -196,14 +192,6 @@ static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
     stage_scale(paper, stage);
 }
 
-static Pick mass_pick(const Show *show, const Stage *stage, double x, double y)
-{
-    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
-    (void)show;
-    camera_world(&stage->camera, x, y, pick.point);
-    return pick;
-}
-
 /* The trail of each run, and the energies of the first. */
 static void mass_sample(const Simulation *simulation, History *history,
                         Trail *trail)
@@ -293,8 +281,8 @@ static const Card *const mass_cards[] = {&card_page, &card_mass_numbers,
 const Picture mass_picture = {
     .name = "mass",
     .cards = mass_cards,
+    .places = true,
     .bounds = mass_bounds,
     .draw = mass_draw,
-    .pick = mass_pick,
     .sample = mass_sample,
 };

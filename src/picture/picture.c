@@ -8,7 +8,6 @@
 #include "picture/exhibits.h"
 #include "picture/frame.h"
 #include "picture/handles.h"
-#include "picture/kinds.h"
 #include "picture/marks.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
@@ -32,8 +31,7 @@ static const double LEAST_EM = 7;
 
 const Picture *picture_of(const struct Scene *scene)
 {
-    const Picture *picture = pictures[scene->picture];
-    return picture ? picture : &plain_picture;
+    return pictures[scene->picture];
 }
 
 int picture_cards(const Picture *picture)

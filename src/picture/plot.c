@@ -300,6 +300,13 @@ bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
     return true;
 }
 
+void plot_hollow(Paper *paper, const Plot *plot, const double *a, double radius,
+                 double inner, Colour colour)
+{
+    if (plot_disc(paper, plot, a, radius, colour))
+        plot_disc(paper, plot, a, inner, COLOUR_WHITE);
+}
+
 /* Moves the end of a line from p to q to the middle between two pixels of the
  * direction in which it is longer, so that the next line begins where no pixel
  * is covered by parts of both: their joint would be paler. */

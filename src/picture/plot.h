@@ -44,7 +44,21 @@ void plot_line(Paper *paper, const Plot *plot, const double *a, const double *b,
 bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
                Colour colour);
 
-/* Joins the points.  x, y [count] in. */
+/* A ring: a disc with a white one inside. */
+void plot_hollow(Paper *paper, const Plot *plot, const double *a, double radius,
+                 double inner, Colour colour);
+
+/* Joins the points by lines, or as one curve whose joints are no paler than the
+ * rest.  x, y [count] in. */
+static inline void plot_lines(Paper *paper, const Plot *plot, int count,
+                              const double *x, const double *y, double width,
+                              Colour colour)
+{
+    for (int i = 1; i < count; i++)
+        plot_line(paper, plot, (double[2]){x[i - 1], y[i - 1]},
+                  (double[2]){x[i], y[i]}, width, colour);
+}
+
 void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
                 const double *y, double width, Colour colour);
 

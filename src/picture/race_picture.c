@@ -6,18 +6,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/labels.h"
-#include "scenes/race_scene.h"
-
-/* Powers of ten: run time in s, error in m. */
-static const double RACE_BOUNDS[4] = {-6.3, -9.3, 0.3, 1};
-
-static void race_bounds(const Show *show, int pane, double bounds[4])
-{
-    (void)show;
-    (void)pane;
-    for (int i = 0; i < 4; i++)
-        bounds[i] = RACE_BOUNDS[i];
-}
+#include "scenes/small_scenes.h"
 
 /* The last point of a method; NULL: there is none. */
 static const RacePoint *race_last(const Race *race, int method)
@@ -47,8 +36,7 @@ static void race_method_curve(Paper *paper, const Plot *plot, const Race *race,
             plot_place(plot, now[0], now[1], to);
             labels_line(labels, from, to);
         }
-        if (plot_disc(paper, plot, now, 5, colour) && !point->stable)
-            plot_disc(paper, plot, now, 3, COLOUR_WHITE);
+        plot_hollow(paper, plot, now, 5, point->stable ? 0 : 3, colour);
         before[0] = now[0];
         before[1] = now[1];
     }
@@ -74,37 +62,15 @@ static void race_names(Paper *paper, const Plot *plot, const Race *race,
 static void race_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
-    Plot plot = {stage->box,
-                 {0, 1, true, false, "run time in s"},
-                 {0, 1, true, false, "error in m"}};
-    double low[2], high[2];
-    if (stage->text) {
-        plot.box.x += paper_pixels(paper, 4);
-        plot.box.width -= paper_pixels(paper, 5);
-        plot.box.y += paper_pixels(paper, 1.6);
-        plot.box.height -= paper_pixels(paper, 3.6);
-    }
-    camera_world(&stage->camera, plot.box.x, plot.box.y + plot.box.height, low);
-    camera_world(&stage->camera, plot.box.x + plot.box.width, plot.box.y, high);
-    plot.x.low = pow(10, low[0]);
-    plot.x.high = pow(10, high[0]);
-    plot.y.low = pow(10, low[1]);
-    plot.y.high = pow(10, high[1]);
-    if (stage->text)
-        plot_axes(paper, &plot);
+    static const StageRoom room = {4, 5, 1.6, 3.6};
+    Plot plot = stage_plot(paper, stage, &room,
+                           (Axis){.log = true, .label = "run time in s"},
+                           (Axis){.log = true, .label = "error in m"});
     Labels labels = {.stage = stage->box};
     for (int i = 0; i < RACE_METHODS; i++)
         race_method_curve(paper, &plot, &simulation->exhibit.race, i, &labels);
     if (stage->text && !show->bare)
         race_names(paper, &plot, &simulation->exhibit.race, &labels);
-}
-
-static Pick race_pick(const Show *show, const Stage *stage, double x, double y)
-{
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    (void)show;
-    camera_world(&stage->camera, x, y, pick.point);
-    return pick;
 }
 
 static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
@@ -151,7 +117,6 @@ const Picture race_picture = {
     .name = "race",
     .cards = race_cards,
     .stretched = true,
-    .bounds = race_bounds,
+    .around = {-6.3, -9.3, 0.3, 1}, /* powers of ten: s across, m */
     .draw = race_draw,
-    .pick = race_pick,
 };

@@ -77,11 +77,21 @@ Layout show_layout(const Show *show, int width, int height)
     return layout_create(width, height, &wish);
 }
 
-Camera show_camera(const Show *show, const Layout *layout, int pane)
+/* The part of the world that fits the stage of a pane.  Returns its picture. */
+static const Picture *find_bounds(const Show *show, int pane, double bounds[4])
 {
     const Picture *picture = picture_of(show->pane[pane].simulation->scene);
+    if (picture->bounds)
+        picture->bounds(show, pane, bounds);
+    else
+        memcpy(bounds, picture->around, sizeof picture->around);
+    return picture;
+}
+
+Camera show_camera(const Show *show, const Layout *layout, int pane)
+{
     double bounds[4];
-    picture->bounds(show, pane, bounds);
+    const Picture *picture = find_bounds(show, pane, bounds);
     return camera_create(layout->pane[pane], bounds, picture->stretched,
                          &show->lens);
 }
@@ -101,7 +111,10 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     camera_world(&stage.camera, x, y, pick.point);
     if (!picture->own_handles && handles_pick(show, &stage, x, y, &pick))
         return pick;
-    return picture->pick(show, &stage, x, y);
+    if (picture->pick)
+        return picture->pick(show, &stage, x, y);
+    pick.kind = picture->places ? PICK_PLACE : PICK_NONE;
+    return pick;
 }
 
 void show_zoom(Show *show, const Layout *layout, double x, double y,
@@ -110,10 +123,8 @@ void show_zoom(Show *show, const Layout *layout, double x, double y,
     Hit hit = layout_hit(layout, x, y);
     if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
         return;
-    const Picture *picture =
-        picture_of(show->pane[hit.index].simulation->scene);
     double bounds[4];
-    picture->bounds(show, hit.index, bounds);
+    const Picture *picture = find_bounds(show, hit.index, bounds);
     lens_zoom(&show->lens, layout->pane[hit.index], bounds, picture->stretched,
               x, y, factor);
 }

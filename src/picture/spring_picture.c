@@ -5,7 +5,7 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "scenes/spring_scene.h"
+#include "scenes/small_scenes.h"
 
 enum { SPRING_CORNERS = 120, SPRING_COILS = 12, PROFILE_POINTS = 200 };
 
@@ -16,11 +16,7 @@ static const double SPRING_TURN = 6.283185307179586;
 static void spring_bounds(const Show *show, int pane, double bounds[4])
 {
     const double *x = show->pane[pane].simulation->run[0].x;
-    double reach = SPRING_REACH;
-    while (reach < 1.1 * hypot(x[0], x[1]) && reach < 1e100)
-        reach *= 1.4142135623730951;
-    bounds[2] = bounds[3] = reach;
-    bounds[0] = bounds[1] = -reach;
+    bounds_around(SPRING_REACH, 1.1 * hypot(x[0], x[1]), M_SQRT2, bounds);
 }
 
 static SpringFacts facts_of(const Simulation *simulation)
@@ -100,15 +96,6 @@ static void spring_draw(Paper *paper, const Stage *stage, const Show *show)
     stage_scale(paper, stage);
 }
 
-static Pick spring_pick(const Show *show, const Stage *stage, double x,
-                        double y)
-{
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    (void)show;
-    camera_world(&stage->camera, x, y, pick.point);
-    return pick;
-}
-
 /* ---- cards -------------------------------------------------------------- */
 
 static void spring_draw_numbers(Paper *paper, Box inside, const Show *show)
@@ -134,7 +121,7 @@ static void spring_draw_numbers(Paper *paper, Box inside, const Show *show)
     lines_add(&lines, COLOUR_TEXT,
               "curvature along %.4g, across %.4g J/m\u00b2", facts.along,
               facts.across);
-    if (simulation->exhibit.root) {
+    if (simulation->exhibit.parts) {
         lines_add(&lines, COLOUR_TEXT, "%s", "");
         lines_add(&lines, COLOUR_GHOST,
                   "with the root: 2k (|d| \u2212 l)\u00b2 = %.5g J",
@@ -199,7 +186,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
     SpringFacts now = facts_of(simulation), facts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     spring_facts((double[2]){0, 0}, system->l2[0], system->k[0], &facts);
-    double tip = simulation->exhibit.root ? facts.root_energy : facts.energy;
+    double tip = simulation->exhibit.parts ? facts.root_energy : facts.energy;
     double high = plot_round_axis(1.1 * fmax(tip, now.energy));
     Axis x = {-reach, reach, false, false, "d in m"};
     Axis y = {0, high, false, false, NULL};
@@ -211,7 +198,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
         for (int root = 0; root < 2; root++) {
             const double to[2] = {d[0],
                                   root ? facts.root_energy : facts.energy};
-            if (i > 0 && (!root || simulation->exhibit.root))
+            if (i > 0 && (!root || simulation->exhibit.parts))
                 plot_line(paper, &plot, from[root], to, root ? 1.8 : 2.4,
                           root ? COLOUR_GHOST : COLOUR_X);
             from[root][0] = to[0];
@@ -220,7 +207,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
     }
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
-    if (simulation->exhibit.root)
+    if (simulation->exhibit.parts)
         plot_disc(paper, &plot, root, 5, COLOUR_GHOST);
     plot_disc(paper, &plot, at, 6, COLOUR_TEXT);
 }
@@ -255,5 +242,4 @@ const Picture spring_picture = {
     .cards = spring_cards,
     .bounds = spring_bounds,
     .draw = spring_draw,
-    .pick = spring_pick,
 };

@@ -4,7 +4,7 @@
 
 #include "picture/show.h"
 #include "play/playing.h"
-#include "scenes/envelope_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/pages.h"
 
 Status lesson_prepare(Player *player)

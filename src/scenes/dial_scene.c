@@ -1,9 +1,7 @@
-#include "scenes/dial_scene.h"
+#include "scenes/small_scenes.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "model/mass_spring_energy.h"
 
 /* h from 1e-3 to 10 s, ten to a power of ten. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
@@ -21,42 +19,6 @@ void dial_defaults(Options *options)
     options->timestep = 0.005;
 }
 
-/* E of the free node at (x, y), J s^2 */
-static double dial_value(const Simulation *simulation, double h, double x,
-                         double y)
-{
-    double own = simulation->run[0].h;
-    double elastic =
-        landscape_part_value(simulation, PART_ELASTICITY, x, y) / (own * own);
-    return landscape_part_value(simulation, PART_INERTIA, x, y) +
-           h * h * elastic;
-}
-
-/* g = grad E, H = its Hessian with projected springs: H_xx, H_xy, H_yy. */
-static void dial_derivatives(const Simulation *simulation, double h,
-                             const double at[2], double g[2], double H[3])
-{
-    const System *system = &simulation->system;
-    const double *pins = simulation->run[0].x;
-    const double *target = simulation->exhibit.target;
-    double m = system->m[0], w = h * h;
-    for (int i = 0; i < 2; i++)
-        g[i] = m * (at[i] - target[i]);
-    H[0] = H[2] = m;
-    H[1] = 0;
-    for (int s = 0; s < system->springs; s++) {
-        const double *pin = pins + 2 * system->e[2 * s + 1];
-        const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
-        double l2 = system->l2[s], k = system->k[s], own[3];
-        double strain = (d[0] * d[0] + d[1] * d[1] - l2) / l2;
-        spring_hessian(d, l2, k, FILTER_CLAMP, own);
-        for (int i = 0; i < 2; i++)
-            g[i] += w * 2 * k * strain * d[i];
-        for (int i = 0; i < 3; i++)
-            H[i] += w * own[i];
-    }
-}
-
 /* Algorithm 3 for two unknowns; it ends at the size of rounding.  On the line
  * of the pins there may be a saddle, where the gradient is 0, too: it begins
  * beside it. */
@@ -65,17 +27,19 @@ void dial_minimise(const Simulation *simulation, double h, double point[2])
     if (fabs(point[1]) < DIAL_BESIDE)
         point[1] = copysign(DIAL_BESIDE, point[1]);
     for (int update = 0; update < DIAL_UPDATES; update++) {
-        double g[2], H[3], alpha = 1;
-        dial_derivatives(simulation, h, point, g, H);
-        double determinant = H[0] * H[2] - H[1] * H[1];
+        Local E = landscape_at(simulation, PART_BOTH, h, FILTER_CLAMP, point);
+        const double *g = E.g, *H = E.H;
+        double determinant = H[0] * H[2] - H[1] * H[1], alpha = 1;
         const double p[2] = {(H[1] * g[1] - H[2] * g[0]) / determinant,
                              (H[1] * g[0] - H[0] * g[1]) / determinant};
-        double E = dial_value(simulation, h, point[0], point[1]);
         bool near = hypot(p[0], p[1]) <= DIAL_NEAR;
-        for (int i = 0; i < DIAL_HALVINGS && !near; i++, alpha /= 2)
-            if (dial_value(simulation, h, point[0] + alpha * p[0],
-                           point[1] + alpha * p[1]) <= E)
+        for (int i = 0; i < DIAL_HALVINGS && !near; i++, alpha /= 2) {
+            const double to[2] = {point[0] + alpha * p[0],
+                                  point[1] + alpha * p[1]};
+            if (landscape_at(simulation, PART_BOTH, h, FILTER_NONE, to).value <=
+                E.value)
                 break;
+        }
         for (int i = 0; i < 2; i++)
             point[i] += alpha * p[i];
         if (hypot(p[0], p[1]) <= 1e-14)
@@ -114,13 +78,18 @@ static void show_minimiser(Simulation *simulation)
         landscape_part_value(simulation, PART_BOTH, point[0], point[1]);
 }
 
+void dial_restart(Simulation *simulation)
+{
+    fill_walk(simulation);
+    show_minimiser(simulation);
+}
+
 Status create_dial(Simulation *simulation, const NewtonSettings *settings)
 {
     Status status = create_landscape(simulation, settings);
     if (status)
         return status;
-    fill_walk(simulation);
-    show_minimiser(simulation);
+    dial_restart(simulation);
     simulation->done = simulation->options.timestep >= DIAL_LAST;
     simulation->status = STATUS_OK;
     return STATUS_OK;
@@ -134,20 +103,4 @@ Status step_dial(Simulation *simulation)
     simulation->done = h >= DIAL_LAST;
     show_minimiser(simulation);
     return STATUS_OK;
-}
-
-int dial_handles(const Simulation *simulation, double at[SCENE_MAX_HANDLES][2])
-{
-    memcpy(at[0], simulation->exhibit.target, sizeof at[0]);
-    return 1;
-}
-
-void dial_drag(Simulation *simulation, int handle, double x, double y)
-{
-    if (handle != 0 || !isfinite(x) || !isfinite(y))
-        return;
-    simulation->exhibit.target[0] = x;
-    simulation->exhibit.target[1] = y;
-    fill_walk(simulation);
-    show_minimiser(simulation);
 }

@@ -132,8 +132,8 @@ const LecturePage lecture_pages[] = {
              "by √(1 + h²ω²), backward Euler divides it by that.",
      .touch = "Drag h while it runs. Above 2/ω\u00a0=\u00a00.318\u00a0s the "
               "symplectic one flies away, too.",
-     .file = "src/scenes/circle_scene.c",
-     .function = "create_circle",
+     .file = "src/scenes/mass_scenes.c",
+     .function = "create_orbit",
      .lit = "names[i]",
      .claim = "With h = 0.02 s each step of forward Euler multiplies the "
               "radius by 1.00786, backward Euler divides it by that; the "
@@ -170,9 +170,9 @@ const LecturePage lecture_pages[] = {
              "update doubles the number of correct digits.",
      .touch = "Drag the start or x̃. Click where the next iterate will be, "
               "then press N.",
-     .file = "src/scenes/scalar_newton.c",
-     .function = "scalar_newton_start",
-     .lit = "newton->p =",
+     .file = "src/scenes/descent.c",
+     .function = "newton_direction",
+     .lit = "scalar ? -g",
      .claim = "From 2.5 six updates reach the root 1.17799, and near it each "
               "error is g″/(2 g′) = 0.95 times the square of the one "
               "before.",
@@ -207,9 +207,9 @@ const LecturePage lecture_pages[] = {
              "and the next one beyond 3·10⁹.",
      .touch = "Drag the start: nearer to 0 than 1.0886 it converges, else it "
               "flies away. L: line search.",
-     .file = "src/scenes/scalar_newton.c",
-     .function = "scalar_newton_iterate",
-     .lit = "newton->x +=",
+     .file = "src/scenes/descent.c",
+     .function = "update_iterate",
+     .lit = "x[i] +=",
      .claim = "From 2 the first update leads to −11.645 and the next beyond "
               "3e9; from 1.08 it converges, from 1.09 it makes seven swings, "
               "each wider.",

@@ -1,4 +1,4 @@
-#include "scenes/race_scene.h"
+#include "scenes/small_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>

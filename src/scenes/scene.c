@@ -2,17 +2,9 @@
 
 #include <string.h>
 
-#include "scenes/circle_scene.h"
 #include "scenes/contact_scenes.h"
-#include "scenes/dial_scene.h"
-#include "scenes/envelope_scene.h"
-#include "scenes/landscape_scene.h"
-#include "scenes/mass_scene.h"
-#include "scenes/overshoot_scene.h"
-#include "scenes/race_scene.h"
-#include "scenes/spring_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/square_scenes.h"
-#include "scenes/tangent_scene.h"
 
 const Scene scenes[] = {
     {.name = "square",
@@ -39,9 +31,10 @@ const Scene scenes[] = {
      .defaults = overshoot_defaults,
      .explains = true,
      .create = create_overshoot,
-     .step = step_overshoot,
-     .handles = overshoot_handles,
-     .drag = overshoot_drag},
+     .step = step_descent,
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "x"},
     {.name = "landscape",
      .title = "Search directions",
      .sentence = "without projection Newton may go uphill; clamped, never",
@@ -51,12 +44,14 @@ const Scene scenes[] = {
      .defaults = landscape_defaults,
      .explains = true,
      .create = create_landscape,
-     .step = step_landscape,
-     .aim = aim_landscape,
-     .handles = landscape_handles,
-     .drag = landscape_drag,
-     .switches = landscape_switches,
-     .flip = landscape_flip},
+     .step = step_descent,
+     .aim = aim_descent,
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "tx",
+     .switches = exhibit_switches,
+     .flip = exhibit_flip,
+     .parts = {"inertia", "elasticity"}},
     {.name = "unprojected",
      .title = "Without projection",
      .sentence = "the squeezed square: without projection Newton is stuck",
@@ -153,8 +148,9 @@ const Scene scenes[] = {
      .needs = NEEDS_TIME | NEEDS_START,
      .defaults = mass_defaults,
      .create = create_mass,
-     .handles = mass_handles,
-     .drag = mass_drag},
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "xv"},
     {.name = "tangent",
      .title = "Newton in one dimension",
      .sentence = "Newton in one dimension: tangents of g, parabolas of E",
@@ -163,9 +159,10 @@ const Scene scenes[] = {
      .needs = NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
      .defaults = tangent_defaults,
      .create = create_tangent,
-     .step = step_overshoot,
-     .handles = tangent_handles,
-     .drag = tangent_drag},
+     .step = step_descent,
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "xt"},
     {.name = "dial",
      .title = "The time step as a dial",
      .sentence = "a longer time step: from free flight to the rest shape",
@@ -175,10 +172,12 @@ const Scene scenes[] = {
      .defaults = dial_defaults,
      .create = create_dial,
      .step = step_dial,
-     .handles = dial_handles,
-     .drag = dial_drag,
-     .switches = landscape_switches,
-     .flip = landscape_flip},
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "t",
+     .switches = exhibit_switches,
+     .flip = exhibit_flip,
+     .parts = {"inertia", "elasticity"}},
     {.name = "spring",
      .title = "One spring",
      .sentence = "one spring: energy, force, eigenvalues; drag its end",
@@ -186,10 +185,12 @@ const Scene scenes[] = {
      .needs = NEEDS_TIME | NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM,
      .defaults = spring_defaults,
      .create = create_spring,
-     .handles = spring_handles,
-     .drag = spring_drag,
-     .switches = spring_switches,
-     .flip = spring_flip},
+     .handles = exhibit_handles,
+     .drag = exhibit_drag,
+     .grips = "x",
+     .switches = exhibit_switches,
+     .flip = exhibit_flip,
+     .parts = {"with the square root"}},
     {.name = "race",
      .title = "Run time and error",
      .sentence = "run time against error, measured now",

@@ -88,12 +88,11 @@ int simulation_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
     bool single = simulation->system.nodes == 1 || simulation->scene->aim;
-    bool scalar = simulation->descent.scalar.f.at;
     if (!single || !run->x)
         return 0;
     at[0] = run->x[0];
     at[1] = run->x[1];
-    return scalar ? 1 : 2;
+    return simulation->descent.scalar ? 1 : 2;
 }
 
 void simulation_predict(Simulation *simulation, double x, double y)
@@ -176,7 +175,6 @@ void simulation_set_tolerance(Simulation *simulation, double tolerance)
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             simulation->run[i].newton->settings.tolerance = tolerance;
-    simulation->descent.scalar.tolerance = tolerance;
 }
 
 void simulation_set_solver(Simulation *simulation, Solver solver)
@@ -493,7 +491,7 @@ bool simulation_has_filter(const Simulation *simulation)
 /* Newton with springs, or in one variable. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
-    return simulation_has_filter(simulation) || simulation->descent.scalar.f.at;
+    return simulation_has_filter(simulation) || simulation->descent.scalar;
 }
 
 bool simulation_projects_springs(const Simulation *simulation)

@@ -304,7 +304,7 @@ class Frame:
     def function(self, x):
         if self.s.scene == "overshoot":
             return log_two_cosh(x)
-        return line_energy(self.s.raw["line_target"][0], self.s.h)(x)
+        return line_energy(self.s.raw["target"][0], self.s.h)(x)
 
     @functools.cached_property
     def descent(self):

@@ -6,13 +6,7 @@
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
-#include "scenes/dial_scene.h"
-#include "scenes/envelope_scene.h"
-#include "scenes/mass_scene.h"
-#include "scenes/race_scene.h"
-#include "scenes/spring_scene.h"
-#include "scenes/overshoot_scene.h"
-#include "scenes/tangent_scene.h"
+#include "scenes/small_scenes.h"
 
 /* ---- one mass ----------------------------------------------------------- */
 
@@ -82,7 +76,7 @@ static void mass_knows_its_path(void **unused)
     Random random = {7};
     for (int i = 0; i < 100; i++) {
         double now[2], later[2], x = random_uniform(&random, -2, 2);
-        mass_drag(&simulation, i % 2, x, random_uniform(&random, -2, 2));
+        exhibit_drag(&simulation, i % 2, x, random_uniform(&random, -2, 2));
         CHECK(mass_next_step(&simulation, 0, &step) && step.by_old_v);
         mass_exact(&simulation, 0, now);
         mass_exact(&simulation, 0.5 * M_PI, later);
@@ -111,9 +105,9 @@ static void mass_is_dragged(void **unused)
     double at[SCENE_MAX_HANDLES][2];
     simulation_from_line("arrows", NULL, NULL, &simulation);
     simulation_step(&simulation);
-    mass_drag(&simulation, 0, 0.25, -0.5);
-    mass_drag(&simulation, 1, 0.25 + 2, -0.5 + 3);
-    CHECK(mass_handles(&simulation, at) == 2);
+    exhibit_drag(&simulation, 0, 0.25, -0.5);
+    exhibit_drag(&simulation, 1, 0.25 + 2, -0.5 + 3);
+    CHECK(exhibit_handles(&simulation, at) == 2);
     CHECK_NEAR(at[0][0], 0.25, 0);
     CHECK_NEAR(at[1][1], 2.5, 0);
     for (int run = 0; run < 3; run++) {
@@ -126,19 +120,19 @@ static void mass_is_dragged(void **unused)
 
 /* ---- Newton in one dimension -------------------------------------------- */
 
-/* E and g of the header's formula, in extended precision. */
-static long double line_E(const LineEnergy *line, long double x)
+/* E and g of the header's formula, in extended precision: m = 1 kg, k = 10
+ * J/m^2, l = 1 m, h = 0.3 s. */
+static long double line_E(const Simulation *simulation, long double x)
 {
-    long double s = x * x / line->l2 - 1, d = x - line->target;
-    return line->m * d * d / 2 +
-           (long double)line->h * line->h * line->l2 * line->k / 2 * s * s;
+    long double s = x * x - 1, d = x - simulation->exhibit.target[0];
+    long double h = 0.3;
+    return d * d / 2 + h * h * 5 * s * s;
 }
 
-static long double line_g(const LineEnergy *line, long double x)
+static long double line_g(const Simulation *simulation, long double x)
 {
-    return line->m * (x - line->target) + 2 * (long double)line->h * line->h *
-                                              line->k * x *
-                                              (x * x / line->l2 - 1);
+    long double h = 0.3;
+    return x - simulation->exhibit.target[0] + 20 * h * h * x * (x * x - 1);
 }
 
 /* g is the derivative of E and E'' that of g: central differences of a quartic
@@ -148,15 +142,15 @@ static void tangent_derivatives_are_right(void **unused)
     (void)unused;
     Simulation simulation;
     simulation_from_line("tangent", NULL, NULL, &simulation);
-    const ScalarFunction *f = &simulation.descent.scalar.f;
-    const LineEnergy *line = &simulation.exhibit.line;
+    const Simulation *line = &simulation;
     const long double e = 1e-5L;
     for (double x = -2; x <= 2.5; x += 0.125) {
         long double by_E = (line_E(line, x + e) - line_E(line, x - e)) / 2 / e;
         long double by_g = (line_g(line, x + e) - line_g(line, x - e)) / 2 / e;
-        CHECK_NEAR(scalar_at(f, x).value, line_E(line, x), 1e-13);
-        CHECK_NEAR(scalar_at(f, x).first, by_E, 2e-9);
-        CHECK_NEAR(scalar_at(f, x).second, by_g, 2e-9);
+        Local E = descent_at(line, FILTER_NONE, x, 0);
+        CHECK_NEAR(E.value, line_E(line, x), 1e-13);
+        CHECK_NEAR(E.g[0], by_E, 2e-9);
+        CHECK_NEAR(E.H[0], by_g, 2e-9);
     }
     simulation_free(&simulation);
 }
@@ -167,10 +161,10 @@ static void tangent_follows_tangents(void **unused)
     (void)unused;
     Simulation simulation;
     simulation_from_line("tangent", NULL, NULL, &simulation);
-    const LineEnergy *line = &simulation.exhibit.line;
+    const Simulation *line = &simulation;
     while (!simulation.done) {
         double x = simulation.descent.point[0];
-        double slope = scalar_at(&simulation.descent.scalar.f, x).second;
+        double slope = descent_at(line, FILTER_NONE, x, 0).H[0];
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
         long double zero = x - line_g(line, x) / slope;
         CHECK_NEAR(simulation.descent.point[0], zero, 1e-14);
@@ -190,20 +184,19 @@ static void tangent_is_dragged(void **unused)
     simulation_from_line("tangent", NULL, NULL, &simulation);
     while (!simulation.done)
         simulation_step(&simulation);
-    tangent_drag(&simulation, 1, -1.5, 7);
+    exhibit_drag(&simulation, 1, -1.5, 7);
     CHECK(simulation.steps == 0 && !simulation.done);
-    CHECK_NEAR(simulation.exhibit.line.target, -1.5, 0);
-    tangent_drag(&simulation, 0, -2.25, 7);
-    CHECK(tangent_handles(&simulation, at) == 2);
+    CHECK_NEAR(simulation.exhibit.target[0], -1.5, 0);
+    exhibit_drag(&simulation, 0, -2.25, 7);
+    CHECK(exhibit_handles(&simulation, at) == 2);
     CHECK_NEAR(at[0][0], -2.25, 0);
-    CHECK_NEAR(at[0][1], line_E(&simulation.exhibit.line, -2.25), 1e-13);
+    CHECK_NEAR(at[0][1], line_E(&simulation, -2.25), 1e-13);
     CHECK_NEAR(at[1][0], -1.5, 0);
     while (!simulation.done)
         simulation_step(&simulation);
-    CHECK_NEAR(line_g(&simulation.exhibit.line, simulation.run[0].x[0]), 0,
-               1e-9);
+    CHECK_NEAR(line_g(&simulation, simulation.run[0].x[0]), 0, 1e-9);
     CHECK(simulation.run[0].x[0] < 0);
-    tangent_drag(&simulation, 0, NAN, 0);
+    exhibit_drag(&simulation, 0, NAN, 0);
     CHECK(isfinite(simulation.run[0].x[0]));
     simulation_free(&simulation);
 }
@@ -247,7 +240,7 @@ static void dial_walks_over_minimisers(void **unused)
                                walk->point[i][1] - walk->point[i - 1][1]);
             CHECK_AT_MOST(step, 0.2); /* it walks and does not jump */
         }
-        dial_drag(&simulation, 0, -0.5, 0.9);
+        exhibit_drag(&simulation, 0, -0.5, 0.9);
     }
     simulation_free(&simulation);
 }
@@ -282,14 +275,14 @@ static void dial_ends_on_no_saddle(void **unused)
     (void)unused;
     Simulation simulation;
     simulation_from_line("dial", NULL, NULL, &simulation);
-    dial_drag(&simulation, 0, 0.2, 0);
+    exhibit_drag(&simulation, 0, 0.2, 0);
     const Walk *walk = &simulation.exhibit.walk;
     CHECK_NEAR(walk->point[0][1], 0, 1e-12);
     CHECK_NEAR(fabs(walk->point[WALK_POINTS - 1][1]), sqrt(1.25), 1e-4);
     for (int i = 0; i < WALK_POINTS; i++) {
         simulation.run[0].h = walk->h[i];
-        CHECK(landscape_bends_down(&simulation, walk->point[i][0],
-                                   walk->point[i][1]) == 0);
+        CHECK(descent_bends_down(&simulation, walk->point[i][0],
+                                 walk->point[i][1]) == 0);
     }
     simulation_free(&simulation);
 }
@@ -310,15 +303,14 @@ static void landscape_has_two_parts(void **unused)
         CHECK_NEAR(inertia,
                    0.5 * ((x - 0.2) * (x - 0.2) + (y - 0.3) * (y - 0.3)),
                    1e-15);
-        CHECK_NEAR(inertia + elastic, landscape_value(&simulation, x, y),
-                   1e-13);
+        CHECK_NEAR(inertia + elastic, descent_value(&simulation, x, y), 1e-13);
     }
-    CHECK(landscape_switches(&simulation, out) == 2 && out[0].on && out[1].on);
-    landscape_flip(&simulation, 0);
+    CHECK(exhibit_switches(&simulation, out) == 2 && out[0].on && out[1].on);
+    exhibit_flip(&simulation, 0);
     CHECK(simulation.exhibit.parts == PART_ELASTICITY);
-    landscape_flip(&simulation, 1); /* the last one: the other comes back */
+    exhibit_flip(&simulation, 1); /* the last one: the other comes back */
     CHECK(simulation.exhibit.parts == PART_INERTIA);
-    landscape_flip(&simulation, 1);
+    exhibit_flip(&simulation, 1);
     CHECK(simulation.exhibit.parts == PART_BOTH);
     simulation_free(&simulation);
 }
@@ -339,7 +331,7 @@ static void landscape_minimises_what_it_shows(void **unused)
             simulation_from_line(lines[i], NULL, NULL, &simulation);
             const Descent *descent = &simulation.descent;
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-            landscape_flip(&simulation, off);
+            exhibit_flip(&simulation, off);
             unsigned part = simulation.exhibit.parts;
             CHECK(part == (off ? PART_INERTIA : PART_ELASTICITY));
             CHECK(descent->count == 0);
@@ -355,13 +347,13 @@ static void landscape_minimises_what_it_shows(void **unused)
                                                descent->point[0],
                                                descent->point[1]),
                           1e-12);
-            landscape_flip(&simulation, !off); /* all of E again */
-            landscape_flip(&simulation, off);
+            exhibit_flip(&simulation, !off); /* all of E again */
+            exhibit_flip(&simulation, off);
             simulation_free(&simulation);
         }
     Simulation flat; /* both springs along x: elasticity alone has no H^-1 */
     simulation_from_line("landscape --start 0.3,0", NULL, NULL, &flat);
-    landscape_flip(&flat, 0);
+    exhibit_flip(&flat, 0);
     CHECK_STATUS(flat.status, STATUS_SINGULAR);
     CHECK(flat.done && flat.descent.direction[0] == 0);
     simulation_free(&flat);
@@ -377,7 +369,7 @@ static void landscape_is_dragged(void **unused)
     simulation_from_line("landscape --start 0.9,-0.8", NULL, NULL, &fresh);
     while (!dragged.done)
         simulation_step(&dragged);
-    landscape_drag(&dragged, 1, 0.9, -0.8);
+    exhibit_drag(&dragged, 1, 0.9, -0.8);
     CHECK(!dragged.done && dragged.steps == 0 && dragged.descent.count == 0);
     CHECK_NEAR(dragged.descent.slope, fresh.descent.slope,
                1e-12 * fabs(fresh.descent.slope));
@@ -388,7 +380,7 @@ static void landscape_is_dragged(void **unused)
         CHECK_NEAR(dragged.run[0].x[1], fresh.run[0].x[1], 1e-12);
     }
     CHECK(dragged.done && fresh.done);
-    landscape_drag(&dragged, 0, 0.3, -1.3);
+    exhibit_drag(&dragged, 0, 0.3, -1.3);
     while (!dragged.done)
         simulation_step(&dragged);
     CHECK_STATUS(dragged.status, STATUS_OK);
@@ -407,15 +399,15 @@ static void landscape_knows_both_directions(void **unused)
     for (int i = 0; i < 2; i++) {
         double p[2];
         simulation_set_filter(&simulation, filters[i]);
-        double slope = landscape_direction(&simulation, filters[i], p);
+        double slope = descent_direction(&simulation, filters[i], p);
         CHECK_NEAR(slope, simulation.descent.slope, 1e-12);
         CHECK_NEAR(p[0], simulation.descent.direction[0], 1e-13);
         CHECK_NEAR(p[1], simulation.descent.direction[1], 1e-13);
         CHECK((slope > 0) == (i == 0));
     }
-    CHECK(landscape_bends_down(&simulation, 0.1, -0.35));
-    landscape_flip(&simulation, 1);
-    CHECK(!landscape_bends_down(&simulation, 0.1, -0.35)); /* inertia alone */
+    CHECK(descent_bends_down(&simulation, 0.1, -0.35));
+    exhibit_flip(&simulation, 1);
+    CHECK(!descent_bends_down(&simulation, 0.1, -0.35)); /* inertia alone */
     simulation_free(&simulation);
 }
 
@@ -526,8 +518,8 @@ static void spring_is_dragged(void **unused)
     simulation_from_line("spring", NULL, NULL, &simulation);
     for (int i = 0; i < 5; i++)
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-    spring_drag(&simulation, 0, 0.2, 0.1);
-    CHECK(spring_handles(&simulation, at) == 1);
+    exhibit_drag(&simulation, 0, 0.2, 0.1);
+    CHECK(exhibit_handles(&simulation, at) == 1);
     CHECK_NEAR(at[0][0], 0.2, 0);
     CHECK_NEAR(simulation.run[0].v[1], 0, 0);
     for (int i = 0; i < 200; i++)
@@ -684,8 +676,8 @@ static void predictions_are_compared(void **unused)
     simulation_predict(&simulation, -11, 123);
     simulation_step(&simulation);
     CHECK_NEAR(simulation.prediction.distance, 0.644958598563875, 1e-12);
-    overshoot_drag(&simulation, 0, 1.5, NAN); /* x alone counts */
-    overshoot_drag(&simulation, 0, NAN, 1);
+    exhibit_drag(&simulation, 0, 1.5, NAN); /* x alone counts */
+    exhibit_drag(&simulation, 0, NAN, 1);
     CHECK(simulation.descent.point[0] == 1.5 && simulation.steps == 0);
     simulation_free(&simulation);
     /* a square is no single point */

@@ -10,13 +10,9 @@
 #include "model/plasticity.h"
 #include "picture/cards.h"
 #include "picture/exhibits.h"
-#include "scenes/dial_scene.h"
-#include "scenes/envelope_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/listing.h"
-#include "scenes/mass_scene.h"
 #include "scenes/pages.h"
-#include "scenes/race_scene.h"
-#include "scenes/spring_scene.h"
 
 /* The scene of a page as it is set up, with more options behind its own. */
 static void open_page(const char *name, const char *more,
@@ -311,7 +307,7 @@ static void claim_newton(void)
     CHECK_STATUS(run_steps(&simulation, 100), STATUS_OK);
     CHECK(simulation.done);
     const double *x = simulation.descent.point;
-    CHECK(landscape_bends_down(&simulation, x[0], x[1]) == 1);
+    CHECK(descent_bends_down(&simulation, x[0], x[1]) == 1);
     simulation_free(&simulation);
     /* and from below the saddle it climbs there: no success */
     open_page("newton", "--start 0.1,-0.35", NULL, NULL, &simulation);
@@ -521,7 +517,7 @@ static void claim_descent(void)
     CHECK(simulation.descent.slope < -0.1);
     for (int i = -8; i <= 8; i++)
         for (int j = -8; j <= 8; j++) {
-            landscape_drag(&simulation, 1, 0.2 * i, 0.2 * j);
+            exhibit_drag(&simulation, 1, 0.2 * i, 0.2 * j);
             CHECK(simulation.descent.slope < 0);
         }
     simulation_free(&simulation);

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "play/summary.h"
-#include "scenes/envelope_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
 /* The sum of E over the updates so far, where it was highest, and at its end,

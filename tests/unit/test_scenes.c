@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/landscape_scene.h"
-#include "scenes/overshoot_scene.h"
+#include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
 /* Of the circle: one turn a second, h = 0.02 s. */
@@ -323,8 +322,8 @@ static void check_path(const Simulation *simulation)
         if (i > 0)
             CHECK_SAME_BITS(record->from, record[-1].to, 2);
         double from =
-            landscape_value(simulation, record->from[0], record->from[1]);
-        double to = landscape_value(simulation, record->to[0], record->to[1]);
+            descent_value(simulation, record->from[0], record->from[1]);
+        double to = descent_value(simulation, record->to[0], record->to[1]);
         CHECK_NEAR(to - from, record->change, 1e-12 * (1 + fabs(from)));
     }
 }
@@ -344,7 +343,7 @@ static void landscape_is_downhill_from_everywhere(void **unused)
                      0.2 * j);
             simulation_from_line(line, NULL, NULL, &simulation);
             CHECK(simulation.descent.slope < 0);
-            bool convex = !landscape_bends_down(&simulation, 0.2 * i, 0.2 * j);
+            bool convex = !descent_bends_down(&simulation, 0.2 * i, 0.2 * j);
             simulation_set_filter(&simulation, FILTER_NONE);
             uphill += simulation.descent.slope > 0;
             hollow += convex;
@@ -352,7 +351,7 @@ static void landscape_is_downhill_from_everywhere(void **unused)
             simulation_set_filter(&simulation, FILTER_CLAMP);
             CHECK_STATUS(run_to_end(&simulation, 100), STATUS_OK);
             check_path(&simulation);
-            CHECK(!landscape_bends_down(&simulation, simulation.run[0].x[0],
+            CHECK(!descent_bends_down(&simulation, simulation.run[0].x[0],
                                         simulation.run[0].x[1]));
             simulation_free(&simulation);
         }
@@ -379,7 +378,7 @@ static void landscape_does_not_change(void **unused)
     simulation_from_line("landscape --start 0.7,0.9", NULL, NULL, &simulation);
     for (int i = 0; i < 4; i++) {
         for (double x = -2; x < 2; x += 0.37)
-            CHECK_NEAR(landscape_value(&simulation, x, 0.8 * x - 0.3),
+            CHECK_NEAR(descent_value(&simulation, x, 0.8 * x - 0.3),
                        energy_by_hand(x, 0.8 * x - 0.3), 1e-12);
         CHECK_NEAR(
             simulation.descent.value,
@@ -405,7 +404,7 @@ static void landscape_moves_one_node(void **unused)
         const Descent *descent = &simulation.descent;
         CHECK_SAME_BITS(x, descent->record[descent->count - 1].to, 2);
         CHECK(x[2] == -1 && x[3] == 0 && x[4] == 1 && x[5] == 0);
-        CHECK_NEAR(descent->value, landscape_value(&simulation, x[0], x[1]), 0);
+        CHECK_NEAR(descent->value, descent_value(&simulation, x[0], x[1]), 0);
     }
     simulation_free(&simulation);
 }

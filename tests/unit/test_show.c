@@ -14,7 +14,7 @@
 #include "picture/square_pen.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
-#include "scenes/tangent_scene.h"
+#include "scenes/small_scenes.h"
 #include "testing.h"
 
 /* A scene after some steps, and what a player would show of it. */
@@ -720,7 +720,7 @@ static void tangents_lead_to_the_next_iterate(void **unused)
     stand_up("tangent", 0, 1280, 800, &stand);
     const Descent *descent = &stand.simulation.descent;
     const double x = descent->point[0];
-    const double E = scalar_at(&descent->scalar.f, x).value;
+    const double E = descent_value(&stand.simulation, x, 0);
     char text[80];
     Simulation after;
     simulation_from_line("tangent", NULL, NULL, &after);
@@ -741,7 +741,7 @@ static void tangents_lead_to_the_next_iterate(void **unused)
         low = !low || end[1] < low[1] ? end : low;
     }
     const double pace = plotted[first + 1].b[0] - plotted[first + 1].a[0];
-    double slope = scalar_at(&descent->scalar.f, x).first;
+    double slope = descent_at(&stand.simulation, FILTER_NONE, x, 0).g[0];
     CHECK_NEAR(low[0], next, 0.51 * pace);
     CHECK_NEAR(near[1], E + slope * (near[0] - x), 10 * pace * pace);
     take_down(&stand);
@@ -908,7 +908,7 @@ static void the_tip_is_inside_its_plot(void **unused)
     stand_up("spring --start 1.3,0", 0, 600, 400, &stand);
     const Card *card = picture_of(stand.simulation.scene)->cards[3];
     assert_string_equal(card->name, "profile");
-    stand.simulation.exhibit.root = true;
+    stand.simulation.exhibit.parts = true;
     canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 400, COLOUR_WHITE);
     card->draw(&stand.paper, (Box){20, 20, 560, 360}, &stand.show);
     int left = 600, right = 0, top = 400;
@@ -984,8 +984,8 @@ static void ends_and_steps_have_their_names(void **unused)
     Simulation simulation; /* x = x_tilde = 0, where E'' = m - 2 h^2 k < 0 */
     Show show;
     simulation_from_line("tangent", NULL, NULL, &simulation);
-    tangent_drag(&simulation, 1, 0, 0);
-    tangent_drag(&simulation, 0, 0, 0);
+    exhibit_drag(&simulation, 1, 0, 0);
+    exhibit_drag(&simulation, 0, 0, 0);
     show_create(&simulation, &show);
     show_describe(&show);
     assert_string_equal(show.sentence,

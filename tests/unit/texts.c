@@ -182,8 +182,6 @@ static void put_given(const Simulation *simulation)
     const int cell[] = {simulation->exhibit.map.column,
                         simulation->exhibit.map.row};
     put_whole("cell", cell, 2);
-    const double line[] = {simulation->exhibit.line.target};
-    put_numbers("line_target", line, 1);
     const double field[] = {
         system_find_term(system, &central_field)
             ? ((Pull *)system_find_term(system, &central_field)->data)->k

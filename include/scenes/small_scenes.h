@@ -1,0 +1,209 @@
+/* small_scenes.h - the lecture's small scenes: one mass, one unknown, one
+ * spring, the square a hundred times.
+ *
+ * circle, arrows: a mass of 1 kg with a = -omega2 x; its exact path is the
+ * ellipse x0 cos(omega t) + v0/omega sin(omega t).  In the circle omega is 2 pi
+ * / s, the start (1, 0) m with speed omega: a step multiplies the radius by
+ * sqrt(1 + (h omega)^2) (forward Euler) or its inverse (backward Euler); the
+ * symplectic path stays on an ellipse with 1/sqrt(1 + h omega/2) <= |x| <=
+ * 1/sqrt(1 - h omega/2).
+ *
+ * overshoot: f(x) = ln(e^x + e^-x) is convex with its minimum at 0, but from
+ * x = 2 the update p = -f'/f'' = -sinh(2x)/2 leads to -11.6 and from there
+ * beyond all numbers; with Algorithm 2 it converges.
+ *
+ * tangent: one mass on one spring along a line, the other end held at 0:
+ *   E(x) = m/2 (x - x_tilde)^2 + h^2 l2 k/2 (x^2/l2 - 1)^2
+ *   g(x) = E'(x) = m (x - x_tilde) + 2 h^2 k x (x^2/l2 - 1)
+ *
+ * landscape: one free node between two pinned ones, too close for its springs.
+ * Where the springs are short E is not convex: Newton's direction can point
+ * uphill there, the projected one never does.  dial: the minimiser of the same
+ * E for every h; at h = 0 only inertia counts and it is x_tilde; the longer the
+ * step, the nearer it is to where the springs are at rest.
+ *
+ * spring: P(d) = l2 k/2 (|d|^2/l2 - 1)^2, d from the held end to the free one,
+ * and beside it the energy with a square root that is as stiff at rest,
+ * P_root(d) = 2k (|d| - l)^2.  Both bend alike at |d| = l (4k along d); but the
+ * curvature of P_root across, 4k (1 - l/|d|), has no lower bound, that of P is
+ * at least -2k.
+ *
+ * race: the stretched square is followed for a fixed time by several methods
+ * with several time steps each; every run is a point: how far the worst node is
+ * from where velocity Verlet with a 64 times finer step says that it belongs,
+ * and how long the run took.  An explicit run goes on after that, unmeasured:
+ * with a time step that is too long it may be accurate for a while, and
+ * explodes later.
+ *
+ * envelope: the square with every time step from 1e-9 to 1e3 s and every
+ * stiffness from 1e-6 to 1e15 J/m^2, three steps each.
+ */
+#ifndef ELASTO_SMALL_SCENES_H
+#define ELASTO_SMALL_SCENES_H
+
+#include "scenes/scene.h"
+
+/* ---- what the mouse drags and switches, by scene->grips and ->parts ------ */
+
+int exhibit_handles(const Simulation *simulation,
+                    double at[SCENE_MAX_HANDLES][2]);
+void exhibit_drag(Simulation *simulation, int handle, double x, double y);
+int exhibit_switches(const Simulation *simulation,
+                     Switch out[SCENE_MAX_SWITCHES]);
+void exhibit_flip(Simulation *simulation, int number);
+
+/* ---- one mass, one spring ------------------------------------------------ */
+
+void circle_defaults(Options *options);
+void mass_defaults(Options *options);
+void spring_defaults(Options *options);
+
+/* Run 0 forward, 1 symplectic, 2 backward Euler; with --integrator that one. */
+Status create_circle(Simulation *simulation, const NewtonSettings *settings);
+Status create_mass(Simulation *simulation, const NewtonSettings *settings);
+
+/* Node 0 is free, node 1 held at the origin; l = 1 m, k = 100 J/m^2, 1 kg. */
+Status create_spring(Simulation *simulation, const NewtonSettings *settings);
+
+/* A step of arrows, omega2 = 1/s^2: of t_n, and of t_n + h with new_.
+ *   forward     x' = x + h v     v' = v + h a(x)
+ *   symplectic  v' = v + h a(x)  x' = x + h v'
+ *   backward    v' = v + h a(x') x' = x + h v' */
+typedef struct MassStep {
+    double x[2], v[2], a[2];             /* m, m/s, m/s^2 */
+    double new_x[2], new_v[2], new_a[2]; /* the same after the step */
+    bool by_old_v;                       /* x' = x + h v, not x + h v' */
+} MassStep;
+
+/* The step that a run makes next.  Returns false where its method is none of
+ * the three. */
+bool mass_next_step(const Simulation *simulation, int run, MassStep *step);
+
+/* Where the mass would be without a method t seconds after it began, or was
+ * dragged: out, m. */
+void mass_exact(const Simulation *simulation, double t, double x[2]);
+
+typedef struct SpringFacts {
+    double length;       /* |d|, m */
+    double strain;       /* |d|^2/l2 - 1 */
+    double energy;       /* P, J */
+    double force[2];     /* -grad P on the free end, N */
+    double along;        /* eigenvalue of its 2x2 Hessian along d, J/m^2 */
+    double across;       /* and across */
+    double block[4];     /* eigenvalues of the 4x4 block, ascending */
+    double projected[4]; /* the same after projection, ascending */
+    double root_energy;  /* P_root, J */
+    double root_along, root_across; /* -infinity across at |d| = 0 */
+} SpringFacts;
+
+/* d [2] m, in; l2 m^2; k J/m^2; facts out */
+void spring_facts(const double d[2], double l2, double k, SpringFacts *facts);
+
+/* ---- descents: a minimum that Newton looks for, update by update --------- */
+
+void overshoot_defaults(Options *options);
+void tangent_defaults(Options *options);
+void landscape_defaults(Options *options);
+void dial_defaults(Options *options);
+
+/* Of one unknown: node 0 is the point (x, E(x)).  Of two: node 0 is free, nodes
+ * 1 and 2 are pinned. */
+Status create_overshoot(Simulation *simulation, const NewtonSettings *settings);
+Status create_tangent(Simulation *simulation, const NewtonSettings *settings);
+Status create_landscape(Simulation *simulation, const NewtonSettings *settings);
+
+/* One Newton update (Algorithm 1), with projection (Algorithm 3, line 3) and
+ * line search (Algorithm 2) as the options say.  The loop tests |g| in one
+ * unknown and without both, else |p|/h. */
+Status step_descent(Simulation *simulation);
+
+/* The direction from the present iterate, as the methods now want it. */
+void aim_descent(Simulation *simulation);
+
+/* What is minimised there, of the parts on the map. */
+Local descent_at(const Simulation *simulation, Filter filter, double x,
+                 double y);
+
+/* Its value alone; in the landscape the E of newton.c, to the last digit. */
+double descent_value(const Simulation *simulation, double x, double y);
+
+/* p = -H^-1 g from the iterate with this filter, m, whatever the run's own
+ * filter is.  Returns grad E . p, J s^2, NaN where H has no inverse. */
+double descent_direction(const Simulation *simulation, Filter filter,
+                         double p[2]);
+
+/* In how many directions it bends down there, or does not bend: 0 where the
+ * Hessian, not projected, is positive definite (Newton's direction is downhill
+ * with and without projection), 1 as at a saddle, 2 as at a maximum. */
+int descent_bends_down(const Simulation *simulation, double x, double y);
+
+/* The parts (enum LandscapePart) of E of landscape and dial with this h. */
+Local landscape_at(const Simulation *simulation, unsigned parts, double h,
+                   Filter filter, const double at[2]);
+
+/* Their value with the h of the run, J s^2. */
+static inline double landscape_part_value(const Simulation *simulation,
+                                          unsigned parts, double x, double y)
+{
+    const double at[2] = {x, y}, h = simulation->run[0].h;
+    return landscape_at(simulation, parts, h, FILTER_NONE, at).value;
+}
+
+/* Turns the dial: h times 10^(1/10), up to 10 s; node 0 is the minimiser. */
+Status create_dial(Simulation *simulation, const NewtonSettings *settings);
+Status step_dial(Simulation *simulation);
+void dial_restart(Simulation *simulation);
+
+/* The minimiser for this h, m, to which the one before leads: projected Newton
+ * from `point`.  point [2] in/out */
+void dial_minimise(const Simulation *simulation, double h, double point[2]);
+
+/* ---- run time against error ---------------------------------------------- */
+
+#define RACE_TIME 0.064 /* s, that every run covers */
+
+enum { RACE_METHODS = 6, RACE_STEP_SIZES = 7 };
+
+/* Steps that explicit runs go on, and how often the energy at their end may be
+ * that at the start. */
+enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
+
+/* Stretch 1.1, where the motion is no chaos. */
+void race_defaults(Options *options);
+Status create_race(Simulation *simulation, const NewtonSettings *settings);
+
+/* One run more; done after RACE_METHODS x RACE_STEP_SIZES of them.  The methods
+ * take turns, each from its longest time step to its shortest. */
+Status step_race(Simulation *simulation);
+
+/* The quickest run so far that reaches the error, m, and stays stable, of
+ * explicit or of implicit methods; NULL: there is none. */
+const RacePoint *race_quickest(const Race *race, double error, bool implicit);
+
+/* The method of column i, 0 ... RACE_METHODS - 1. */
+const IntegratorMethod *race_method(int i);
+
+/* ---- how far the solver can be trusted ----------------------------------- */
+
+enum { ENVELOPE_STEPS = 3 };
+
+/* s, of column 0 ... ENVELOPE_COLUMNS - 1; J/m^2, of row 0 ... ENVELOPE_ROWS
+ * - 1 */
+double envelope_timestep(int column);
+double envelope_stiffness(int row);
+
+/* Run 0 is the cell that is shown; at first the one nearest to the options. */
+Status create_envelope(Simulation *simulation, const NewtonSettings *settings);
+
+/* The next row, from the softest to the stiffest. */
+Status step_envelope(Simulation *simulation);
+
+/* Runs one cell and shows it: run 0 is then its run.  Returns OK also where the
+ * cell's steps did not converge; OUT_OF_MEMORY. */
+Status envelope_visit(Simulation *simulation, int column, int row);
+
+/* The command line that runs a cell in the window.  line [size] out */
+void envelope_line(const Simulation *simulation, int column, int row,
+                   char *line, size_t size);
+
+#endif

@@ -1,0 +1,409 @@
+#include "scenes/small_scenes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/mass_spring_energy.h"
+
+enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
+
+static const double LINE_MASS = 1;             /* kg */
+static const double LINE_STIFFNESS = 10;       /* J/m^2 */
+static const double LINE_LENGTH = 1;           /* m, at rest */
+static const double LINE_TARGET = 2;           /* m, x_tilde */
+static const double LANDSCAPE_MASS = 1;        /* kg */
+static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
+static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
+
+/* x_tilde of the free node, m: where inertia alone would take it. */
+static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
+
+void overshoot_defaults(Options *options)
+{
+    options->line_search = LINE_SEARCH_NONE;
+    options->tolerance = 1e-10;
+    options->start[0] = 2;
+}
+
+void tangent_defaults(Options *options)
+{
+    overshoot_defaults(options);
+    options->timestep = 0.3;
+    options->start[0] = 2.5;
+}
+
+void landscape_defaults(Options *options)
+{
+    options->timestep = 0.2;
+    options->tolerance = 1e-6;
+    options->start[0] = 0.1;
+    options->start[1] = -0.35;
+}
+
+/* ---- what is minimised --------------------------------------------------- */
+
+/* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow; its
+ * derivatives are tanh and 1/cosh^2. */
+static Local log_two_cosh(const Simulation *simulation, double x)
+{
+    double c = cosh(x);
+    (void)simulation;
+    return (Local){.value = fabs(x) + log1p(exp(-2 * fabs(x))),
+                   .g = {tanh(x), 0},
+                   .H = {1 / (c * c), 0, 0}};
+}
+
+static Local line_energy(const Simulation *simulation, double x)
+{
+    double m = LINE_MASS, l2 = LINE_LENGTH * LINE_LENGTH, k = LINE_STIFFNESS;
+    double h = simulation->run[0].h, d = x - simulation->exhibit.target[0];
+    double s = x * x / l2 - 1;
+    return (Local){.value = 0.5 * m * d * d + h * h * l2 * 0.5 * k * s * s,
+                   .g = {m * d + 2 * h * h * k * x * s, 0},
+                   .H = {m + 2 * h * h * k * (3 * x * x / l2 - 1), 0, 0}};
+}
+
+/* Pins at (-1, 0) and (1, 0) m, each with a spring to node 0 that is too long
+ * to lie flat between them: like a buckling column it gives way up or down. */
+static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
+{
+    Status status = system_create(LANDSCAPE_NODES, LANDSCAPE_PINS, system);
+    if (!status)
+        status = system_create_pins(system);
+    if (status)
+        return status;
+    for (int i = 0; i < LANDSCAPE_NODES; i++)
+        system->m[i] = LANDSCAPE_MASS;
+    for (int s = 0; s < LANDSCAPE_PINS; s++) {
+        int pin = s + 1;
+        x[2 * pin] = s == 0 ? -1 : 1;
+        system->pinned[pin] = 1;
+        system->e[2 * s] = 0;
+        system->e[2 * s + 1] = pin;
+        system->l2[s] = LANDSCAPE_LENGTH * LANDSCAPE_LENGTH;
+        system->k[s] = LANDSCAPE_STIFFNESS;
+    }
+    return STATUS_OK;
+}
+
+Local landscape_at(const Simulation *simulation, unsigned parts, double h,
+                   Filter filter, const double at[2])
+{
+    const System *system = &simulation->system;
+    const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
+    double m = system->m[0], w = h * h, P = 0;
+    const double away[2] = {at[0] - o[0], at[1] - o[1]};
+    Local E = {.value = 0};
+    if (parts & PART_INERTIA)
+        E = (Local){0.5 * m * (away[0] * away[0] + away[1] * away[1]),
+                    {m * away[0], m * away[1]},
+                    {m, 0, m},
+                    0};
+    for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
+        const double *pin = pins + 2 * system->e[2 * s + 1];
+        const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
+        double l2 = system->l2[s], k = system->k[s], H[3];
+        double d2 = d[0] * d[0] + d[1] * d[1], strain = d2 / l2 - 1;
+        P += l2 * 0.5 * k * strain * strain;
+        for (int i = 0; i < 2; i++)
+            E.g[i] += w * 2 * k * ((d2 - l2) / l2) * d[i];
+        E.projected += spring_hessian(d, l2, k, filter, H);
+        for (int i = 0; i < 3; i++)
+            E.H[i] += w * H[i];
+    }
+    E.value += w * P;
+    return E;
+}
+
+Local descent_at(const Simulation *simulation, Filter filter, double x,
+                 double y)
+{
+    const double at[2] = {x, y};
+    if (simulation->descent.scalar)
+        return simulation->descent.scalar(simulation, x);
+    return landscape_at(simulation, simulation->exhibit.parts,
+                        simulation->run[0].h, filter, at);
+}
+
+/* Whether the parts on the map are all of E: then Newton is the one of the
+ * time integrators. */
+static bool is_whole(const Simulation *simulation)
+{
+    return simulation->run[0].newton && simulation->exhibit.parts == PART_BOTH;
+}
+
+double descent_value(const Simulation *simulation, double x, double y)
+{
+    double at[2 * LANDSCAPE_NODES], u[2 * LANDSCAPE_NODES] = {0};
+    if (!is_whole(simulation))
+        return descent_at(simulation, FILTER_NONE, x, y).value;
+    const Iterate *now = &simulation->run[0].newton->at;
+    memcpy(at, now->x, sizeof at);
+    at[0] = x;
+    at[1] = y;
+    u[0] = x - now->E.x_n[0];
+    u[1] = y - now->E.x_n[1];
+    return incremental_potential_value(&now->E, u, at);
+}
+
+int descent_bends_down(const Simulation *simulation, double x, double y)
+{
+    Local E = descent_at(simulation, FILTER_NONE, x, y);
+    if (simulation->descent.scalar)
+        return E.H[0] < 0 ? 2 : 0;
+    bool same = E.H[0] * E.H[2] - E.H[1] * E.H[1] > 0;
+    return same ? (E.H[0] > 0 ? 0 : 2) : 1;
+}
+
+/* ---- Newton -------------------------------------------------------------- */
+
+/* p = -H^-1 g; returns g . p. */
+static double newton_direction(const Local *E, bool scalar, double p[2])
+{
+    const double *g = E->g, *H = E->H;
+    double determinant = H[0] * H[2] - H[1] * H[1], trace = H[0] + H[2];
+    if (fabs(determinant) <= 1e-14 * trace * trace)
+        determinant = NAN; /* no inverse in the digits of a double */
+    p[0] = scalar ? -g[0] / H[0] : (H[1] * g[1] - H[2] * g[0]) / determinant;
+    p[1] = scalar ? 0 : (H[1] * g[0] - H[0] * g[1]) / determinant;
+    return g[0] * p[0] + g[1] * p[1];
+}
+
+double descent_direction(const Simulation *simulation, Filter filter,
+                         double p[2])
+{
+    const Descent *descent = &simulation->descent;
+    Local E =
+        descent_at(simulation, filter, descent->point[0], descent->point[1]);
+    return newton_direction(&E, descent->scalar, p);
+}
+
+/* On demand: two unknowns are projected at once. */
+static Filter own_filter(const Simulation *simulation)
+{
+    Filter filter = simulation->options.filter;
+    return filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
+}
+
+/* p, and what the loop tests there: of Algorithm 1 |g|, else |p|/h. */
+static void find_direction(Simulation *simulation, double p[2])
+{
+    Descent *descent = &simulation->descent;
+    const Newton *newton = simulation->run[0].newton;
+    Local E = descent_at(simulation, own_filter(simulation), descent->point[0],
+                         descent->point[1]);
+    descent->slope = newton_direction(&E, descent->scalar, p);
+    descent->residual = descent->by_gradient
+                            ? hypot(E.g[0], E.g[1])
+                            : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
+    if (!is_whole(simulation))
+        return;
+    memcpy(p, newton->at.p, 2 * sizeof *p);
+    descent->slope = newton->at.g[0] * p[0] + newton->at.g[1] * p[1];
+}
+
+/* How Algorithm 1 ends: at its test, without a direction, or above the start,
+ * which is no success where no line search held E down. */
+static Status end_of_search(const Simulation *simulation)
+{
+    const Descent *descent = &simulation->descent;
+    double room = 1e-12 * fabs(descent->began);
+    if (descent->residual <= simulation->options.tolerance)
+        return descent->value > descent->began + room ? STATUS_DIVERGED
+                                                      : STATUS_OK;
+    return isfinite(descent->slope) ? STATUS_RUNNING
+           : descent->scalar        ? STATUS_DIVERGED
+                                    : STATUS_SINGULAR;
+}
+
+/* Shows the iterate where the picture and the states look for it, and what the
+ * loop's test says of it if Newton (status) goes on.  Where the search failed
+ * its direction stays to be seen. */
+static Status show_iterate(Simulation *simulation, Status status)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    Descent *descent = &simulation->descent;
+    double p[2];
+    if (is_whole(simulation))
+        memcpy(run->x, run->newton->at.x, 2 * sizeof *run->x);
+    descent->value = descent_value(simulation, run->x[0], run->x[1]);
+    if (descent->scalar)
+        run->x[1] = descent->value;
+    memcpy(descent->point, run->x, sizeof descent->point);
+    find_direction(simulation, p);
+    bool own = descent->by_gradient || !is_whole(simulation);
+    if (own && (status == STATUS_RUNNING || status == STATUS_OK))
+        status = end_of_search(simulation);
+    simulation->done = status != STATUS_RUNNING;
+    bool none = status == STATUS_OK || !isfinite(descent->slope);
+    for (int i = 0; i < 2; i++)
+        descent->direction[i] = none ? 0 : p[i];
+    descent->slope = none ? 0 : descent->slope;
+    return status;
+}
+
+/* Adds the two positions to the record of an iteration. */
+static bool observe_landscape(void *user, const NewtonRecord *iteration)
+{
+    Simulation *simulation = user;
+    NewtonRecord record = *iteration;
+    record.step = simulation->steps + 1;
+    record.iteration = (int)simulation->steps;
+    memcpy(record.from, simulation->descent.point, sizeof record.from);
+    memcpy(record.to, simulation->run[0].newton->at.x, sizeof record.to);
+    if (simulation->descent.by_gradient)
+        record.residual = simulation->descent.residual;
+    return simulation_record(simulation, &record);
+}
+
+/* Algorithm 1 has a test of its own: Newton goes on until that is passed. */
+static void choose_test(Simulation *simulation)
+{
+    const Options *options = &simulation->options;
+    Descent *descent = &simulation->descent;
+    Newton *newton = simulation->run[0].newton;
+    bool plain = descent->scalar || (options->filter == FILTER_NONE &&
+                                     options->line_search == LINE_SEARCH_NONE);
+    if (plain != descent->by_gradient)
+        descent->count = 0; /* residuals of another kind */
+    descent->by_gradient = plain;
+    if (newton)
+        newton->settings.tolerance = plain ? 0 : options->tolerance;
+}
+
+/* Newton starts at the present iterate: x_n is moved there, x_tilde stays. */
+void aim_descent(Simulation *simulation)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    Descent *descent = &simulation->descent;
+    Status status = STATUS_RUNNING;
+    choose_test(simulation);
+    descent->began = INFINITY; /* until it is known */
+    if (run->newton) {
+        for (int i = 0; i < 2; i++)
+            run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
+        /* run->x follows the iterates */
+        memcpy(run->new_x, run->x, 2 * LANDSCAPE_NODES * sizeof *run->x);
+        status = newton_start(run->newton, run->new_x, NULL, run->h * run->h);
+    }
+    status = show_iterate(simulation,
+                          is_whole(simulation) ? status : STATUS_RUNNING);
+    simulation->status = simulation->done ? status : STATUS_OK;
+    if (!descent->scalar)
+        descent->began = descent->value;
+}
+
+/* E(x + alpha p) - E(x), as line_search calls it */
+static double descent_difference(const void *function, double alpha)
+{
+    const Simulation *simulation = function;
+    const Descent *descent = &simulation->descent;
+    return descent_value(simulation,
+                         descent->point[0] + alpha * descent->direction[0],
+                         descent->point[1] + alpha * descent->direction[1]) -
+           descent->value;
+}
+
+/* One update of x along p, with the line search if wanted. */
+static Status update_iterate(Simulation *simulation, NewtonRecord *record)
+{
+    const Descent *descent = &simulation->descent;
+    double *x = simulation->run[0].x;
+    Status status = STATUS_RUNNING;
+    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK &&
+        line_search_backtrack(descent_difference, simulation, &record->alpha,
+                              &record->trials))
+        status =
+            record->slope > 0 ? STATUS_NOT_DESCENT : STATUS_LINE_SEARCH_LIMIT;
+    record->change = descent_difference(simulation, record->alpha);
+    for (int i = 0; i < 2; i++)
+        x[i] += record->alpha * descent->direction[i];
+    status = show_iterate(simulation, status);
+    memcpy(record->to, x, sizeof record->to);
+    return status;
+}
+
+Status step_descent(Simulation *simulation)
+{
+    Descent *descent = &simulation->descent;
+    const double *at = descent->point;
+    choose_test(simulation);
+    if (is_whole(simulation)) {
+        Status status = newton_iterate(simulation->run[0].newton);
+        status = show_iterate(simulation, status);
+        return simulation->done ? status : STATUS_OK;
+    }
+    NewtonRecord record = {
+        .step = simulation->steps + 1,
+        .iteration = (int)simulation->steps,
+        .residual = descent->residual,
+        .alpha = 1,
+        .slope = descent->slope,
+        .factorised = true,
+        .projected =
+            descent_at(simulation, own_filter(simulation), at[0], at[1])
+                .projected,
+        .from = {at[0], at[1]}};
+    record.status = update_iterate(simulation, &record);
+    if (!simulation_record(simulation, &record))
+        return STATUS_INTERRUPTED;
+    return simulation->done ? record.status : STATUS_OK;
+}
+
+/* ---- the scenes ---------------------------------------------------------- */
+
+/* One run of this method that starts at x at rest, and aims. */
+static Status begin_descent(Simulation *simulation,
+                            const NewtonSettings *settings, const char *method,
+                            const double *x)
+{
+    const double v[2 * LANDSCAPE_NODES] = {0};
+    simulation->runs = 1;
+    Status status =
+        time_integrator_create(integrator_method(method), &simulation->system,
+                               settings, x, v, &simulation->run[0]);
+    if (status)
+        return status;
+    aim_descent(simulation);
+    return status_is_unconverged(simulation->status) ? STATUS_OK
+                                                     : simulation->status;
+}
+
+static Status create_scalar(Simulation *simulation,
+                            const NewtonSettings *settings, ScalarEnergy *f)
+{
+    Status status = system_create(1, 0, &simulation->system);
+    if (status)
+        return status;
+    simulation->system.m[0] = 1;
+    simulation->descent.scalar = f;
+    return begin_descent(simulation, settings, "forward-euler",
+                         simulation->options.start);
+}
+
+Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
+{
+    return create_scalar(simulation, settings, log_two_cosh);
+}
+
+Status create_tangent(Simulation *simulation, const NewtonSettings *settings)
+{
+    simulation->exhibit.target[0] = LINE_TARGET;
+    return create_scalar(simulation, settings, line_energy);
+}
+
+Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
+{
+    const Options *options = &simulation->options;
+    double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
+    NewtonSettings own = *settings;
+    own.observer = observe_landscape;
+    own.user = simulation;
+    Status status = fill_landscape(&simulation->system, x);
+    if (status)
+        return status;
+    memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
+           sizeof LANDSCAPE_TARGET);
+    simulation->exhibit.parts = PART_BOTH;
+    return begin_descent(simulation, &own, "backward-euler", x);
+}

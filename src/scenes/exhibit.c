@@ -1,0 +1,92 @@
+/* What the mouse drags and switches in the lecture's small scenes. */
+#include <math.h>
+#include <string.h>
+
+#include "scenes/small_scenes.h"
+
+int exhibit_handles(const Simulation *simulation,
+                    double at[SCENE_MAX_HANDLES][2])
+{
+    const TimeIntegrator *run = &simulation->run[0];
+    const char *grip = simulation->scene->grips;
+    int count = 0;
+    for (; grip[count]; count++)
+        for (int k = 0; k < 2; k++)
+            at[count][k] = grip[count] == 't'   ? simulation->exhibit.target[k]
+                           : grip[count] == 'v' ? run->x[k] + run->v[k]
+                                                : run->x[k];
+    return count;
+}
+
+/* A mass is put somewhere, with the velocity that it has, on a spring with
+ * none; or it gets the velocity from it to there.  All runs begin anew. */
+static void move_mass(Simulation *simulation, bool tip, const double to[2])
+{
+    TimeIntegrator *run = simulation->run;
+    double *began = simulation->exhibit.began; /* x and v */
+    for (int k = 0; k < 2; k++) {
+        began[k] = tip ? run->x[k] : to[k];
+        began[k + 2] = tip                          ? to[k] - run->x[k]
+                       : simulation->system.springs ? 0
+                                                    : run->v[k];
+    }
+    for (int r = 0; r < simulation->runs; r++) {
+        memcpy(run[r].x, began, 2 * sizeof *began);
+        memcpy(run[r].v, began + 2, 2 * sizeof *began);
+        run[r].remembers = false;
+    }
+}
+
+/* Newton begins anew where the iterate is, or where it is dragged to. */
+static void restart_descent(Simulation *simulation)
+{
+    simulation->descent.count = 0;
+    simulation->steps = simulation->unconverged = 0;
+    aim_descent(simulation);
+}
+
+void exhibit_drag(Simulation *simulation, int handle, double x, double y)
+{
+    const Scene *scene = simulation->scene;
+    char grip = scene->grips[handle];
+    bool line = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
+    const double to[2] = {x, line ? 0 : y};
+    if (!isfinite(to[0]) || !isfinite(to[1]))
+        return;
+    simulation->prediction = (Prediction){0};
+    if (scene->needs & NEEDS_TIME) {
+        move_mass(simulation, grip == 'v', to);
+        return;
+    }
+    memcpy(grip == 't' ? simulation->exhibit.target : simulation->run[0].x, to,
+           sizeof to);
+    if (scene->step == step_dial)
+        dial_restart(simulation);
+    else
+        restart_descent(simulation);
+}
+
+int exhibit_switches(const Simulation *simulation,
+                     Switch out[SCENE_MAX_SWITCHES])
+{
+    const char *const *part = simulation->scene->parts;
+    int count = 0;
+    for (; count < SCENE_MAX_SWITCHES && part[count]; count++)
+        out[count] =
+            (Switch){part[count], simulation->exhibit.parts >> count & 1};
+    return count;
+}
+
+/* Of two parts one stays.  What was minimised before is another function: its
+ * updates are no longer shown. */
+void exhibit_flip(Simulation *simulation, int number)
+{
+    const Scene *scene = simulation->scene;
+    unsigned parts = simulation->exhibit.parts ^ (1U << number);
+    bool none = parts == 0 && scene->parts[1];
+    simulation->exhibit.parts = none ? PART_BOTH ^ (1U << number) : parts;
+    simulation->descent.count = 0;
+    simulation->prediction = (Prediction){0};
+    if (scene->aim)
+        scene->aim(simulation);
+}

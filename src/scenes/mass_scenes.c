@@ -1,0 +1,157 @@
+#include "scenes/small_scenes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/pull_energy.h"
+
+static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
+static const double MASS_OMEGA2 = 1;                  /* 1/s^2, of arrows */
+static const double SPRING_MASS = 1;                  /* kg */
+static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
+static const double SPRING_LENGTH = 1;                /* m, at rest */
+
+void circle_defaults(Options *options)
+{
+    options->timestep = 0.02;
+}
+
+void mass_defaults(Options *options)
+{
+    options->timestep = 0.5;
+    options->start[0] = 1;
+}
+
+void spring_defaults(Options *options)
+{
+    options->timestep = 0.02;
+    options->start[0] = 0.6;
+    options->start[1] = 0.3;
+    options->tolerance = 1e-6; /* or a light pull would count as rest */
+}
+
+/* A mass with a = -omega2 x, from x with v. */
+static Status create_orbit(Simulation *simulation,
+                           const NewtonSettings *settings, double omega2,
+                           const double x[2], const double v[2])
+{
+    static const char *const names[SIMULATION_MAX_RUNS] = {
+        "forward-euler", "symplectic-euler", "backward-euler"};
+    const IntegratorMethod *chosen = simulation->options.integrator;
+    Status status = system_create(1, 0, &simulation->system);
+    if (status)
+        return status;
+    simulation->system.m[0] = 1;
+    status = central_field_set(&simulation->system, omega2);
+    simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
+    memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
+    memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);
+    for (int i = 0; i < simulation->runs && !status; i++)
+        status = time_integrator_create(
+            chosen ? chosen : integrator_method(names[i]), &simulation->system,
+            settings, x, v, &simulation->run[i]);
+    return status;
+}
+
+Status create_circle(Simulation *simulation, const NewtonSettings *settings)
+{
+    const double x[2] = {1, 0}, v[2] = {0, CIRCLE_OMEGA};
+    return create_orbit(simulation, settings, CIRCLE_OMEGA * CIRCLE_OMEGA, x,
+                        v);
+}
+
+Status create_mass(Simulation *simulation, const NewtonSettings *settings)
+{
+    const double v[2] = {0, 1};
+    return create_orbit(simulation, settings, MASS_OMEGA2,
+                        simulation->options.start, v);
+}
+
+bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
+{
+    const TimeIntegrator *integrator = &simulation->run[run];
+    const char *name = integrator->method->name;
+    bool forward = strcmp(name, "forward-euler") == 0;
+    bool symplectic = strcmp(name, "symplectic-euler") == 0;
+    bool backward = strcmp(name, "backward-euler") == 0;
+    double h = integrator->h;
+    step->by_old_v = forward;
+    for (int i = 0; i < 2; i++) {
+        double x = integrator->x[i], v = integrator->v[i];
+        double a = -MASS_OMEGA2 * x, new_v = v + h * a;
+        if (backward) /* v' = v - h omega2 (x + h v'), solved for v' */
+            new_v = new_v / (1 + h * h * MASS_OMEGA2);
+        step->x[i] = x;
+        step->v[i] = v;
+        step->a[i] = a;
+        step->new_v[i] = new_v;
+        step->new_x[i] = x + h * (forward ? v : new_v);
+        step->new_a[i] = -MASS_OMEGA2 * step->new_x[i];
+    }
+    return forward || symplectic || backward;
+}
+
+void mass_exact(const Simulation *simulation, double t, double x[2])
+{
+    const double *began = simulation->exhibit.began, omega = sqrt(MASS_OMEGA2);
+    for (int i = 0; i < 2; i++)
+        x[i] =
+            began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
+}
+
+/* Ascending by insertion. */
+static void sort_four(double value[4])
+{
+    for (int i = 1; i < 4; i++)
+        for (int j = i; j > 0 && value[j] < value[j - 1]; j--) {
+            double swap = value[j];
+            value[j] = value[j - 1];
+            value[j - 1] = swap;
+        }
+}
+
+void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
+{
+    double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
+    double s = (d2 - l2) / l2;
+    *facts = (SpringFacts){
+        .length = r,
+        .strain = s,
+        .energy = 0.5 * l2 * k * s * s,
+        .force = {-2 * k * s * d[0], -2 * k * s * d[1]},
+        .along = 2 * k / l2 * (3 * d2 - l2),
+        .across = 2 * k / l2 * (d2 - l2),
+        .root_energy = 2 * k * (r - l) * (r - l),
+        .root_along = 4 * k,
+        .root_across = 4 * k * (1 - l / r),
+    };
+    const double block[4] = {0, 0, 2 * facts->along, 2 * facts->across};
+    memcpy(facts->block, block, sizeof block);
+    sort_four(facts->block);
+    for (int i = 0; i < 4; i++)
+        facts->projected[i] = fmax(facts->block[i], 0);
+    sort_four(facts->projected);
+}
+
+Status create_spring(Simulation *simulation, const NewtonSettings *settings)
+{
+    const Options *options = &simulation->options;
+    System *system = &simulation->system;
+    const double x[4] = {options->start[0], options->start[1], 0, 0};
+    const double v[4] = {0};
+    Status status = system_create(2, 1, system);
+    if (!status)
+        status = system_create_pins(system);
+    if (status)
+        return status;
+    system->m[0] = system->m[1] = SPRING_MASS;
+    system->pinned[1] = 1;
+    system->e[0] = 0;
+    system->e[1] = 1;
+    system->l2[0] = SPRING_LENGTH * SPRING_LENGTH;
+    system->k[0] = SPRING_STIFFNESS;
+    simulation->runs = 1;
+    return time_integrator_create(options->integrator ? options->integrator
+                                                      : &integrator_methods[0],
+                                  system, settings, x, v, &simulation->run[0]);
+}
