@@ -79,8 +79,9 @@ enum { OPTIONS_MAX_PANES = 6 };
 
 typedef enum OptionKind {
     OPTION_SWITCH, /* bool; takes no value */
-    OPTION_WHOLE,  /* int or long [count] */
     OPTION_NUMBER, /* double [count] */
+    OPTION_WHOLE,  /* int [count] */
+    OPTION_LONG,   /* long */
     OPTION_NAME,   /* int: the place of one of the row's names */
     OPTION_METHOD, /* an integrator */
     OPTION_TEXT,   /* a file, a folder: not empty */
@@ -94,7 +95,7 @@ typedef struct OptionRow {
     const char *value; /* what stands for the value in --help */
     const char *help;  /* what it is */
     OptionKind kind;
-    size_t offset, size;      /* of its field in Options */
+    size_t offset;            /* of its field in Options */
     int count;                /* numbers of one value; 0: one */
     char between;             /* what stands between them; 0: a comma */
     int times;                /* more than 1: it may be given so often; the */
@@ -168,7 +169,7 @@ Status options_parse(int argc, char **argv, Options *options, char *message,
 Status options_parse_pane(int argc, char **argv, int pane, Options *options,
                           char *message, size_t size);
 
-/* "2 panes: --gravity 0 and -9.81": what the lists of a line that was read
+/* "2 panes: --gravity 0,9.81": what the lists of a line that was read
  * make, in one line.  text [size] out */
 void options_panes(int argc, char **argv, char *text, size_t size);
 

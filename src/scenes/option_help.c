@@ -25,7 +25,7 @@ static void help_line(Help *help, const char *start)
  * where they do not fit. */
 static void help_words(Help *help, const char *words)
 {
-    while (words && *words) {
+    while (*words) {
         int length = (int)strcspn(words, " ");
         if (help->column + 1 + length > HELP_COLUMNS)
             help_line(help, "");
@@ -44,17 +44,17 @@ static void help_words(Help *help, const char *words)
 static void help_option(Help *help, const OptionRow *row)
 {
     Text start, text, list = {""};
-    const char *name, *what = row->help ? row->help : "";
+    const char *name;
     bool ranged = row->kind == OPTION_WHOLE && row->high <= 4096;
-    bool standard = row->kind != OPTION_TEXT && !row->count && row->unit &&
-                    row->standard >= row->low;
+    bool standard =
+        row->high > row->low && !row->count && row->standard >= row->low;
     snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
              row->value ? " " : "", row->value ? row->value : "",
              row->letter ? ", -" : "", &row->letter);
     for (int i = 0; option_is_named(row) && (name = option_name(row, i)); i++)
         add_name(&list, "", name);
-    snprintf(text.text, sizeof text.text, "%s%s%s", what,
-             row->unit && row->unit[0] ? ", " : "", row->unit ? row->unit : "");
+    snprintf(text.text, sizeof text.text, "%s%s%s", row->help,
+             row->unit[0] ? ", " : "", row->unit);
     help_line(help, start.text);
     help_words(help, text.text);
     help_words(help, list.text);

@@ -339,18 +339,11 @@ void options_panes(int argc, char **argv, char *text, size_t size)
     for (int i = 0; i < OPTIONS_MOST; i++)
         panes *= count_values(line.list[i]);
     size_t used = (size_t)snprintf(text, size, "%d panes:", panes);
-    for (int i = 0; i < OPTIONS_MOST; i++)
-        for (int k = 0; line.list[i] && k < count_values(line.list[i]); k++) {
-            bool last = k == count_values(line.list[i]) - 1;
-            Text value = list_value(line.list[i], k), before;
-            snprintf(before.text, sizeof before.text, "%s --%s", first,
-                     option_rows[i].name);
-            used += (size_t)snprintf(text + used, size > used ? size - used : 0,
-                                     "%s %s",
-                                     k == 0 ? before.text
-                                     : last ? " and"
-                                            : ",",
-                                     typed(value.text).text);
+    for (int i = 0; i < OPTIONS_MOST && used < size; i++)
+        if (line.list[i]) {
+            used +=
+                (size_t)snprintf(text + used, size - used, "%s --%s %s", first,
+                                 option_rows[i].name, typed(line.list[i]).text);
             first = ";";
         }
 }

@@ -194,7 +194,7 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
             *comma = '.';
         number[i] = number_meant(row, at);
         if (!(number[i] >= row->low && number[i] <= row->high) ||
-            (row->kind == OPTION_WHOLE && number[i] != floor(number[i])))
+            (row->kind != OPTION_NUMBER && number[i] != floor(number[i])))
             return false;
         at = next + 1;
     }
@@ -219,26 +219,11 @@ static Status refuse_number(const OptionRow *row, int count, const char *text,
 {
     return complain(complaint, "--%s: '%s' is not %s%s from %s to %s%s%s",
                     row->name, typed(text).text, count > 1 ? row->value : "",
-                    count > 1                   ? ", each"
-                    : row->kind == OPTION_WHOLE ? "a whole number"
-                                                : "a number",
+                    count > 1                    ? ", each"
+                    : row->kind == OPTION_NUMBER ? "a number"
+                                                 : "a whole number",
                     number_text(row->low).text, number_text(row->high).text,
                     row->unit[0] ? ", in " : "", row->unit);
-}
-
-/* Where the next value of a row is stored; NULL: there were too many. */
-static char *next_field(const OptionRow *row, Options *options)
-{
-    char *field = (char *)options + row->offset;
-    int used = 0;
-    if (row->times < 2)
-        return field;
-    memcpy(&used, (char *)options + row->counter, sizeof used);
-    if (used >= row->times)
-        return NULL;
-    field += row->size / (size_t)row->times * (size_t)used++;
-    memcpy((char *)options + row->counter, &used, sizeof used);
-    return field;
 }
 
 /* Where a scene is a curve, its start may be x alone. */
@@ -247,27 +232,20 @@ static Status apply_numbers(const OptionRow *row, const char *text,
 {
     enum { NUMBERS_MOST = 4 };
     double number[NUMBERS_MOST] = {0};
-    int most = row->count ? row->count : 1, count = most;
+    int most = row->count ? row->count : 1, count = most, used = 0;
     bool curve = options->scene->needs & NEEDS_ONE_NUMBER;
     if (row->needs == NEEDS_START && curve && !strchr(text, ','))
         count = 1;
     if (!read_numbers(row, count, text, number))
         return refuse_number(row, count, text, complaint);
-    char *field = next_field(row, options);
-    if (!field)
+    int *counter = (int *)(void *)((char *)options + row->counter);
+    if (row->times && *counter >= row->times)
         return complain(complaint, "--%s: '%s' is one too many: at most %d",
                         row->name, typed(text).text, row->times);
-    for (int i = 0; i < most; i++) {
-        const int whole = (int)number[i];
-        const long large = (long)number[i];
-        if (row->kind == OPTION_NUMBER)
-            memcpy(field + (size_t)i * sizeof *number, &number[i],
-                   sizeof *number);
-        else if (!row->count && row->size == sizeof large)
-            memcpy(field, &large, sizeof large);
-        else
-            memcpy(field + (size_t)i * sizeof whole, &whole, sizeof whole);
-    }
+    if (row->times)
+        used = (*counter)++;
+    for (int i = 0; i < most; i++)
+        option_put(row, used * most + i, number[i], options);
     return STATUS_OK;
 }
 
@@ -291,18 +269,15 @@ static Status apply_name(const OptionRow *row, const char *text,
         text = word + length + 3;
     for (int i = 0; (name = option_name(row, i)); i++) {
         if (strcmp(name, text) == 0) {
-            if (row->kind == OPTION_METHOD)
-                options->integrator = &integrator_methods[i];
-            else
-                memcpy((char *)options + row->offset, &i, sizeof i);
+            option_put(row, 0, i, options);
             return STATUS_OK;
         }
         add_name(&list, "", name);
         look_at_name(&near, "", name);
     }
     if (row->kind == OPTION_PAGE)
-        snprintf(list.text, sizeof list.text, "1 ... %d, or their names",
-                 lecture_count());
+        snprintf(list.text, sizeof list.text,
+                 "the pages from 1 to %d, their names", lecture_count());
     return complain(complaint, "--%s: '%s' is none of: %s%s%s%s", row->name,
                     typed(text).text, list.text,
                     near.name ? "; did you mean " : "",
@@ -312,16 +287,14 @@ static Status apply_name(const OptionRow *row, const char *text,
 Status option_apply(const OptionRow *row, const char *text, Options *options,
                     const Complaint *complaint)
 {
-    void *field = (char *)options + row->offset;
-    const bool yes = true;
     switch (row->kind) {
     case OPTION_SWITCH:
-        memcpy(field, &yes, sizeof yes);
+        option_put(row, 0, 1, options);
         return STATUS_OK;
     case OPTION_TEXT:
         if (text[0] == '\0')
             return complain(complaint, "--%s: the name is empty", row->name);
-        memcpy(field, &text, sizeof text);
+        memcpy((char *)options + row->offset, &text, sizeof text);
         return STATUS_OK;
     case OPTION_NAME:
     case OPTION_METHOD:

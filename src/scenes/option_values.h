@@ -31,6 +31,9 @@ void add_name(Text *list, const char *before, const char *name);
 /* Name i of a row of names, methods or pages; NULL behind the last. */
 const char *option_name(const OptionRow *row, int i);
 
+/* Number i of its field. */
+void option_put(const OptionRow *row, int i, double number, Options *options);
+
 /* The slides' numbers. */
 Options option_defaults(void);
 

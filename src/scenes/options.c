@@ -35,29 +35,25 @@ static const char *nothing_flows(const Options *options)
                               : "the springs do not flow; --yield lets them";
 }
 
-/* What a row begins with: its name, what stands for the value, what it is, its
- * field; then, of numbers, the unit, the slides' number, from ... to. */
-#define FIELD(field)                                                           \
-    .offset = offsetof(Options, field), .size = sizeof((Options){0}.field)
-#define SECTION(text)              .name = "", .help = (text)
-#define VALUE(word, letters, text) .name = word, .value = letters, .help = text
-#define RANGE(u, number, from, to)                                             \
-    .unit = u, .standard = number, .low = from, .high = to
-#define NUMBER(word, letters, text, field, u, number, from, to)                \
-    VALUE(word, letters, text), .kind = OPTION_NUMBER, FIELD(field),           \
-                                RANGE(u, number, from, to)
+/* What a row begins with: its kind, name, what stands for the value, what it
+ * is, its field; then, of numbers, the unit, the slides' number, from ... to.
+ */
+#define SECTION(text) .name = "", .help = text
+#define VALUE(sort, word, letters, text, field, u)                             \
+    .name = word, .value = letters, .help = text, .kind = OPTION_##sort,       \
+    .offset = offsetof(Options, field), .unit = u
+#define RANGE(sort, word, letters, text, field, u, number, from, to)           \
+    VALUE(sort, word, letters, text, field, u), .standard = number,            \
+                                                .low = from, .high = to
+#define NUMBER(...) RANGE(NUMBER, __VA_ARGS__)
 #define NUMBERS(word, letters, text, field, u, many, from, to)                 \
     NUMBER(word, letters, text, field, u, 0, from, to), .count = many
-#define WHOLE(word, letters, text, field, number, from, to)                    \
-    VALUE(word, letters, text), .kind = OPTION_WHOLE, FIELD(field),            \
-                                RANGE("", number, from, to)
 #define NAME(word, letters, text, field, number, all)                          \
-    VALUE(word, letters, text), .kind = OPTION_NAME, FIELD(field),             \
-                                .standard = number, .names = all
+    VALUE(NAME, word, letters, text, field, ""), .standard = number,           \
+                                                 .names = all
 #define TEXT(word, letters, text, field)                                       \
-    VALUE(word, letters, text), .kind = OPTION_TEXT, FIELD(field)
-#define SWITCH(word, text, field)                                              \
-    VALUE(word, NULL, text), .kind = OPTION_SWITCH, FIELD(field)
+    VALUE(TEXT, word, letters, text, field, "")
+#define SWITCH(word, text, field) VALUE(SWITCH, word, NULL, text, field, "")
 
 /* What it may go on with: what the scene must have, how often it may be given,
  * a list of values (with what the window calls it); and in the row of numbers:
@@ -72,7 +68,7 @@ static const char *nothing_flows(const Options *options)
 /* No range lets a product of two numbers become infinite, or lose digits. */
 const OptionRow option_rows[] = {
     {SECTION("the square:")},
-    {WHOLE("segments", "N", "springs along a side", segments, 4, 1,
+    {RANGE(WHOLE, "segments", "N", "springs along a side", segments, "", 4, 1,
            SQUARE_MESH_MAX_SEGMENTS),
      NEEDS(MESH), LIST("segments"), ROW(4, 4, 1)},
     {NUMBER("side", "L", "its length", side, "m", 1, 1e-30, 1e30), NEEDS(MESH),
@@ -143,29 +139,29 @@ const OptionRow option_rows[] = {
     {SECTION("how it moves:")},
     {NUMBER("timestep", "H", "h", timestep, "s", 0.004, 1e-30, 1e30),
      .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, ROW(1, 8, 0)},
-    {VALUE("integrator", "I", NULL), .kind = OPTION_METHOD, FIELD(integrator),
-     NEEDS(TIME), LIST("method"), LIVE, ROW(8, 16, 0)},
+    {VALUE(METHOD, "integrator", "I", "", integrator, ""), NEEDS(TIME),
+     LIST("method"), LIVE, ROW(8, 16, 0)},
     {NUMBER("tolerance", "T", "the search ends at |p|/h <= T", tolerance, "m/s",
             1e-2, 1e-300, 1e300),
      NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
-    {NAME("solver", "S", NULL, solver, SOLVER_AUTO, solver_names), NEEDS(MESH),
+    {NAME("solver", "S", "", solver, SOLVER_AUTO, solver_names), NEEDS(MESH),
      LIST("solver"), LIVE, ROW(11, 15, 0)},
     {SWITCH("minimum", "a step does not end on a saddle", minimum),
      NEEDS(SPRINGS)},
     {NAME("filter", "F", "the projection:", filter, FILTER_CLAMP, filter_names),
      NEEDS(SPRINGS), LIST("projection"), LIVE, ROW(9, 9, 0)},
-    {NAME("line-search", "L", NULL, line_search, LINE_SEARCH_BACKTRACK,
+    {NAME("line-search", "L", "", line_search, LINE_SEARCH_BACKTRACK,
           search_names),
      NEEDS(MINIMUM), LIST("line search"), LIVE, ROW(10, 9, 0)},
 
     {SECTION("how long, and what is left behind:")},
-    {WHOLE("steps", "N", "then end; without a screen after 100", steps, -1, 0,
-           1e15)},
+    {RANGE(LONG, "steps", "N", "then end; without a screen after 100", steps,
+           "", -1, 0, 1e15)},
     {SWITCH("paused", "at the start", paused)},
     {NUMBER("speed", "S", "steps a frame, 60 frames a second", speed, "", 0,
             1.0 / 64, 1024)},
-    {WHOLE("size", "WxH", "of the window or the frames, pixels", size, 0, 16,
-           8192),
+    {RANGE(WHOLE, "size", "WxH", "of the window or the frames, pixels", size,
+           "", 0, 16, 8192),
      .count = 2, .between = 'x'},
     {SWITCH("fullscreen", "F11 or Esc leaves it", fullscreen)},
     {SWITCH("headless", "no window even where there is a screen", headless)},
@@ -176,8 +172,8 @@ const OptionRow option_rows[] = {
     {TEXT("film", "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif",
           film)},
     {TEXT("script", "FILE", "commands, each line: STEP COMMAND", script)},
-    {VALUE("lecture", "[PAGE]", "page by page; Page Down is the next one"),
-     .kind = OPTION_PAGE, FIELD(page)},
+    {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
+           page, "")},
     {TEXT("handout", "FILE", "all pages as one HTML file, and end", handout)},
     {SWITCH("quiet", "no summary", quiet)},
     {SWITCH("help", "this", help), .letter = 'h'},
@@ -243,21 +239,30 @@ static double option_get(const OptionRow *row, const Options *options)
     return whole;
 }
 
+void option_put(const OptionRow *row, int i, double number, Options *options)
+{
+    char *field = (char *)options + row->offset;
+    const int whole = (int)number;
+    const long large = (long)number;
+    if (row->kind == OPTION_METHOD)
+        options->integrator = &integrator_methods[whole];
+    else if (row->kind == OPTION_SWITCH)
+        *(bool *)(void *)field = true;
+    else if (row->kind == OPTION_NUMBER)
+        memcpy(field + (size_t)i * sizeof number, &number, sizeof number);
+    else if (row->kind == OPTION_LONG)
+        memcpy(field, &large, sizeof large);
+    else
+        memcpy(field + (size_t)i * sizeof whole, &whole, sizeof whole);
+}
+
+/* Whatever is no number begins as nothing; which integrator, the scene says. */
 Options option_defaults(void)
 {
     Options options = {.cell_stiffness = 0.5, .panes = 1};
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        char *field = (char *)&options + row->offset;
-        const int whole = (int)row->standard;
-        const long large = (long)row->standard;
-        if (row->kind == OPTION_NUMBER && !row->count)
-            memcpy(field, &row->standard, sizeof row->standard);
-        else if (row->kind == OPTION_WHOLE && !row->count &&
-                 row->size == sizeof large)
-            memcpy(field, &large, sizeof large);
-        else if (row->kind == OPTION_WHOLE || row->kind == OPTION_NAME)
-            memcpy(field, &whole, sizeof whole);
-    }
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->standard != 0)
+            option_put(row, 0, row->standard, &options);
     return options;
 }
 
@@ -275,12 +280,10 @@ void option_value(const OptionRow *row, const Options *options, char *text,
 
 void option_unit(const OptionRow *row, char *text, size_t size)
 {
-    size_t length = strcspn(row->unit ? row->unit : "", " ");
-    bool square = length > 2 && row->unit[length - 2] == '^';
-    snprintf(text, size, "%.*s%s", (int)length - 2 * square,
-             row->unit ? row->unit : "", square ? "\u00b2" : "");
-    if (strcmp(text, "degrees") == 0)
-        snprintf(text, size, "\u00b0");
+    int length = (int)strcspn(row->unit, " ^");
+    bool angle = strcmp(row->unit, "degrees") == 0;
+    snprintf(text, size, "%.*s%s", length, angle ? "\u00b0" : row->unit,
+             row->unit[length] == '^' ? "\u00b2" : "");
 }
 
 /* What goes by factors does not go up from 0. */
@@ -336,5 +339,5 @@ void option_paced(const OptionRow *row, const Options *options, double paces,
     value = row->pace > 0 ? (rint(value / row->pace) + rint(paces)) * row->pace
                           : factor_paced(value, paces);
     value = fmax(value, row->low);
-    snprintf(text, size, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g", value);
+    snprintf(text, size, row->kind == OPTION_NUMBER ? "%.3g" : "%.0f", value);
 }

@@ -152,8 +152,8 @@ static void summaries_tell_what_was_done(void **unused)
                              "    2\nsimulated time      0.02 s\n"));
     run("--headless --steps 1 --gravity 0,9.81 --segments 1,2,3");
     check_code(0);
-    CHECK(strcmp(result.error, "6 panes: --segments 1, 2 and 3; --gravity 0 "
-                               "and 9.81\n") == 0);
+    CHECK(strcmp(result.error, "6 panes: --segments 1,2,3; --gravity "
+                               "0,9.81\n") == 0);
     run("--headless --steps 5 --quiet");
     check_code(0);
     CHECK(result.out[0] == '\0' && result.error[0] == '\0');

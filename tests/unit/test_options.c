@@ -322,7 +322,7 @@ static const char *const bad_lines[][4] = {
     {"landscape --start 3", "--start: '3'", "X,Y, each from", "in m"},
     {"overshoot --start x", "--start: 'x'", "-1e300 to 1e300"},
     {"--lecture overshot", "--lecture: 'overshot'", "mean overshoot"},
-    {"--lecture 99", "--lecture: '99'", "1 ... 32"},
+    {"--lecture 99", "--lecture: '99'", "from 1 to 32"},
     {"--lecture 2 drop", "--lecture", "'drop'", "scenes of their own"},
     {"--lecture 2 --side 2", "--side", "pages say that"},
     {"--handout h --quiet", "--handout", "--quiet says nothing"},
