@@ -32,9 +32,4 @@ void crew_begin(Crew *crew);
 void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
               double cost);
 
-/* The same where some items take much longer than others: they are taken one by
- * one, and waiting for the last of them is no time lost. */
-void crew_run_uneven(Crew *crew, CrewWork *work, const void *job, int count,
-                     double cost);
-
 #endif

@@ -79,7 +79,7 @@ typedef struct NewtonCounters {
     long trials;     /* energies looked at by the line search */
     long skipped;    /* tests passed by the gradient's size alone */
     long cycles;     /* of multigrid */
-    long local;      /* its iterations in windows */
+    long local;      /* its sweeps of tiles where folds run */
     long saddles;    /* left along negative curvature */
     long taken_back; /* minimisations that multigrid began, but did not end */
     double seconds_assembly, seconds_factor, seconds_solve, seconds_search;

@@ -34,7 +34,6 @@ struct Crew {
     double looked, cpu; /* s, clocks at the last look */
     double waited;      /* s, since then, for a chunk of the second thread */
     double alone_until; /* s */
-    int threads;        /* of the last loop */
 };
 
 static double clock_seconds(clockid_t clock)
@@ -202,16 +201,12 @@ static double wait_for_items(Crew *crew, int items)
     return clock_seconds(CLOCK_MONOTONIC) - start;
 }
 
-/*   chunk   items taken at once
- *   uneven  waiting for the last of them is no time lost */
-static void run_chunks(Crew *crew, CrewWork *work, const void *job, int count,
-                       int chunk, bool uneven, double cost)
+void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
+              double cost)
 {
     if (!crew || cost < WORTH_SHARING || count < 2 ||
         (crew->alone_until > 0 &&
          clock_seconds(CLOCK_MONOTONIC) < crew->alone_until)) {
-        if (crew)
-            crew->threads = 1;
         work(job, 0, count);
         return;
     }
@@ -219,33 +214,18 @@ static void run_chunks(Crew *crew, CrewWork *work, const void *job, int count,
         crew->alone_until = 0;
         crew_begin(crew);
     }
-    crew->threads = 2;
     uint32_t loop = current_loop(crew) + 1;
     atomic_store(&crew->ticket, (uint_least64_t)loop << 32 | 0xffffffff);
     atomic_store(&crew->work, work);
     atomic_store(&crew->job, job);
     atomic_store(&crew->count, count);
-    atomic_store(&crew->chunk, chunk);
+    atomic_store(&crew->chunk, (count + CHUNKS - 1) / CHUNKS);
     atomic_store(&crew->done, 0);
     loop++;
     atomic_store(&crew->ticket, (uint_least64_t)loop << 32);
     if (cost > WORTH_WAKING && atomic_load(&crew->asleep))
         wake_crew(crew);
     int mine = take_chunks(crew, loop, false);
-    double waited = wait_for_items(crew, count - mine);
-    crew->waited += uneven ? 0 : waited;
+    crew->waited += wait_for_items(crew, count - mine);
     crew_look(crew);
-}
-
-void crew_run(Crew *crew, CrewWork *work, const void *job, int count,
-              double cost)
-{
-    int chunk = (count + CHUNKS - 1) / CHUNKS;
-    run_chunks(crew, work, job, count, chunk, false, cost);
-}
-
-void crew_run_uneven(Crew *crew, CrewWork *work, const void *job, int count,
-                     double cost)
-{
-    run_chunks(crew, work, job, count, 1, true, cost);
 }

@@ -149,8 +149,8 @@ static double relax_active(Tiles *tiles, double activity, int *visits)
             for (int j = colour % 2; j < tiles->wide; j += 2)
                 if (tiles->activity[i * tiles->wide + j] <= activity)
                     tiles->chosen[count++] = i * tiles->wide + j;
-        crew_run_uneven(tiles->grid->crew, relax_chosen, tiles, count,
-                        count * TILE_COST);
+        crew_run(tiles->grid->crew, relax_chosen, tiles, count,
+                 count * TILE_COST);
         for (int t = 0; t < count; t++) {
             spread_activity(tiles, tiles->chosen[t]);
             change += tiles->change[tiles->chosen[t]];
