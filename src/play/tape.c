@@ -249,7 +249,13 @@ void tape_add(Tape *tape, const Newton *newton, const NewtonRecord *made)
     if (at_rest || made->status == STATUS_OK)
         tape->passed =
             newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
-    if (made->iteration < 0 || tape->size == 0 || !make_room(tape))
+    if (tape->size == 0 || !make_room(tape))
+        return;
+    if (at_rest && made->status == STATUS_OK) {
+        keep_next(tape, newton);
+        tape->ended = true;
+    }
+    if (made->iteration < 0)
         return;
     const NewtonRecord line = as_line(made), *record = &line;
     for (int i = 0; i < tape->size && !tape->tilde; i++)
@@ -312,7 +318,7 @@ Status tape_end(Tape *tape, const Options *options)
     add_place(tape, 0, LINE_START, 0);
     for (int i = 0; i < tape->count; i++)
         add_round(tape, options, i);
-    if (tape->ended && tape->count > 0) {
+    if (tape->ended) {
         add_place(tape, tape->count, LINE_DO, 0);
         if (options->filter != FILTER_NONE && !tape->passed)
             add_place(tape, tape->count, LINE_PROJECT, 0);
@@ -352,15 +358,21 @@ static void trace_last(const Tape *tape, Trace *trace)
 {
     trace->iteration = tape->count - 1;
     trace->passed = tape->passed;
+    if (tape->ended) {
+        trace->residual = tape->round[tape->count].residual;
+        trace->kind = tape->round[tape->count].kind;
+    }
     if (tape->count == 0)
         return;
     const TapeRound *round = &tape->round[tape->count - 1];
     const NewtonRecord *record = &tape->record[tape->count - 1];
     trace->x = round->x;
     trace->p = round->p;
-    trace->residual = round[tape->ended].residual;
-    trace->kind = round[tape->ended].kind;
     trace->given_up = !tape->ended;
+    if (trace->given_up) {
+        trace->residual = round->residual;
+        trace->kind = round->kind;
+    }
     trace->slope = round->slope;
     trace->projected = round->projected;
     trace->trials = record->trials;

@@ -492,6 +492,30 @@ static void an_update_line_by_line(void **unused)
     end();
 }
 
+/* A step that its start already passes shows the residual that passed, in its
+ * summary and line by line: |p|/h = 1.5171e-4 m/s where h is 1000 s. */
+static void a_step_without_updates_has_a_residual(void **unused)
+{
+    (void)unused;
+    begin("square --timestep 1000");
+    obey_all((const char *const[]){"next", NULL});
+    player_fill(&player);
+    const Trace *trace = player.show.pane[0].trace;
+    CHECK(trace->updates == 0 && !trace->passed && !trace->given_up);
+    CHECK_NEAR(trace->residual, 1.5171e-4, 1e-8);
+    obey_all((const char *const[]){"back", "finer", "finer", "next", NULL});
+    static const Line order[] = {LINE_START, LINE_DO,   LINE_PROJECT,
+                                 LINE_SOLVE, LINE_TEST, LINE_END};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        player_fill(&player);
+        trace = player.show.pane[0].trace;
+        CHECK(trace->line == order[i]);
+        CHECK_NEAR(trace->residual, i < 3 ? 0 : 1.5171e-4, 1e-8);
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    }
+    end();
+}
+
 /* A step whose line search finds nothing, line by line: each line says what is
  * true of itself, and the verdict comes where the search gives up.  The test
  * after it shows the residual as it is, above the tolerance. */
@@ -1157,6 +1181,7 @@ int main(void)
         cmocka_unit_test(a_failure_shows_the_last_good_state),
         cmocka_unit_test(up_to_six_panes),
         cmocka_unit_test(an_update_line_by_line),
+        cmocka_unit_test(a_step_without_updates_has_a_residual),
         cmocka_unit_test(a_failed_search_is_no_convergence),
         cmocka_unit_test(captions_are_those_of_the_method),
         cmocka_unit_test(a_resting_mouse_asks_nothing),
