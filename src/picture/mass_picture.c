@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -12,6 +13,134 @@ enum { MASS_CORNERS = 120 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double MASS_TURN = 6.283185307179586;
+
+Colour circle_colour(const Simulation *simulation, int run)
+{
+    return colour_of_method(simulation->run[run].method->name);
+}
+
+/* Runs side by side have the colours of their methods. */
+static Colour run_colour(const Simulation *simulation, int run, Colour alone)
+{
+    return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
+}
+
+/* Where the runs have been; with a disc for each step. */
+static void draw_trails(Paper *paper, const Stage *stage, const Pane *pane,
+                        bool steps)
+{
+    const Trail *trail = pane->trail;
+    for (int r = 0; trail && r < pane->simulation->runs; r++)
+        for (int i = 0; i < trail->count; i++) {
+            const double *at = trail->point[r][i];
+            Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
+                                  : circle_colour(pane->simulation, r);
+            if (steps)
+                stage_disc(paper, stage, at, 3.5 * paper->unit, colour);
+            if (i > 0)
+                stage_line(paper, stage, trail->point[r][i - 1], at,
+                           steps ? 1.6 : 2.2, colour);
+        }
+}
+
+static double mass_energy(const double *x, const double *v)
+{
+    return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
+}
+
+/* The trail of each run; on the circle its radius, else its energy. */
+static void mass_sample(const Simulation *simulation, History *history,
+                        Trail *trail)
+{
+    bool circle = simulation->scene->picture == PICTURE_CIRCLE;
+    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
+    history->series = simulation->runs;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = simulation->run[r].x, *v = simulation->run[r].v;
+        history->name[r] = simulation->run[r].method->label;
+        value[r] = circle ? hypot(x[0], x[1]) : mass_energy(x, v);
+        memcpy(point + 2 * r, x, 2 * sizeof *x);
+    }
+    history_add(history, simulation_time(simulation), value);
+    if (trail)
+        trail_add(trail, simulation->runs, point);
+}
+
+/* ---- the circle ---------------------------------------------------------- */
+
+/* The exact path and its radius. */
+static void draw_exact_circle(Paper *paper, const Stage *stage)
+{
+    const double middle[2] = {0, 0}, start[2] = {1, 0};
+    double at[2];
+    stage_ring(paper, stage, middle, stage->camera.scale[0], 5, COLOUR_GRID);
+    stage_line(paper, stage, middle, start, 1.2, COLOUR_GREY);
+    stage_disc(paper, stage, middle, 3.5 * paper->unit, COLOUR_GREY);
+    const double half[2] = {0.5, 0};
+    stage_pixel(stage, half, at);
+    if (stage->text)
+        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, at[0],
+                    at[1] + 0.2 * paper->em, ALIGN_CENTRE, "1 m");
+}
+
+/* Trails, and a disc where each run is now. */
+static void circle_draw(Paper *paper, const Stage *stage, const Show *show)
+{
+    const Pane *pane = &show->pane[stage->pane];
+    const Simulation *simulation = pane->simulation;
+    Legend legend = {0, 0};
+    draw_exact_circle(paper, stage);
+    draw_trails(paper, stage, pane, false);
+    for (int r = 0; r < simulation->runs; r++)
+        stage_disc(paper, stage, simulation->run[r].x, 7 * paper->unit,
+                   circle_colour(simulation, r));
+    if (show->bare || !stage->text)
+        return;
+    stage_legend(paper, stage, &legend, COLOUR_GREY, "exact: |{x}| = 1 m");
+    for (int r = 0; r < simulation->runs; r++) {
+        char radius[48];
+        const double *x = simulation->run[r].x;
+        plot_number(radius, sizeof radius, hypot(x[0], x[1]));
+        stage_legend(paper, stage, &legend, circle_colour(simulation, r),
+                     "%s: %s m", simulation->run[r].method->label, radius);
+    }
+    stage_scale(paper, stage);
+}
+
+/* The node of the nearest run. */
+static Pick circle_pick(const Show *show, const Stage *stage, double x,
+                        double y)
+{
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
+    double best = 16;
+    camera_world(&stage->camera, x, y, pick.point);
+    for (int r = 0; r < simulation->runs; r++) {
+        double at[2];
+        stage_pixel(stage, simulation->run[r].x, at);
+        double distance = hypot(at[0] - x, at[1] - y);
+        if (distance < best) {
+            best = distance;
+            pick.kind = PICK_NODE;
+            pick.index = r;
+        }
+    }
+    return pick;
+}
+
+static const Card *const circle_cards[] = {&card_page, &card_radius,
+                                           &card_methods, NULL};
+
+const Picture circle_picture = {
+    .name = "circle",
+    .cards = circle_cards,
+    .around = {-1.75, -1.75, 1.75, 1.75},
+    .draw = circle_draw,
+    .pick = circle_pick,
+    .sample = mass_sample,
+};
+
+/* ---- the arrows ---------------------------------------------------------- */
 
 /* What is farthest from the middle, in steps of sqrt(2), so that the view does
  * not move all the time. */
@@ -43,50 +172,49 @@ static void draw_mass_exact(Paper *paper, const Stage *stage,
     }
 }
 
-/* An arrow from a along d, which words keep off. */
+/* An arrow from a along d, and the word beside it. */
+typedef struct MassArrow {
+    const double *a, *d;
+    double width;
+    Colour colour;
+    const char *word;
+} MassArrow;
+
+/* Words keep off it. */
 static void draw_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
-                            const double *a, const double *d, double width,
-                            Colour colour)
+                            const MassArrow *arrow)
 {
-    const double b[2] = {a[0] + d[0], a[1] + d[1]};
+    const double *a = arrow->a, b[2] = {a[0] + arrow->d[0], a[1] + arrow->d[1]};
     double p[2], q[2];
-    stage_arrow(paper, stage, a, d, 1, width, colour);
+    stage_arrow(paper, stage, a, arrow->d, 1, arrow->width, arrow->colour);
     stage_pixel(stage, a, p);
     stage_pixel(stage, b, q);
     labels_line(labels, p, q);
 }
 
-/* A word beside an arrow from a along d, unless it is short. */
+/* Its word, unless it is short. */
 static void label_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
-                             const double *a, const double *d, Colour colour,
-                             const char *word)
+                             const MassArrow *arrow)
 {
     static const double part[] = {0.55, 0.8, 0.35, 0.7};
+    const double *a = arrow->a, *d = arrow->d;
     double at[4][2], length = hypot(d[0], d[1]);
-    if (!stage->text || !(length * stage->camera.scale[0] > 2 * stage->em))
+    if (!(length * stage->camera.scale[0] > 2 * stage->em))
         return;
     for (int i = 0; i < 4; i++) {
         const double point[2] = {a[0] + part[i] * d[0], a[1] + part[i] * d[1]};
         stage_pixel(stage, point, at[i]);
     }
-    labels_put(paper, labels, FACE_BOLD, 1.15, colour, at, 4, 0.35 * paper->em,
-               word);
-}
-
-/* Keeps words off a disc of this many units. */
-static void keep_mass_disc(const Paper *paper, const Stage *stage,
-                           Labels *labels, const double *a, double radius)
-{
-    double at[2];
-    stage_pixel(stage, a, at);
-    labels_disc(labels, at, radius * paper->unit);
+    labels_put(paper, labels, FACE_BOLD, 1.15, arrow->colour, at, 4,
+               0.35 * paper->em, arrow->word);
 }
 
 /* The arrows of one method in the order in which it makes them; then their
- * words. */
+ * words, the most important ones first. */
 static void draw_mass_step(Paper *paper, const Stage *stage,
                            const Simulation *simulation)
 {
+    static const int order[] = {0, 1, 3, 2, 4};
     MassStep step;
     Labels labels = {.stage = stage->box};
     double h = simulation->run[0].h, tip[2], way[2], push[2], at[2];
@@ -98,31 +226,27 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
         way[i] = step.new_x[i] - step.x[i];
         push[i] = h * (backward ? step.new_a[i] : step.a[i]);
     }
-    const Colour v = COLOUR_VELOCITY, f = COLOUR_FORCE;
-    draw_mass_arrow(paper, stage, &labels, step.x, step.v, 2.6, v);
-    draw_mass_arrow(paper, stage, &labels, tip, push, 2.6, f);
-    draw_mass_arrow(paper, stage, &labels, step.x, step.new_v, 1.4, v);
-    draw_mass_arrow(paper, stage, &labels, step.x, way, 4, COLOUR_X);
-    if (backward)
-        draw_mass_arrow(paper, stage, &labels, step.new_x, step.new_a, 1.6, f);
+    const MassArrow arrow[] = {
+        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
+        {tip, push, 2.6, COLOUR_FORCE, backward ? "h a(x\u2032)" : "h a(x)"},
+        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
+        {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
+        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
+    const double *disc[] = {step.new_x, step.x, tip};
+    for (int i = 0; i < 4 + backward; i++)
+        draw_mass_arrow(paper, stage, &labels, &arrow[i]);
     stage_ring(paper, stage, step.new_x, 9 * paper->unit, 2.4, COLOUR_X);
-    keep_mass_disc(paper, stage, &labels, step.new_x, 10);
-    keep_mass_disc(paper, stage, &labels, step.x, 11);
-    keep_mass_disc(paper, stage, &labels, tip, 11);
+    for (int i = 0; i < 3; i++) {
+        stage_pixel(stage, disc[i], at);
+        labels_disc(&labels, at, (i ? 11 : 10) * paper->unit);
+    }
     if (!stage->text)
         return;
     stage_pixel(stage, step.new_x, at);
     labels_put(paper, &labels, FACE_BOLD, 1.15, COLOUR_X,
                (const double(*)[2])at, 1, 0.9 * paper->em, "x\u2032");
-    label_mass_arrow(paper, stage, &labels, step.x, step.v, v, "v");
-    label_mass_arrow(paper, stage, &labels, tip, push, f,
-                     backward ? "h a(x\u2032)" : "h a(x)");
-    label_mass_arrow(paper, stage, &labels, step.x, way, COLOUR_X,
-                     step.by_old_v ? "h v" : "h v\u2032");
-    label_mass_arrow(paper, stage, &labels, step.x, step.new_v, v, "v\u2032");
-    if (backward)
-        label_mass_arrow(paper, stage, &labels, step.new_x, step.new_a, f,
-                         "a(x\u2032)");
+    for (int i = 0; i < 4 + backward; i++)
+        label_mass_arrow(paper, stage, &labels, &arrow[order[i]]);
 }
 
 /* All three: the way that each goes next. */
@@ -149,17 +273,10 @@ static bool mass_is_hidden(const Show *show, const Simulation *simulation)
            !guess->shown;
 }
 
-/* Runs side by side have the colours of their methods. */
-static Colour run_colour(const Simulation *simulation, int run, Colour alone)
-{
-    return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
-}
-
 static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
-    const Trail *trail = pane->trail;
     const double origin[2] = {0, 0};
     Legend legend = {0, 0};
     draw_mass_exact(paper, stage, simulation);
@@ -167,15 +284,7 @@ static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
         stage_line(paper, stage, origin, simulation->run[r].x, 1.4,
                    COLOUR_REST);
     stage_pin(paper, stage, origin, 5 * paper->unit);
-    for (int r = 0; trail && r < simulation->runs; r++)
-        for (int i = 0; i < trail->count; i++) {
-            Colour colour = run_colour(simulation, r, COLOUR_X);
-            stage_disc(paper, stage, trail->point[r][i], 3.5 * paper->unit,
-                       colour);
-            if (i > 0)
-                stage_line(paper, stage, trail->point[r][i - 1],
-                           trail->point[r][i], 1.6, colour);
-        }
+    draw_trails(paper, stage, pane, true);
     if (simulation->runs > 1)
         draw_mass_ways(paper, stage, simulation);
     else if (!mass_is_hidden(show, simulation))
@@ -190,25 +299,6 @@ static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
         stage_legend(paper, stage, &legend, circle_colour(simulation, r), "%s",
                      simulation->run[r].method->label);
     stage_scale(paper, stage);
-}
-
-/* The trail of each run, and the energies of the first. */
-static void mass_sample(const Simulation *simulation, History *history,
-                        Trail *trail)
-{
-    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
-    history->series = simulation->runs;
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = simulation->run[r].x, *v = simulation->run[r].v;
-        history->name[r] = simulation->run[r].method->label;
-        value[r] =
-            0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
-        point[2 * r] = x[0];
-        point[2 * r + 1] = x[1];
-    }
-    history_add(history, simulation_time(simulation), value);
-    if (trail)
-        trail_add(trail, simulation->runs, point);
 }
 
 /* ---- the formula with its numbers --------------------------------------- */
@@ -241,11 +331,6 @@ static void add_mass_lines(const Simulation *simulation, Lines *lines)
     lines_add(lines, COLOUR_TEXT, "%s", "");
 }
 
-static double mass_step_energy(const double *x, const double *v)
-{
-    return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
-}
-
 static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
@@ -256,8 +341,8 @@ static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
         MassStep step;
         if (!mass_next_step(simulation, r, &step))
             continue;
-        double before = mass_step_energy(step.x, step.v);
-        double after = mass_step_energy(step.new_x, step.new_v);
+        double before = mass_energy(step.x, step.v);
+        double after = mass_energy(step.new_x, step.new_v);
         lines_add(&lines, run_colour(simulation, r, COLOUR_TEXT),
                   "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
                   simulation->runs > 1 ? simulation->run[r].method->label : "",
