@@ -16,6 +16,12 @@
 
 enum { SYSTEM_MAX_TERMS = 12 };
 
+/* What was taken out of a system for good, by its name in the ledger. */
+typedef struct Loss {
+    const char *name; /* TermKind.loss */
+    double energy;    /* J */
+} Loss;
+
 struct System {
     int nodes;             /* n */
     int springs;           /* 0: no springs */
@@ -33,6 +39,8 @@ struct System {
     unsigned pattern; /* goes up where the entries of the Hessian change too */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* the springs first, if there are any */
+    Loss lost[SYSTEM_MAX_TERMS]; /* up to a name that is NULL; they stay when
+                                    their term goes */
 };
 
 /* Allocates the arrays (pinned and order stay NULL), all zero; the list has the
@@ -64,6 +72,10 @@ Term *system_find_term(const System *system, const TermKind *kind);
 
 /* Takes it out of the list and frees its data; nothing where there is none. */
 void system_remove_term(System *system, const TermKind *kind);
+
+/* Books what a term of this kind has taken out, J; all of it so far, J. */
+void system_lose(System *system, const TermKind *kind, double energy);
+double system_lost(const System *system, const TermKind *kind);
 
 /* Checks what the struct promises: every number finite and in its range, every
  * spring between two different nodes, every term valid.  x [2n] m, in: must be

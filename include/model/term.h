@@ -46,7 +46,7 @@ typedef bool TermChange(Term *term, System *system, const double *x,
 
 struct TermKind {
     /* What the ledger calls the energy that it stores, and what it takes out
-     * for good (Term.lost); NULL: neither. */
+     * for good (system_lose); NULL: neither. */
     const char *energy, *loss;
 
     /* Whether its numbers are finite and in their ranges; NULL: always. */
@@ -97,7 +97,7 @@ struct TermKind {
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
      * for good (plastic lengths, broken springs); it books what that cost in
-     * term->lost.  Both return whether arrays of the system or of a term have
+     * system_lose.  Both return whether arrays of the system or of a term have
      * changed; factors and bounds that were made with them are then dropped. */
     TermChange *begin, *end;
 
@@ -127,8 +127,7 @@ struct TermKind {
 
 struct Term {
     const TermKind *kind;
-    void *data;  /* the kind's own arrays */
-    double lost; /* J, what it has taken out of the system for good */
+    void *data; /* the kind's own arrays */
 };
 
 /* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal

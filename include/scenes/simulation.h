@@ -49,8 +49,6 @@ typedef struct Simulation {
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
     long steps;                /* done so far */
-    long steps_before;         /* of them with another timestep, */
-    double time_before;        /* s, which took this long */
     long unconverged;          /* of them not converged */
     Status first;              /* how the first of these ended */
     int reasons[STATUS_COUNT]; /* how many of these ended in this way */
@@ -136,8 +134,8 @@ void simulation_set_timestep(Simulation *simulation, double h);
 void simulation_set_tolerance(Simulation *simulation, double tolerance);
 void simulation_set_solver(Simulation *simulation, Solver solver);
 
-/* mu of all obstacles and eta of the springs, s, from the next step on; one
- * that was 0 begins now.  Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
+/* mu of all obstacles and eta of the springs, s, from the next step on. Returns
+ * OK, OUT_OF_MEMORY, TOO_LARGE. */
 Status simulation_set_friction(Simulation *simulation, double mu);
 Status simulation_set_damping(Simulation *simulation, double eta);
 

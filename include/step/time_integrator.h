@@ -40,7 +40,7 @@ struct TimeIntegrator {
     double *new_x;  /* [2n] m, x at the end of a step; workspace in it */
     double *new_v;  /* [2n] m/s, v, the same */
     double *memory; /* [memory * 2n] what the method remembers */
-    bool remembers; /* memory holds something */
+    double memory_h; /* s, of the step that it is of; 0: it holds nothing */
     Newton *newton; /* NULL for explicit methods */
 };
 

@@ -57,7 +57,7 @@ static bool end(Term *term, System *system, const double *x, const double *v,
         double change = E - data->E_n[s];
         sum += system->k[s] * l2 * data->theta * change * change;
     }
-    term->lost += sum;
+    system_lose(system, term->kind, sum);
     return false;
 }
 

@@ -97,7 +97,7 @@ static bool end(Term *term, System *system, const double *x, const double *v,
         system->k[s] = 0;
         fracture->broken++;
     }
-    term->lost += energy - system_potential(system, x);
+    system_lose(system, term->kind, energy - system_potential(system, x));
     return true;
 }
 

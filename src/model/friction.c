@@ -111,8 +111,9 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     for (int s = 0; s < friction->slides; s++) {
         Slide *slide = &friction->slide[s];
         slide->y = h * slid(contact, slide, v) - slide->carry;
-        term->lost +=
-            slide->weight * friction_slope(slide->y, friction->e) * slide->y;
+        system_lose(system, term->kind,
+                    slide->weight * friction_slope(slide->y, friction->e) *
+                        slide->y);
     }
     return false;
 }

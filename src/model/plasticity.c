@@ -215,7 +215,8 @@ static bool end(Term *term, System *system, const double *x, const double *v,
             continue;
         plasticity->ep[s] += copysign(gamma, e);
         plasticity->kappa[s] += gamma;
-        term->lost += system->k[s] * system->l2[s] * plasticity->yield * gamma;
+        system_lose(system, term->kind,
+                    system->k[s] * system->l2[s] * plasticity->yield * gamma);
         changed = true;
     }
     return changed;

@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "model/damping.h"
 #include "model/mass_spring_energy.h"
@@ -93,6 +94,28 @@ void system_remove_term(System *system, const TermKind *kind)
     for (; term < end; term++)
         term[0] = term[1];
     system_changed(system, true);
+}
+
+/* The place of a loss in the list, or the free one behind. */
+static int loss_place(const System *system, const TermKind *kind)
+{
+    int i = 0;
+    while (i < SYSTEM_MAX_TERMS - 1 && system->lost[i].name &&
+           strcmp(system->lost[i].name, kind->loss) != 0)
+        i++;
+    return i;
+}
+
+void system_lose(System *system, const TermKind *kind, double energy)
+{
+    Loss *loss = &system->lost[loss_place(system, kind)];
+    loss->name = kind->loss;
+    loss->energy += energy;
+}
+
+double system_lost(const System *system, const TermKind *kind)
+{
+    return system->lost[loss_place(system, kind)].energy;
 }
 
 /* A normal number > 0: not 0, denormal, infinite or NaN. */

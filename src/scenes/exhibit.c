@@ -33,7 +33,7 @@ static void move_mass(Simulation *simulation, bool tip, const double to[2])
     for (int r = 0; r < simulation->runs; r++) {
         memcpy(run[r].x, began, 2 * sizeof *began);
         memcpy(run[r].v, began + 2, 2 * sizeof *began);
-        run[r].remembers = false;
+        run[r].memory_h = 0;
     }
 }
 

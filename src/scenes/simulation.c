@@ -150,20 +150,15 @@ double simulation_time(const Simulation *simulation)
 {
     if (!(simulation->scene->needs & NEEDS_TIME))
         return 0;
-    return simulation->time_before +
-           (double)(simulation->steps - simulation->steps_before) *
-               simulation->options.timestep;
+    return simulation->run[0].clock;
 }
 
 void simulation_set_timestep(Simulation *simulation, double h)
 {
-    simulation->time_before = simulation_time(simulation);
-    simulation->steps_before = simulation->steps;
     simulation->options.timestep = h;
     for (int i = 0; i < simulation->runs; i++) {
         TimeIntegrator *run = &simulation->run[i];
         run->h = h;
-        run->remembers = false;
         if (run->newton)
             run->newton->settings.h = h;
     }
@@ -185,8 +180,7 @@ void simulation_set_solver(Simulation *simulation, Solver solver)
             simulation->run[i].newton->settings.solver = solver;
 }
 
-/* One without friction so far gets the term, which has entries in the Hessian;
- * it stays when mu becomes 0, with what it has lost. */
+/* The term is there while there is friction. */
 static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
 {
     Contact *contact = contact_of(run->system);
@@ -195,7 +189,9 @@ static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
         return STATUS_OK;
     for (int k = 0; k < contact->obstacles; k++)
         contact->obstacle[k].friction = mu;
-    if (mu > 0 && !system_find_term(run->system, &friction_energy))
+    if (mu == 0)
+        system_remove_term(run->system, &friction_energy);
+    else if (!system_find_term(run->system, &friction_energy))
         status = friction_add(run->system, slip_speed);
     return status;
 }
@@ -213,7 +209,6 @@ Status simulation_set_friction(Simulation *simulation, double mu)
     return status;
 }
 
-/* The term stays when eta becomes 0, with what it has lost. */
 Status simulation_set_damping(Simulation *simulation, double eta)
 {
     Status status = STATUS_OK;
@@ -221,9 +216,11 @@ Status simulation_set_damping(Simulation *simulation, double eta)
     for (int r = 0; r < simulation->runs && !status; r++) {
         System *system = simulation->run[r].system;
         Damping *data = damping_of(system);
-        if (data)
+        if (eta == 0)
+            system_remove_term(system, &damping);
+        else if (data)
             data->eta = eta;
-        else if (eta > 0)
+        else
             status = damping_add(system, eta);
     }
     return status;
@@ -274,7 +271,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
         if (run->system != system)
             continue;
         run->v[2 * node] = run->v[2 * node + 1] = 0;
-        run->remembers = false;
+        run->memory_h = 0;
     }
     book_change(simulation, had);
     return STATUS_OK;
@@ -331,7 +328,6 @@ void simulation_release(Simulation *simulation)
 
 Status simulation_change(Simulation *simulation, const Options *options)
 {
-    double time = simulation_time(simulation);
     double start[SIMULATION_MAX_RUNS], had[SIMULATION_MAX_RUNS];
     NewtonCounters counted = simulation_counters(simulation);
     const Exhibit exhibit = simulation->exhibit;
@@ -350,8 +346,6 @@ Status simulation_change(Simulation *simulation, const Options *options)
     if (!status) {
         state_restore(state, STATE_BODY, simulation);
         simulation->exhibit = exhibit;
-        simulation->steps_before = simulation->steps;
-        simulation->time_before = time;
         memcpy(simulation->start, start, sizeof start);
         book_change(simulation, had);
     }
@@ -391,10 +385,12 @@ Energies simulation_energies(const Simulation *simulation, int run)
     }
     book(&energies, "gravity", energies.gravity);
     for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->loss) {
-            book(&energies, system->term[t].kind->loss, system->term[t].lost);
-            lost += system->term[t].lost;
-        }
+        if (system->term[t].kind->loss)
+            book(&energies, system->term[t].kind->loss, 0);
+    for (int i = 0; i < SYSTEM_MAX_TERMS && system->lost[i].name; i++) {
+        book(&energies, system->lost[i].name, system->lost[i].energy);
+        lost += system->lost[i].energy;
+    }
     energies.row[0].value = energies.total;
     energies.dissipated =
         simulation->start[run] + energies.work - energies.total - lost;

@@ -3,30 +3,9 @@
 #include <string.h>
 
 #include "model/contact.h"
-#include "model/damping.h"
 #include "model/fracture.h"
-#include "model/friction.h"
 #include "model/plasticity.h"
 #include "scenes/scene.h"
-
-/* What a state holds beside arrays. */
-typedef struct StateHead {
-    long steps, unconverged;
-    long steps_before; /* of which the timestep was another */
-    double time_before;
-    double work[SIMULATION_MAX_RUNS];
-    Status first, status;
-    bool done;
-    int reasons[STATUS_COUNT];
-} StateHead;
-
-/* The same for one run. */
-typedef struct RunHead {
-    long steps;
-    double clock, moved, work;
-    Status status;
-    bool remembers;
-} RunHead;
 
 /* Doubles of one array of a run. */
 static size_t array_size(const Simulation *simulation)
@@ -53,43 +32,16 @@ static void pass(Cursor *cursor, void *piece, size_t size)
     cursor->bytes += size;
 }
 
+#define PASS(piece) pass(cursor, &(piece), sizeof(piece))
+
 /* Which springs are broken; the others have the stiffness k. */
 static void pass_breaks(Cursor *cursor, System *system, double k)
 {
     for (int s = 0; s < system->springs; s++) {
         unsigned char broken = spring_is_broken(system, s);
-        pass(cursor, &broken, sizeof broken);
+        PASS(broken);
         if (cursor->way == RESTORE)
             system->k[s] = broken ? 0 : k;
-    }
-}
-
-/* Friction or damping that had ended by the step of the state: what it lost
- * before is in the ledger.  NULL without memory. */
-static Term *revive(System *system, const TermKind *kind,
-                    const Options *options)
-{
-    Status status = kind == &damping ? damping_add(system, 0)
-                    : kind == &friction_energy
-                        ? friction_add(system, options->slip_speed)
-                        : STATUS_INVALID_INPUT;
-    return status ? NULL : system_find_term(system, kind);
-}
-
-/* What terms have lost, in places that do not depend on which of them there
- * are: friction and damping may begin later, or end. */
-static void pass_lost(Cursor *cursor, System *system, const Options *options)
-{
-    static const TermKind *const kinds[] = {&plastic_energy, &fracture,
-                                            &friction_energy, &damping};
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        Term *term = system_find_term(system, kinds[k]);
-        double lost = term ? term->lost : 0;
-        pass(cursor, &lost, sizeof lost);
-        if (!term && lost != 0)
-            term = revive(system, kinds[k], options);
-        if (term && cursor->way == RESTORE)
-            term->lost = lost;
     }
 }
 
@@ -99,7 +51,7 @@ static void pass_obstacles(Cursor *cursor, Contact *contact)
     for (int k = 0; k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         double mu = obstacle->friction;
-        pass(cursor, obstacle, sizeof *obstacle);
+        PASS(*obstacle);
         obstacle->friction = mu;
     }
 }
@@ -112,14 +64,14 @@ static void pass_system(Cursor *cursor, System *system, const Options *options)
     Plasticity *plasticity = plasticity_of(system);
     Fracture *breaks = fracture_of(system);
     Contact *contact = contact_of(system);
-    pass_lost(cursor, system, options);
+    PASS(system->lost);
     if (plasticity) {
         pass(cursor, plasticity->ep, springs);
         pass(cursor, plasticity->kappa, springs);
     }
     if (breaks) {
         pass_breaks(cursor, system, options->stiffness);
-        pass(cursor, &breaks->broken, sizeof breaks->broken);
+        PASS(breaks->broken);
     }
     if (contact)
         pass_obstacles(cursor, contact);
@@ -135,31 +87,15 @@ static bool is_known(const Simulation *simulation, int run)
 }
 
 /* Counters of the simulation. */
-static void pass_head(Cursor *cursor, Simulation *simulation)
+static void pass_counters(Cursor *cursor, Simulation *simulation)
 {
-    StateHead head;
-    memset(&head, 0, sizeof head); /* padding too: equal states, equal bytes */
-    head.steps = simulation->steps;
-    head.unconverged = simulation->unconverged;
-    head.steps_before = simulation->steps_before;
-    head.time_before = simulation->time_before;
-    memcpy(head.work, simulation->work, sizeof head.work);
-    head.first = simulation->first;
-    memcpy(head.reasons, simulation->reasons, sizeof head.reasons);
-    head.status = simulation->status;
-    head.done = simulation->done;
-    pass(cursor, &head, sizeof head);
-    if (cursor->way != RESTORE)
-        return;
-    simulation->steps = head.steps;
-    simulation->unconverged = head.unconverged;
-    simulation->steps_before = head.steps_before;
-    simulation->time_before = head.time_before;
-    memcpy(simulation->work, head.work, sizeof head.work);
-    simulation->first = head.first;
-    memcpy(simulation->reasons, head.reasons, sizeof head.reasons);
-    simulation->status = head.status;
-    simulation->done = head.done;
+    PASS(simulation->steps);
+    PASS(simulation->unconverged);
+    PASS(simulation->work);
+    PASS(simulation->first);
+    PASS(simulation->reasons);
+    PASS(simulation->status);
+    PASS(simulation->done);
 }
 
 /* Of one run: counters, positions, velocities, memory, system. */
@@ -167,35 +103,26 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
 {
     TimeIntegrator *run = &simulation->run[r];
     size_t array = array_size(simulation) * sizeof(double);
-    RunHead head;
-    memset(&head, 0, sizeof head);
-    head.steps = run->steps;
-    head.clock = run->clock;
-    head.moved = run->moved;
-    head.work = run->work;
-    head.status = run->status;
-    head.remembers = run->remembers;
-    pass(cursor, &head, sizeof head);
+    PASS(run->steps);
+    PASS(run->clock);
+    PASS(run->moved);
+    PASS(run->work);
+    PASS(run->status);
     pass(cursor, run->x, array);
     pass(cursor, run->v, array);
-    if (run->method->memory > 0 && cursor->part == STATE_ALL)
+    if (cursor->part == STATE_ALL) {
+        PASS(run->memory_h);
         pass(cursor, run->memory, (size_t)run->method->memory * array);
+    }
     if (!is_known(simulation, r))
         pass_system(cursor, run->system, &simulation->options);
-    if (cursor->way != RESTORE)
-        return;
-    run->steps = head.steps;
-    run->clock = head.clock;
-    run->moved = head.moved;
-    run->work = head.work;
-    run->status = head.status;
-    run->remembers = head.remembers && cursor->part == STATE_ALL;
-    system_changed(run->system, false);
+    if (cursor->way == RESTORE)
+        system_changed(run->system, false);
 }
 
 static void pass_all(Cursor *cursor, Simulation *simulation)
 {
-    pass_head(cursor, simulation);
+    pass_counters(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);
 }

@@ -46,7 +46,7 @@ static Status verlet_step(TimeIntegrator *integrator)
 {
     double *a = integrator->memory, h = integrator->h;
     double *new_x = integrator->new_x, *new_v = integrator->new_v;
-    if (!integrator->remembers)
+    if (integrator->memory_h == 0)
         system_acceleration(integrator->system, integrator->x, a);
     for (size_t i = 0; i < integrator->size; i++) {
         new_v[i] = integrator->v[i] + 0.5 * h * a[i];
@@ -55,7 +55,7 @@ static Status verlet_step(TimeIntegrator *integrator)
     system_acceleration(integrator->system, new_x, a);
     for (size_t i = 0; i < integrator->size; i++)
         new_v[i] += 0.5 * h * a[i];
-    integrator->remembers = true;
+    integrator->memory_h = h;
     return STATUS_OK;
 }
 
@@ -96,7 +96,7 @@ static Status bdf2_step(TimeIntegrator *integrator)
     Newton *newton = integrator->newton;
     double h = integrator->h, *v = integrator->v;
     double *du = integrator->memory, *v_old = du + integrator->size;
-    bool first = !integrator->remembers;
+    bool first = integrator->memory_h != h;
     for (size_t i = 0; !first && i < integrator->size; i++)
         newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
     Status status = first ? backward_euler_step(integrator)
@@ -110,7 +110,7 @@ static Status bdf2_step(TimeIntegrator *integrator)
     }
     memcpy(du, newton->at.u, integrator->size * sizeof *du);
     memcpy(v_old, v, integrator->size * sizeof *v_old);
-    integrator->remembers = true;
+    integrator->memory_h = h;
     return STATUS_OK;
 }
 

@@ -93,7 +93,7 @@ Status time_integrator_step(TimeIntegrator *integrator)
     change_terms(integrator, false);
     Status failure = integrator->method->step(integrator);
     if (!failure && !all_finite(integrator->new_x, both)) {
-        integrator->remembers = false;
+        integrator->memory_h = 0;
         failure = STATUS_NOT_FINITE;
     }
     if (failure)

@@ -156,11 +156,45 @@ static void all_solvers_are_pure(void **unused)
     }
 }
 
+/* What a method remembers is of steps of one length: after a step of another
+ * it begins as after a start. */
+static void another_timestep_begins_anew(void **unused)
+{
+    (void)unused;
+    static const char *const methods[] = {"bdf2", "verlet"};
+    for (int m = 0; m < 2; m++) {
+        Simulation simulation, fresh;
+        Options options = line_options("--segments 3 --timestep 1e-3");
+        options.integrator = integrator_method(methods[m]);
+        CHECK_STATUS(simulation_create(&options, NULL, NULL, &simulation),
+                     STATUS_OK);
+        for (int i = 0; i < 5; i++)
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        unsigned char *bytes = malloc(state_bytes(&simulation, STATE_BODY));
+        CHECK(bytes != NULL);
+        state_save(&simulation, STATE_BODY, bytes);
+        options.timestep = 2e-3;
+        CHECK_STATUS(simulation_create(&options, NULL, NULL, &fresh),
+                     STATUS_OK);
+        state_restore(bytes, STATE_BODY, &fresh);
+        simulation_set_timestep(&simulation, 2e-3);
+        for (int i = 0; i < 3; i++) {
+            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            CHECK_STATUS(simulation_step(&fresh), STATUS_OK);
+            CHECK(state_hash(&simulation, 1) == state_hash(&fresh, 1));
+        }
+        free(bytes);
+        simulation_free(&simulation);
+        simulation_free(&fresh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steps_are_pure),
         cmocka_unit_test(all_solvers_are_pure),
+        cmocka_unit_test(another_timestep_begins_anew),
     };
     return cmocka_run_group_tests_name("pure", tests, NULL, NULL);
 }

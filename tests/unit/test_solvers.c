@@ -31,7 +31,7 @@ static void copy_state(const TimeIntegrator *from, TimeIntegrator *to)
     memcpy(to->v, from->v, bytes);
     if (from->memory)
         memcpy(to->memory, from->memory, bytes * (size_t)from->method->memory);
-    to->remembers = from->remembers;
+    to->memory_h = from->memory_h;
 }
 
 /* From the same state both end in the same: within 20 times what the
