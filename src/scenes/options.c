@@ -35,25 +35,25 @@ static const char *nothing_flows(const Options *options)
                               : "the springs do not flow; --yield lets them";
 }
 
-/* What a row begins with: its kind, name, what stands for the value, what it
- * is, its field; then, of numbers, the unit, the slides' number, from ... to.
- */
+/* What a row begins with: its kind, its field, mostly its name too, what stands
+ * for the value, what it is; then, of numbers, the unit, the slides' number,
+ * from ... to. */
 #define SECTION(text) .name = "", .help = text
-#define VALUE(sort, word, letters, text, field, u)                             \
+#define VALUE(sort, word, field, letters, text, u)                             \
     .name = word, .value = letters, .help = text, .kind = OPTION_##sort,       \
     .offset = offsetof(Options, field), .unit = u
-#define RANGE(sort, word, letters, text, field, u, number, from, to)           \
-    VALUE(sort, word, letters, text, field, u), .standard = number,            \
+#define RANGE(sort, word, field, letters, text, u, number, from, to)           \
+    VALUE(sort, word, field, letters, text, u), .standard = number,            \
                                                 .low = from, .high = to
-#define NUMBER(...) RANGE(NUMBER, __VA_ARGS__)
-#define NUMBERS(word, letters, text, field, u, many, from, to)                 \
-    NUMBER(word, letters, text, field, u, 0, from, to), .count = many
-#define NAME(word, letters, text, field, number, all)                          \
-    VALUE(NAME, word, letters, text, field, ""), .standard = number,           \
+#define NUMBER(field, ...) RANGE(NUMBER, #field, field, __VA_ARGS__)
+#define WHOLE(field, ...)  RANGE(WHOLE, #field, field, __VA_ARGS__)
+#define NUMBERS(field, many, letters, text, u, from, to)                       \
+    NUMBER(field, letters, text, u, 0, from, to), .count = many
+#define NAME(word, field, letters, text, number, all)                          \
+    VALUE(NAME, word, field, letters, text, ""), .standard = number,           \
                                                  .names = all
-#define TEXT(word, letters, text, field)                                       \
-    VALUE(TEXT, word, letters, text, field, "")
-#define SWITCH(word, text, field) VALUE(SWITCH, word, NULL, text, field, "")
+#define TEXT(field, letters, text) VALUE(TEXT, #field, field, letters, text, "")
+#define SWITCH(field, text)        VALUE(SWITCH, #field, field, NULL, text, "")
 
 /* What it may go on with: what the scene must have, how often it may be given,
  * a list of values (with what the window calls it); and in the row of numbers:
@@ -68,117 +68,102 @@ static const char *nothing_flows(const Options *options)
 /* No range lets a product of two numbers become infinite, or lose digits. */
 const OptionRow option_rows[] = {
     {SECTION("the square:")},
-    {RANGE(WHOLE, "segments", "N", "springs along a side", segments, "", 4, 1,
+    {WHOLE(segments, "N", "springs along a side", "", 4, 1,
            SQUARE_MESH_MAX_SEGMENTS),
      NEEDS(MESH), LIST("segments"), ROW(4, 4, 1)},
-    {NUMBER("side", "L", "its length", side, "m", 1, 1e-30, 1e30), NEEDS(MESH),
+    {NUMBER(side, "L", "its length", "m", 1, 1e-30, 1e30), NEEDS(MESH),
      LIST("side")},
-    {NUMBER("density", "R", "mass of an area", density, "kg/m^2", 1000, 1e-30,
-            1e30),
+    {NUMBER(density, "R", "mass of an area", "kg/m^2", 1000, 1e-30, 1e30),
      NEEDS(MESH), LIST("\u03c1")},
-    {NUMBER("stiffness", "K", "of each spring", stiffness, "J/m^2", 1e5, 1e-30,
-            1e30),
+    {NUMBER(stiffness, "K", "of each spring", "J/m^2", 1e5, 1e-30, 1e30),
      NEEDS(MESH), LIST("k"), LIVE, ROW(2, 11, 0)},
-    {NUMBER("stretch", "S", "horizontal, at the start", stretch, "", 1.4,
-            -1e200, 1e200),
+    {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
      NEEDS(MESH), LIST("stretch"), ROW(3, 5, 0.05)},
-    {NUMBER("turn", "DEG", "the square, anticlockwise", turn, "degrees", 0,
-            -1e6, 1e6),
+    {NUMBER(turn, "DEG", "the square, anticlockwise", "degrees", 0, -1e6, 1e6),
      NEEDS(BODY), LIST("turned by")},
-    {NUMBERS("at", "X,Y", "where its centre begins", at, "m", 2, -1e30, 1e30),
+    {NUMBERS(at, 2, "X,Y", "where its centre begins", "m", -1e30, 1e30),
      NEEDS(BODY)},
-    {NUMBERS("velocity", "VX,VY", "of every node at the start", velocity, "m/s",
-             2, -1e30, 1e30),
+    {NUMBERS(velocity, 2, "VX,VY", "of every node at the start", "m/s", -1e30,
+             1e30),
      NEEDS(BODY)},
-    {NUMBER("gravity", "G", "how strongly it pulls", gravity, "m/s^2 downwards",
-            0, 0, 1e30),
+    {NUMBER(gravity, "G", "how strongly it pulls", "m/s^2 downwards", 0, 0,
+            1e30),
      NEEDS(BODY), LIST("gravity")},
-    {TEXT("pin", "WHAT", "nodes that stay: numbers I,J,... or " PINS_WORDS,
-          pin),
+    {TEXT(pin, "WHAT", "nodes that stay: numbers I,J,... or " PINS_WORDS),
      NEEDS(BODY)},
-    {NUMBERS("start", "X,Y",
-             "where overshoot (X is enough), landscape, ... begin", start, "m",
-             2, -1e300, 1e300),
+    {NUMBERS(start, 2, "X,Y",
+             "where overshoot (X is enough), landscape, ... begin", "m", -1e300,
+             1e300),
      NEEDS(START)},
 
     {SECTION("what it meets, and what becomes of it:")},
-    {NUMBERS("ground", "NX,NY,OX,OY",
-             "half plane through O with normal N; up to 8", ground, "", 4, -1e9,
-             1e9),
+    {NUMBERS(ground, 4, "NX,NY,OX,OY",
+             "half plane through O with normal N; up to 8", "", -1e9, 1e9),
      NEEDS(BODY), TIMES(OPTIONS_MAX_GROUNDS, grounds)},
-    {NUMBERS("ball", "X,Y,R", "round obstacle that stays; up to 8", ball, "m",
-             3, -1e9, 1e9),
+    {NUMBERS(ball, 3, "X,Y,R", "round obstacle that stays; up to 8", "m", -1e9,
+             1e9),
      NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls)},
-    {NUMBERS("barrier", "DHAT,KAPPA",
-             "width (m) and stiffness (J/m^3) of contact", barrier, "", 2,
-             1e-12, 1e18),
+    {NUMBERS(barrier, 2, "DHAT,KAPPA",
+             "width (m) and stiffness (J/m^3) of contact", "", 1e-12, 1e18),
      NEEDS(BODY), IDLE(nothing_to_touch)},
-    {NUMBER("friction", "MU", "coefficient of all obstacles", friction, "", 0,
-            0, 1e3),
+    {NUMBER(friction, "MU", "coefficient of all obstacles", "", 0, 0, 1e3),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("\u03bc"), LIVE,
      ROW(6, 7, 0.01)},
-    {NUMBER("slip-speed", "EPSV", "friction's full force begins there",
-            slip_speed, "m/s", 1e-3, 1e-12, 1e6),
+    {RANGE(NUMBER, "slip-speed", slip_speed, "EPSV",
+           "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
-    {NAME("cells", "on|off", "cells that cannot turn over", cells, 0,
+    {NAME("cells", cells, "on|off", "cells that cannot turn over", 0,
           cells_names),
      NEEDS(BODY), LIST("cells")},
-    {NUMBER("yield", "Y", "strain beyond which springs flow", yield, "", 0,
-            1e-9, 1e9),
+    {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
      NEEDS(BODY), LIST("yield")},
-    {NUMBER("hardening", "H", "how fast that strain grows", hardening, "", 0, 0,
-            1e9),
+    {NUMBER(hardening, "H", "how fast that strain grows", "", 0, 0, 1e9),
      NEEDS(BODY), IDLE(nothing_flows), LIST("hardening")},
-    {NUMBER("tear", "S", "strain at which springs break", tear, "", 0, 1e-9,
-            1e9),
+    {NUMBER(tear, "S", "strain at which springs break", "", 0, 1e-9, 1e9),
      NEEDS(BODY), LIST("tear")},
-    {NUMBER("damping", "ETA", "of the springs' strain rate (Kelvin-Voigt)",
-            damping, "s", 0, 0, 1e6),
+    {NUMBER(damping, "ETA", "of the springs' strain rate (Kelvin-Voigt)", "s",
+            0, 0, 1e6),
      NEEDS(BODY), LIST("\u03b7"), LIVE, ROW(7, 8, 0)},
 
     {SECTION("how it moves:")},
-    {NUMBER("timestep", "H", "h", timestep, "s", 0.004, 1e-30, 1e30),
+    {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),
      .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, ROW(1, 8, 0)},
-    {VALUE(METHOD, "integrator", "I", "", integrator, ""), NEEDS(TIME),
+    {VALUE(METHOD, "integrator", integrator, "I", "", ""), NEEDS(TIME),
      LIST("method"), LIVE, ROW(8, 16, 0)},
-    {NUMBER("tolerance", "T", "the search ends at |p|/h <= T", tolerance, "m/s",
-            1e-2, 1e-300, 1e300),
+    {NUMBER(tolerance, "T", "the search ends at |p|/h <= T", "m/s", 1e-2,
+            1e-300, 1e300),
      NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
-    {NAME("solver", "S", "", solver, SOLVER_AUTO, solver_names), NEEDS(MESH),
+    {NAME("solver", solver, "S", "", SOLVER_AUTO, solver_names), NEEDS(MESH),
      LIST("solver"), LIVE, ROW(11, 15, 0)},
-    {SWITCH("minimum", "a step does not end on a saddle", minimum),
-     NEEDS(SPRINGS)},
-    {NAME("filter", "F", "the projection:", filter, FILTER_CLAMP, filter_names),
+    {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(SPRINGS)},
+    {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_names),
      NEEDS(SPRINGS), LIST("projection"), LIVE, ROW(9, 9, 0)},
-    {NAME("line-search", "L", "", line_search, LINE_SEARCH_BACKTRACK,
+    {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK,
           search_names),
      NEEDS(MINIMUM), LIST("line search"), LIVE, ROW(10, 9, 0)},
 
     {SECTION("how long, and what is left behind:")},
-    {RANGE(LONG, "steps", "N", "then end; without a screen after 100", steps,
+    {RANGE(LONG, "steps", steps, "N", "then end; without a screen after 100",
            "", -1, 0, 1e15)},
-    {SWITCH("paused", "at the start", paused)},
-    {NUMBER("speed", "S", "steps a frame, 60 frames a second", speed, "", 0,
-            1.0 / 64, 1024)},
-    {RANGE(WHOLE, "size", "WxH", "of the window or the frames, pixels", size,
-           "", 0, 16, 8192),
+    {SWITCH(paused, "at the start")},
+    {NUMBER(speed, "S", "steps a frame, 60 frames a second", "", 0, 1.0 / 64,
+            1024)},
+    {WHOLE(size, "WxH", "of the window or the frames, pixels", "", 0, 16, 8192),
      .count = 2, .between = 'x'},
-    {SWITCH("fullscreen", "F11 or Esc leaves it", fullscreen)},
-    {SWITCH("headless", "no window even where there is a screen", headless)},
-    {TEXT("frames", "DIR", "a PNG of every drawn step", frames)},
-    {TEXT("states", "FILE", "CSV of every step; \"-\": standard output",
-          states)},
-    {TEXT("log", "FILE", "CSV, a row per Newton iteration", log)},
-    {TEXT("film", "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif",
-          film)},
-    {TEXT("script", "FILE", "commands, each line: STEP COMMAND", script)},
-    {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
-           page, "")},
-    {TEXT("handout", "FILE", "all pages as one HTML file, and end", handout)},
-    {SWITCH("quiet", "no summary", quiet)},
-    {SWITCH("help", "this", help), .letter = 'h'},
-    {SWITCH("version", "the number of this version", version), .letter = 'v'},
-    {SWITCH("list", "the scenes", list)},
+    {SWITCH(fullscreen, "F11 or Esc leaves it")},
+    {SWITCH(headless, "no window even where there is a screen")},
+    {TEXT(frames, "DIR", "a PNG of every drawn step")},
+    {TEXT(states, "FILE", "CSV of every step; \"-\": standard output")},
+    {TEXT(log, "FILE", "CSV, a row per Newton iteration")},
+    {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
+    {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
+    {VALUE(PAGE, "lecture", page, "[PAGE]",
+           "page by page; Page Down is the next one", "")},
+    {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
+    {SWITCH(quiet, "no summary")},
+    {SWITCH(help, "this"), .letter = 'h'},
+    {SWITCH(version, "the number of this version"), .letter = 'v'},
+    {SWITCH(list, "the scenes")},
     {.name = NULL},
 };
 

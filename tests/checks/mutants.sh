@@ -49,7 +49,7 @@ killers_for() { # file, what the list names
     */step/*) own="$own integrators explicit orders" ;;
     esac
     case $1 in
-    */scenes/one_line.[ch] | */scenes/*option* | */scenes/nearest.[ch])
+    */scenes/one_line.[ch] | */scenes/*option*)
         near='options command check_files.sh check_faults.sh' ;;
     */base/* | */model/* | */solve/* | */step/*) near=$numeric ;;
     */scenes/*) near='scenes exhibits options pages body lecture hand' ;;
