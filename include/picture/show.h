@@ -98,7 +98,6 @@ typedef enum PickKind {
     PICK_NODE,   /* index: the node */
     PICK_SPRING, /* index: the spring */
     PICK_EDGE,   /* index: 0 left, 1 right edge: sets the stretch */
-    PICK_START,  /* the iterate that can be dragged, in curve and landscape */
     PICK_PLACE,  /* any other point of a map or curve: a click starts there */
     PICK_HANDLE, /* index: one of the scene's handles, which can be dragged */
     PICK_SWITCH, /* index: one of its switches */

@@ -36,6 +36,8 @@ enum SceneNeeds {
     NEEDS_ONE_NUMBER = 32, /* of the start: its x is enough */
     NEEDS_STEP = 64,       /* a time step h, but no integrator */
     NEEDS_BODY = 128,      /* turn, at, velocity, gravity, pin */
+    NEEDS_SQUARE =
+        NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY
 };
 
 /* Points of the stage that the mouse can drag, and parts of the picture that it
@@ -77,24 +79,27 @@ typedef struct Scene {
     /* The next direction again, after filter or line search changed; NULL:
      * the next step takes notice by itself. */
     void (*aim)(Simulation *simulation);
-    /* The points that can be dragged, m: at out.  Returns how many; NULL:
-     * none.  drag moves one of them, and all that hangs on it, to (x, y); it is
-     * left alone where (x, y) is no place for it. */
-    int (*handles)(const Simulation *simulation,
-                   double at[SCENE_MAX_HANDLES][2]);
-    void (*drag)(Simulation *simulation, int handle, double x, double y);
-    const char *grips; /* a letter each: x, the mass or the iterate; v, the tip
-                          of its velocity; t, x_tilde */
-    /* The parts that can be switched; out.  Returns how many; NULL: none.
-     * flip switches one of them. */
-    int (*switches)(const Simulation *simulation,
-                    Switch out[SCENE_MAX_SWITCHES]);
-    void (*flip)(Simulation *simulation, int number);
-    const char *parts[SCENE_MAX_SWITCHES]; /* what they are called */
+    /* The points that can be dragged, a letter each: x, the mass or the
+     * iterate; v, the tip of its velocity; t, x_tilde.  NULL: none. */
+    const char *grips;
+    /* The parts of the picture that can be switched. */
+    const char *parts[SCENE_MAX_SWITCHES];
 } Scene;
 
 /* The table; the first row is the default; it ends with a NULL name. */
 extern const Scene scenes[];
+
+/* The points that can be dragged, m: at out; the parts that can be switched.
+ * Both return how many. */
+int exhibit_handles(const Simulation *simulation,
+                    double at[SCENE_MAX_HANDLES][2]);
+int exhibit_switches(const Simulation *simulation,
+                     Switch out[SCENE_MAX_SWITCHES]);
+
+/* Moves one of the points, and all that hangs on it, to (x, y), which may be no
+ * place for it; switches a part.  The number is below how many there are. */
+void exhibit_drag(Simulation *simulation, int handle, double x, double y);
+void exhibit_flip(Simulation *simulation, int number);
 
 /* The row with this name, or NULL. */
 const Scene *scene_find(const char *name);

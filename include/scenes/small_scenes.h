@@ -43,15 +43,6 @@
 
 #include "scenes/scene.h"
 
-/* ---- what the mouse drags and switches, by scene->grips and ->parts ------ */
-
-int exhibit_handles(const Simulation *simulation,
-                    double at[SCENE_MAX_HANDLES][2]);
-void exhibit_drag(Simulation *simulation, int handle, double x, double y);
-int exhibit_switches(const Simulation *simulation,
-                     Switch out[SCENE_MAX_SWITCHES]);
-void exhibit_flip(Simulation *simulation, int number);
-
 /* ---- one mass, one spring ------------------------------------------------ */
 
 void circle_defaults(Options *options);

@@ -15,10 +15,8 @@ void stage_handles(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     double at[SCENE_MAX_HANDLES][2];
-    if (!simulation->scene->handles || show->bare)
-        return;
-    int count = simulation->scene->handles(simulation, at);
-    for (int i = 0; i < count; i++) {
+    int count = exhibit_handles(simulation, at);
+    for (int i = 0; i < count && !show->bare; i++) {
         bool over = show->hover.kind == PICK_HANDLE &&
                     show->hover.pane == stage->pane && show->hover.index == i;
         stage_ring(paper, stage, at[i], (over ? 13 : 10) * paper->unit,
@@ -39,10 +37,8 @@ void stage_switches(Paper *paper, const Stage *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Switch out[SCENE_MAX_SWITCHES];
-    if (!simulation->scene->switches || show->bare || !stage->text)
-        return;
-    int count = simulation->scene->switches(simulation, out);
-    for (int i = 0; i < count; i++) {
+    int count = exhibit_switches(simulation, out);
+    for (int i = 0; i < count && !show->bare && stage->text; i++) {
         Box box = stage_switch_box(stage, i);
         double x = box.x + 0.5 * paper->em, size = 0.8 * paper->em;
         double y = box.y + 0.5 * (box.height - size);
@@ -61,12 +57,11 @@ bool handles_pick(const Show *show, const Stage *stage, double x, double y,
                   Pick *pick)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
-    const Scene *scene = simulation->scene;
     double at[SCENE_MAX_HANDLES][2], best = HANDLE_REACH;
     Switch out[SCENE_MAX_SWITCHES];
     bool found = false;
-    int switches = scene->switches ? scene->switches(simulation, out) : 0;
-    int handles = scene->handles ? scene->handles(simulation, at) : 0;
+    int switches = exhibit_switches(simulation, out);
+    int handles = exhibit_handles(simulation, at);
     for (int i = 0; i < switches && stage->text; i++)
         if (box_contains(stage_switch_box(stage, i), x, y)) {
             pick->kind = PICK_SWITCH;

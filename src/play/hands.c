@@ -249,7 +249,6 @@ static Status take(Player *player, const Pick *pick)
         return ask_number(player, COMMAND_FLIP, pick->index, 0, 0);
     case PICK_CELL:
         return lesson_load(player, pick->index);
-    case PICK_START:
     case PICK_PLACE:
         if (lesson_asks(player)) {
             mouse->drag = DRAG_NONE;

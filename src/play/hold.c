@@ -56,7 +56,7 @@ static Status move_handle(Player *player, const Command *command)
     Status status = STATUS_OK;
     unsigned needs = simulation->scene->needs;
     if ((needs & NEEDS_START) && !(needs & NEEDS_TIME) &&
-        simulation->scene->handles)
+        simulation->scene->grips)
         status = player_show(player, 0);
     return status ? status : player_change_all(player, command);
 }

@@ -263,14 +263,13 @@ static Status apply_change(Track *track, const Command *change, char *message,
                            size_t size)
 {
     Simulation *simulation = &track->simulation;
-    const Scene *scene = simulation->scene;
     int number = (int)change->number;
     if (change->kind == COMMAND_HANDLE) {
-        scene->drag(simulation, number, change->x, change->y);
+        exhibit_drag(simulation, number, change->x, change->y);
         return STATUS_OK;
     }
     if (change->kind == COMMAND_FLIP) {
-        scene->flip(simulation, number);
+        exhibit_flip(simulation, number);
         return STATUS_OK;
     }
     Status status = settings_change(&track->settings, change, message, size);
@@ -478,7 +477,6 @@ static Status check_change(const Track *track, const Command *change,
                            char *message, size_t size)
 {
     const Simulation *simulation = &track->simulation;
-    const Scene *scene = simulation->scene;
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
     Settings trial = track->settings;
@@ -490,9 +488,9 @@ static Status check_change(const Track *track, const Command *change,
     if (change->kind == COMMAND_SET)
         return settings_change(&trial, change, message, size);
     if (change->kind == COMMAND_HANDLE)
-        limit = scene->handles ? scene->handles(simulation, at) : 0;
+        limit = exhibit_handles(simulation, at);
     if (change->kind == COMMAND_FLIP)
-        limit = scene->switches ? scene->switches(simulation, part) : 0;
+        limit = exhibit_switches(simulation, part);
     if (change->kind == COMMAND_PIN || change->kind == COMMAND_GRAB)
         limit = simulation->system.nodes;
     if (change->number >= 0 && change->number < limit)

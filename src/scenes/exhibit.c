@@ -10,7 +10,7 @@ int exhibit_handles(const Simulation *simulation,
     const TimeIntegrator *run = &simulation->run[0];
     const char *grip = simulation->scene->grips;
     int count = 0;
-    for (; grip[count]; count++)
+    for (; grip && grip[count]; count++)
         for (int k = 0; k < 2; k++)
             at[count][k] = grip[count] == 't'   ? simulation->exhibit.target[k]
                            : grip[count] == 'v' ? run->x[k] + run->v[k]

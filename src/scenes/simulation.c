@@ -49,8 +49,8 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     };
     Status status = options->scene->create(simulation, &settings);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
-        if (options->flips >> i & 1 && options->scene->flip)
-            options->scene->flip(simulation, i);
+        if (options->flips >> i & 1 && options->scene->parts[i])
+            exhibit_flip(simulation, i);
     if (!status)
         begin_ledger(simulation);
     return status;

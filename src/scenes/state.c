@@ -137,7 +137,7 @@ size_t state_bytes(const Simulation *simulation, StatePart part)
 size_t state_size(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
-    bool known = (scene->needs & NEEDS_TIME) && !scene->step && !scene->handles;
+    bool known = (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
     return known ? state_bytes(simulation, STATE_ALL) : 0;
 }
 

@@ -461,7 +461,7 @@ static void claim_inertia(void)
     Simulation simulation;
     const LecturePage *page = lecture_find("inertia");
     open_page("inertia", "", NULL, NULL, &simulation);
-    simulation.scene->flip(&simulation, 1);
+    exhibit_flip(&simulation, 1);
     CHECK(page->flips == 2);
     CHECK(simulation.exhibit.parts == PART_INERTIA);
     /* ((0.6 - 0.2)^2 + (0.9 - 0.3)^2) / 2 */
