@@ -153,6 +153,8 @@ static Status make_again(Player *player, const Command *change,
     for (int i = 0; i < player->lanes; i++) {
         Status changed = change_again(&player->lane[i], &kept[i]);
         status = status ? status : changed;
+        if (kept[i].count > 0)
+            lane_sample_again(&player->lane[i], player->step);
         script_free(&kept[i]);
     }
     lane_drop_ghost(lane);

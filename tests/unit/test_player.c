@@ -516,6 +516,21 @@ static void a_step_without_updates_has_a_residual(void **unused)
     end();
 }
 
+/* A step is taken again as it was made, and what was changed since is changed
+ * once more: the energies beside it are those with the change. */
+static void energies_of_a_step_taken_again_have_its_changes(void **unused)
+{
+    (void)unused;
+    begin("square");
+    obey_all((const char *const[]){"next", "next", "set stiffness 150000",
+                                   "projection", NULL});
+    const History *history = &lane(0)->history;
+    double shown = history->value[0][history->count - 1];
+    lane_sample_again(lane(0), player.step);
+    CHECK_NEAR(shown, history->value[0][history->count - 1], 1e-9 * shown);
+    end();
+}
+
 /* A step whose line search finds nothing, line by line: each line says what is
  * true of itself, and the verdict comes where the search gives up.  The test
  * after it shows the residual as it is, above the tolerance. */
@@ -1182,6 +1197,7 @@ int main(void)
         cmocka_unit_test(up_to_six_panes),
         cmocka_unit_test(an_update_line_by_line),
         cmocka_unit_test(a_step_without_updates_has_a_residual),
+        cmocka_unit_test(energies_of_a_step_taken_again_have_its_changes),
         cmocka_unit_test(a_failed_search_is_no_convergence),
         cmocka_unit_test(captions_are_those_of_the_method),
         cmocka_unit_test(a_resting_mouse_asks_nothing),
