@@ -179,8 +179,12 @@ static void values_are_read(void **unused)
     CHECK(parse_good("--segments 1e2").segments == 100);
     o = parse_good("overshoot --start 3");
     CHECK(o.start[0] == 3 && o.start[1] == 0);
-    o = parse_good("overshoot --start 3,4");
+    o = parse_good("overshoot --start 3,4 --line-search none");
     CHECK(o.start[0] == 3 && o.start[1] == 4);
+    CHECK(parse_good("circle --timestep 0.1 --integrator bdf2").timestep ==
+          0.1);
+    CHECK(parse_good("landscape --start 1,1 --filter none").start[1] == 1);
+    CHECK(parse_good("dial --timestep 3").timestep == 3);
 }
 
 /* Each name of each option, and the slides' words for some of them. */
@@ -313,6 +317,15 @@ static const char *const bad_lines[][4] = {
     /* what has no meaning there */
     {"drop --integrator avf", "no contact", "only backward-euler"},
     {"circle --gravity 9", "--gravity", "'circle'", "no body that falls"},
+    {"circle --segments 3", "--segments", "'circle'", "no square"},
+    {"circle --start 1,1", "--start", "'circle'", "no start"},
+    {"circle --tolerance 1", "--tolerance", "'circle'", "no minimum"},
+    {"overshoot --side 2", "--side", "'overshoot'", "no square"},
+    {"overshoot --timestep 2", "--timestep", "'overshoot'", "no time"},
+    {"overshoot --filter abs", "--filter", "'overshoot'", "no springs"},
+    {"landscape --solver newton", "--solver", "'landscape'", "no square"},
+    {"landscape --integrator avf", "'landscape'", "no time steps"},
+    {"unprojected --start 0,0", "--start", "'unprojected'", "no start"},
     {"--gravity -9.81", "--gravity: '-9.81'", "from 0 to", "downwards"},
     {"--friction 1", "--friction", "nothing to touch", "--ground"},
     {"--barrier 1,1", "--barrier", "nothing to touch", "--ball"},
@@ -615,9 +628,9 @@ static void help_fits_a_terminal(void **unused)
 {
     (void)unused;
     static const char *const words[] = {
-        "1 ... 4096 [4]", "J/m^2 [1e5]", "m/s^2 downwards [0]",
-        "SCENE",          "clamp, none", "--start X,Y",
-        "[0.004]",        "--help, -h",  "--size WxH"};
+        "1 ... 4096 [4]", "J/m^2 [1e5]", "m/s^2 downwards [0]", "SCENE",
+        "clamp, none",    "--start X,Y", "springs flow\n",      "[0.004]",
+        "--help, -h",     "--size WxH"};
     const char *help = options_help();
     char line[128];
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)

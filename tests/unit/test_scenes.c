@@ -54,45 +54,6 @@ static void scenes_have_names_and_sentences(void **unused)
     CHECK(count >= 5 && !scene_find("") && !scene_find("squar"));
 }
 
-/* What a command line ends with. */
-static Status parse(const char *line, char *message, size_t size)
-{
-    char words[256], *arguments[16] = {words};
-    int count = 1;
-    Options options;
-    snprintf(words, sizeof words, "elasto %s", line);
-    strtok(words, " ");
-    for (char *word; (word = strtok(NULL, " "));)
-        arguments[count++] = word;
-    return options_parse(count, arguments, &options, message, size);
-}
-
-static void options_that_a_scene_lacks_are_refused(void **unused)
-{
-    (void)unused;
-    const char *refused[] = {
-        "circle --segments 3",      "circle --stretch 2",
-        "circle --start 1,1",       "overshoot --side 2",
-        "landscape --density 2",    "overshoot --integrator verlet",
-        "landscape --stiffness 10", "landscape --integrator backward-euler",
-        "square --start 0,0",       "unprojected --start 0,0"};
-    const char *accepted[] = {"circle --timestep 0.1 --integrator verlet",
-                              "overshoot --start 3,0 --line-search none",
-                              "landscape --start 1,1 --filter none",
-                              "unprojected --segments 3 --filter clamp"};
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        char message[256] = "", scene[16];
-        CHECK_STATUS(parse(refused[i], message, sizeof message),
-                     STATUS_INVALID_INPUT);
-        sscanf(refused[i], "%15s", scene);
-        CHECK(strstr(message, scene) && strstr(message, "--"));
-    }
-    for (size_t i = 0; i < sizeof accepted / sizeof *accepted; i++) {
-        char message[256];
-        CHECK_STATUS(parse(accepted[i], message, sizeof message), STATUS_OK);
-    }
-}
-
 /* No time passes while Newton iterates. */
 static void iterations_take_no_time(void **unused)
 {
@@ -413,7 +374,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_have_names_and_sentences),
-        cmocka_unit_test(options_that_a_scene_lacks_are_refused),
         cmocka_unit_test(iterations_take_no_time),
         cmocka_unit_test(euler_spirals_by_its_factor),
         cmocka_unit_test(symplectic_euler_stays_in_its_bound),
