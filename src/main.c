@@ -10,11 +10,9 @@
 #include <unistd.h>
 
 #include "scenes/one_line.h"
-#include "play/handout.h"
 #include "play/player.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
-#include "play/summary.h"
 
 /* How the program ends. */
 enum ExitCode {

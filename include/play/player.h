@@ -5,6 +5,7 @@
 #define ELASTO_PLAYER_H
 
 #include <signal.h>
+#include <stdio.h>
 
 #include "play/lane.h"
 #include "scenes/options.h"
@@ -127,9 +128,6 @@ Status player_draw(Player *player);
 /* Until the window is closed, or to the end. */
 Status player_run(Player *player);
 
-/* Whether there is nothing left to do. */
-bool player_ended(const Player *player);
-
 /* Whether any step, or the scene as a whole, did not converge. */
 bool player_unconverged(const Player *player);
 
@@ -140,5 +138,18 @@ uint64_t player_hash(const Player *player);
  * Returns OK, OUT_OF_MEMORY or FILE_FAILED. */
 Status player_finish(Player *player);
 void player_free(Player *player);
+
+/* What a run did, in a few lines at its end; the caller checks the stream. */
+void summary_print(FILE *file, const Player *player);
+
+/* Writes the lecture as an HTML file to options->handout; it appears when it is
+ * whole.
+ *   player   workspace; it must stay where it is
+ *   stop     in, not 0 ends it after the present page: INTERRUPTED
+ *   message  [size] out, what is wrong, where errno does not tell
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno), INTERRUPTED, or how a page
+ * could not be drawn. */
+Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
+                     Player *player, char *message, size_t size);
 
 #endif

@@ -188,7 +188,4 @@ double simulation_deforming(const Simulation *simulation, double *centre,
  * pins and no hand. */
 bool simulation_is_free(const Simulation *simulation);
 
-/* Strain of spring s of a run: |d|/l - 1. */
-double simulation_strain(const Simulation *simulation, int run, int s);
-
 #endif

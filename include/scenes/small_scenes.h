@@ -193,8 +193,4 @@ Status step_envelope(Simulation *simulation);
  * cell's steps did not converge; OUT_OF_MEMORY. */
 Status envelope_visit(Simulation *simulation, int column, int row);
 
-/* The command line that runs a cell in the window.  line [size] out */
-void envelope_line(const Simulation *simulation, int column, int row,
-                   char *line, size_t size);
-
 #endif

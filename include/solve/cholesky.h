@@ -37,8 +37,7 @@ Status cholesky_factor(Cholesky *cholesky);
  * 1e-8 of b; only INDEFINITE looks). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* Entries of the factor, and bytes that CHOLMOD held at most. */
+/* Entries of the factor. */
 double cholesky_factor_entries(const Cholesky *cholesky);
-double cholesky_peak_bytes(const Cholesky *cholesky);
 
 #endif

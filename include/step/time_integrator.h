@@ -26,22 +26,22 @@ typedef struct IntegratorMethod {
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    System *system; /* not owned; its terms may change it */
-    size_t size;    /* 2n, of the arrays below */
-    double h;       /* s */
-    long steps;     /* done so far */
-    Status status;  /* of the last step */
-    double clock;   /* s, sum of all steps */
-    bool moves;     /* whether anything is moved in the present step */
-    double moved;   /* part of its way that moved things went in it */
-    double work;    /* J, done so far by what moves walls and pins */
-    double *x;      /* [2n] m; the arrays below are in the same piece */
-    double *v;      /* [2n] m/s */
-    double *new_x;  /* [2n] m, x at the end of a step; workspace in it */
-    double *new_v;  /* [2n] m/s, v, the same */
-    double *memory; /* [memory * 2n] what the method remembers */
+    System *system;  /* not owned; its terms may change it */
+    size_t size;     /* 2n, of the arrays below */
+    double h;        /* s */
+    long steps;      /* done so far */
+    Status status;   /* of the last step */
+    double clock;    /* s, sum of all steps */
+    bool moves;      /* whether anything is moved in the present step */
+    double moved;    /* part of its way that moved things went in it */
+    double work;     /* J, done so far by what moves walls and pins */
+    double *x;       /* [2n] m; the arrays below are in the same piece */
+    double *v;       /* [2n] m/s */
+    double *new_x;   /* [2n] m, x at the end of a step; workspace in it */
+    double *new_v;   /* [2n] m/s, v, the same */
+    double *memory;  /* [memory * 2n] what the method remembers */
     double memory_h; /* s, of the step that it is of; 0: it holds nothing */
-    Newton *newton; /* NULL for explicit methods */
+    Newton *newton;  /* NULL for explicit methods */
 };
 
 /* The table; it ends with a row whose name is NULL. */

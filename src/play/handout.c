@@ -1,5 +1,10 @@
-#include "play/handout.h"
-
+/* handout.c - the lecture as one HTML file for a course's page: words, pictures
+ * and films of every page.
+ *
+ * The pictures are what the window shows, played without a screen; films are
+ * animated PNGs.  Everything stands in the file itself: it has no scripts and
+ * asks no network.
+ */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

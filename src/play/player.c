@@ -104,7 +104,8 @@ void player_deselect(Player *player)
     player->typed[0] = '\0';
 }
 
-bool player_ended(const Player *player)
+/* Whether there is nothing left to do. */
+static bool player_ended(const Player *player)
 {
     const Options *options = &player->given[0];
     const Simulation *simulation = &player->lane[0].track.simulation;
@@ -374,7 +375,8 @@ Status player_run(Player *player)
 
 /* ---- beginning and end -------------------------------------------------- */
 
-void player_title(const Player *player, char *title, size_t size)
+/* Of the window. */
+static void player_title(const Player *player, char *title, size_t size)
 {
     snprintf(title, size, "elasto: %s (press ? for the keys)",
              player->lanes > 0 ? player->lane[0].track.options.scene->name

@@ -141,7 +141,6 @@ void player_know_step(Player *player);
 void player_note(Player *player, const char *format, ...);
 
 /* Of the window. */
-void player_title(const Player *player, char *title, size_t size);
 void player_set_title(Player *player);
 
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a

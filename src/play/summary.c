@@ -1,4 +1,4 @@
-#include "play/summary.h"
+#include "play/player.h"
 
 #include <math.h>
 

@@ -1,7 +1,6 @@
 #include "scenes/small_scenes.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "scenes/square_scenes.h"
@@ -104,15 +103,4 @@ Status step_envelope(Simulation *simulation)
         status = envelope_visit(simulation, shown[0], shown[1]);
     simulation->done = row + 1 >= ENVELOPE_ROWS;
     return status;
-}
-
-void envelope_line(const Simulation *simulation, int column, int row,
-                   char *line, size_t size)
-{
-    const Options *options = &simulation->options;
-    snprintf(line, size,
-             "square --segments %d --stretch %.17g --timestep %.17g "
-             "--stiffness %.17g",
-             options->segments, options->stretch, envelope_timestep(column),
-             envelope_stiffness(row));
 }

@@ -522,15 +522,6 @@ void simulation_set_line_search(Simulation *simulation, LineSearch search)
     aim_again(simulation);
 }
 
-/* |d|/l - 1 */
-double simulation_strain(const Simulation *simulation, int run, int s)
-{
-    const System *system = &simulation->system;
-    const double *x = simulation->run[run].x;
-    int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-    return hypot(x[i] - x[j], x[i + 1] - x[j + 1]) / sqrt(system->l2[s]) - 1;
-}
-
 /* Centre of mass, m, and its velocity, m/s, at [4] out.  Returns the mass. */
 static double centre_of_mass(const Simulation *simulation, double at[4])
 {

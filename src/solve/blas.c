@@ -1,4 +1,4 @@
-#include "solve/blas.h"
+#include "solve/cholesky_parts.h"
 
 #include <math.h>
 #include <stdbool.h>

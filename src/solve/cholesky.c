@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/blas.h"
-#include "solve/supernodes.h"
+#include "solve/cholesky_parts.h"
 
 struct Cholesky {
     cholmod_common common;
@@ -204,9 +203,4 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 double cholesky_factor_entries(const Cholesky *cholesky)
 {
     return cholesky->common.lnz;
-}
-
-double cholesky_peak_bytes(const Cholesky *cholesky)
-{
-    return (double)cholesky->common.memory_usage;
 }

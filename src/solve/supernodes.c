@@ -1,4 +1,4 @@
-#include "solve/supernodes.h"
+#include "solve/cholesky_parts.h"
 
 /* Two numbers in one register, an extension of C that gcc and clang share:
  * arithmetic works lane by lane, with the bits that each would have alone.  It

@@ -586,7 +586,12 @@ static void envelope_cells_are_runs(void **unused)
         CHECK_STATUS(envelope_visit(&map, cells[i][0], cells[i][1]), STATUS_OK);
         const EnvelopeCell *cell =
             &map.exhibit.map.cell[cells[i][1]][cells[i][0]];
-        envelope_line(&map, cells[i][0], cells[i][1], line, sizeof line);
+        snprintf(line, sizeof line,
+                 "square --segments %d --stretch %.17g --timestep %.17g "
+                 "--stiffness %.17g",
+                 map.options.segments, map.options.stretch,
+                 envelope_timestep(cells[i][0]),
+                 envelope_stiffness(cells[i][1]));
         simulation_from_line(line, NULL, NULL, &run);
         CHECK_NEAR(run.options.timestep, envelope_timestep(cells[i][0]), 0);
         CHECK_NEAR(run.options.stiffness, envelope_stiffness(cells[i][1]), 0);

@@ -185,8 +185,8 @@ static void the_square_scene_is_the_slides(void **unused)
         CHECK(system->l2[s] == (s < 40 ? 0.25 : 0.5)); /* halves: exact */
         CHECK(system->e[2 * s] == simulation.mesh.e[2 * s]);
     }
-    CHECK_NEAR(simulation_strain(&simulation, 0, 0), 0.25, 1e-15);
-    CHECK_NEAR(simulation_strain(&simulation, 0, 20), 0, 1e-15);
+    CHECK_NEAR(strain_of(&simulation, 0), 0.25, 1e-15);
+    CHECK_NEAR(strain_of(&simulation, 20), 0, 1e-15);
     Energies energies = simulation_energies(&simulation, 0);
     CHECK(energies.kinetic == 0 && energies.total == OF(&energies, elastic));
     IncrementalPotential E = {.system = system, .weight = 1};

@@ -5,7 +5,6 @@
 
 #include <math.h>
 
-#include "play/summary.h"
 #include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/supernodes.h"
+#include "solve/cholesky_parts.h"
 
 enum { ROWS = 48, MAX_WIDTH = 11 };
 

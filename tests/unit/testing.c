@@ -413,3 +413,11 @@ double energy_now(const Simulation *simulation, int run, const char *name)
     const Energies energies = simulation_energies(simulation, run);
     return energies_of(&energies, name);
 }
+
+double strain_of(const Simulation *simulation, int s)
+{
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x;
+    int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+    return hypot(x[i] - x[j], x[i + 1] - x[j + 1]) / sqrt(system->l2[s]) - 1;
+}

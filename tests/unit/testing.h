@@ -135,4 +135,7 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
 #define OF(energies, name) energies_of(energies, #name)
 double energy_now(const Simulation *simulation, int run, const char *name);
 
+/* Strain of spring s of run 0: |d|/l - 1. */
+double strain_of(const Simulation *simulation, int s);
+
 #endif
