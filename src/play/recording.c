@@ -127,17 +127,32 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     return status;
 }
 
-/* Whether a table may have this name: other endings promise other formats.  An
- * ending begins with a letter, behind something. */
-static bool is_table(const char *name)
+/* What a file may be called: other endings promise other formats.  An ending
+ * begins with a letter, behind something. */
+static bool is_called(const char *name, const char *const ends[])
 {
-    static const char *const ends[] = {".csv", ".txt", ".dat", ".log"};
     const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
     const char *end = strrchr(base, '.');
-    bool table = !end || end == base || !isalpha((unsigned char)end[1]);
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        table = table || strcasecmp(end, ends[i]) == 0;
-    return table;
+    bool called = !end || end == base || !isalpha((unsigned char)end[1]);
+    for (int i = 0; !called && ends[i]; i++)
+        called = strcasecmp(end, ends[i]) == 0;
+    return called;
+}
+
+/* What is wrong with the ending of an output's name, or NULL. */
+static const char *wrong_ending(const char *option, const char *name)
+{
+    static const char *const table[] = {".csv", ".txt", ".dat", ".log", NULL};
+    static const char *const page[] = {".html", ".htm", NULL};
+    if (strcmp(option, "handout") == 0)
+        return is_called(name, page) ? NULL
+                                     : "it is a page in HTML, whose name ends "
+                                       "in .html, .htm or has no ending";
+    bool is_table = strcmp(option, "states") == 0 || strcmp(option, "log") == 0;
+    return !is_table || is_called(name, table)
+               ? NULL
+               : "it is a table in CSV, whose name ends in .csv, .txt, .dat, "
+                 ".log or has no ending";
 }
 
 /* A name, and the file beside it in which it begins. */
@@ -156,15 +171,14 @@ Status recording_check(const Options *options, char *message, size_t size)
         {"film", options->film},     {"frames", options->frames},
         {"script", options->script}, {"handout", options->handout},
     };
-    enum { FILES = sizeof file / sizeof *file, TABLES = 2 };
+    enum { FILES = sizeof file / sizeof *file };
     char shown[64], other[64];
     for (int i = 0; i < FILES; i++) {
         one_line(file[i][1], shown, sizeof shown);
-        if (i < TABLES && file[i][1] && !is_table(file[i][1])) {
-            snprintf(message, size,
-                     "--%s '%s': it is a table in CSV, whose name ends in "
-                     ".csv, .txt, .dat, .log or has no ending",
-                     file[i][0], shown);
+        const char *wrong =
+            file[i][1] ? wrong_ending(file[i][0], file[i][1]) : NULL;
+        if (wrong) {
+            snprintf(message, size, "--%s '%s': %s", file[i][0], shown, wrong);
             return STATUS_INVALID_INPUT;
         }
         for (int k = 0; k < FILES; k++) {

@@ -51,6 +51,7 @@ verdict pages_that_are_none_are_refused "$(
     refused '--segments' --lecture 3 --segments 5
     refused "'circle'" circle --lecture
     refused '--steps' --handout x.html --steps 3
+    refused 'a page in HTML' --handout x.pdf
 )"
 
 # Touched, left and entered again it is what it was at first: every third page,
