@@ -5,7 +5,6 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/labels.h"
 #include "scenes/small_scenes.h"
 
 /* The path of the minimiser, a disc for every power of ten of h. */
@@ -45,14 +44,13 @@ static void dial_draw(Paper *paper, const Stage *stage, const Show *show)
     Legend legend = {0, 0};
     Plot plot = landscape_ground(paper, stage, show);
     Labels labels = {.stage = plot.box};
-    double now[2], target[2];
+    double target[2];
     dial_path(paper, &plot, &simulation->exhibit.walk, &labels);
     plot_disc(paper, &plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!text)
         return;
-    stage_pixel(stage, simulation->run[0].x, now);
     stage_pixel(stage, simulation->exhibit.target, target);
-    labels_disc(&labels, now, 9 * paper->unit);
+    keep_off_disc(&labels, paper, stage, simulation->run[0].x, 9);
     labels_disc(&labels, target, 11 * paper->unit); /* the handle's ring */
     labels_put(paper, &labels, FACE_BOLD, 1.1, COLOUR_X_TILDE,
                (const double(*)[2])target, 1, 0.9 * paper->em, "{xt}");

@@ -5,8 +5,6 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/labels.h"
-#include "picture/marks.h"
 #include "scenes/small_scenes.h"
 
 enum { MAP_CELLS = 120, MAP_LABEL_ROOM = 54, MAP_NUMBER_ROOM = 27 };
@@ -358,27 +356,19 @@ static void keep_places(Paper *paper, const Stage *stage, const Show *show,
     const Descent *descent = &simulation->descent;
     const double tip[2] = {descent->point[0] + descent->direction[0],
                            descent->point[1] + descent->direction[1]};
-    double at[2], to[2], target[2];
-    stage_pixel(stage, descent->point, at);
-    stage_pixel(stage, tip, to);
+    double target[2];
     stage_pixel(stage, simulation->exhibit.target, target);
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
     for (int i = 0; i < 2; i++)
         labels_box(labels, stage_switch_box(stage, i));
-    for (int s = 0; s < system->springs; s++) {
-        double a[2], b[2];
-        stage_pixel(stage, x + 2 * system->e[2 * s], a);
-        stage_pixel(stage, x + 2 * system->e[2 * s + 1], b);
-        labels_line(labels, a, b);
-    }
-    for (int i = 1; i < system->nodes; i++) {
-        double pin[2];
-        stage_pixel(stage, x + 2 * i, pin);
-        labels_disc(labels, pin, 14 * paper->unit);
-    }
-    labels_line(labels, at, to);
-    labels_disc(labels, at, 11 * paper->unit);
+    for (int s = 0; s < system->springs; s++)
+        keep_off_line(labels, stage, x + 2 * system->e[2 * s],
+                      x + 2 * system->e[2 * s + 1]);
+    for (int i = 1; i < system->nodes; i++)
+        keep_off_disc(labels, paper, stage, x + 2 * i, 14);
+    keep_off_line(labels, stage, descent->point, tip);
+    keep_off_disc(labels, paper, stage, descent->point, 11);
     labels_disc(labels, target, 11 * paper->unit);
     if (stage->text)
         labels_put(paper, labels, FACE_BOLD, 1.1, COLOUR_X_TILDE,

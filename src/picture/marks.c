@@ -60,6 +60,23 @@ void stage_ring(Paper *paper, const Stage *stage, const double *a,
                 fmax(1, width * paper->unit), colour);
 }
 
+void keep_off_line(Labels *labels, const Stage *stage, const double *a,
+                   const double *b)
+{
+    double p[2], q[2];
+    stage_pixel(stage, a, p);
+    stage_pixel(stage, b, q);
+    labels_line(labels, p, q);
+}
+
+void keep_off_disc(Labels *labels, const Paper *paper, const Stage *stage,
+                   const double *a, double radius)
+{
+    double p[2];
+    stage_pixel(stage, a, p);
+    labels_disc(labels, p, radius * paper->unit);
+}
+
 /* A dark square with a light middle. */
 void stage_pin(Paper *paper, const Stage *stage, const double *a, double radius)
 {
@@ -76,7 +93,8 @@ void stage_pin(Paper *paper, const Stage *stage, const double *a, double radius)
                      COLOUR_WHITE);
 }
 
-double longest_arrow(int nodes, const double *d)
+/* The longest of d [2n], those that are not finite left out. */
+static double longest_arrow(int nodes, const double *d)
 {
     double most = 0;
     for (int i = 0; i < nodes; i++) {

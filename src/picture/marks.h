@@ -5,6 +5,7 @@
 #define ELASTO_MARKS_H
 
 #include "model/contact.h"
+#include "picture/labels.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
 
@@ -25,6 +26,12 @@ void stage_dashes(Paper *paper, const Stage *stage, const double *a,
 void stage_arrow(Paper *paper, const Stage *stage, const double *a,
                  const double *d, double factor, double width, Colour colour);
 
+/* Words keep off a line from a to b, and off a disc of so many units. */
+void keep_off_line(Labels *labels, const Stage *stage, const double *a,
+                   const double *b);
+void keep_off_disc(Labels *labels, const Paper *paper, const Stage *stage,
+                   const double *a, double radius);
+
 /* Discs and rings; radius in pixels. */
 void stage_disc(Paper *paper, const Stage *stage, const double *a,
                 double radius, Colour colour);
@@ -42,9 +49,6 @@ void stage_pin(Paper *paper, const Stage *stage, const double *a,
 double stage_arrows(Paper *paper, const Stage *stage, int nodes, int stride,
                     const double *x, const double *d, double part, double most,
                     Colour colour);
-
-/* The longest of d [2n], those that are not finite left out. */
-double longest_arrow(int nodes, const double *d);
 
 /* Walls and balls, and how far their barrier reaches; thin: walls as slabs. */
 void stage_obstacles(Paper *paper, const Stage *stage, const Contact *contact,

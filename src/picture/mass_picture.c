@@ -6,7 +6,6 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/labels.h"
 #include "scenes/small_scenes.h"
 
 enum { MASS_CORNERS = 120 };
@@ -185,11 +184,8 @@ static void draw_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
                             const MassArrow *arrow)
 {
     const double *a = arrow->a, b[2] = {a[0] + arrow->d[0], a[1] + arrow->d[1]};
-    double p[2], q[2];
     stage_arrow(paper, stage, a, arrow->d, 1, arrow->width, arrow->colour);
-    stage_pixel(stage, a, p);
-    stage_pixel(stage, b, q);
-    labels_line(labels, p, q);
+    keep_off_line(labels, stage, a, b);
 }
 
 /* Its word, unless it is short. */
@@ -232,14 +228,12 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
         {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
         {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
         {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
-    const double *disc[] = {step.new_x, step.x, tip};
     for (int i = 0; i < 4 + backward; i++)
         draw_mass_arrow(paper, stage, &labels, &arrow[i]);
     stage_ring(paper, stage, step.new_x, 9 * paper->unit, 2.4, COLOUR_X);
-    for (int i = 0; i < 3; i++) {
-        stage_pixel(stage, disc[i], at);
-        labels_disc(&labels, at, (i ? 11 : 10) * paper->unit);
-    }
+    keep_off_disc(&labels, paper, stage, step.new_x, 10);
+    keep_off_disc(&labels, paper, stage, step.x, 11);
+    keep_off_disc(&labels, paper, stage, tip, 11);
     if (!stage->text)
         return;
     stage_pixel(stage, step.new_x, at);

@@ -5,7 +5,6 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/labels.h"
 #include "scenes/small_scenes.h"
 
 /* The last point of a method; NULL: there is none. */

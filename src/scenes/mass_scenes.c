@@ -99,17 +99,6 @@ void mass_exact(const Simulation *simulation, double t, double x[2])
             began[i] * cos(omega * t) + began[i + 2] * sin(omega * t) / omega;
 }
 
-/* Ascending by insertion. */
-static void sort_four(double value[4])
-{
-    for (int i = 1; i < 4; i++)
-        for (int j = i; j > 0 && value[j] < value[j - 1]; j--) {
-            double swap = value[j];
-            value[j] = value[j - 1];
-            value[j - 1] = swap;
-        }
-}
-
 void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
 {
     double d2 = d[0] * d[0] + d[1] * d[1], l = sqrt(l2), r = sqrt(d2);
@@ -125,12 +114,14 @@ void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
         .root_along = 4 * k,
         .root_across = 4 * k * (1 - l / r),
     };
-    const double block[4] = {0, 0, 2 * facts->along, 2 * facts->across};
-    memcpy(facts->block, block, sizeof block);
-    sort_four(facts->block);
-    for (int i = 0; i < 4; i++)
-        facts->projected[i] = fmax(facts->block[i], 0);
-    sort_four(facts->projected);
+    double low = 2 * fmin(facts->along, facts->across);
+    double high = 2 * fmax(facts->along, facts->across);
+    const double block[4] = {fmin(low, 0), fmin(high, 0), fmax(low, 0),
+                             fmax(high, 0)};
+    for (int i = 0; i < 4; i++) {
+        facts->block[i] = block[i];
+        facts->projected[i] = fmax(block[i], 0);
+    }
 }
 
 Status create_spring(Simulation *simulation, const NewtonSettings *settings)
