@@ -83,4 +83,8 @@ Status recording_close(Recording *recording);
 /* Closes both tables without a trace: for a run that did not begin. */
 void recording_discard(Recording *recording);
 
+/* One picture as a PNG file, whole or not at all (output.h).
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
+Status png_file_write(const char *name, const Canvas *canvas);
+
 #endif

@@ -99,9 +99,8 @@ bool simulation_record(Simulation *simulation, const NewtonRecord *record);
 /* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);
 
-/* Energies of one run, computed now; one of them, 0 where no term has it. */
+/* Energies of one run, computed now. */
 Energies simulation_energies(const Simulation *simulation, int run);
-double energies_of(const Energies *energies, const char *name);
 
 /* Whether the tolerance may leave a body at rest hanging in the air, or let a
  * contact that creeps freeze: above a tenth of h |g| or of the slip speed.

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "play/playing.h"
-#include "play/png_file.h"
 #include "scenes/scene.h"
 
 /* elasto_SCENE_000012.png, or the first of ..._2.png, ... that is free. */

@@ -1,4 +1,4 @@
-#include "play/png_file.h"
+#include "play/recording.h"
 
 #include <errno.h>
 #include <png.h>

@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 
 #include "scenes/one_line.h"
-#include "play/png_file.h"
 #include "scenes/scene.h"
 
 /* Remembers the first failure; returns status. */

@@ -399,14 +399,6 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
-double energies_of(const Energies *energies, const char *name)
-{
-    for (int i = 0; i < energies->rows; i++)
-        if (strcmp(energies->row[i].name, name) == 0)
-            return energies->row[i].value;
-    return 0;
-}
-
 bool simulation_is_loose(const Simulation *simulation, double *needed)
 {
     const System *system = &simulation->system;

@@ -9,7 +9,7 @@
 
 #include "picture/canvas.h"
 #include "picture/text.h"
-#include "play/png_file.h"
+#include "play/recording.h"
 
 double envelope_h(int i)
 {

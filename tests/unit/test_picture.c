@@ -17,7 +17,7 @@
 #include "scenes/options.h"
 #include "play/player.h"
 #include "play/playing.h"
-#include "play/png_file.h"
+#include "play/recording.h"
 #include "play/recording.h"
 #include "scenes/scene.h"
 #include "play/view.h"

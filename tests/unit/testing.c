@@ -408,6 +408,14 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                  STATUS_OK);
 }
 
+double energies_of(const Energies *energies, const char *name)
+{
+    for (int i = 0; i < energies->rows; i++)
+        if (strcmp(energies->row[i].name, name) == 0)
+            return energies->row[i].value;
+    return 0;
+}
+
 double energy_now(const Simulation *simulation, int run, const char *name)
 {
     const Energies energies = simulation_energies(simulation, run);

@@ -133,6 +133,7 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
 
 /* One row of a ledger; of that of a run now, J. */
 #define OF(energies, name) energies_of(energies, #name)
+double energies_of(const Energies *energies, const char *name);
 double energy_now(const Simulation *simulation, int run, const char *name);
 
 /* Strain of spring s of run 0: |d|/l - 1. */
