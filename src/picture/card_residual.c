@@ -72,13 +72,18 @@ static void draw_updates(Paper *paper, const Plot *plot,
     }
 }
 
-/* Its line, and what that means in metres; h 0: nothing. */
+/* ems, a plot that has room for words. */
+static const double WORDS_WIDE = 10, WORDS_HIGH = 4.5;
+
+/* Its line, and what that means in metres where there is room beside the curve;
+ * h 0: nothing. */
 static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance,
                            double h)
 {
     char metres[64] = "", number[48];
     plot_number(number, sizeof number, h * tolerance);
-    if (h > 0)
+    if (h > 0 && plot->box.width > WORDS_WIDE * paper->em &&
+        plot->box.height > WORDS_HIGH * paper->em)
         snprintf(metres, sizeof metres, ": h \u03b5 = %s m", number);
     double p[2], q[2], unit = paper->unit;
     plot_place(plot, plot->x.low, tolerance, p);
