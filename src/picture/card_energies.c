@@ -68,9 +68,9 @@ static bool series_are_runs(const Simulation *simulation)
 static Colour series_colour(const Simulation *simulation,
                             const History *history, int series)
 {
-    return series_are_runs(simulation)
-               ? circle_colour(simulation, series)
-               : colour_of_energy(history->name[series]);
+    if (series_are_runs(simulation))
+        return circle_colour(simulation, series);
+    return colour_of_energy(series == 0 ? "total" : history->name[series]);
 }
 
 /* The last point of the history that is not later than this time; -1: none. */

@@ -72,30 +72,24 @@ static void draw_updates(Paper *paper, const Plot *plot,
     }
 }
 
-/* ems, a plot that has room for words. */
-static const double WORDS_WIDE = 10, WORDS_HIGH = 4.5;
-
-/* Its line, and what that means in metres where there is room beside the curve;
- * h 0: nothing. */
+/* Its line; and below, where the curve does not come from, what that means in
+ * metres; h 0: nothing. */
 static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance,
                            double h)
 {
-    char metres[64] = "", number[48];
+    char number[48], words[80] = "\u03b5";
+    double p[2], q[2], unit = paper->unit, em = paper->em;
     plot_number(number, sizeof number, h * tolerance);
-    if (h > 0 && plot->box.width > WORDS_WIDE * paper->em &&
-        plot->box.height > WORDS_HIGH * paper->em)
-        snprintf(metres, sizeof metres, ": h \u03b5 = %s m", number);
-    double p[2], q[2], unit = paper->unit;
     plot_place(plot, plot->x.low, tolerance, p);
     plot_place(plot, plot->x.high, tolerance, q);
     canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
                   floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
                   NULL, COLOUR_TEXT);
-    /* The curve comes from the left, above. */
-    bool above = p[1] + 1.3 * paper->em > plot->box.y + plot->box.height;
-    paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * paper->em,
-                p[1] + (above ? -1.25 : 0.1) * paper->em, ALIGN_LEFT,
-                "\u03b5%s", metres);
+    bool below = p[1] + 1.05 * em <= plot->box.y + plot->box.height;
+    if (below && h > 0)
+        snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m", number);
+    paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
+                p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);
 }
 
 /* The last record of the trace is the update whose p is known; its point is
