@@ -2,7 +2,7 @@
  * their values at borders, and remainders to the last digits, against integrals
  * and formulas in extended precision.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <math.h>
@@ -83,9 +83,8 @@ static long double friction_second(long double y, const double *constants)
 }
 
 /* The values at the borders, which no difference can tell. */
-static void scalars_are_continuous(void **state)
+TEST(scalars_are_continuous)
 {
-    (void)state;
     const double below = 1 - DBL_EPSILON / 2, e = 0.125;
     CHECK_NEAR(barrier_value(0.5), 0.5 * logl(2), 1e-16);
     CHECK_NEAR(barrier_value(below), 0, 1e-30);
@@ -111,9 +110,8 @@ static void scalars_are_continuous(void **state)
 
 /* 7e-13 in topics of 60 digits; ours holds some units in the last place, more
  * where y + t itself is rounded. */
-static void remainders_are_exact(void **state)
+TEST(remainders_are_exact)
 {
-    (void)state;
     Random random = {12};
     const double one = 1;
     for (int i = 0; i < 1500; i++) {
@@ -134,9 +132,8 @@ static void remainders_are_exact(void **state)
     }
 }
 
-static void remainders_of_pieces_are_exact(void **state)
+TEST(remainders_of_pieces_are_exact)
 {
-    (void)state;
     Random random = {13};
     for (int i = 0; i < 3000; i++) {
         double c[2] = {random_logarithmic(&random, 1e-8, 10),
@@ -178,9 +175,8 @@ static Wide twice_V(Wide Y, Wide flow, Wide theta, Wide e_n, Wide e)
  * fly.  Where they are elastic, |e| < Y, is known to an ulp of e and Y: that
  * moves the remainder by no more than 2Y times the way.  And the whole change,
  * V(e + t) - V(e), is as exact as V is large. */
-static void remainders_of_flow_are_exact(void **state)
+TEST(remainders_of_flow_are_exact)
 {
-    (void)state;
     Random random = {15};
     for (int i = 0; i < 20000; i++) {
         double Y = random_logarithmic(&random, 1e-8, 10), e_n = 0, theta = 0;
@@ -218,9 +214,8 @@ static void remainders_of_flow_are_exact(void **state)
     }
 }
 
-static void log1p_minus_is_exact(void **state)
+TEST(log1p_minus_is_exact)
 {
-    (void)state;
     Random random = {14};
     for (int i = 0; i < 20000; i++) {
         double z = random_logarithmic(&random, 1e-18, 1);
@@ -239,14 +234,4 @@ static void log1p_minus_is_exact(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scalars_are_continuous),
-        cmocka_unit_test(log1p_minus_is_exact),
-        cmocka_unit_test(remainders_are_exact),
-        cmocka_unit_test(remainders_of_pieces_are_exact),
-        cmocka_unit_test(remainders_of_flow_are_exact),
-    };
-    return cmocka_run_group_tests_name("barrier", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,7 +1,7 @@
 /* How a square starts, falls and hangs: gravity in every integrator, pinned
  * nodes, turned and thrown starts, and the text of --pin.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,9 +57,8 @@ static long double centre(const Simulation *simulation, const double *values,
 
 /* A stretched, turned, thrown square: springs work, and its centre of mass does
  * not notice.  1e-9: a hundred roundings of numbers of size 1. */
-static void the_centre_of_mass_falls_as_the_method_says(void **unused)
+TEST(the_centre_of_mass_falls_as_the_method_says)
 {
-    (void)unused;
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
         char line[256];
         Simulation simulation;
@@ -89,9 +88,8 @@ static void the_centre_of_mass_falls_as_the_method_says(void **unused)
 
 /* At rest it falls as one piece: the springs stay at their lengths.  100 steps
  * of backward Euler: y = -g h^2 n (n+1)/2. */
-static void free_fall_is_exact(void **unused)
+TEST(free_fall_is_exact)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("square --stretch 1 --gravity 9.81 --timestep 0.01",
                          NULL, NULL, &simulation);
@@ -110,9 +108,8 @@ static void free_fall_is_exact(void **unused)
 }
 
 /* Not by a bit, in any method, also where the square is thrown. */
-static void pinned_nodes_do_not_move(void **unused)
+TEST(pinned_nodes_do_not_move)
 {
-    (void)unused;
     static const int pinned[] = {0, 3, 7, 15};
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
         char line[256];
@@ -142,9 +139,8 @@ static void pinned_nodes_do_not_move(void **unused)
 }
 
 /* Stretched in x, then turned about the origin, then moved. */
-static void a_start_is_stretched_turned_and_moved(void **unused)
+TEST(a_start_is_stretched_turned_and_moved)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("square --segments 2 --stretch 1.5 --turn 90 --at "
                          "3,-4 --velocity 5,6",
@@ -161,9 +157,8 @@ static void a_start_is_stretched_turned_and_moved(void **unused)
 }
 
 /* Nodes 0 ... rows are the left column from below. */
-static void the_words_of_pin_name_their_nodes(void **unused)
+TEST(the_words_of_pin_name_their_nodes)
 {
-    (void)unused;
     static const struct {
         int columns, rows;
         const char *text, *pinned;
@@ -196,9 +191,8 @@ static void the_words_of_pin_name_their_nodes(void **unused)
         CHECK_STATUS(pins_read(bad[i], 2, 2, NULL), STATUS_INVALID_INPUT);
 }
 
-static void pins_are_refused_in_one_line(void **unused)
+TEST(pins_are_refused_in_one_line)
 {
-    (void)unused;
     char *line[] = {"elasto", "--pin", "3,25", NULL};
     char message[512];
     Options options;
@@ -214,15 +208,4 @@ static void pins_are_refused_in_one_line(void **unused)
         message, "--gravity: the scene 'landscape' has no body that falls");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_centre_of_mass_falls_as_the_method_says),
-        cmocka_unit_test(free_fall_is_exact),
-        cmocka_unit_test(pinned_nodes_do_not_move),
-        cmocka_unit_test(a_start_is_stretched_turned_and_moved),
-        cmocka_unit_test(the_words_of_pin_name_their_nodes),
-        cmocka_unit_test(pins_are_refused_in_one_line),
-    };
-    return cmocka_run_group_tests_name("body", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

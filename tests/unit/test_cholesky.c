@@ -1,7 +1,7 @@
 /* Factorisations of each kind against elimination in extended precision, and
  * what they say of matrices that have no factor.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <math.h>
@@ -110,17 +110,15 @@ static void check_kind(CholeskyKind kind, bool ordered)
     problem_free(&problem);
 }
 
-static void definite_solves(void **unused)
+TEST(definite_solves)
 {
-    (void)unused;
     check_kind(CHOLESKY_DEFINITE, false);
     check_kind(CHOLESKY_DEFINITE, true);
 }
 
 /* One diagonal entry in two made negative: the last one, and the first. */
-static void indefinite_solves(void **unused)
+TEST(indefinite_solves)
 {
-    (void)unused;
     check_kind(CHOLESKY_INDEFINITE, false);
     check_kind(CHOLESKY_INDEFINITE, true);
     Random random = {33};
@@ -137,9 +135,8 @@ static void indefinite_solves(void **unused)
 }
 
 /* Every diagonal entry in turn made negative: one negative eigenvalue. */
-static void indefinite_matrices_are_reported(void **unused)
+TEST(indefinite_matrices_are_reported)
 {
-    (void)unused;
     Random random = {40};
     Problem problem;
     problem_create(CHOLESKY_DEFINITE, false, &problem);
@@ -163,9 +160,8 @@ static void make_singular(Problem *problem)
             problem->A.value[problem->slot[t]] = 0;
 }
 
-static void singular_matrices_are_reported(void **unused)
+TEST(singular_matrices_are_reported)
 {
-    (void)unused;
     Random random = {50};
     Problem problem;
     problem_create(CHOLESKY_DEFINITE, true, &problem);
@@ -184,9 +180,8 @@ static void singular_matrices_are_reported(void **unused)
 }
 
 /* L D L^T steps over the zero pivot, and the solution tells. */
-static void singular_systems_are_reported(void **unused)
+TEST(singular_systems_are_reported)
 {
-    (void)unused;
     Random random = {51};
     double b[SIZE], x[SIZE];
     Problem problem;
@@ -206,9 +201,8 @@ static void singular_systems_are_reported(void **unused)
 /* Pivots that are 0 but for rounding, in a matrix that is not singular at
  * all: [[1e-17, 1], [1, 1]] in the corner.  Refinement must give the digits
  * back; 1e-11: it stops at a residual of 1e-15. */
-static void small_pivots_are_refined(void **unused)
+TEST(small_pivots_are_refined)
 {
-    (void)unused;
     Random random = {52};
     double b[SIZE], x[SIZE], dense[SIZE * SIZE];
     long double A[SIZE * SIZE], exact[SIZE];
@@ -233,9 +227,8 @@ static void small_pivots_are_refined(void **unused)
 }
 
 /* In every place that there is, one at a time. */
-static void numbers_that_are_not_finite_are_reported(void **unused)
+TEST(numbers_that_are_not_finite_are_reported)
 {
-    (void)unused;
     const double bad[] = {NAN, INFINITY, -INFINITY};
     Random random = {60};
     for (int kind = 0; kind <= CHOLESKY_INDEFINITE; kind++) {
@@ -254,9 +247,8 @@ static void numbers_that_are_not_finite_are_reported(void **unused)
 }
 
 /* b / 1e-300 is infinite for b = 1e300. */
-static void overflowing_solutions_are_reported(void **unused)
+TEST(overflowing_solutions_are_reported)
 {
-    (void)unused;
     for (int kind = 0; kind <= CHOLESKY_INDEFINITE; kind++) {
         Problem problem;
         double b[SIZE] = {0}, x[SIZE];
@@ -275,9 +267,8 @@ static void overflowing_solutions_are_reported(void **unused)
 }
 
 /* What is dropped lies behind the last entry and is never read. */
-static void dropped_values_are_not_read(void **unused)
+TEST(dropped_values_are_not_read)
 {
-    (void)unused;
     Random random = {70};
     Problem problem;
     problem_create(CHOLESKY_DEFINITE, true, &problem);
@@ -321,9 +312,8 @@ static double product(const double *A, const double *B, int i, int j, int k)
 
 /* Equal to the bit, whatever the width of the lanes; nothing else is written,
  * but by dsyrk right of the triangle. */
-static void products_have_one_order_of_sums(void **unused)
+TEST(products_have_one_order_of_sums)
 {
-    (void)unused;
     Random random = {71};
     const int ld = LD;
     const double one = 1, zero = 0;
@@ -352,9 +342,8 @@ static void products_have_one_order_of_sums(void **unused)
 
 /* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums' sizes: pivots
  * are 2 at least, the other entries at most 1. */
-static void factors_and_divisions_are_exact_to_rounding(void **unused)
+TEST(factors_and_divisions_are_exact_to_rounding)
 {
-    (void)unused;
     Random random = {72};
     const int ld = LD;
     const double one = 1;
@@ -385,20 +374,4 @@ static void factors_and_divisions_are_exact_to_rounding(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(definite_solves),
-        cmocka_unit_test(indefinite_solves),
-        cmocka_unit_test(indefinite_matrices_are_reported),
-        cmocka_unit_test(singular_matrices_are_reported),
-        cmocka_unit_test(singular_systems_are_reported),
-        cmocka_unit_test(small_pivots_are_refined),
-        cmocka_unit_test(numbers_that_are_not_finite_are_reported),
-        cmocka_unit_test(overflowing_solutions_are_reported),
-        cmocka_unit_test(dropped_values_are_not_read),
-        cmocka_unit_test(products_have_one_order_of_sums),
-        cmocka_unit_test(factors_and_divisions_are_exact_to_rounding),
-    };
-    return cmocka_run_group_tests_name("cholesky", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

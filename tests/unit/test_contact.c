@@ -2,7 +2,7 @@
  * steps: laws of mechanics with closed forms, the ledger of energies, and that
  * no iterate ever penetrates or turns a cell over.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,9 +56,8 @@ static void free_point(Point *point)
 
 /* A pinned node can touch what moves by itself or is moved, and nothing else.
  */
-static void pairs_are_those_that_can_move(void **unused)
+TEST(pairs_are_those_that_can_move)
 {
-    (void)unused;
     enum { PINNED, BALL };
     unsigned char pinned[2] = {1, 0};
     double pin_v[4] = {0};
@@ -98,9 +97,8 @@ static double barrier_inverse(double f)
 /* A mass flies into the barrier and out again.  It turns where the barrier has
  * taken all of m v^2/2; implicit Euler swallows a part of the bounce that goes
  * to 0 with h. */
-static void bounce_comes_back_with_small_steps(void **unused)
+TEST(bounce_comes_back_with_small_steps)
 {
-    (void)unused;
     const double n[2] = {0, 1}, x[2] = {0, 0.01}, v[2] = {0, -1};
     const double d_hat = 0.01, c = 1;
     double exact = d_hat * barrier_inverse(0.5 / c), time = 0, last = 0;
@@ -134,9 +132,8 @@ static void bounce_comes_back_with_small_steps(void **unused)
 
 /* A block on a slope.  mu > tan: it creeps at eps_v (1 - sqrt(1 - tan/mu));
  * mu < tan: it slides with g (sin - mu cos). */
-static void slopes_hold_and_let_go(void **unused)
+TEST(slopes_hold_and_let_go)
 {
-    (void)unused;
     double angle = 0.35, t[2] = {-cos(angle), -sin(angle)};
     const double n[2] = {-sin(angle), cos(angle)}, still[2] = {0, 0};
     for (int slides = 0; slides < 2; slides++) {
@@ -161,9 +158,8 @@ static void slopes_hold_and_let_go(void **unused)
 
 /* Two masses fly apart: k l2 V(e_max) is the energy of their relative motion
  * m v^2/4, and what has flowed is (e_max - Y)/(1 + H); it stays. */
-static void a_plastic_spring_keeps_what_has_flowed(void **unused)
+TEST(a_plastic_spring_keeps_what_has_flowed)
 {
-    (void)unused;
     const double k = 1000, Y = 0.05, H = 0.3, m = 1, l2 = 1, v = 8;
     double low = Y, high = 10, error[2];
     for (int i = 0; i < 200; i++) {
@@ -225,9 +221,8 @@ static void make_plastic_spring(System *system)
 
 /* What flows turns stored energy into lost energy, and nothing else: hardening
  * is stored.  Twice, so that the second flow finds a hardened spring. */
-static void flow_is_booked(void **unused)
+TEST(flow_is_booked)
 {
-    (void)unused;
     System system;
     make_plastic_spring(&system);
     Term *term = &system.term[0];
@@ -247,9 +242,8 @@ static void flow_is_booked(void **unused)
 
 /* Differences of the energy along a line are those of its values, wherever it
  * begins: elastic, just beyond the yield strain, far beyond. */
-static void flow_is_exact_along_lines(void **unused)
+TEST(flow_is_exact_along_lines)
 {
-    (void)unused;
     System system;
     make_plastic_spring(&system);
     Term *term = &system.term[0];
@@ -273,9 +267,8 @@ static void flow_is_exact_along_lines(void **unused)
 /* The same for cells that the way leads below J_hat: a body at rest pressed to
  * 0.3 of its height, J = 1 - 0.7 alpha.  1e-12: rounding of J, of 1e-16, in
  * the barriers of 8 cells. */
-static void cells_are_exact_along_lines(void **unused)
+TEST(cells_are_exact_along_lines)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 2 --stretch 1 --cells on", NULL, NULL,
                          &simulation);
@@ -299,9 +292,8 @@ static void cells_are_exact_along_lines(void **unused)
 
 /* The same for a node that the way leads to the wall from where the barrier is
  * 0 yet, and back again.  1e-14: rounding. */
-static void contacts_are_exact_along_lines(void **unused)
+TEST(contacts_are_exact_along_lines)
 {
-    (void)unused;
     Point point;
     const double n[2] = {0, 1}, zero[2] = {0}, high[2] = {0, 0.15};
     const double low[2] = {0, 0.02}, down[2] = {0.1, -0.13},
@@ -326,9 +318,8 @@ static void contacts_are_exact_along_lines(void **unused)
 
 /* Three steps of 1000 s bring a chain of springs to rest: each holds what hangs
  * on it, 2 k s l sqrt(1 + s) = m g (nodes below). */
-static void a_chain_hangs_at_rest(void **unused)
+TEST(a_chain_hangs_at_rest)
 {
-    (void)unused;
     enum { LINKS = 5 };
     const NewtonSettings settings = {
         .h = 1e3, .tolerance = 1e-15, .max_iterations = 1000};
@@ -407,9 +398,8 @@ enum { ALL_SCENES = sizeof all_scenes / sizeof *all_scenes };
 
 /* Every gap and every cell is > 0 at every iterate, and every step converges
  * where there is a line search. */
-static void nothing_penetrates_or_turns_over(void **unused)
+TEST(nothing_penetrates_or_turns_over)
 {
-    (void)unused;
     for (int i = 0; i < ALL_SCENES; i++) {
         Simulation simulation;
         Watch watch = {&simulation, INFINITY, INFINITY, 0};
@@ -527,9 +517,8 @@ static double dissipated_in(const TimeIntegrator *run, const double *x,
 /* The ledger's dissipation is what is left over; here it is summed from
  * formulas of its own: |v' - v|_M^2/2 and what lies between P and its tangent
  * at the end of the step.  And every step keeps the inequality of a minimum. */
-static void the_ledger_adds_up(void **unused)
+TEST(the_ledger_adds_up)
 {
-    (void)unused;
     static const char *const lines[] = {
         "slope --tolerance 1e-8",   "dent --tolerance 1e-8 --damping 0.003",
         "tear --tolerance 1e-8",    "bend --tolerance 1e-8",
@@ -582,9 +571,8 @@ static void the_ledger_adds_up(void **unused)
 
 /* M (v' - v) = h (M g + sum of the walls' forces), these from formulas of the
  * test: normal ones at x', tangential ones with the normal forces of x. */
-static void momentum_is_what_the_walls_give(void **unused)
+TEST(momentum_is_what_the_walls_give)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("drop --tolerance 1e-8", NULL, NULL, &simulation);
     TimeIntegrator *run = &simulation.run[0];
@@ -635,9 +623,8 @@ static void momentum_is_what_the_walls_give(void **unused)
 
 /* After the ceiling has gone the square is as it was; with springs that flow it
  * is not. */
-static void what_is_unloaded_comes_back(void **unused)
+TEST(what_is_unloaded_comes_back)
 {
-    (void)unused;
     static const char *const lines[] = {
         "squeeze --segments 8 --gravity 0",
         "squeeze --segments 8 --gravity 0 --yield 0.05"};
@@ -683,9 +670,8 @@ static void turn_run(TimeIntegrator *run, double angle)
     }
 }
 
-static void directions_do_not_matter(void **unused)
+TEST(directions_do_not_matter)
 {
-    (void)unused;
     static const struct {
         double angle;
         bool mirror;
@@ -775,9 +761,8 @@ static void check_all_that_must_break(const System *system, const double *k,
 
 /* What a step breaks was overstretched, shares no node, and the energy booked
  * is that of the springs and of the cells that end with them. */
-static void breaking_books_its_energy(void **unused)
+TEST(breaking_books_its_energy)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("tear", NULL, NULL, &simulation);
     System *system = &simulation.system;
@@ -828,9 +813,8 @@ static void breaking_books_its_energy(void **unused)
 
 /* Five equal springs from one node, equally loaded: it loses one a step, the
  * one with the smallest number. */
-static void equal_loads_break_in_their_order(void **unused)
+TEST(equal_loads_break_in_their_order)
 {
-    (void)unused;
     enum { SPRINGS = 5 };
     const double x[2 * (SPRINGS + 1)] = {0, 0, 2, 0, 0, 2, -2, 0, 0, -2, 2, 0};
     System system;
@@ -850,9 +834,8 @@ static void equal_loads_break_in_their_order(void **unused)
 }
 
 /* A spring that is broken stays as it was, however far its ends part. */
-static void broken_springs_do_not_flow(void **unused)
+TEST(broken_springs_do_not_flow)
 {
-    (void)unused;
     const double x[4] = {0, 0, 3, 0};
     System system;
     CHECK_STATUS(system_create(2, 1, &system), STATUS_OK);
@@ -875,9 +858,8 @@ static void broken_springs_do_not_flow(void **unused)
 /* A belt: an inclined wall that moves along itself at W takes a block along.
  * While it slips, it feels mu N, N = m g cos; what the belt does is mu N W a
  * second, half of which heats. */
-static void a_belt_takes_its_load_along(void **unused)
+TEST(a_belt_takes_its_load_along)
 {
-    (void)unused;
     const double mu = 0.9, angle = 0.3, W = 10, h = 0.01, still[2] = {0, 0};
     const double n[2] = {-sin(angle), cos(angle)};
     const double t[2] = {cos(angle), sin(angle)};
@@ -911,9 +893,8 @@ static void a_belt_takes_its_load_along(void **unused)
 /* The lecture author's fifth program, solved tightly: a ceiling that comes down
  * at 0.5 m/s.  There a stiff spring draws it along and misses by 1e-6 m; here
  * it is where it belongs.  Friction is the ground's alone. */
-static void a_ceiling_comes_down_as_in_the_lesson(void **unused)
+TEST(a_ceiling_comes_down_as_in_the_lesson)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line(
         "square --segments 4 --stiffness 2e4 --stretch 1 --timestep 0.01 "
@@ -952,9 +933,8 @@ static void a_ceiling_comes_down_as_in_the_lesson(void **unused)
 
 /* A ceiling of 50 m/s comes in parts, each from a place that is allowed; one
  * that would crush the square to nothing is stopped, and the step says so. */
-static void a_fast_ceiling_comes_in_parts(void **unused)
+TEST(a_fast_ceiling_comes_in_parts)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("squeeze --segments 8 --gravity 0", NULL, NULL,
                          &simulation);
@@ -993,9 +973,8 @@ static bool count_circles(void *user, const NewtonRecord *record)
 
 /* Without a line search updates of contact may go round in circles: such a step
  * ends after some hundreds, with its reason. */
-static void circles_without_a_line_search_end(void **unused)
+TEST(circles_without_a_line_search_end)
 {
-    (void)unused;
     static const char *const lines[] = {
         "drop --segments 6 --stiffness 8.29e4 --timestep 0.0192 --tolerance "
         "6e-8 --line-search none --velocity 0.229,-70.7",
@@ -1022,30 +1001,4 @@ static void circles_without_a_line_search_end(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_are_those_that_can_move),
-        cmocka_unit_test(bounce_comes_back_with_small_steps),
-        cmocka_unit_test(slopes_hold_and_let_go),
-        cmocka_unit_test(a_plastic_spring_keeps_what_has_flowed),
-        cmocka_unit_test(flow_is_booked),
-        cmocka_unit_test(flow_is_exact_along_lines),
-        cmocka_unit_test(cells_are_exact_along_lines),
-        cmocka_unit_test(contacts_are_exact_along_lines),
-        cmocka_unit_test(a_chain_hangs_at_rest),
-        cmocka_unit_test(nothing_penetrates_or_turns_over),
-        cmocka_unit_test(the_ledger_adds_up),
-        cmocka_unit_test(circles_without_a_line_search_end),
-        cmocka_unit_test(momentum_is_what_the_walls_give),
-        cmocka_unit_test(what_is_unloaded_comes_back),
-        cmocka_unit_test(directions_do_not_matter),
-        cmocka_unit_test(breaking_books_its_energy),
-        cmocka_unit_test(a_ceiling_comes_down_as_in_the_lesson),
-        cmocka_unit_test(a_fast_ceiling_comes_in_parts),
-        cmocka_unit_test(a_belt_takes_its_load_along),
-        cmocka_unit_test(equal_loads_break_in_their_order),
-        cmocka_unit_test(broken_springs_do_not_flow),
-    };
-    return cmocka_run_group_tests_name("contact", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -2,7 +2,7 @@
  * options, starts that are refused, what is held fast, and the forces that
  * their pictures show.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,9 +18,8 @@
 
 /* A scene is a row of defaults: the square with the same options makes the
  * same bits, with normals of any length. */
-static void the_square_with_options_is_the_scene(void **unused)
+TEST(the_square_with_options_is_the_scene)
 {
-    (void)unused;
     static const char *const lines[][2] = {
         {"hang", "square --segments 12 --stiffness 1e4 --stretch 1 --timestep "
                  "0.01 --tolerance 1e-3 --gravity 9.81 --pin top-corners"},
@@ -65,9 +64,8 @@ static void message_of(const char *line, char message[512])
 }
 
 /* Who begins in an obstacle is told which node, and how deep. */
-static void starts_that_touch_are_refused(void **unused)
+TEST(starts_that_touch_are_refused)
 {
-    (void)unused;
     static const struct {
         const char *line, *message;
     } cases[] = {
@@ -115,9 +113,8 @@ static void starts_that_touch_are_refused(void **unused)
 
 /* Pins are no way out: a ceiling ends at nodes that are held, and pins that are
  * drawn against a wall stop before it; the steps say so. */
-static void pins_and_walls_stop_each_other(void **unused)
+TEST(pins_and_walls_stop_each_other)
 {
-    (void)unused;
     static const char *const lines[] = {
         "squeeze --segments 4 --pin top",
         "tear --segments 4 --ground 1,0,-0.52,0 --timestep 0.01"};
@@ -140,9 +137,8 @@ static void pins_and_walls_stop_each_other(void **unused)
 }
 
 /* The sides of the sheet are drawn apart; a node that a hand pins stays. */
-static void a_pin_set_by_hand_stays(void **unused)
+TEST(a_pin_set_by_hand_stays)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("tear --segments 6", NULL, NULL, &simulation);
     double left = simulation.run[0].x[0];
@@ -157,9 +153,8 @@ static void a_pin_set_by_hand_stays(void **unused)
 
 /* Negative curvature is looked for in the first minimisation, before any other
  * work has asked for its arrays. */
-static void a_saddle_may_be_the_first_thing(void **unused)
+TEST(a_saddle_may_be_the_first_thing)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("tear --stiffness 1e8 --minimum", NULL, NULL,
                          &simulation);
@@ -170,9 +165,8 @@ static void a_saddle_may_be_the_first_thing(void **unused)
 
 /* What falls on the middle of a ball without a turn stays symmetric: 150 steps,
  * tolerance 1e-8; the two halves are added in different orders. */
-static void what_is_symmetric_stays_so(void **unused)
+TEST(what_is_symmetric_stays_so)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("dent --segments 8 --velocity 0,-2 --tolerance 1e-8",
                          NULL, NULL, &simulation);
@@ -190,9 +184,8 @@ static void what_is_symmetric_stays_so(void **unused)
 
 /* The three blocks of the slope begin as high above their grounds, whatever
  * their size.  1e-15: rounding of coordinates of size 1. */
-static void blocks_begin_alike(void **unused)
+TEST(blocks_begin_alike)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("slope --side 0.3", NULL, NULL, &simulation);
     const TimeIntegrator *run = simulation.run;
@@ -208,9 +201,8 @@ static void blocks_begin_alike(void **unused)
 /* The arrows on the blocks of the slope: on the one that holds they add up to
  * its weight, straight up, and all sticks; on those that slide they take the
  * same part of it normal to the slope, and mu times that along it. */
-static void arrows_are_the_forces(void **unused)
+TEST(arrows_are_the_forces)
 {
-    (void)unused;
     static const double part[3] = {0.5, 0.9, 1.1};
     const double angle = 20 * 0.017453292519943295, weight = 250 * 9.81;
     Simulation simulation;
@@ -249,9 +241,8 @@ static void arrows_are_the_forces(void **unused)
 /* Coulomb's cone in a tumbling square: friction is never more than mu times the
  * normal force that it was given, never pushes on, and both happens: contacts
  * that stick, with less, and contacts that slide, with all of it. */
-static void friction_stays_in_its_cone(void **unused)
+TEST(friction_stays_in_its_cone)
 {
-    (void)unused;
     Simulation simulation;
     int sticks = 0, slides = 0;
     simulation_from_line("drop --segments 6", NULL, NULL, &simulation);
@@ -284,9 +275,8 @@ static void friction_stays_in_its_cone(void **unused)
 
 /* The curves of the card add up: what was there at the start and the work that
  * was done is what is there now and what was lost. */
-static void the_curves_are_the_ledger(void **unused)
+TEST(the_curves_are_the_ledger)
 {
-    (void)unused;
     static const char *const lines[] = {"drop --segments 6", "squeeze",
                                         "dent --segments 6",
                                         "tear --segments 8", "bend"};
@@ -360,9 +350,8 @@ static void meddle(Simulation *simulation, int deed)
 
 /* A hand, a pin, another time step or stiffness is booked as work: nothing that
  * is lost changes with it, and in the steps after it all that is lost grows. */
-static void what_hands_do_is_work(void **unused)
+TEST(what_hands_do_is_work)
 {
-    (void)unused;
     static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
                                         "slope --segments 3",
                                         "squeeze --segments 4",
@@ -403,20 +392,4 @@ static void what_hands_do_is_work(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_square_with_options_is_the_scene),
-        cmocka_unit_test(starts_that_touch_are_refused),
-        cmocka_unit_test(pins_and_walls_stop_each_other),
-        cmocka_unit_test(a_pin_set_by_hand_stays),
-        cmocka_unit_test(a_saddle_may_be_the_first_thing),
-        cmocka_unit_test(what_is_symmetric_stays_so),
-        cmocka_unit_test(blocks_begin_alike),
-        cmocka_unit_test(arrows_are_the_forces),
-        cmocka_unit_test(friction_stays_in_its_cone),
-        cmocka_unit_test(the_curves_are_the_ledger),
-        cmocka_unit_test(what_hands_do_is_work),
-    };
-    return cmocka_run_group_tests_name("contact scenes", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,5 +1,5 @@
 /* Two threads on one loop: every item is done once. */
-#include "testing.h"
+#include "test.h"
 
 #include <stdatomic.h>
 
@@ -18,9 +18,8 @@ static void work_on(const void *job, int first, int end)
         atomic_fetch_add(&mine->done[i], 1);
 }
 
-static void every_item_is_done_once(void **state)
+TEST(every_item_is_done_once)
 {
-    (void)state;
     static Job job;
     for (int threads = 1; threads <= 2; threads++) {
         Crew *crew = crew_create(threads);
@@ -40,19 +39,11 @@ static void every_item_is_done_once(void **state)
     }
 }
 
-static void a_crew_can_end_at_once(void **state)
+TEST(a_crew_can_end_at_once)
 {
-    (void)state;
     for (int i = 0; i < 50; i++)
         crew_free(crew_create(2));
     crew_free(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_item_is_done_once),
-        cmocka_unit_test(a_crew_can_end_at_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -2,7 +2,7 @@
  * ordinary differential equation of two masses, momentum, turning, the ledger,
  * and everything that a damped scene shares with others.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -99,9 +99,8 @@ static void make_case(Random *random, bool flows, Case *c)
 /* Of the springs' terms in a step, elastic and plastic, against differences of
  * the header's formula: their error is e^2, and where flow begins on the way
  * that of the bend. */
-static void the_gradient_is_that_of_the_formula(void **unused)
+TEST(the_gradient_is_that_of_the_formula)
 {
-    (void)unused;
     Random random = {5};
     for (int n = 0; n < 200; n++) {
         const long double e = 1e-5L;
@@ -120,9 +119,8 @@ static void the_gradient_is_that_of_the_formula(void **unused)
 }
 
 /* E along p: the exact difference of the formula. */
-static void the_line_is_exact(void **unused)
+TEST(the_line_is_exact)
 {
-    (void)unused;
     Random random = {8};
     for (int n = 0; n < 200; n++) {
         Case c;
@@ -148,9 +146,8 @@ static void the_line_is_exact(void **unused)
 }
 
 /* H p is how the gradient changes. */
-static void the_hessian_is_the_gradients_change(void **unused)
+TEST(the_hessian_is_the_gradients_change)
 {
-    (void)unused;
     Random random = {9};
     for (int n = 0; n < 100; n++) {
         Case c;
@@ -172,9 +169,8 @@ static void the_hessian_is_the_gradients_change(void **unused)
 
 /* What solvers compare with masses and forces: the largest k' and k' l of the
  * step. */
-static void bounds_are_those_of_the_step(void **unused)
+TEST(bounds_are_those_of_the_step)
 {
-    (void)unused;
     Random random = {10};
     for (int n = 0; n < 50; n++) {
         Case c;
@@ -196,9 +192,8 @@ static void bounds_are_those_of_the_step(void **unused)
 }
 
 /* Outside of a step the potential is that of the springs alone. */
-static void the_potential_knows_nothing_of_it(void **unused)
+TEST(the_potential_knows_nothing_of_it)
 {
-    (void)unused;
     Random random = {6};
     for (int n = 0; n < 20; n++) {
         System system;
@@ -221,9 +216,8 @@ static void the_potential_knows_nothing_of_it(void **unused)
 /* The square turned and moved as a whole: no spring has another strain, so the
  * gradient in the step is that without damping, however large theta is; and
  * whatever the nodes do, the forces have no sum and no torque. */
-static void turning_costs_nothing(void **unused)
+TEST(turning_costs_nothing)
 {
-    (void)unused;
     Random random = {7};
     for (int n = 0; n < 100; n++) {
         System system;
@@ -295,9 +289,8 @@ static void create_pair(double eta, System *system)
 
 /* After 0.1 s, a bit more than one swing, the error is that of the method: half
  * of it with half the step. */
-static void the_damped_pair_follows_its_equation(void **unused)
+TEST(the_damped_pair_follows_its_equation)
 {
-    (void)unused;
     const double time = 0.1, start = 1.2;
     const double x[4] = {-start / 2, 0, start / 2, 0}, v[4] = {0};
     double exact = exact_pair(start, 0, time), error[3];
@@ -328,9 +321,8 @@ static void the_damped_pair_follows_its_equation(void **unused)
 }
 
 /* As the steps get shorter all that is lost is lost by damping. */
-static void damping_takes_what_is_lost(void **unused)
+TEST(damping_takes_what_is_lost)
 {
-    (void)unused;
     double share[2];
     for (int n = 0; n < 2; n++) {
         char line[128];
@@ -369,9 +361,8 @@ static uint64_t hash_after(const char *line, int steps)
 }
 
 /* A scene that had the term for a while has the bits of one that never did. */
-static void none_of_it_leaves_the_bits(void **unused)
+TEST(none_of_it_leaves_the_bits)
 {
-    (void)unused;
     static const char *const lines[] = {"square", "dent", "tear",
                                         "hang --segments 40"};
     for (int n = 0; n < 4; n++) {
@@ -391,9 +382,8 @@ static void none_of_it_leaves_the_bits(void **unused)
 }
 
 /* Springs that could flow, but never do, are the elastic ones. */
-static void stiff_flow_is_none(void **unused)
+TEST(stiff_flow_is_none)
 {
-    (void)unused;
     static const char *const lines[] = {
         "square --damping 0.01 --tolerance 1e-10",
         "square --damping 0.01 --tolerance 1e-10 --yield 100"};
@@ -412,9 +402,8 @@ static void stiff_flow_is_none(void **unused)
 }
 
 /* Broken springs have none: their ends part like free points. */
-static void broken_springs_are_not_damped(void **unused)
+TEST(broken_springs_are_not_damped)
 {
-    (void)unused;
     const double x[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
     const NewtonSettings settings = {
         .h = 0.001, .tolerance = 1e-9, .max_iterations = 100};
@@ -441,9 +430,8 @@ static void broken_springs_are_not_damped(void **unused)
 /* Multigrid makes damped steps, and those of springs that break, and ends where
  * Newton does.  Where springs break, rounding hides what iterations change of E
  * from a tolerance of 1e-7 on. */
-static void multigrid_serves_it(void **unused)
+TEST(multigrid_serves_it)
 {
-    (void)unused;
     static const char *const lines[] = {
         "square --segments 40 --damping 0.005 --tolerance 1e-7 --solver %s",
         "hang --segments 40 --damping 0.05 --tolerance 1e-7 --solver %s",
@@ -479,9 +467,8 @@ static void multigrid_serves_it(void **unused)
 
 /* Contact, flow, fracture, what moves, pins: every step converges, nothing
  * comes back, and the ledger has no hole. */
-static void every_scene_can_be_damped(void **unused)
+TEST(every_scene_can_be_damped)
 {
-    (void)unused;
     static const char *const lines[] = {
         "drop --damping 0.005",
         "slope --damping 0.01",
@@ -531,9 +518,8 @@ static uint64_t hash_of(const Track *track)
 
 /* mu, eta and a hand change while the run goes on; every step is then reached
  * again with its bits and its ledger, whichever way one comes. */
-static void live_changes_are_gone_through_again(void **unused)
+TEST(live_changes_are_gone_through_again)
 {
-    (void)unused;
     enum { STEPS = 120 };
     static const char *const lines[] = {
         "slope", "drop --segments 6 --damping 0.01 --filter clamp",
@@ -588,9 +574,8 @@ static void live_changes_are_gone_through_again(void **unused)
 
 /* A run that gets mu or eta at its beginning is the one that has it from the
  * command line; long enough to meet what it needs for it. */
-static void a_live_number_is_the_option(void **unused)
+TEST(a_live_number_is_the_option)
 {
-    (void)unused;
     static const int steps[] = {20, 100, 120, 20, 120};
     static const char *const lines[][3] = {
         {"slope", "friction 0.2", "slope --friction 0.2"},
@@ -625,9 +610,8 @@ static void a_live_number_is_the_option(void **unused)
 }
 
 /* What goes on with other options has their mu and eta, and what was lost. */
-static void other_options_are_taken_over(void **unused)
+TEST(other_options_are_taken_over)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("slope --damping 0.01", NULL, NULL, &simulation);
     for (int i = 0; i < 20; i++)
@@ -651,9 +635,8 @@ static void other_options_are_taken_over(void **unused)
 }
 
 /* Only where x_(n+1) is the minimiser is (E - E_n)/h the rate that counts. */
-static void other_methods_refuse_it(void **unused)
+TEST(other_methods_refuse_it)
 {
-    (void)unused;
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         char name[64], damped[] = "--damping", eta[] = "0.1";
@@ -685,26 +668,4 @@ static void other_methods_refuse_it(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_gradient_is_that_of_the_formula),
-        cmocka_unit_test(the_line_is_exact),
-        cmocka_unit_test(the_hessian_is_the_gradients_change),
-        cmocka_unit_test(bounds_are_those_of_the_step),
-        cmocka_unit_test(the_potential_knows_nothing_of_it),
-        cmocka_unit_test(turning_costs_nothing),
-        cmocka_unit_test(the_damped_pair_follows_its_equation),
-        cmocka_unit_test(damping_takes_what_is_lost),
-        cmocka_unit_test(none_of_it_leaves_the_bits),
-        cmocka_unit_test(stiff_flow_is_none),
-        cmocka_unit_test(broken_springs_are_not_damped),
-        cmocka_unit_test(multigrid_serves_it),
-        cmocka_unit_test(every_scene_can_be_damped),
-        cmocka_unit_test(live_changes_are_gone_through_again),
-        cmocka_unit_test(a_live_number_is_the_option),
-        cmocka_unit_test(other_options_are_taken_over),
-        cmocka_unit_test(other_methods_refuse_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,6 +1,7 @@
 /* What single commands do: walking through steps, changing a run, taking a step
  * again, panes, pins and hands, beginning anew, keeping pictures, the screen.
  */
+#include "test.h"
 #include "attended.h"
 
 #include <math.h>
@@ -15,9 +16,8 @@
 
 /* Line by line back over the first line of a step: to the last of the step
  * before. */
-static void lines_lead_back_into_the_step_before(void **unused)
+TEST(lines_lead_back_into_the_step_before)
 {
-    (void)unused;
     begin("square --segments 2");
     obey_all(
         (const char *const[]){"step", "step", "finer", "finer", "back", NULL});
@@ -32,9 +32,8 @@ static void lines_lead_back_into_the_step_before(void **unused)
 
 /* Where one lane has come to the end of its step, it waits there for the
  * other. */
-static void lanes_wait_for_each_other(void **unused)
+TEST(lanes_wait_for_each_other)
 {
-    (void)unused;
     begin("square --segments 3 --tolerance 0.5,1e-9");
     obey_all((const char *const[]){"finer", "next", NULL});
     CHECK(lane(0)->tape.places < lane(1)->tape.places);
@@ -52,9 +51,8 @@ static void lanes_wait_for_each_other(void **unused)
 /* Forward Euler explodes within 30 steps.  Beside others it ends there: its
  * pane goes back to a state of the square's own size, says so, and keeps the
  * energies of that; time is that of those who go on. */
-static void a_lane_that_fails_leaves_the_others_alone(void **unused)
+TEST(a_lane_that_fails_leaves_the_others_alone)
 {
-    (void)unused;
     begin_script("0 play\n60 pause\n",
                  "square --integrator forward-euler,symplectic-euler");
     CHECK_STATUS(player_run(&player), STATUS_OK);
@@ -83,9 +81,8 @@ static void a_lane_that_fails_leaves_the_others_alone(void **unused)
 }
 
 /* Whatever a list varies, the panes say. */
-static void every_list_labels_its_panes(void **unused)
+TEST(every_list_labels_its_panes)
 {
-    (void)unused;
     static const char *const lines[] = {
         "square --gravity 1,9.81",
         "square --density 500,1000",
@@ -115,9 +112,8 @@ static void every_list_labels_its_panes(void **unused)
 }
 
 /* What a change in a past step costs is told: the steps behind it. */
-static void forgotten_steps_are_told(void **unused)
+TEST(forgotten_steps_are_told)
 {
-    (void)unused;
     begin("square --segments 2");
     for (int i = 0; i < 6; i++)
         CHECK_STATUS(player_step(&player), STATUS_OK);
@@ -140,9 +136,8 @@ static void forgotten_steps_are_told(void **unused)
 }
 
 /* The key I names the level it leads to; K says where code is. */
-static void keys_say_what_they_do(void **unused)
+TEST(keys_say_what_they_do)
 {
-    (void)unused;
     static const char *const levels[] = {"updates", "lines", "steps",
                                          "updates"};
     begin("square --segments 2");
@@ -176,17 +171,15 @@ static bool next_page_is_lit(const char *line)
 
 /* Where a page is over, the next one is offered; behind the last there is none.
  */
-static void the_last_page_offers_no_next_one(void **unused)
+TEST(the_last_page_offers_no_next_one)
 {
-    (void)unused;
     CHECK(next_page_is_lit("--lecture mesh"));
     CHECK(!next_page_is_lit("--lecture trust"));
 }
 
 /* A square at rest with folded cells says why they may stay. */
-static void folded_cells_at_rest_are_explained(void **unused)
+TEST(folded_cells_at_rest_are_explained)
 {
-    (void)unused;
     begin("square --segments 16");
     for (int i = 0; i < 3000 && !player.paused; i++) {
         CHECK_STATUS(player_step(&player), STATUS_OK);
@@ -200,9 +193,8 @@ static void folded_cells_at_rest_are_explained(void **unused)
 }
 
 /* The row's h follows the dial. */
-static void numbers_follow_the_scene(void **unused)
+TEST(numbers_follow_the_scene)
 {
-    (void)unused;
     begin("dial");
     for (int i = 0; i < 30; i++)
         CHECK_STATUS(player_step(&player), STATUS_OK);
@@ -215,9 +207,8 @@ static void numbers_follow_the_scene(void **unused)
     end();
 }
 
-static void running_leaves_the_lines(void **unused)
+TEST(running_leaves_the_lines)
 {
-    (void)unused;
     begin("square --segments 2");
     obey_all((const char *const[]){"finer", "finer", "next", NULL});
     CHECK(lane(0)->place == 0 && player.paused);
@@ -230,9 +221,8 @@ static void running_leaves_the_lines(void **unused)
 }
 
 /* Between two lines the square is where it was, then where it will be. */
-static void glides_begin_and_end_at_lines(void **unused)
+TEST(glides_begin_and_end_at_lines)
 {
-    (void)unused;
     begin("square --segments 2");
     CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
     player.window = true;
@@ -263,9 +253,8 @@ static void glides_begin_and_end_at_lines(void **unused)
 /* ---- changing ----------------------------------------------------------- */
 
 /* What panes are compared by changes in one of them, the rest in all. */
-static void changes_are_for_one_pane_or_all(void **unused)
+TEST(changes_are_for_one_pane_or_all)
 {
-    (void)unused;
     begin("square --segments 2 --timestep 0.01,0.005");
     obey_all(
         (const char *const[]){"set timestep 0.002", "set stiffness 2e5", NULL});
@@ -285,9 +274,8 @@ static void changes_are_for_one_pane_or_all(void **unused)
 
 /* The default is that of the command line in its own scene, and the scene's in
  * every other. */
-static void defaults_are_the_scene_s(void **unused)
+TEST(defaults_are_the_scene_s)
 {
-    (void)unused;
     begin("square --timestep 0.003");
     obey_all(
         (const char *const[]){"set timestep 0.001", "default timestep", NULL});
@@ -301,9 +289,8 @@ static void defaults_are_the_scene_s(void **unused)
     end();
 }
 
-static void methods_are_switched(void **unused)
+TEST(methods_are_switched)
 {
-    (void)unused;
     begin("square --segments 2 --filter abs");
     CHECK_STATUS(obey("projection"), STATUS_OK);
     CHECK(lane(0)->track.settings.options.filter == FILTER_NONE);
@@ -318,9 +305,8 @@ static void methods_are_switched(void **unused)
 }
 
 /* One number after the other, then none. */
-static void numbers_are_selected_in_turn(void **unused)
+TEST(numbers_are_selected_in_turn)
 {
-    (void)unused;
     const OptionRow *number[OPTIONS_MOST];
     begin("square --segments 2");
     int count = options_row(&player_settings(&player)->options, number);
@@ -338,9 +324,8 @@ static void numbers_are_selected_in_turn(void **unused)
 
 /* The step is made again where it was; a run goes on running, and a walk stays
  * at its line. */
-static void a_step_is_taken_again_in_its_place(void **unused)
+TEST(a_step_is_taken_again_in_its_place)
 {
-    (void)unused;
     begin("square --segments 3 --stretch 0.6");
     obey_all((const char *const[]){"next", "next", "play", "projection", NULL});
     CHECK(player.step == 2 && !player.paused);
@@ -362,9 +347,8 @@ static void a_step_is_taken_again_in_its_place(void **unused)
 
 /* Outcomes of which one explodes are put side by side, whichever comes first;
  * what is said compares them. */
-static void unlike_outcomes_are_put_side_by_side(void **unused)
+TEST(unlike_outcomes_are_put_side_by_side)
 {
-    (void)unused;
     begin("explosion --filter clamp");
     obey_all((const char *const[]){"next", "projection", NULL});
     CHECK(player.lanes == 2);
@@ -376,9 +360,8 @@ static void unlike_outcomes_are_put_side_by_side(void **unused)
 
 /* ---- panes -------------------------------------------------------------- */
 
-static void the_last_pane_goes(void **unused)
+TEST(the_last_pane_goes)
 {
-    (void)unused;
     begin("square --segments 2 --timestep 0.01,0.005,0.002");
     CHECK_STATUS(obey("pane 3"), STATUS_INVALID_INPUT);
     obey_all((const char *const[]){"pane 2", "end-pane", NULL});
@@ -392,9 +375,8 @@ static void the_last_pane_goes(void **unused)
 
 /* ---- hands -------------------------------------------------------------- */
 
-static void hands_pin_and_hold(void **unused)
+TEST(hands_pin_and_hold)
 {
-    (void)unused;
     begin("square --segments 2");
     for (int i = 0; i < 2; i++) {
         CHECK_STATUS(obey("pin 3"), STATUS_OK);
@@ -427,9 +409,8 @@ static void hands_pin_and_hold(void **unused)
 
 /* ---- beginning ---------------------------------------------------------- */
 
-static void scenes_begin(void **unused)
+TEST(scenes_begin)
 {
-    (void)unused;
     begin("square --segments 2 --tolerance 0.1 --speed 8");
     int speed = player.speed;
     CHECK(speed != 0);
@@ -450,9 +431,8 @@ static void scenes_begin(void **unused)
 }
 
 /* Of several panes each must have come to rest. */
-static void rest_is_that_of_all_panes(void **unused)
+TEST(rest_is_that_of_all_panes)
 {
-    (void)unused;
     begin("square --segments 2 --tolerance 1e-6,10");
     CHECK_STATUS(obey("play"), STATUS_OK);
     for (int i = 0; i < 5; i++)
@@ -486,9 +466,8 @@ static bool same_files(const char *one, const char *other)
 }
 
 /* Pictures have names of their own, and show no message of before. */
-static void pictures_are_kept(void **unused)
+TEST(pictures_are_kept)
 {
-    (void)unused;
     static const char *const name[] = {
         "elasto_square_000000.png", "elasto_square_000000_2.png",
         "elasto_square_000000.mp4", "elasto_square_000000_2.mp4"};
@@ -530,9 +509,8 @@ static void pictures_are_kept(void **unused)
 
 /* ---- the screen --------------------------------------------------------- */
 
-static void the_screen_obeys(void **unused)
+TEST(the_screen_obeys)
 {
-    (void)unused;
     begin("square --segments 2");
     for (int i = 0; i < 30; i++)
         CHECK_STATUS(obey("faster"), STATUS_OK);
@@ -561,9 +539,8 @@ static void the_screen_obeys(void **unused)
 }
 
 /* What is seen moves by metres of the scene, up where y grows. */
-static void the_camera_moves_by_metres(void **unused)
+TEST(the_camera_moves_by_metres)
 {
-    (void)unused;
     begin("square --segments 2");
     CHECK_STATUS(view_create_surface(800, 600, &player.view), STATUS_OK);
     CHECK_STATUS(player_draw(&player), STATUS_OK);
@@ -586,33 +563,4 @@ static void the_camera_moves_by_metres(void **unused)
     end();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_lead_back_into_the_step_before),
-        cmocka_unit_test(lanes_wait_for_each_other),
-        cmocka_unit_test(a_lane_that_fails_leaves_the_others_alone),
-        cmocka_unit_test(every_list_labels_its_panes),
-        cmocka_unit_test(forgotten_steps_are_told),
-        cmocka_unit_test(keys_say_what_they_do),
-        cmocka_unit_test(the_last_page_offers_no_next_one),
-        cmocka_unit_test(folded_cells_at_rest_are_explained),
-        cmocka_unit_test(numbers_follow_the_scene),
-        cmocka_unit_test(running_leaves_the_lines),
-        cmocka_unit_test(glides_begin_and_end_at_lines),
-        cmocka_unit_test(changes_are_for_one_pane_or_all),
-        cmocka_unit_test(defaults_are_the_scene_s),
-        cmocka_unit_test(methods_are_switched),
-        cmocka_unit_test(numbers_are_selected_in_turn),
-        cmocka_unit_test(a_step_is_taken_again_in_its_place),
-        cmocka_unit_test(unlike_outcomes_are_put_side_by_side),
-        cmocka_unit_test(the_last_pane_goes),
-        cmocka_unit_test(hands_pin_and_hold),
-        cmocka_unit_test(scenes_begin),
-        cmocka_unit_test(rest_is_that_of_all_panes),
-        cmocka_unit_test(pictures_are_kept),
-        cmocka_unit_test(the_screen_obeys),
-        cmocka_unit_test(the_camera_moves_by_metres),
-    };
-    return cmocka_run_group_tests_name("deeds", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

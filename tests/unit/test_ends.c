@@ -3,6 +3,7 @@
  * a step that raised E has diverged.  Judged in quadruple precision where the
  * compiler has it.
  */
+#include "test.h"
 #include "stress.h"
 
 #include <math.h>
@@ -52,9 +53,8 @@ static void check_ends(const char *line, int steps, Status expected)
 
 /* h^2 k/m from 1e22 to 1e30: the factor needs a shift or is not exact, and
  * conjugate gradients break down.  Residuals were 5.7e20 m/s. */
-static void what_was_not_solved_is_not_converged(void **unused)
+TEST(what_was_not_solved_is_not_converged)
 {
-    (void)unused;
     static const char *const lines[] = {
         "--segments 2 --density 1 --stiffness 1e15 --stretch 20 --timestep 1e6",
         "--segments 2 --side 0.04096289353718123 --density "
@@ -83,9 +83,8 @@ static void what_was_not_solved_is_not_converged(void **unused)
 }
 
 /* A division by a curvature that rounding had made 0 gave NaN. */
-static void a_lost_curvature_is_no_failure(void **unused)
+TEST(a_lost_curvature_is_no_failure)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line(
         "--segments 2 --density 1e-6 --stiffness 1e13 --timestep 1e6", NULL,
@@ -116,9 +115,8 @@ static bool ends_low(Newton *newton)
 /* The test of Algorithm 3 is passed on saddles, in a square that is squeezed
  * evenly without any update: they are left, by both solvers.  Some of these
  * steps ended by 1e4 to 1e10 times M above a minimum. */
-static void an_end_that_bends_down_is_left(void **unused)
+TEST(an_end_that_bends_down_is_left)
 {
-    (void)unused;
     static const char *const lines[] = {
         "--stretch 0 --timestep 1",
         "--stretch 0 --timestep 1 --segments 8 --tolerance 1e-6",
@@ -150,9 +148,8 @@ static void an_end_that_bends_down_is_left(void **unused)
 }
 
 /* Algorithm 1 alone; with the line search the same scene converges. */
-static void a_step_that_raised_E_has_diverged(void **unused)
+TEST(a_step_that_raised_E_has_diverged)
 {
-    (void)unused;
     const char *bare = "--segments 1 --timestep 0.05 --stretch 0.5 --filter "
                        "none --line-search none";
     check_ends(bare, 1, STATUS_DIVERGED);
@@ -173,9 +170,8 @@ static void a_step_that_raised_E_has_diverged(void **unused)
 
 /* Also where the loop ended by its limits, where no update was needed, where
  * there is no matrix at all. */
-static void every_minimisation_tells_its_end_once(void **unused)
+TEST(every_minimisation_tells_its_end_once)
 {
-    (void)unused;
     check_ends("--tolerance 1e-30", 3, STATUS_ROUNDING_LIMIT);
     check_ends("--stretch 1", 3, STATUS_OK);
     check_ends("square", 30, STATUS_OK);
@@ -194,9 +190,8 @@ static void every_minimisation_tells_its_end_once(void **unused)
 /* What a step may cost is told by the square, not by the scene: 250 000 nodes
  * updated, but 1000 updates at least, each with a factor or two and no more
  * trials than there are halvings. */
-static void work_is_limited_by_the_size(void **unused)
+TEST(work_is_limited_by_the_size)
 {
-    (void)unused;
     static const char *const lines[] = {
         "tear --segments 16 --pin top,bottom --stretch 1e-9",
         "tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
@@ -232,9 +227,8 @@ static void work_is_limited_by_the_size(void **unused)
 }
 
 /* Squares of the command line with h to 1e6, k to 1e15, density from 1e-9. */
-static void squares_keep_the_promise(void **unused)
+TEST(squares_keep_the_promise)
 {
-    (void)unused;
     Tally tally = {0};
     for (long i = 0; i < 150; i++) {
         Wild wild;
@@ -248,16 +242,4 @@ static void squares_keep_the_promise(void **unused)
     CHECK(tally.steps[VERDICT_CONVERGED] > tally.steps[VERDICT_REPORTED]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_was_not_solved_is_not_converged),
-        cmocka_unit_test(a_lost_curvature_is_no_failure),
-        cmocka_unit_test(an_end_that_bends_down_is_left),
-        cmocka_unit_test(a_step_that_raised_E_has_diverged),
-        cmocka_unit_test(every_minimisation_tells_its_end_once),
-        cmocka_unit_test(work_is_limited_by_the_size),
-        cmocka_unit_test(squares_keep_the_promise),
-    };
-    return cmocka_run_group_tests_name("ends", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

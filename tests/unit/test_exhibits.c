@@ -1,5 +1,5 @@
 /* The lecture's small scenes, held to formulas written here once more. */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,9 +12,8 @@
 
 /* The arrows that are drawn before a step are what the integrators then do:
  * equal but for a few roundings of numbers below 10. */
-static void mass_arrows_are_the_next_step(void **unused)
+TEST(mass_arrows_are_the_next_step)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("arrows --timestep 0.37 --start 0.8,-0.4", NULL, NULL,
                          &simulation);
@@ -40,9 +39,8 @@ static void mass_arrows_are_the_next_step(void **unused)
 /* The three formulas, by hand, from (1, 0) with v = (0, 1) and h = 0.5:
  * forward (1, 0.5); symplectic: v' = (-0.5, 1), x' = (0.75, 0.5); backward:
  * x' = (x + h v)/1.25 = (0.8, 0.4), v' = (x' - x)/h = (-0.4, 0.8). */
-static void mass_steps_are_the_slides(void **unused)
+TEST(mass_steps_are_the_slides)
 {
-    (void)unused;
     static const double x[3][2] = {{1, 0.5}, {0.75, 0.5}, {0.8, 0.4}};
     static const double v[3][2] = {{-0.5, 1}, {-0.5, 1}, {-0.4, 0.8}};
     Simulation simulation;
@@ -65,9 +63,8 @@ static void mass_steps_are_the_slides(void **unused)
 /* Which v forward Euler's way is along is its method's, whatever the digits of
  * x + h v are; the exact path is the ellipse of where the mass began, or was
  * dragged, also after another method is chosen. */
-static void mass_knows_its_path(void **unused)
+TEST(mass_knows_its_path)
 {
-    (void)unused;
     Simulation simulation;
     MassStep step;
     simulation_from_line("arrows --integrator forward-euler", NULL, NULL,
@@ -98,9 +95,8 @@ static void mass_knows_its_path(void **unused)
 
 /* Dragging the mass keeps its velocity, dragging the tip its place; all runs
  * follow. */
-static void mass_is_dragged(void **unused)
+TEST(mass_is_dragged)
 {
-    (void)unused;
     Simulation simulation;
     double at[SCENE_MAX_HANDLES][2];
     simulation_from_line("arrows", NULL, NULL, &simulation);
@@ -137,9 +133,8 @@ static long double line_g(const Simulation *simulation, long double x)
 
 /* g is the derivative of E and E'' that of g: central differences of a quartic
  * with step e have an error of e^2 f'''/6, f''' < 100 here. */
-static void tangent_derivatives_are_right(void **unused)
+TEST(tangent_derivatives_are_right)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("tangent", NULL, NULL, &simulation);
     const Simulation *line = &simulation;
@@ -156,9 +151,8 @@ static void tangent_derivatives_are_right(void **unused)
 }
 
 /* The next iterate is where the tangent of g is zero; the limit is a root. */
-static void tangent_follows_tangents(void **unused)
+TEST(tangent_follows_tangents)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("tangent", NULL, NULL, &simulation);
     const Simulation *line = &simulation;
@@ -176,9 +170,8 @@ static void tangent_follows_tangents(void **unused)
 }
 
 /* A dragged start or x_tilde begins anew, with the same E elsewhere. */
-static void tangent_is_dragged(void **unused)
+TEST(tangent_is_dragged)
 {
-    (void)unused;
     Simulation simulation;
     double at[SCENE_MAX_HANDLES][2];
     simulation_from_line("tangent", NULL, NULL, &simulation);
@@ -222,9 +215,8 @@ static long double dial_gradient(const Simulation *simulation, double h,
 
 /* Each point of the walk is a minimiser: its gradient is rounding of numbers
  * about h^2 k = 1e4 and 1. */
-static void dial_walks_over_minimisers(void **unused)
+TEST(dial_walks_over_minimisers)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("dial", NULL, NULL, &simulation);
     for (int drag = 0; drag < 2; drag++) {
@@ -246,9 +238,8 @@ static void dial_walks_over_minimisers(void **unused)
 }
 
 /* From x_tilde to rest: there the free node is 1.5 m from both pins. */
-static void dial_turns_from_target_to_rest(void **unused)
+TEST(dial_turns_from_target_to_rest)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("dial --timestep 1e-6", NULL, NULL, &simulation);
     CHECK_NEAR(simulation.run[0].x[0], 0.2, 1e-9);
@@ -270,9 +261,8 @@ static void dial_turns_from_target_to_rest(void **unused)
 
 /* With x_tilde on the line of the pins a short step ends there; a longer one
  * does not end on the saddle that is there then. */
-static void dial_ends_on_no_saddle(void **unused)
+TEST(dial_ends_on_no_saddle)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("dial", NULL, NULL, &simulation);
     exhibit_drag(&simulation, 0, 0.2, 0);
@@ -289,9 +279,8 @@ static void dial_ends_on_no_saddle(void **unused)
 
 /* ---- inertia and elasticity on the map ---------------------------------- */
 
-static void landscape_has_two_parts(void **unused)
+TEST(landscape_has_two_parts)
 {
-    (void)unused;
     Simulation simulation;
     Switch out[SCENE_MAX_SWITCHES];
     simulation_from_line("landscape", NULL, NULL, &simulation);
@@ -317,9 +306,8 @@ static void landscape_has_two_parts(void **unused)
 
 /* What is switched off is not minimised either: the part that is left falls in
  * each update, to its own minimum, with every method. */
-static void landscape_minimises_what_it_shows(void **unused)
+TEST(landscape_minimises_what_it_shows)
 {
-    (void)unused;
     static const char *const lines[] = {
         "landscape --start 0.6,0.9", "landscape --start 0.2,-0.3 --filter abs",
         "landscape --start 0.6,0.9 --filter on-demand",
@@ -361,9 +349,8 @@ static void landscape_minimises_what_it_shows(void **unused)
 
 /* Newton begins anew where the iterate is dragged to, or with another target:
  * as a scene that was started there. */
-static void landscape_is_dragged(void **unused)
+TEST(landscape_is_dragged)
 {
-    (void)unused;
     Simulation dragged, fresh;
     simulation_from_line("landscape", NULL, NULL, &dragged);
     simulation_from_line("landscape --start 0.9,-0.8", NULL, NULL, &fresh);
@@ -390,9 +377,8 @@ static void landscape_is_dragged(void **unused)
 }
 
 /* Both directions are those that Newton has with that filter. */
-static void landscape_knows_both_directions(void **unused)
+TEST(landscape_knows_both_directions)
 {
-    (void)unused;
     static const Filter filters[2] = {FILTER_NONE, FILTER_CLAMP};
     Simulation simulation;
     simulation_from_line("landscape", NULL, NULL, &simulation);
@@ -421,9 +407,8 @@ static long double spring_P(long double x, long double y)
 
 /* All of the facts by differences of P in extended precision; the error of a
  * second difference is e^2 P''''/12 < 1e-7. */
-static void spring_facts_are_derivatives(void **unused)
+TEST(spring_facts_are_derivatives)
 {
-    (void)unused;
     const long double e = 1e-5L;
     Random random = {15};
     for (int i = 0; i < 200; i++) {
@@ -455,9 +440,8 @@ static void spring_facts_are_derivatives(void **unused)
 
 /* The four eigenvalues are those of the 4x4 block, before and after make_psd:
  * traces of the matrix and of its square tell. */
-static void spring_eigenvalues_are_those_of_the_block(void **unused)
+TEST(spring_eigenvalues_are_those_of_the_block)
 {
-    (void)unused;
     for (double r = 0.05; r < 2; r += 0.07) {
         const double d[2] = {0.6 * r, 0.8 * r};
         double H[3], a[16];
@@ -490,9 +474,8 @@ static void spring_eigenvalues_are_those_of_the_block(void **unused)
 }
 
 /* As stiff at rest, and without a bound below beside it. */
-static void spring_with_a_square_root_is_worse(void **unused)
+TEST(spring_with_a_square_root_is_worse)
 {
-    (void)unused;
     SpringFacts rest, near;
     spring_facts((double[2]){1, 0}, 1, 100, &rest);
     CHECK_NEAR(rest.along, 400, 0);
@@ -510,9 +493,8 @@ static void spring_with_a_square_root_is_worse(void **unused)
     CHECK(near.root_across == -INFINITY);
 }
 
-static void spring_is_dragged(void **unused)
+TEST(spring_is_dragged)
 {
-    (void)unused;
     Simulation simulation;
     double at[SCENE_MAX_HANDLES][2];
     simulation_from_line("spring", NULL, NULL, &simulation);
@@ -534,9 +516,8 @@ static void spring_is_dragged(void **unused)
 
 /* Halving a small time step divides the error by 2 to the power of the order
  * of the method: within a quarter, for the terms of higher order. */
-static void race_shows_the_orders(void **unused)
+TEST(race_shows_the_orders)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("race", NULL, NULL, &simulation);
     const Race *race = &simulation.exhibit.race;
@@ -559,9 +540,8 @@ static void race_shows_the_orders(void **unused)
 }
 
 /* Where no method has an answer to be compared with, the scene ends. */
-static void race_may_have_no_answer(void **unused)
+TEST(race_may_have_no_answer)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("race --stiffness 1e16", NULL, NULL, &simulation);
     CHECK(simulation.done);
@@ -572,9 +552,8 @@ static void race_may_have_no_answer(void **unused)
 /* ---- the envelope ------------------------------------------------------- */
 
 /* A cell is the run that its command line makes. */
-static void envelope_cells_are_runs(void **unused)
+TEST(envelope_cells_are_runs)
 {
-    (void)unused;
     static const int cells[6][2] = {{13, 11}, {20, 8},  {24, 21},
                                     {0, 0},   {22, 21}, {24, 20}};
     int refused = 0;
@@ -612,9 +591,8 @@ static void envelope_cells_are_runs(void **unused)
 
 /* Where nothing was done because of the tolerance, the map says so; not where
  * there was nothing to do, nor where a smaller one sees the forces. */
-static void envelope_tells_where_nothing_was_done(void **unused)
+TEST(envelope_tells_where_nothing_was_done)
 {
-    (void)unused;
     static const struct {
         const char *line;
         int column, row;
@@ -640,9 +618,8 @@ static void envelope_tells_where_nothing_was_done(void **unused)
 }
 
 /* A row a step; the cell that is shown stays the one that was. */
-static void envelope_fills_row_by_row(void **unused)
+TEST(envelope_fills_row_by_row)
 {
-    (void)unused;
     Simulation simulation;
     const EnvelopeMap *map = &simulation.exhibit.map;
     simulation_from_line("envelope", NULL, NULL, &simulation);
@@ -662,9 +639,8 @@ static void envelope_fills_row_by_row(void **unused)
 
 /* ---- predict, then show ------------------------------------------------- */
 
-static void predictions_are_compared(void **unused)
+TEST(predictions_are_compared)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("arrows --integrator forward-euler", NULL, NULL,
                          &simulation);
@@ -692,33 +668,4 @@ static void predictions_are_compared(void **unused)
     simulation_free(&simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mass_arrows_are_the_next_step),
-        cmocka_unit_test(mass_steps_are_the_slides),
-        cmocka_unit_test(mass_knows_its_path),
-        cmocka_unit_test(mass_is_dragged),
-        cmocka_unit_test(tangent_derivatives_are_right),
-        cmocka_unit_test(tangent_follows_tangents),
-        cmocka_unit_test(tangent_is_dragged),
-        cmocka_unit_test(dial_walks_over_minimisers),
-        cmocka_unit_test(dial_turns_from_target_to_rest),
-        cmocka_unit_test(dial_ends_on_no_saddle),
-        cmocka_unit_test(landscape_has_two_parts),
-        cmocka_unit_test(landscape_minimises_what_it_shows),
-        cmocka_unit_test(landscape_is_dragged),
-        cmocka_unit_test(landscape_knows_both_directions),
-        cmocka_unit_test(spring_facts_are_derivatives),
-        cmocka_unit_test(spring_eigenvalues_are_those_of_the_block),
-        cmocka_unit_test(spring_with_a_square_root_is_worse),
-        cmocka_unit_test(spring_is_dragged),
-        cmocka_unit_test(race_shows_the_orders),
-        cmocka_unit_test(race_may_have_no_answer),
-        cmocka_unit_test(envelope_cells_are_runs),
-        cmocka_unit_test(envelope_tells_where_nothing_was_done),
-        cmocka_unit_test(envelope_fills_row_by_row),
-        cmocka_unit_test(predictions_are_compared),
-    };
-    return cmocka_run_group_tests_name("exhibits", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

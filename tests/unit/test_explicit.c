@@ -1,7 +1,7 @@
 /* Explicit integrators touch neither Newton nor CHOLMOD: the calls of CHOLMOD
  * are counted.  Linked with -Wl,--wrap=... for each function counted here.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <cholmod.h>
 #include <stdio.h>
@@ -54,9 +54,8 @@ static void run(const char *scene, const char *method, Simulation *simulation)
 }
 
 /* No call, no Newton object, no Hessian, and nothing counted. */
-static void explicit_methods_have_no_matrix(void **unused)
+TEST(explicit_methods_have_no_matrix)
 {
-    (void)unused;
     const char *names[] = {"square", "circle", "unprojected"};
     const NewtonCounters zero = {0};
     int checked = 0;
@@ -76,9 +75,8 @@ static void explicit_methods_have_no_matrix(void **unused)
 }
 
 /* The same counters do count. */
-static void implicit_methods_have_one(void **unused)
+TEST(implicit_methods_have_one)
 {
-    (void)unused;
     int checked = 0;
     for (const IntegratorMethod *row = integrator_methods; row->name; row++)
         if (row->implicit) {
@@ -95,9 +93,8 @@ static void implicit_methods_have_one(void **unused)
 }
 
 /* Without springs not even backward Euler needs a matrix. */
-static void the_circle_needs_no_matrix(void **unused)
+TEST(the_circle_needs_no_matrix)
 {
-    (void)unused;
     Simulation simulation;
     run("circle", NULL, &simulation);
     CHECK(simulation.runs == 3 && calls == 0);
@@ -105,12 +102,4 @@ static void the_circle_needs_no_matrix(void **unused)
     simulation_free(&simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(explicit_methods_have_no_matrix),
-        cmocka_unit_test(implicit_methods_have_one),
-        cmocka_unit_test(the_circle_needs_no_matrix),
-    };
-    return cmocka_run_group_tests_name("explicit", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,7 +1,7 @@
 /* The hand: a term of E with the derivatives it claims, whose work is booked;
  * whatever the mouse does, every step ends.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -64,9 +64,8 @@ static void check_gain_and_bounds(const Place *way, const Pull *hand)
 
 /* Value, gradient and Hessian against the formula, in random places; what a
  * line and the averaged twin say against both. */
-static void derivatives_are_those_of_the_formula(void **unused)
+TEST(derivatives_are_those_of_the_formula)
 {
-    (void)unused;
     Random random = {11};
     for (int round = 0; round < 50; round++) {
         System system;
@@ -127,9 +126,8 @@ static void derivatives_are_those_of_the_formula(void **unused)
 
 /* A full list takes no more terms, and what they brought is freed; without
  * leaks and twice freed memory only where that is looked for. */
-static void a_full_list_refuses_terms(void **unused)
+TEST(a_full_list_refuses_terms)
 {
-    (void)unused;
     System system;
     double x[MAX_SIZE];
     Random random = {12};
@@ -151,9 +149,8 @@ static void a_full_list_refuses_terms(void **unused)
 
 /* Averaged vector field conserves energy exactly, so all that is there was
  * there at the start or is the work of the hand: taking, moving, letting go. */
-static void work_is_what_energy_gains(void **unused)
+TEST(work_is_what_energy_gains)
 {
-    (void)unused;
     const char *lines[] = {
         "square --segments 3 --integrator avf --tolerance 1e-10",
         ("square --segments 2 --timestep 0.002 --integrator avf4 "
@@ -188,9 +185,8 @@ static void work_is_what_energy_gains(void **unused)
 }
 
 /* A node pulled for a while is where the hand is. */
-static void the_node_follows(void **unused)
+TEST(the_node_follows)
 {
-    (void)unused;
     Track track;
     begin("square --segments 4 --stretch 1 --timestep 0.02", &track);
     const double *x = track.simulation.run[0].x;
@@ -206,9 +202,8 @@ static void the_node_follows(void **unused)
 }
 
 /* Going back into a drag and out of it again. */
-static void drags_are_repeated(void **unused)
+TEST(drags_are_repeated)
 {
-    (void)unused;
     for (int thin = 0; thin < 2; thin++) {
         enum { STEPS = 50 };
         Track track;
@@ -313,9 +308,8 @@ static bool jerked_step(Track *track, bool descends)
  * run with too much energy begins again.  10 000 steps of each with all
  * variations.
  */
-static void random_drags_end(void **unused)
+TEST(random_drags_end)
 {
-    (void)unused;
     static const char *const methods[] = {"backward-euler",
                                           "backward-euler",
                                           "bdf2",
@@ -354,15 +348,4 @@ static void random_drags_end(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives_are_those_of_the_formula),
-        cmocka_unit_test(a_full_list_refuses_terms),
-        cmocka_unit_test(work_is_what_energy_gains),
-        cmocka_unit_test(the_node_follows),
-        cmocka_unit_test(drags_are_repeated),
-        cmocka_unit_test(random_drags_end),
-    };
-    return cmocka_run_group_tests_name("hand", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

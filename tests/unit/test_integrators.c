@@ -1,7 +1,7 @@
 /* Steps in time: what implicit Euler promises, and all first-order methods
  * against formulas of their own.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <math.h>
@@ -42,9 +42,8 @@ static void disturb(Random *random, TimeIntegrator *run, double speed)
 
 /* M|v1 - v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0), from any start: the minimiser's
  * E is not above E(x0).  1e-13 of it: the rounding of the state. */
-static void backward_euler_gains_nothing(void **unused)
+TEST(backward_euler_gains_nothing)
 {
-    (void)unused;
     const char *lines[] = {"--stretch 1.4", "--stretch 0.5 --timestep 0.02",
                            "--stretch 2 --timestep 1",
                            "--stiffness 1e8 --timestep 1e-4",
@@ -72,9 +71,8 @@ static void backward_euler_gains_nothing(void **unused)
 
 /* Springs pull in pairs: each Newton direction keeps the momentum, whether
  * converged or not.  1e-12 of sum m|v|: rounding of the solves. */
-static void momentum_is_kept(void **unused)
+TEST(momentum_is_kept)
 {
-    (void)unused;
     const char *lines[] = {"--timestep 0.004", "--stretch 0.4 --timestep 0.05",
                            "--integrator symplectic-euler --timestep 0.001",
                            "--integrator forward-euler --timestep 0.001"};
@@ -103,9 +101,8 @@ static void momentum_is_kept(void **unused)
 
 /* At rest, moved at 0.5 m/s: the velocity stays, although a step of h v =
  * 5e-10 m is lost in the last digits of x.  1e-12 needs the displacement. */
-static void free_flight_keeps_its_velocity(void **unused)
+TEST(free_flight_keeps_its_velocity)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--stretch 1 --timestep 1e-9 --tolerance 1e-14", NULL,
                          NULL, &simulation);
@@ -153,9 +150,8 @@ static void pair_free(Pair *pair)
  * slope P'(d) = 2 k (d^2/l2 - 1) d, a step solves
  * m (d - d_n - h w_n) + h^2 P'(d) = 0, w = (d - d_n)/h; here by bisection.
  * 1e-11: the tolerance of Newton, over 40 steps. */
-static void two_masses_follow_their_recurrence(void **unused)
+TEST(two_masses_follow_their_recurrence)
 {
-    (void)unused;
     Pair pair;
     long double h = 0.03L, m = 2.0L * 3 / 5, d = 1.5L, w = 0;
     pair_create("backward-euler", 0.03, &pair);
@@ -206,15 +202,13 @@ static void check_explicit(const char *line, bool symplectic)
     simulation_free(&simulation);
 }
 
-static void forward_euler_is_its_formula(void **unused)
+TEST(forward_euler_is_its_formula)
 {
-    (void)unused;
     check_explicit("--integrator forward-euler --timestep 5e-4", false);
 }
 
-static void symplectic_euler_is_its_formula(void **unused)
+TEST(symplectic_euler_is_its_formula)
 {
-    (void)unused;
     check_explicit("--integrator symplectic-euler --timestep 5e-4", true);
 }
 
@@ -244,16 +238,14 @@ static void check_overflow(const char *line)
     fail_msg("%s: no overflow in 100 steps", line);
 }
 
-static void overflow_changes_nothing(void **unused)
+TEST(overflow_changes_nothing)
 {
-    (void)unused;
     check_overflow("--integrator forward-euler --timestep 1");
     check_overflow("--integrator symplectic-euler --timestep 1");
 }
 
-static void bad_starts_are_refused(void **unused)
+TEST(bad_starts_are_refused)
 {
-    (void)unused;
     Pair pair;
     TimeIntegrator run;
     pair_create("backward-euler", 0.1, &pair);
@@ -280,9 +272,8 @@ static void bad_starts_are_refused(void **unused)
 
 /* The table has every method under its name, and what needs no minimisation
  * makes no Newton object. */
-static void the_table_is_complete(void **unused)
+TEST(the_table_is_complete)
 {
-    (void)unused;
     CHECK(integrator_method("backward-euler") == &integrator_methods[0]);
     CHECK(integrator_method("euler") == NULL);
     CHECK(integrator_method("") == NULL);
@@ -337,9 +328,8 @@ static double length_error(const char *method, int steps)
 
 /* After a step that ran off, Verlet asks for the acceleration again: what it
  * remembered was that of a place where it never came to be. */
-static void a_failed_step_is_not_remembered(void **unused)
+TEST(a_failed_step_is_not_remembered)
 {
-    (void)unused;
     Pair failed, fresh;
     pair_create("verlet", 1e-3, &failed);
     pair_create("verlet", 1e-3, &fresh);
@@ -359,9 +349,8 @@ static void a_failed_step_is_not_remembered(void **unused)
 
 /* Halving h divides the error by 2^order; a quarter of an order is what is
  * left of the next one at these steps. */
-static void orders_are_as_in_the_table(void **unused)
+TEST(orders_are_as_in_the_table)
 {
-    (void)unused;
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
         int steps = row->order == 1 ? 1024 : row->order == 2 ? 256 : 64;
         double slope = log2(length_error(row->name, steps) /
@@ -372,20 +361,4 @@ static void orders_are_as_in_the_table(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(backward_euler_gains_nothing),
-        cmocka_unit_test(momentum_is_kept),
-        cmocka_unit_test(free_flight_keeps_its_velocity),
-        cmocka_unit_test(two_masses_follow_their_recurrence),
-        cmocka_unit_test(forward_euler_is_its_formula),
-        cmocka_unit_test(symplectic_euler_is_its_formula),
-        cmocka_unit_test(overflow_changes_nothing),
-        cmocka_unit_test(bad_starts_are_refused),
-        cmocka_unit_test(the_table_is_complete),
-        cmocka_unit_test(a_failed_step_is_not_remembered),
-        cmocka_unit_test(orders_are_as_in_the_table),
-    };
-    return cmocka_run_group_tests_name("integrators", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

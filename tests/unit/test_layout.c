@@ -5,7 +5,7 @@
 
 #include "picture/layout.h"
 #include "picture/text.h"
-#include "testing.h"
+#include "test.h"
 
 static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
@@ -72,9 +72,8 @@ static void check_chips(const Layout *l, int wished)
 }
 
 /* Zones tile the window: areas add up, nothing overlaps; parts lie inside. */
-static void zones_tile_every_size(void **unused)
+TEST(zones_tile_every_size)
 {
-    (void)unused;
     for (int s = 0; s < SIZES; s++)
         for (int panes = 1; panes <= LAYOUT_PANES; panes++) {
             LayoutWish wish = full_wish();
@@ -102,9 +101,8 @@ static void zones_tile_every_size(void **unused)
 }
 
 /* What a lecture's screen must have, and what a stamp must not. */
-static void sizes_fold(void **unused)
+TEST(sizes_fold)
 {
-    (void)unused;
     LayoutWish wish = full_wish();
     for (int s = 0; s < 4; s++) {
         Layout l = layout_create(sizes[s][0], sizes[s][1], &wish);
@@ -138,9 +136,8 @@ static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
 
 /* Every box is hit at its middle and its first and last pixels, and not beside
  * them (a card's upper right corner closes it). */
-static void hits_are_what_is_there(void **unused)
+TEST(hits_are_what_is_there)
 {
-    (void)unused;
     LayoutWish wish = full_wish();
     wish.panes = 5;
     wish.closed = 2;
@@ -177,9 +174,8 @@ static void hits_are_what_is_there(void **unused)
 }
 
 /* A large card has the room; a page has it all. */
-static void cards_share_the_column(void **unused)
+TEST(cards_share_the_column)
 {
-    (void)unused;
     LayoutWish wish = full_wish();
     Layout even = layout_create(1280, 800, &wish);
     CHECK(even.card[3].height > even.card[0].height);
@@ -207,9 +203,8 @@ static void cards_share_the_column(void **unused)
 }
 
 /* There and back; zooming keeps the point under the mouse. */
-static void lenses_keep_the_point(void **unused)
+TEST(lenses_keep_the_point)
 {
-    (void)unused;
     const Box box = {100, 50, 700, 500};
     const double bounds[4] = {-1, -2, 3, 2};
     for (int stretched = 0; stretched < 2; stretched++) {
@@ -249,9 +244,8 @@ static double ink(const Canvas *canvas)
 
 /* Mathematics adds what it should: scripts are small, marks take no room,
  * letters have their colours, braces that mean nothing stay. */
-static void markup_is_set(void **unused)
+TEST(markup_is_set)
 {
-    (void)unused;
     Text *text = NULL;
     Canvas canvas;
     TextStyle style = {FACE_REGULAR, 20, 0xff000000};
@@ -282,9 +276,8 @@ static void markup_is_set(void **unused)
 }
 
 /* A mark stands just above its letter, a low one or a tall one. */
-static void marks_stand_above_letters(void **unused)
+TEST(marks_stand_above_letters)
 {
-    (void)unused;
     enum { SIZE = 20, HIGH = 40, WIDE = 40 };
     static const char *const pairs[][2] = {{"x", "x\u0303"}, {"E", "E\u0303"}};
     Text *text = NULL;
@@ -315,9 +308,8 @@ static void marks_stand_above_letters(void **unused)
 }
 
 /* Clipped at every edge; wrong UTF-8 and sizes that cannot be are harmless. */
-static void texts_are_clipped(void **unused)
+TEST(texts_are_clipped)
 {
-    (void)unused;
     Text *text = NULL;
     Canvas canvas;
     assert_int_equal(text_create(&text), 0);
@@ -343,9 +335,8 @@ static void texts_are_clipped(void **unused)
 }
 
 /* Without a font nothing is drawn, and everything has a width. */
-static void no_font_is_no_failure(void **unused)
+TEST(no_font_is_no_failure)
 {
-    (void)unused;
     const char *was = getenv("ELASTO_FONT");
     char *kept = was ? strdup(was) : NULL;
     Text *text = (Text *)1;
@@ -366,18 +357,4 @@ static void no_font_is_no_failure(void **unused)
     canvas_free(&canvas);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(zones_tile_every_size),
-        cmocka_unit_test(sizes_fold),
-        cmocka_unit_test(hits_are_what_is_there),
-        cmocka_unit_test(cards_share_the_column),
-        cmocka_unit_test(lenses_keep_the_point),
-        cmocka_unit_test(markup_is_set),
-        cmocka_unit_test(marks_stand_above_letters),
-        cmocka_unit_test(texts_are_clipped),
-        cmocka_unit_test(no_font_is_no_failure),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

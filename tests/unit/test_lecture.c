@@ -1,7 +1,7 @@
 /* src/lecture.c, function by function, against its fast twin in the product,
  * and as a whole against the trajectories of the slides' Python.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -106,9 +106,8 @@ static void check_arrays(const double *got, const double *expected, int count,
 }
 
 /* Nodes and springs to the bit; l2 is the same formula. */
-static void the_mesh_is_the_product_s(void **unused)
+TEST(the_mesh_is_the_product_s)
 {
-    (void)unused;
     Random random = {1};
     for (int n_seg = 1; n_seg <= 20; n_seg++) {
         double side = random_logarithmic(&random, 1e-2, 1e2);
@@ -135,9 +134,8 @@ static void the_mesh_is_the_product_s(void **unused)
 }
 
 /* Values and gradients of both energies: sums of at most 40 terms. */
-static void the_energies_are_the_product_s(void **unused)
+TEST(the_energies_are_the_product_s)
 {
-    (void)unused;
     for (int seed = 0; seed < SEEDS; seed++) {
         Pair pair;
         make_pair(seed, seed % SPRING_STATES, &pair);
@@ -170,9 +168,8 @@ static void the_energies_are_the_product_s(void **unused)
 
 /* Eigenvalues of random symmetric 4x4 matrices, rounded to 1e-14 of the
  * largest. */
-static void make_psd_is_the_product_s(void **unused)
+TEST(make_psd_is_the_product_s)
 {
-    (void)unused;
     Random random = {2};
     for (int i = 0; i < 2000; i++) {
         double block[4][4], expected[16];
@@ -214,9 +211,8 @@ static void dense_ip_hess(const Pair *pair, double *dense)
 
 /* The assembled, projected Hessian against the product's, whose projection is
  * a closed form. */
-static void ip_hess_is_the_product_s(void **unused)
+TEST(ip_hess_is_the_product_s)
 {
-    (void)unused;
     static double got[MAX_SIZE * MAX_SIZE], expected[MAX_SIZE * MAX_SIZE];
     for (int seed = 0; seed < SEEDS; seed++) {
         Pair pair;
@@ -240,9 +236,8 @@ static void ip_hess_is_the_product_s(void **unused)
 /* Central differences: E is a quartic, so their error is eps^2 times a third
  * derivative, 1e-8 of the size here, plus rounding, 1e-16 / eps = 1e-12.  Only
  * stretched springs: their blocks are not changed by the projection. */
-static void derivatives_are_differences(void **unused)
+TEST(derivatives_are_differences)
 {
-    (void)unused;
     const double eps = 1e-4;
     static double H[MAX_SIZE * MAX_SIZE];
     for (int seed = 0; seed < SEEDS; seed++) {
@@ -273,9 +268,8 @@ static void derivatives_are_differences(void **unused)
 }
 
 /* H p + g = 0, and p leads downhill. */
-static void search_dir_solves(void **unused)
+TEST(search_dir_solves)
 {
-    (void)unused;
     static double H[MAX_SIZE * MAX_SIZE];
     for (int seed = 0; seed < SEEDS; seed++) {
         Pair pair;
@@ -300,9 +294,8 @@ static void search_dir_solves(void **unused)
 
 /* The same alpha as from the exact polynomial, along directions much too long;
  * x_new is x + alpha p. */
-static void line_search_is_the_product_s(void **unused)
+TEST(line_search_is_the_product_s)
 {
-    (void)unused;
     int halved = 0;
     for (int seed = 0; seed < SEEDS; seed++) {
         Pair pair;
@@ -328,9 +321,8 @@ static void line_search_is_the_product_s(void **unused)
     CHECK(halved > SEEDS / 2);
 }
 
-static void the_residual_is_a_row_sum(void **unused)
+TEST(the_residual_is_a_row_sum)
 {
-    (void)unused;
     Vec2 p[3] = {{1, -2}, {-3, 0}, {2, 1.5}};
     CHECK_NEAR(residual(&(Solid){.nodes = 3}, p, 0.5), 7, 0);
 }
@@ -414,9 +406,8 @@ static void check_reference(const char *name, int n_seg, double k,
     free_solid(&solid);
 }
 
-static void the_slides_trajectories(void **unused)
+TEST(the_slides_trajectories)
 {
-    (void)unused;
     check_reference("default", 4, 1e5, 1.4, 0.004, 1e-2, 50);
     check_reference("one_cell", 1, 1e5, 1.4, 0.004, 1e-2, 60);
     check_reference("gentle_8", 8, 1e5, 1.1, 0.004, 1e-2, 25);
@@ -467,9 +458,8 @@ static int check_step(Simulation *simulation, Record *record, int step)
 }
 
 /* Random squares: sizes, densities, stiffnesses, stretches, time steps. */
-static void random_squares_step_as_the_product(void **unused)
+TEST(random_squares_step_as_the_product)
 {
-    (void)unused;
     static Record record;
     int updates = 0;
     for (int seed = 0; seed < 60; seed++) {
@@ -497,9 +487,8 @@ static void random_squares_step_as_the_product(void **unused)
 /* With `auto` that holds up to 32 segments.  A larger square is multigrid's:
  * other iterates, but what ends them passes lecture.c's test from there; and
  * with newton it is as before. */
-static void larger_squares_go_another_way(void **unused)
+TEST(larger_squares_go_another_way)
 {
-    (void)unused;
     static Record record;
     static const struct {
         const char *line;
@@ -532,9 +521,8 @@ static void larger_squares_go_another_way(void **unused)
 }
 
 /* Both explicit methods, 20 steps. */
-static void explicit_euler_is_the_product_s(void **unused)
+TEST(explicit_euler_is_the_product_s)
 {
-    (void)unused;
     const char *line[] = {
         "--integrator forward-euler --timestep 0.001",
         "--integrator symplectic-euler --segments 6 --timestep 0.001"};
@@ -578,9 +566,8 @@ static double strays(int n_seg, double c, int steps)
 /* The two steps that are named above symplectic_euler.  x and v are half a step
  * apart, which alone is a tenth of the energy with 4 segments; all three stray
  * by 0.19, 0.09 and 0.05 of it. */
-static void symplectic_euler_stays_as_long_as_it_says(void **unused)
+TEST(symplectic_euler_stays_as_long_as_it_says)
 {
-    (void)unused;
     static const int n_seg[] = {4, 8, 16};
     for (int i = 0; i < 3; i++) {
         CHECK(strays(n_seg[i], 0.01, 3000) <= 0.25);
@@ -606,9 +593,8 @@ static int end_of_step(Solid *solid, double h, double tol)
     return code;
 }
 
-static void what_cannot_end_is_said(void **unused)
+TEST(what_cannot_end_is_said)
 {
-    (void)unused;
     Solid solid = square(1, 2, 1000, 1e5);
     solid.x[4].x = 0.1;
     CHECK(end_of_step(&solid, 0.004, 1e-2) == 0);
@@ -620,23 +606,4 @@ static void what_cannot_end_is_said(void **unused)
     free_solid(&solid);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_mesh_is_the_product_s),
-        cmocka_unit_test(the_energies_are_the_product_s),
-        cmocka_unit_test(make_psd_is_the_product_s),
-        cmocka_unit_test(ip_hess_is_the_product_s),
-        cmocka_unit_test(derivatives_are_differences),
-        cmocka_unit_test(search_dir_solves),
-        cmocka_unit_test(line_search_is_the_product_s),
-        cmocka_unit_test(the_residual_is_a_row_sum),
-        cmocka_unit_test(the_slides_trajectories),
-        cmocka_unit_test(random_squares_step_as_the_product),
-        cmocka_unit_test(larger_squares_go_another_way),
-        cmocka_unit_test(explicit_euler_is_the_product_s),
-        cmocka_unit_test(symplectic_euler_stays_as_long_as_it_says),
-        cmocka_unit_test(what_cannot_end_is_said),
-    };
-    return cmocka_run_group_tests_name("lecture", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* The energy along a line as a quartic, and backtracking on it. */
 #include "model/pull_energy.h"
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,34 +63,29 @@ static void check_quartic(SpringState state, bool pinned)
     }
 }
 
-static void quartic_is_the_energy_of_stretched_springs(void **unused)
+TEST(quartic_is_the_energy_of_stretched_springs)
 {
-    (void)unused;
     check_quartic(SPRINGS_STRETCHED, false);
 }
 
-static void quartic_is_the_energy_of_compressed_springs(void **unused)
+TEST(quartic_is_the_energy_of_compressed_springs)
 {
-    (void)unused;
     check_quartic(SPRINGS_COMPRESSED, false);
     check_quartic(SPRINGS_SHORT, false);
 }
 
-static void quartic_is_the_energy_of_mixed_springs(void **unused)
+TEST(quartic_is_the_energy_of_mixed_springs)
 {
-    (void)unused;
     check_quartic(SPRINGS_MIXED, false);
 }
 
-static void quartic_is_the_energy_with_pins(void **unused)
+TEST(quartic_is_the_energy_with_pins)
 {
-    (void)unused;
     check_quartic(SPRINGS_MIXED, true);
 }
 
-static void quartic_value_is_the_polynomial(void **unused)
+TEST(quartic_value_is_the_polynomial)
 {
-    (void)unused;
     const Quartic quartic = {{1, -2, 3, -5}};
     CHECK(quartic_value(&quartic, 0) == 0);
     CHECK(quartic_value(&quartic, 1) == -3);
@@ -115,9 +110,8 @@ static double probe_difference(const void *function, double alpha)
 }
 
 /* The first of 1, 1/2, 1/4, ... that does not raise the energy. */
-static void backtracking_takes_the_first_halving(void **unused)
+TEST(backtracking_takes_the_first_halving)
 {
-    (void)unused;
     for (int halvings = 0; halvings <= LINE_SEARCH_MAX_HALVINGS; halvings++)
         for (int equal = 0; equal < 2; equal++) {
             Probe probe = {ldexp(1, -halvings), equal ? 0 : -1, 0, 0};
@@ -133,9 +127,8 @@ static void backtracking_takes_the_first_halving(void **unused)
 }
 
 /* Where contact leaves less than 1: from there down. */
-static void backtracking_starts_where_it_is_told(void **unused)
+TEST(backtracking_starts_where_it_is_told)
 {
-    (void)unused;
     Probe probe = {0.1, -1, 0, 0};
     Probe *pointer = &probe;
     double alpha = 0.3;
@@ -146,9 +139,8 @@ static void backtracking_starts_where_it_is_told(void **unused)
     CHECK(alpha == 0.075 && trials == 3 && probe.calls == 3);
 }
 
-static void backtracking_gives_up(void **unused)
+TEST(backtracking_gives_up)
 {
-    (void)unused;
     Probe probe = {ldexp(1, -65), -1, 0, 0};
     Probe *pointer = &probe;
     double alpha = 1;
@@ -166,9 +158,8 @@ static double nan_difference(const void *function, double alpha)
     return alpha > *(const double *)function ? NAN : -1;
 }
 
-static void nan_is_not_lower(void **unused)
+TEST(nan_is_not_lower)
 {
-    (void)unused;
     double limit = 0.25, alpha = 1;
     int trials;
     CHECK_STATUS(line_search_backtrack(nan_difference, &limit, &alpha, &trials),
@@ -216,9 +207,8 @@ static bool see_fall(void *user, const NewtonRecord *record)
 /* Whatever a term says about a line: no update raises E, and none is said to
  * lower it by more than there is of it.  Springs that flow let light nodes fly,
  * so that long steps raise E. */
-static void no_update_is_taken_that_E_contradicts(void **unused)
+TEST(no_update_is_taken_that_E_contradicts)
 {
-    (void)unused;
     static Falling falling;
     falling.good = true;
     simulation_from_line("--segments 4 --stretch 4 --timestep 1 --yield 0.01 "
@@ -232,19 +222,4 @@ static void no_update_is_taken_that_E_contradicts(void **unused)
     simulation_free(&falling.simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quartic_is_the_energy_of_stretched_springs),
-        cmocka_unit_test(quartic_is_the_energy_of_compressed_springs),
-        cmocka_unit_test(quartic_is_the_energy_of_mixed_springs),
-        cmocka_unit_test(quartic_is_the_energy_with_pins),
-        cmocka_unit_test(quartic_value_is_the_polynomial),
-        cmocka_unit_test(backtracking_takes_the_first_halving),
-        cmocka_unit_test(backtracking_starts_where_it_is_told),
-        cmocka_unit_test(backtracking_gives_up),
-        cmocka_unit_test(nan_is_not_lower),
-        cmocka_unit_test(no_update_is_taken_that_E_contradicts),
-    };
-    return cmocka_run_group_tests_name("line search", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -2,7 +2,7 @@
  * OUT_OF_MEMORY, nothing leaks, nothing crashes.  Linked with
  * -Wl,--wrap=malloc,--wrap=calloc.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -85,43 +85,30 @@ static void check_failures(int argc, char **argv)
     for_good = false;
 }
 
-static void small_squares_run_out(void **unused)
+TEST(small_squares_run_out)
 {
-    (void)unused;
     char program[] = "elasto", option[] = "--segments=3";
     check_failures(2, (char *[]){program, option, NULL});
 }
 
-static void large_squares_run_out(void **unused)
+TEST(large_squares_run_out)
 {
-    (void)unused;
     char program[] = "elasto", option[] = "--segments=19";
     check_failures(2, (char *[]){program, option, NULL});
 }
 
-static void indefinite_factors_run_out(void **unused)
+TEST(indefinite_factors_run_out)
 {
-    (void)unused;
     char program[] = "elasto", option[] = "--filter=none";
     check_failures(2, (char *[]){program, option, NULL});
 }
 
 /* Contact, friction, cells, flow, damping and breaking. */
-static void all_terms_run_out(void **unused)
+TEST(all_terms_run_out)
 {
-    (void)unused;
     char program[] = "elasto", scene[] = "dent", option[] = "--segments=3";
     char damped[] = "--damping=0.01", tears[] = "--tear=0.3";
     check_failures(5, (char *[]){program, scene, option, damped, tears, NULL});
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(small_squares_run_out),
-        cmocka_unit_test(large_squares_run_out),
-        cmocka_unit_test(indefinite_factors_run_out),
-        cmocka_unit_test(all_terms_run_out),
-    };
-    return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

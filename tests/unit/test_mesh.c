@@ -2,7 +2,7 @@
  * of it; and what is refused.
  */
 #include "model/pull_energy.h"
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <limits.h>
@@ -13,9 +13,8 @@
 
 #include "scenes/scene.h"
 
-static void nodes_are_a_centred_grid(void **unused)
+TEST(nodes_are_a_centred_grid)
 {
-    (void)unused;
     SquareMesh mesh;
     CHECK_STATUS(square_mesh_create(4, 4, 2, &mesh), STATUS_OK);
     CHECK(mesh.nodes == 25 && mesh.segments == 4 && mesh.side == 2);
@@ -32,9 +31,8 @@ static void nodes_are_a_centred_grid(void **unused)
 }
 
 /* The slide's own four loops for 1 segment, written out by hand. */
-static void one_cell_is_as_on_the_slide(void **unused)
+TEST(one_cell_is_as_on_the_slide)
 {
-    (void)unused;
     const int expected[] = {0, 2, 1, 3, /* horizontal */
                             0, 1, 2, 3, /* vertical */
                             0, 3, 2, 1 /* diagonals */};
@@ -47,9 +45,8 @@ static void one_cell_is_as_on_the_slide(void **unused)
 }
 
 /* Every spring of 3 segments from its place in the list. */
-static void springs_come_in_the_order_of_the_slide(void **unused)
+TEST(springs_come_in_the_order_of_the_slide)
 {
-    (void)unused;
     enum { N = 3, ROW = N + 1 };
     SquareMesh mesh;
     CHECK_STATUS(square_mesh_create(N, N, 1, &mesh), STATUS_OK);
@@ -73,9 +70,8 @@ static void springs_come_in_the_order_of_the_slide(void **unused)
 }
 
 /* Counts and lengths for many sizes; an odd side rounds, so 1e-14 of it. */
-static void springs_have_the_lengths_of_a_cell(void **unused)
+TEST(springs_have_the_lengths_of_a_cell)
 {
-    (void)unused;
     for (int n = 1; n <= 20; n++) {
         SquareMesh mesh;
         double side = 0.7 * n, cell = 0.7;
@@ -96,9 +92,8 @@ static void springs_have_the_lengths_of_a_cell(void **unused)
     }
 }
 
-static void order_is_a_permutation(void **unused)
+TEST(order_is_a_permutation)
 {
-    (void)unused;
     static bool seen[71 * 71];
     for (int n = 1; n <= 70; n++) {
         SquareMesh mesh;
@@ -133,9 +128,8 @@ static double factor_entries(int segments, bool ordered)
 
 /* Nested dissection is no worse than the general order that CHOLMOD finds,
  * and the sum of a step does not depend on it. */
-static void order_keeps_the_factor_small(void **unused)
+TEST(order_keeps_the_factor_small)
 {
-    (void)unused;
     double ours = factor_entries(24, true);
     CHECK_AT_MOST(ours, 1.05 * factor_entries(24, false));
     /* n log n: from 12 to 24 segments nodes grow 3.7 times, entries less
@@ -143,9 +137,8 @@ static void order_keeps_the_factor_small(void **unused)
     CHECK_AT_MOST(ours, 6 * factor_entries(12, true));
 }
 
-static void bad_meshes_are_refused(void **unused)
+TEST(bad_meshes_are_refused)
 {
-    (void)unused;
     const double bad[] = {0, -1, NAN, INFINITY, -INFINITY};
     SquareMesh mesh;
     for (int i = 0; i < 5; i++) {
@@ -162,9 +155,8 @@ static void bad_meshes_are_refused(void **unused)
 }
 
 /* m = density side^2 / nodes, l2 = |d|^2 at rest, x = stretch times rest. */
-static void the_square_scene_is_the_slides(void **unused)
+TEST(the_square_scene_is_the_slides)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("square --segments 4 --side 2 --density 500 "
                          "--stiffness 3e4 --stretch 1.25",
@@ -206,9 +198,8 @@ static void pair_create(System *system, double *x)
     memcpy(x, (double[]){0, 0, 1, 0}, 4 * sizeof *x);
 }
 
-static void bad_numbers_are_refused(void **unused)
+TEST(bad_numbers_are_refused)
 {
-    (void)unused;
     const double bad[] = {0, -1, NAN, INFINITY, -INFINITY, 1e-310, -1e-310};
     System system;
     double x[4];
@@ -242,9 +233,8 @@ static void bad_numbers_are_refused(void **unused)
     system_free(&system);
 }
 
-static void bad_springs_are_refused(void **unused)
+TEST(bad_springs_are_refused)
 {
-    (void)unused;
     const int bad[][2] = {{0, 0}, {1, 1}, {-1, 0},      {0, -1},
                           {2, 0}, {0, 2}, {INT_MAX, 0}, {0, INT_MIN}};
     System system;
@@ -260,9 +250,8 @@ static void bad_springs_are_refused(void **unused)
     system_free(NULL);
 }
 
-static void bad_sizes_are_refused(void **unused)
+TEST(bad_sizes_are_refused)
 {
-    (void)unused;
     const int bad[][2] = {{0, 0}, {-1, 1}, {INT_MAX, 0}, {1, -1}, {1, INT_MAX}};
     System system;
     for (int i = 0; i < 5; i++) {
@@ -275,20 +264,4 @@ static void bad_sizes_are_refused(void **unused)
     system_free(&system);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_are_a_centred_grid),
-        cmocka_unit_test(one_cell_is_as_on_the_slide),
-        cmocka_unit_test(springs_come_in_the_order_of_the_slide),
-        cmocka_unit_test(springs_have_the_lengths_of_a_cell),
-        cmocka_unit_test(order_is_a_permutation),
-        cmocka_unit_test(order_keeps_the_factor_small),
-        cmocka_unit_test(bad_meshes_are_refused),
-        cmocka_unit_test(the_square_scene_is_the_slides),
-        cmocka_unit_test(bad_numbers_are_refused),
-        cmocka_unit_test(bad_springs_are_refused),
-        cmocka_unit_test(bad_sizes_are_refused),
-    };
-    return cmocka_run_group_tests_name("mesh", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

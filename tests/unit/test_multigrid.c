@@ -2,7 +2,7 @@
  * symmetry, the certified end against a solution in extended precision, and
  * the same bits for every number of threads, whatever was before.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -414,9 +414,8 @@ static void check_line(Random *random, const Parts *parts)
     free(p);
 }
 
-static void loops_agree_with_the_formulas(void **state)
+TEST(loops_agree_with_the_formulas)
 {
-    (void)state;
     const int segments[] = {1, 2, 7, 8, 15, 17, 31, 40};
     for (int i = 0; i < 16; i++) {
         Random random = {(uint64_t)i};
@@ -437,10 +436,9 @@ static void loops_agree_with_the_formulas(void **state)
 
 /* Two nodes are pulled out of a square at rest: tiles lower E by what they say,
  * and pins stay. */
-static void tiles_lower_what_they_say(void **state)
+TEST(tiles_lower_what_they_say)
 {
     enum { SEGMENTS = 60, SIDE = SEGMENTS + 1, FIRST = 20 * SIDE + 31 };
-    (void)state;
     for (int pins = 0; pins < 2; pins++) {
         Problem problem;
         Parts parts;
@@ -539,9 +537,8 @@ static void check_solution(Parts *parts, double share)
 }
 
 /* B is symmetric and positive definite, to the rounding of single precision. */
-static void the_cycle_is_symmetric_and_positive(void **state)
+TEST(the_cycle_is_symmetric_and_positive)
 {
-    (void)state;
     const int segments[] = {5, 12, 31, 40, 47, 64};
     for (int i = 0; i < 12; i++) {
         Random random = {7};
@@ -632,9 +629,8 @@ static void check_steps(Problem *problem, int steps)
     problem_free(problem);
 }
 
-static void steps_pass_the_test_of_algorithm_3(void **state)
+TEST(steps_pass_the_test_of_algorithm_3)
 {
-    (void)state;
     Problem problem;
     problem_create(16, 1.4, &problem);
     check_steps(&problem, 12);
@@ -650,9 +646,8 @@ static void steps_pass_the_test_of_algorithm_3(void **state)
 
 /* Where the tolerance is the very residual that it finds, no remainder that
  * rounding leaves decides the test: then it is not passed. */
-static void what_is_not_decided_is_not_converged(void **state)
+TEST(what_is_not_decided_is_not_converged)
 {
-    (void)state;
     Multigrid *multigrid;
     CHECK_STATUS(multigrid_create(16, 1, &multigrid), STATUS_OK);
     for (int i = 0; i < 5; i++) {
@@ -676,9 +671,8 @@ static void what_is_not_decided_is_not_converged(void **state)
 
 /* A square in one point is a maximum of E, with no gradient at all; uniform
  * compression is a saddle.  Neither is an end. */
-static void a_saddle_is_left(void **state)
+TEST(a_saddle_is_left)
 {
-    (void)state;
     Problem problem;
     problem_create(10, 1, &problem);
     for (int i = 0; i < 2 * problem.mesh.nodes; i++)
@@ -702,9 +696,8 @@ static void a_saddle_is_left(void **state)
 
 /* Between two steps springs become stiffer: under a new version multigrid
  * solves the system that there is. */
-static void what_has_changed_is_read_again(void **state)
+TEST(what_has_changed_is_read_again)
 {
-    (void)state;
     Problem problem;
     problem_create(8, 1.4, &problem);
     Multigrid *multigrid;
@@ -723,9 +716,8 @@ static void what_has_changed_is_read_again(void **state)
 
 /* Near the maximum, on either side: a direction of negative curvature is gone
  * along in the sense in which E falls. */
-static void a_saddle_is_left_downhill(void **state)
+TEST(a_saddle_is_left_downhill)
 {
-    (void)state;
     Multigrid *multigrid;
     CHECK_STATUS(multigrid_create(10, 1, &multigrid), STATUS_OK);
     for (int sense = -1; sense <= 1; sense += 2) {
@@ -745,9 +737,8 @@ static void a_saddle_is_left_downhill(void **state)
 
 /* Steps with one thread and with two, and, from each of these starts, with a
  * new object that knows of no step before: the same bits. */
-static void bits_depend_on_the_step_alone(void **state)
+TEST(bits_depend_on_the_step_alone)
 {
-    (void)state;
     for (int pins = 0; pins < 2; pins++) {
         Problem problem;
         Multigrid *multigrid[3];
@@ -780,9 +771,8 @@ static void bits_depend_on_the_step_alone(void **state)
 
 /* Smooth steps take about as many directions and cycles at any size: here as
  * many as they took when this was written, and one more. */
-static void smooth_steps_take_the_same_work_at_any_size(void **state)
+TEST(smooth_steps_take_the_same_work_at_any_size)
 {
-    (void)state;
     for (int segments = 16; segments <= 128; segments *= 2) {
         Problem problem;
         Multigrid *multigrid;
@@ -807,19 +797,4 @@ static void smooth_steps_take_the_same_work_at_any_size(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loops_agree_with_the_formulas),
-        cmocka_unit_test(tiles_lower_what_they_say),
-        cmocka_unit_test(the_cycle_is_symmetric_and_positive),
-        cmocka_unit_test(steps_pass_the_test_of_algorithm_3),
-        cmocka_unit_test(what_is_not_decided_is_not_converged),
-        cmocka_unit_test(a_saddle_is_left),
-        cmocka_unit_test(what_has_changed_is_read_again),
-        cmocka_unit_test(a_saddle_is_left_downhill),
-        cmocka_unit_test(bits_depend_on_the_step_alone),
-        cmocka_unit_test(smooth_steps_take_the_same_work_at_any_size),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,7 +1,7 @@
 /* Newton's method: every way in which it can end, and that its records and
  * counters say what happened, by formulas that share nothing with it.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <math.h>
@@ -123,32 +123,28 @@ static void check_run(const char *line, int steps)
     simulation_free(&simulation);
 }
 
-static void records_are_right(void **unused)
+TEST(records_are_right)
 {
-    (void)unused;
     check_run("--segments 3", 15);
     check_run("--segments 2 --side 3 --density 20 --stiffness 7e3", 15);
 }
 
-static void records_are_right_where_springs_are_compressed(void **unused)
+TEST(records_are_right_where_springs_are_compressed)
 {
-    (void)unused;
     check_run("--segments 3 --stretch 0.5 --timestep 0.02", 15);
     check_run("--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3", 8);
 }
 
-static void records_are_right_without_projection(void **unused)
+TEST(records_are_right_without_projection)
 {
-    (void)unused;
     check_run("--segments 3 --filter none", 15);
 }
 
 /* A residual that is called a value is that of the exact direction, an estimate
  * is as near to it as to the tolerance, which it decides, and a bound is above
  * it.  The lines end their steps in all three ways. */
-static void residuals_are_what_they_are_called(void **unused)
+TEST(residuals_are_what_they_are_called)
 {
-    (void)unused;
     static const char *const lines[] = {
         "--segments 3 --tolerance 0.1", "--segments 3 --tolerance 1e-5",
         "--segments 3 --stretch 1.0001 --tolerance 1e-3",
@@ -188,9 +184,8 @@ static void residuals_are_what_they_are_called(void **unused)
 
 /* Where the bound on |p| ended the loop, p itself must pass the test, and be
  * below the bound. */
-static void bound_implies_the_test(void **unused)
+TEST(bound_implies_the_test)
 {
-    (void)unused;
     const char *lines[] = {"--segments 3 --tolerance 0.1",
                            "--segments 3 --tolerance 1e-3 --stretch 0.6",
                            "--segments 2 --tolerance 3 --stretch 2"};
@@ -219,9 +214,8 @@ static void bound_implies_the_test(void **unused)
 }
 
 /* One gradient a step, and nothing else, not even a matrix. */
-static void rest_costs_one_gradient(void **unused)
+TEST(rest_costs_one_gradient)
 {
-    (void)unused;
     Simulation simulation;
     double x[SIZE];
     simulation_from_line("--segments 3 --stretch 1", NULL, NULL, &simulation);
@@ -240,9 +234,8 @@ static void rest_costs_one_gradient(void **unused)
     simulation_free(&simulation);
 }
 
-static void pieces_are_the_whole(void **unused)
+TEST(pieces_are_the_whole)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3 --stretch 0.4 --timestep 0.02", NULL,
                          NULL, &simulation);
@@ -268,9 +261,8 @@ static void pieces_are_the_whole(void **unused)
 }
 
 /* Keys may change both at any time: the next step obeys. */
-static void settings_change_while_running(void **unused)
+TEST(settings_change_while_running)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3", NULL, NULL, &simulation);
     const Newton *newton = simulation.run[0].newton;
@@ -290,9 +282,8 @@ static void settings_change_while_running(void **unused)
     simulation_free(&simulation);
 }
 
-static void large_matrices_use_blocks(void **unused)
+TEST(large_matrices_use_blocks)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 24", NULL, NULL, &simulation);
     CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
@@ -321,9 +312,8 @@ static void check_unconverged_step(Simulation *simulation, Status expected)
     CHECK(status_is_unconverged(expected));
 }
 
-static void iteration_limit_is_reached(void **unused)
+TEST(iteration_limit_is_reached)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3", NULL, NULL, &simulation);
     simulation.run[0].newton->settings.max_iterations = 1;
@@ -333,9 +323,8 @@ static void iteration_limit_is_reached(void **unused)
 }
 
 /* Without projection some directions point uphill. */
-static void ascent_is_reported(void **unused)
+TEST(ascent_is_reported)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--filter none --timestep 0.02 --stretch 0.5", NULL,
                          NULL, &simulation);
@@ -344,9 +333,8 @@ static void ascent_is_reported(void **unused)
     simulation_free(&simulation);
 }
 
-static void rounding_limit_is_reached(void **unused)
+TEST(rounding_limit_is_reached)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3 --tolerance 1e-30", NULL, NULL,
                          &simulation);
@@ -357,9 +345,8 @@ static void rounding_limit_is_reached(void **unused)
 }
 
 /* All nodes in one point: a maximum of P, where its gradient is 0. */
-static void maximum_is_not_taken_for_a_minimum(void **unused)
+TEST(maximum_is_not_taken_for_a_minimum)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3 --timestep 0.1", NULL, NULL,
                          &simulation);
@@ -398,9 +385,8 @@ static void check_pair_in_one_point(double m0, double m1, Status expected)
 }
 
 /* Whichever node is the light one, and however little is missing. */
-static void light_nodes_show_a_maximum(void **unused)
+TEST(light_nodes_show_a_maximum)
 {
-    (void)unused;
     check_pair_in_one_point(0.1, 1e6, STATUS_NOT_A_MINIMUM);
     check_pair_in_one_point(1e6, 0.1, STATUS_NOT_A_MINIMUM);
     check_pair_in_one_point(2.2, 4.2, STATUS_NOT_A_MINIMUM);
@@ -444,9 +430,8 @@ static void lever_free(Lever *lever)
 }
 
 /* A direction 1e38 m long is downhill, but only for steps below 2^-64. */
-static void line_search_limit_is_reached(void **unused)
+TEST(line_search_limit_is_reached)
 {
-    (void)unused;
     Lever lever;
     lever_create((1 - 1e-8) / 1.5, 1e30, &lever);
     CHECK_STATUS(newton_minimise(&lever.newton, lever.x, NULL, 1),
@@ -459,9 +444,8 @@ static void line_search_limit_is_reached(void **unused)
 }
 
 /* 1 - 3/2 k = 0 in double precision, and the node is pulled across. */
-static void singular_hessian_is_reported(void **unused)
+TEST(singular_hessian_is_reported)
 {
-    (void)unused;
     Lever lever;
     lever_create(2.0 / 3, 1, &lever);
     CHECK_STATUS(newton_minimise(&lever.newton, lever.x, NULL, 1),
@@ -472,9 +456,8 @@ static void singular_hessian_is_reported(void **unused)
 }
 
 /* Projected, the same lever swings out; the pinned node stays. */
-static void pins_hold(void **unused)
+TEST(pins_hold)
 {
-    (void)unused;
     Lever lever;
     lever_create(2.0 / 3, 1, &lever);
     lever.newton.settings.filter = FILTER_CLAMP;
@@ -499,9 +482,8 @@ static bool count_shifts(void *user, const NewtonRecord *record)
     return true;
 }
 
-static void lost_masses_are_found_again(void **unused)
+TEST(lost_masses_are_found_again)
 {
-    (void)unused;
     Simulation simulation;
     int shifts = 0;
     simulation_from_line("--segments 3 --stiffness 1e30", count_shifts, &shifts,
@@ -545,9 +527,8 @@ static const char *const massless[] = {
 enum { MASSLESS = sizeof massless / sizeof *massless };
 
 /* Not from one iterate to another either: E as it is, 1e-9 for rounding. */
-static void iterations_never_rise_without_masses(void **unused)
+TEST(iterations_never_rise_without_masses)
 {
-    (void)unused;
     for (int i = 0; i < MASSLESS; i++) {
         Simulation simulation;
         simulation_from_line(massless[i], NULL, NULL, &simulation);
@@ -570,9 +551,8 @@ static void iterations_never_rise_without_masses(void **unused)
 }
 
 /* From rest, M |v|^2/2 + P(x) <= P(x_n), with 1e-9 for rounding. */
-static void energy_never_rises_without_masses(void **unused)
+TEST(energy_never_rises_without_masses)
 {
-    (void)unused;
     for (int i = 0; i < MASSLESS; i++) {
         Simulation simulation;
         simulation_from_line(massless[i], NULL, NULL, &simulation);
@@ -592,9 +572,8 @@ static void energy_never_rises_without_masses(void **unused)
 
 /* All filters that make H positive definite end in the same minimum; on demand
  * needs fewer iterations, because near it H is used as it is. */
-static void filters_share_the_minimum(void **unused)
+TEST(filters_share_the_minimum)
 {
-    (void)unused;
     const char *const names[] = {"clamp", "abs", "on-demand"};
     double x[3][SIZE];
     long iterations[3];
@@ -620,9 +599,8 @@ static void filters_share_the_minimum(void **unused)
 }
 
 /* |d|^4 overflows: the step fails and leaves everything as it was. */
-static void overflow_is_reported(void **unused)
+TEST(overflow_is_reported)
 {
-    (void)unused;
     Simulation simulation;
     double x[SIZE];
     simulation_from_line("--segments 3 --stretch 1e160", NULL, NULL,
@@ -644,9 +622,8 @@ static bool stop_at(void *user, const NewtonRecord *record)
     return --*(int *)user > 0;
 }
 
-static void observers_can_interrupt(void **unused)
+TEST(observers_can_interrupt)
 {
-    (void)unused;
     for (int records = 1; records <= 3; records++) {
         Simulation simulation;
         double x[SIZE];
@@ -707,9 +684,8 @@ static bool right_of_the_wall(const Place *at)
 
 /* From x = 0 to x_tilde = -1: 1 and 1/2 are refused, with and without a line
  * search; no later one ends beyond the wall. */
-static void steps_into_a_wall_are_halved(void **unused)
+TEST(steps_into_a_wall_are_halved)
 {
-    (void)unused;
     const TermKind wall = {.value = no_value,
                            .gradient = no_gradient,
                            .entries = no_entries,
@@ -741,9 +717,8 @@ static void steps_into_a_wall_are_halved(void **unused)
 }
 
 /* Each constant has a name and a text of its own. */
-static void every_status_has_a_text(void **unused)
+TEST(every_status_has_a_text)
 {
-    (void)unused;
     for (int i = 0; i < STATUS_COUNT; i++) {
         CHECK(strlen(status_text((Status)i)) > 5);
         for (int j = 0; j < i; j++) {
@@ -756,34 +731,4 @@ static void every_status_has_a_text(void **unused)
     CHECK(!status_is_unconverged(STATUS_INTERRUPTED));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(records_are_right),
-        cmocka_unit_test(records_are_right_where_springs_are_compressed),
-        cmocka_unit_test(records_are_right_without_projection),
-        cmocka_unit_test(residuals_are_what_they_are_called),
-        cmocka_unit_test(bound_implies_the_test),
-        cmocka_unit_test(rest_costs_one_gradient),
-        cmocka_unit_test(pieces_are_the_whole),
-        cmocka_unit_test(settings_change_while_running),
-        cmocka_unit_test(large_matrices_use_blocks),
-        cmocka_unit_test(iteration_limit_is_reached),
-        cmocka_unit_test(ascent_is_reported),
-        cmocka_unit_test(rounding_limit_is_reached),
-        cmocka_unit_test(maximum_is_not_taken_for_a_minimum),
-        cmocka_unit_test(light_nodes_show_a_maximum),
-        cmocka_unit_test(line_search_limit_is_reached),
-        cmocka_unit_test(singular_hessian_is_reported),
-        cmocka_unit_test(pins_hold),
-        cmocka_unit_test(lost_masses_are_found_again),
-        cmocka_unit_test(iterations_never_rise_without_masses),
-        cmocka_unit_test(energy_never_rises_without_masses),
-        cmocka_unit_test(filters_share_the_minimum),
-        cmocka_unit_test(overflow_is_reported),
-        cmocka_unit_test(observers_can_interrupt),
-        cmocka_unit_test(steps_into_a_wall_are_halved),
-        cmocka_unit_test(every_status_has_a_text),
-    };
-    return cmocka_run_group_tests_name("newton", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,5 +1,5 @@
 /* The command line: defaults, every option, and what is refused. */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,9 +89,8 @@ static void check_refused(const char *option, const char *value,
 
 /* Borders are read, the numbers next to them are not; nor is what is no whole
  * decimal number.  No number of the table is forgotten here. */
-static void numbers_have_ranges(void **unused)
+TEST(numbers_have_ranges)
 {
-    (void)unused;
     static const char *const bad[] = {
         "nan", "NAN",   "inf", "-infinity", "0x10", "",    "1e999",
         "4x",  "1.4.1", "-",   "e5",        "+-1",  "ten", " 1"};
@@ -133,9 +132,8 @@ static void numbers_have_ranges(void **unused)
 }
 
 /* What is read stands in the option's own field. */
-static void values_are_read(void **unused)
+TEST(values_are_read)
 {
-    (void)unused;
     Options o = parse_good(
         "--segments=16 --side 2.5 --density 1e-3 --stiffness 3E7 "
         "--stretch=-.5 --turn 30 --at 1,-2 --velocity .5,0 --gravity 9.81 "
@@ -186,9 +184,8 @@ static void values_are_read(void **unused)
 }
 
 /* Each name of each option, and the slides' words for some of them. */
-static void names_are_read(void **unused)
+TEST(names_are_read)
 {
-    (void)unused;
     Options options;
     char message[512], value[64];
     static const char *const lines[][3] = {
@@ -227,9 +224,8 @@ static void names_are_read(void **unused)
           integrator_method("forward-euler"));
 }
 
-static void scenes_stand_anywhere(void **unused)
+TEST(scenes_stand_anywhere)
 {
-    (void)unused;
     for (int i = 0; scenes[i].name; i++) {
         char number[16];
         snprintf(number, sizeof number, "%d", i + 1);
@@ -339,9 +335,8 @@ static const char *const bad_lines[][4] = {
     {"--handout h --quiet", "--handout", "--quiet says nothing"},
 };
 
-static void bad_lines_are_answered(void **unused)
+TEST(bad_lines_are_answered)
 {
-    (void)unused;
     for (size_t i = 0; i < sizeof bad_lines / sizeof *bad_lines; i++) {
         const char *const *words = bad_lines[i];
         Options options;
@@ -360,9 +355,8 @@ static void bad_lines_are_answered(void **unused)
 
 /* A number means the same on the command line and in the window: in the
  * option's own unit, the same bits. */
-static void numbers_are_worked_out(void **unused)
+TEST(numbers_are_worked_out)
 {
-    (void)unused;
     static const char *const rows[][3] = {
         {"timestep", "1/60", "0.016666666666666666"},
         {"timestep", "0,02", "0.02"},
@@ -408,9 +402,8 @@ static void numbers_are_worked_out(void **unused)
 }
 
 /* What the row of numbers has, where it is, and what a pace does to it. */
-static void the_row_has_its_places_and_paces(void **unused)
+TEST(the_row_has_its_places_and_paces)
 {
-    (void)unused;
     static const char *const paces[][4] = {
         /* option, value, a pace up, a pace down */
         {"timestep", "0.004", "0.005", "0.003"},
@@ -466,9 +459,8 @@ static void the_row_has_its_places_and_paces(void **unused)
 }
 
 /* A value of any length and of any bytes: one line, and the range is there. */
-static void long_values_are_cut(void **unused)
+TEST(long_values_are_cut)
 {
-    (void)unused;
     static char value[5000];
     char program[] = "elasto", option[] = "--side", message[512];
     char *argv[] = {program, option, value, NULL};
@@ -514,9 +506,8 @@ static void random_word(unsigned seed, char *word, size_t size)
 }
 
 /* Whatever is typed is either understood, or answered by one short line. */
-static void random_lines_end_well(void **unused)
+TEST(random_lines_end_well)
 {
-    (void)unused;
     unsigned seed = 1;
     int understood = 0, refused = 0;
     for (int line = 0; line < 50000; line++) {
@@ -553,9 +544,8 @@ static void random_lines_end_well(void **unused)
 }
 
 /* What a message may show of a text. */
-static void texts_become_one_line(void **unused)
+TEST(texts_become_one_line)
 {
-    (void)unused;
     char line[12];
     one_line("a\nb\tc\177\033", line, sizeof line);
     assert_string_equal(line, "a?b?c??");
@@ -591,9 +581,8 @@ static void texts_become_one_line(void **unused)
 }
 
 /* Options of pane 0, 1, ... of a line with lists. */
-static void lists_are_side_by_side(void **unused)
+TEST(lists_are_side_by_side)
 {
-    (void)unused;
     char *argv[] = {"elasto", "--timestep", "0.1,0.2", "--filter",
                     "clamp,none"};
     const double h[] = {0.1, 0.1, 0.2, 0.2};
@@ -622,9 +611,8 @@ static void lists_are_side_by_side(void **unused)
 
 /* Rows of 80; every option of the contract, all names and scenes; the same text
  * again. */
-static void help_fits_a_terminal(void **unused)
+TEST(help_fits_a_terminal)
 {
-    (void)unused;
     static const char *const words[] = {
         "1 ... 4096 [4]", "J/m^2 [1e5]", "m/s^2 downwards [0]", "SCENE",
         "clamp, none",    "--start X,Y", "springs flow\n",      "[0.004]",
@@ -654,21 +642,4 @@ static void help_fits_a_terminal(void **unused)
     CHECK(strncmp(options_help(), line, 127) == 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_have_ranges),
-        cmocka_unit_test(values_are_read),
-        cmocka_unit_test(names_are_read),
-        cmocka_unit_test(scenes_stand_anywhere),
-        cmocka_unit_test(bad_lines_are_answered),
-        cmocka_unit_test(numbers_are_worked_out),
-        cmocka_unit_test(the_row_has_its_places_and_paces),
-        cmocka_unit_test(long_values_are_cut),
-        cmocka_unit_test(random_lines_end_well),
-        cmocka_unit_test(texts_become_one_line),
-        cmocka_unit_test(lists_are_side_by_side),
-        cmocka_unit_test(help_fits_a_terminal),
-    };
-    return cmocka_run_group_tests_name("options", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -4,7 +4,7 @@
  * precision with forces written here, so small that nothing is left of their
  * error.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -155,9 +155,8 @@ static void check_order(const IntegratorMethod *row, int order,
     }
 }
 
-static void orders_are_what_they_should_be(void **unused)
+TEST(orders_are_what_they_should_be)
 {
-    (void)unused;
     const struct {
         const char *name;
         int order;
@@ -210,9 +209,8 @@ static void check_energy(const char *line, int steps)
 
 /* Over 10^4 steps, and five times 2000; the drift is in proportion to what
  * Newton leaves undone. */
-static void average_vector_field_keeps_energy(void **unused)
+TEST(average_vector_field_keeps_energy)
 {
-    (void)unused;
     check_energy("--segments 2 --integrator avf --tolerance 1e-14", 10000);
     check_energy("--segments 2 --integrator avf --tolerance 1e-13 "
                  "--filter on-demand --timestep 0.02",
@@ -270,9 +268,8 @@ static void check_momentum(const char *line, bool angular, double tolerance)
 /* Linear momentum by all methods, however far from the minimum they stop;
  * angular momentum exactly by the symplectic explicit ones, and as far as
  * Newton goes by the midpoint rule. */
-static void momentum_is_kept(void **unused)
+TEST(momentum_is_kept)
 {
-    (void)unused;
     char line[200];
     for (const IntegratorMethod *row = integrator_methods; row->name; row++)
         for (int s = 0; s < SOLVER_COUNT; s++) {
@@ -290,9 +287,8 @@ static void momentum_is_kept(void **unused)
 
 /* At rest, moved at 0.5 m/s: a step of h v = 5e-10 m is lost in the last digits
  * of x, but the velocity must not be. */
-static void free_flight_keeps_its_velocity(void **unused)
+TEST(free_flight_keeps_its_velocity)
 {
-    (void)unused;
     char line[200];
     for (const IntegratorMethod *row = integrator_methods; row->name; row++)
         for (int s = 0; s < SOLVER_COUNT; s++) {
@@ -315,9 +311,8 @@ static void free_flight_keeps_its_velocity(void **unused)
 }
 
 /* The reference of the benchmark is another program for the same motion. */
-static void benchmark_has_the_same_reference(void **unused)
+TEST(benchmark_has_the_same_reference)
 {
-    (void)unused;
     Simulation simulation;
     Reference fine, coarse;
     double x[SIZE];
@@ -346,14 +341,4 @@ static void benchmark_has_the_same_reference(void **unused)
     simulation_free(&simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders_are_what_they_should_be),
-        cmocka_unit_test(average_vector_field_keeps_energy),
-        cmocka_unit_test(momentum_is_kept),
-        cmocka_unit_test(free_flight_keeps_its_velocity),
-        cmocka_unit_test(benchmark_has_the_same_reference),
-    };
-    return cmocka_run_group_tests_name("orders", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

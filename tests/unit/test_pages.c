@@ -1,5 +1,5 @@
 /* What each page of the lecture says with numbers, held to the simulation. */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -888,9 +888,8 @@ static const struct {
 enum { CLAIMS = sizeof claims / sizeof *claims };
 
 /* A page without a test, and a test without a page, are found. */
-static void every_claim_has_its_test(void **unused)
+TEST(every_claim_has_its_test)
 {
-    (void)unused;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         int tests = 0;
         for (int i = 0; i < CLAIMS; i++)
@@ -901,9 +900,8 @@ static void every_claim_has_its_test(void **unused)
     CHECK(lecture_count() == CLAIMS);
 }
 
-static void claims_hold(void **unused)
+TEST(claims_hold)
 {
-    (void)unused;
     for (int i = 0; i < CLAIMS; i++) {
         print_message("           %s\n", claims[i].page);
         claims[i].check();
@@ -912,9 +910,8 @@ static void claims_hold(void **unused)
 
 /* Each page's file is one that the program has the text of, as it stands in
  * the folder, and its function is defined in it. */
-static void pages_name_code_that_exists(void **unused)
+TEST(pages_name_code_that_exists)
 {
-    (void)unused;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         const Listing *listing = listing_find(page->file);
         int from = -1, body = -1, to = -1;
@@ -936,9 +933,8 @@ static void pages_name_code_that_exists(void **unused)
     }
 }
 
-static void listings_are_the_sources(void **unused)
+TEST(listings_are_the_sources)
 {
-    (void)unused;
     for (const Listing *listing = listings; listing->file; listing++) {
         char line[512];
         int count = 0;
@@ -956,9 +952,8 @@ static void listings_are_the_sources(void **unused)
 }
 
 /* What is no definition is not taken for one. */
-static void listing_finds_definitions_only(void **unused)
+TEST(listing_finds_definitions_only)
 {
-    (void)unused;
     static const char *const text[] = {
         "static double one(double x);",
         "static double two(const Solid *solid, const Vec2 *x,",
@@ -989,9 +984,8 @@ static void listing_finds_definitions_only(void **unused)
 }
 
 /* Every page's line is valid; its texts fit where they are shown. */
-static void pages_are_complete(void **unused)
+TEST(pages_are_complete)
 {
-    (void)unused;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         char message[512] = "";
         Options options;
@@ -1012,9 +1006,8 @@ static void pages_are_complete(void **unused)
 }
 
 /* The card of words is high enough for letters of one size on all pages. */
-static void words_of_all_pages_have_one_size(void **unused)
+TEST(words_of_all_pages_have_one_size)
 {
-    (void)unused;
     int small = 0;
     static const int sizes[][2] = {{1280, 800}, {1120, 700}, {1920, 1080},
                                    {900, 900},  {1024, 768}, {1400, 1050}};
@@ -1052,9 +1045,8 @@ static void words_of_all_pages_have_one_size(void **unused)
 }
 
 /* An algorithm with lines off goes by another name. */
-static void listings_are_called_by_what_is_on(void **unused)
+TEST(listings_are_called_by_what_is_on)
 {
-    (void)unused;
     static const char *const rows[][2] = {
         {"square", "Algorithm 3: projected Newton"},
         {"square --filter none", "Algorithm 3, line 3 is off"},
@@ -1077,9 +1069,8 @@ static void listings_are_called_by_what_is_on(void **unused)
     }
 }
 
-static void pages_are_found(void **unused)
+TEST(pages_are_found)
 {
-    (void)unused;
     char last[16];
     snprintf(last, sizeof last, "%d", lecture_count());
     CHECK(lecture_find("1") == &lecture_pages[0]);
@@ -1090,18 +1081,4 @@ static void pages_are_found(void **unused)
     CHECK(!lecture_find("2x"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pages_are_complete),
-        cmocka_unit_test(words_of_all_pages_have_one_size),
-        cmocka_unit_test(listings_are_called_by_what_is_on),
-        cmocka_unit_test(pages_are_found),
-        cmocka_unit_test(every_claim_has_its_test),
-        cmocka_unit_test(claims_hold),
-        cmocka_unit_test(listings_are_the_sources),
-        cmocka_unit_test(listing_finds_definitions_only),
-        cmocka_unit_test(pages_name_code_that_exists),
-    };
-    return cmocka_run_group_tests_name("pages", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "testing.h"
+#include "test.h"
 
 #include "picture/colour_map.h"
 #include "picture/labels.h"
@@ -115,9 +115,8 @@ static Options parsed(int count, char **arguments)
 
 /* ---- canvas ------------------------------------------------------------- */
 
-static void a_canvas_has_limits(void **unused)
+TEST(a_canvas_has_limits)
 {
-    (void)unused;
     Canvas canvas;
     CHECK_STATUS(canvas_create(0, 5, &canvas), STATUS_INVALID_INPUT);
     CHECK_STATUS(canvas_create(5, -1, &canvas), STATUS_INVALID_INPUT);
@@ -133,9 +132,8 @@ static void a_canvas_has_limits(void **unused)
 }
 
 /* The ink of a line is its area, in whatever direction it runs. */
-static void lines_have_their_area(void **unused)
+TEST(lines_have_their_area)
 {
-    (void)unused;
     Random random = {11};
     Canvas canvas;
     assert_int_equal(canvas_create(200, 200, &canvas), 0);
@@ -151,9 +149,8 @@ static void lines_have_their_area(void **unused)
     canvas_free(&canvas);
 }
 
-static void discs_have_their_area(void **unused)
+TEST(discs_have_their_area)
 {
-    (void)unused;
     Random random = {12};
     Canvas canvas;
     assert_int_equal(canvas_create(100, 100, &canvas), 0);
@@ -170,9 +167,8 @@ static void discs_have_their_area(void **unused)
 
 /* A clipped line has the pixels of the whole one; nothing is written outside
  * (the sanitizers see to that). */
-static void shapes_are_clipped(void **unused)
+TEST(shapes_are_clipped)
 {
-    (void)unused;
     Random random = {13};
     const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 1e30, 0};
     Canvas canvas;
@@ -198,9 +194,8 @@ static void shapes_are_clipped(void **unused)
     canvas_free(&canvas);
 }
 
-static void rectangles_mix_by_alpha(void **unused)
+TEST(rectangles_mix_by_alpha)
 {
-    (void)unused;
     Canvas canvas;
     assert_int_equal(canvas_create(4, 4, &canvas), 0);
     canvas_rectangle(&canvas, 1, 1, 2, 2, 0x80000000);
@@ -215,9 +210,8 @@ static void rectangles_mix_by_alpha(void **unused)
 
 /* ---- colours, history, plot ---------------------------------------------- */
 
-static void strain_has_its_colours(void **unused)
+TEST(strain_has_its_colours)
 {
-    (void)unused;
     CHECK(colour_map_strain(0, 0.2) == COLOUR_REST);
     CHECK(colour_map_strain(NAN, 0.2) == COLOUR_REST);
     CHECK(colour_map_strain(0.2, 0.2) == COLOUR_STRETCH);
@@ -232,9 +226,8 @@ static void strain_has_its_colours(void **unused)
 }
 
 /* However long the run, it holds the first and the newest point, in order. */
-static void history_spans_the_run(void **unused)
+TEST(history_spans_the_run)
 {
-    (void)unused;
     static History history;
     history_clear(&history);
     CHECK(history_series(&history, "one") == 0);
@@ -277,9 +270,8 @@ static void history_spans_the_run(void **unused)
     CHECK(history.count == 0 && history.high == 0);
 }
 
-static void axes_end_at_round_numbers(void **unused)
+TEST(axes_end_at_round_numbers)
 {
-    (void)unused;
     const double from[] = {0.9, 1, 1.1, 2.5, 5.01, 0.0031, 4e9, 1e-300};
     const double to[] = {1, 1, 2, 5, 10, 0.005, 5e9, 1e-300};
     for (int i = 0; i < 8; i++)
@@ -302,9 +294,8 @@ static double ink_in(const Canvas *canvas, Box box)
 
 /* Beside each value that an axis names there is as much ink as its number has
  * elsewhere, all other ink is a line across, and 0 has the darkest of them. */
-static void axes_name_their_values(void **unused)
+TEST(axes_name_their_values)
 {
-    (void)unused;
     enum { SIZE = 700 };
     static const struct {
         bool upright;
@@ -360,9 +351,8 @@ static void axes_name_their_values(void **unused)
 }
 
 /* Three digits, and a power of ten only where zeros would be many. */
-static void numbers_are_read(void **unused)
+TEST(numbers_are_read)
 {
-    (void)unused;
     const struct {
         double value;
         const char *text;
@@ -393,9 +383,8 @@ static void numbers_are_read(void **unused)
 }
 
 /* As printf writes them, then as people do. */
-static void printed_numbers_become_markup(void **unused)
+TEST(printed_numbers_become_markup)
 {
-    (void)unused;
     static const char *const rows[][2] = {
         {"1e-06 m/s", "10^{\u22126} m/s"},
         {"k = 2.5e+15 J/m\u00b2", "k = 2.5\u00b710^{15} J/m\u00b2"},
@@ -417,9 +406,8 @@ static void printed_numbers_become_markup(void **unused)
 }
 
 /* Where words were put: the boxes after those that were there. */
-static void words_keep_off_lines_and_words(void **unused)
+TEST(words_keep_off_lines_and_words)
 {
-    (void)unused;
     const double middle[1][2] = {{200, 150}}, far[1][2] = {{INFINITY, 0}};
     const double up[2] = {200, 20}, right[2] = {390, 150};
     Labels labels = {.stage = {0, 0, 400, 300}};
@@ -453,9 +441,8 @@ static void words_keep_off_lines_and_words(void **unused)
 
 /* Words stand to the right unless that costs more than another place: a little
  * corner of something else costs less, a line that ends before them nothing. */
-static void words_stand_to_the_right(void **unused)
+TEST(words_stand_to_the_right)
 {
-    (void)unused;
     const double middle[1][2] = {{200, 150}};
     const double far[2] = {390, 150}, near[2] = {330, 150};
     Paper paper;
@@ -486,9 +473,8 @@ static void words_stand_to_the_right(void **unused)
 }
 
 /* Where there is nothing to rub on, there is no coefficient to change. */
-static void friction_is_a_number_of_contact(void **unused)
+TEST(friction_is_a_number_of_contact)
 {
-    (void)unused;
     static const char *const scenes_with[] = {"slope", "drop", "dent"};
     const OptionRow *found[OPTIONS_MOST];
     for (int i = 0; i < 4; i++) {
@@ -593,9 +579,8 @@ static int count_far_pixels(const char *name, const char *line, int step)
 }
 
 /* The pictures that `make pictures` made are those of now. */
-static void readme_shows_what_is_drawn(void **unused)
+TEST(readme_shows_what_is_drawn)
 {
-    (void)unused;
     char name[32], line[128];
     int step, count = 0;
     FILE *list = fopen("tests/data/pictures.txt", "r");
@@ -613,9 +598,8 @@ static void readme_shows_what_is_drawn(void **unused)
 
 /* A tolerance at which bodies could hang in the air is named on the stage; the
  * scene's own one is not. */
-static void a_loose_tolerance_is_named(void **unused)
+TEST(a_loose_tolerance_is_named)
 {
-    (void)unused;
     static const char *const lines[] = {"drop --segments 4",
                                         "drop --segments 4 --tolerance 0.01"};
     int red[2] = {0, 0};
@@ -641,9 +625,8 @@ static unsigned number_at(const unsigned char *at, int bytes)
 /* The sheet of films has a tile for each line of tests/data/films.txt, all
  * lines can be run, and they are as long as one another: 61 frames, of which
  * the sheet shows 12 a second of 20. */
-static void readme_shows_films_of_all_scenes(void **unused)
+TEST(readme_shows_films_of_all_scenes)
 {
-    (void)unused;
     static unsigned char bytes[800000];
     char name[32], line[128];
     int speed, steps, count = 0, frames = 0;
@@ -680,9 +663,8 @@ static void readme_shows_films_of_all_scenes(void **unused)
 }
 
 /* SDL's software renderer shows exactly the paper. */
-static void surface_shows_the_paper(void **unused)
+TEST(surface_shows_the_paper)
 {
-    (void)unused;
     static Simulation simulation;
     static Show show;
     View *view = NULL;
@@ -707,9 +689,8 @@ static void surface_shows_the_paper(void **unused)
 
 /* An output without any pixel, as a window may have for a moment, has a paper
  * of one, and nothing fails. */
-static void no_output_is_too_small(void **unused)
+TEST(no_output_is_too_small)
 {
-    (void)unused;
     View *view = NULL;
     CHECK_STATUS(view_create_surface(0, 0, &view), STATUS_OK);
     const Paper *paper = view_paper(view);
@@ -721,9 +702,8 @@ static void no_output_is_too_small(void **unused)
 
 /* ---- files -------------------------------------------------------------- */
 
-static void png_files_are_whole(void **unused)
+TEST(png_files_are_whole)
 {
-    (void)unused;
     Random random = {21};
     Canvas canvas;
     assert_int_equal(canvas_create(37, 23, &canvas), 0);
@@ -741,9 +721,8 @@ static void png_files_are_whole(void **unused)
     canvas_free(&canvas);
 }
 
-static void png_failures_have_reasons(void **unused)
+TEST(png_failures_have_reasons)
 {
-    (void)unused;
     Canvas canvas;
     assert_int_equal(canvas_create(300, 300, &canvas), 0);
     for (int noise = 0; noise < 2; noise++) { /* fails at its end, or within */
@@ -760,9 +739,8 @@ static void png_failures_have_reasons(void **unused)
     canvas_free(&canvas);
 }
 
-static void outputs_replace_at_the_end(void **unused)
+TEST(outputs_replace_at_the_end)
 {
-    (void)unused;
     Output output;
     const char *name = in_folder("late.txt"),
                *part = in_folder("late.txt.part");
@@ -783,9 +761,8 @@ static void outputs_replace_at_the_end(void **unused)
     CHECK(!exists(part));
 }
 
-static void discarded_outputs_leave_nothing(void **unused)
+TEST(discarded_outputs_leave_nothing)
 {
-    (void)unused;
     Output output;
     CHECK_STATUS(output_open(in_folder("never.txt"), &output), STATUS_OK);
     fputs("text", output.file);
@@ -797,9 +774,8 @@ static void discarded_outputs_leave_nothing(void **unused)
 
 /* What cannot get its name stays beside it, and is written over by the next:
  * failures do not pile up.  Meanwhile nobody else writes there. */
-static void outputs_have_one_file_beside_their_name(void **unused)
+TEST(outputs_have_one_file_beside_their_name)
 {
-    (void)unused;
     Output output, second;
     const char *name = in_folder("taken"), *part = in_folder("taken.part");
     for (int i = 0; i < 3; i++) {
@@ -822,9 +798,8 @@ static void outputs_have_one_file_beside_their_name(void **unused)
 
 /* A new file has the mode that umask leaves; one that is replaced keeps its
  * own. */
-static void outputs_have_the_mode_of_their_name(void **unused)
+TEST(outputs_have_the_mode_of_their_name)
 {
-    (void)unused;
     static const mode_t masks[] = {022, 027, 077, 0};
     const char *name = in_folder("mode");
     for (int i = 0; i < 4; i++) {
@@ -845,9 +820,8 @@ static void outputs_have_the_mode_of_their_name(void **unused)
     }
 }
 
-static void full_devices_are_noticed(void **unused)
+TEST(full_devices_are_noticed)
 {
-    (void)unused;
     Output output;
     CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
     fputs("text", output.file);
@@ -869,9 +843,8 @@ static bool record_update(void *user, const NewtonRecord *record)
 }
 
 /* Header, then a row a node and step; what is read is what was there. */
-static void states_are_exact(void **unused)
+TEST(states_are_exact)
 {
-    (void)unused;
     static Recording recording;
     static Simulation simulation;
     char name[NAME_SIZE + 64];
@@ -912,9 +885,8 @@ static void states_are_exact(void **unused)
 }
 
 /* A row for each Newton update, as many as Newton counted. */
-static void log_has_every_update(void **unused)
+TEST(log_has_every_update)
 {
-    (void)unused;
     static Recording recording;
     static Simulation simulation;
     char name[NAME_SIZE + 64];
@@ -945,9 +917,8 @@ static void log_has_every_update(void **unused)
     simulation_free(&simulation);
 }
 
-static void frames_are_numbered_by_step(void **unused)
+TEST(frames_are_numbered_by_step)
 {
-    (void)unused;
     static Recording recording;
     Canvas canvas;
     char name[NAME_SIZE + 64];
@@ -969,9 +940,8 @@ static void frames_are_numbered_by_step(void **unused)
 }
 
 /* Which file, and why: of the first failure. */
-static void recording_failures_name_the_file(void **unused)
+TEST(recording_failures_name_the_file)
 {
-    (void)unused;
     static Recording recording;
     char file[NAME_SIZE + 64], none[NAME_SIZE + 64];
     snprintf(file, sizeof file, "%s", in_folder("a_file"));
@@ -1017,40 +987,4 @@ static int remove_test_folder(void **unused)
     return system(command);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_canvas_has_limits),
-        cmocka_unit_test(lines_have_their_area),
-        cmocka_unit_test(discs_have_their_area),
-        cmocka_unit_test(shapes_are_clipped),
-        cmocka_unit_test(rectangles_mix_by_alpha),
-        cmocka_unit_test(strain_has_its_colours),
-        cmocka_unit_test(history_spans_the_run),
-        cmocka_unit_test(axes_end_at_round_numbers),
-        cmocka_unit_test(axes_name_their_values),
-        cmocka_unit_test(numbers_are_read),
-        cmocka_unit_test(printed_numbers_become_markup),
-        cmocka_unit_test(words_keep_off_lines_and_words),
-        cmocka_unit_test(words_stand_to_the_right),
-        cmocka_unit_test(friction_is_a_number_of_contact),
-        cmocka_unit_test(readme_shows_what_is_drawn),
-        cmocka_unit_test(a_loose_tolerance_is_named),
-        cmocka_unit_test(readme_shows_films_of_all_scenes),
-        cmocka_unit_test(surface_shows_the_paper),
-        cmocka_unit_test(no_output_is_too_small),
-        cmocka_unit_test(png_files_are_whole),
-        cmocka_unit_test(png_failures_have_reasons),
-        cmocka_unit_test(outputs_replace_at_the_end),
-        cmocka_unit_test(discarded_outputs_leave_nothing),
-        cmocka_unit_test(outputs_have_one_file_beside_their_name),
-        cmocka_unit_test(outputs_have_the_mode_of_their_name),
-        cmocka_unit_test(full_devices_are_noticed),
-        cmocka_unit_test(states_are_exact),
-        cmocka_unit_test(log_has_every_update),
-        cmocka_unit_test(frames_are_numbered_by_step),
-        cmocka_unit_test(recording_failures_name_the_file),
-    };
-    return cmocka_run_group_tests_name("picture", tests, make_test_folder,
-                                       remove_test_folder);
-}
+TESTS(make_test_folder, remove_test_folder)

@@ -1,6 +1,7 @@
 /* What the window promises, without a window: the same commands, scene by
  * scene.
  */
+#include "test.h"
 #include "attended.h"
 
 #include <math.h>
@@ -22,9 +23,8 @@ static double highest(const Lane *lane, double *last)
 }
 
 /* Each command has one deed, and nothing else has one. */
-static void every_command_has_one_deed(void **unused)
+TEST(every_command_has_one_deed)
 {
-    (void)unused;
     const Deed *const lists[] = {walk_deeds,   change_deeds, pane_deeds,
                                  hold_deeds,   begin_deeds,  keep_deeds,
                                  lesson_deeds, screen_deeds};
@@ -41,9 +41,8 @@ static void every_command_has_one_deed(void **unused)
 
 /* The scene opens at step 0; one key shows E rising to 1e16 J s^2 and nodes a
  * kilometre away; one more shows either ingredient taming it, beside it. */
-static void the_explosion_is_seen_and_tamed(void **unused)
+TEST(the_explosion_is_seen_and_tamed)
 {
-    (void)unused;
     static const char *const keys[] = {"projection", "line-search"};
     for (int i = 0; i < 2; i++) {
         double last, rise = 0, tamed;
@@ -76,9 +75,8 @@ static void the_explosion_is_seen_and_tamed(void **unused)
 
 /* "no projection: E +206 in 12 updates; projection clamp: E -5.1 in 4": what
  * the step did before and after the key, with the ghost of before. */
-static void a_toggle_tells_both_outcomes(void **unused)
+TEST(a_toggle_tells_both_outcomes)
 {
-    (void)unused;
     static const struct {
         const char *line, *key, *was, *is;
     } rows[] = {
@@ -130,9 +128,8 @@ static double step_energy(const Simulation *simulation, const double *x_n,
 /* What a step is told to have done to E is E at its end less E at its start:
  * also where E was 2e16 in between, and where no update but the centre of mass
  * moved the square.  The last line: strains of 1e-6 have ten digits. */
-static void e_is_told_as_it_is(void **unused)
+TEST(e_is_told_as_it_is)
 {
-    (void)unused;
     static const struct {
         const char *line;
         double digits; /* of E */
@@ -173,9 +170,8 @@ static void run_until_it_pauses(void)
 
 /* At rest it says so and stops; a hand or a number lets it go on, and R begins
  * again, running. */
-static void at_rest_it_says_so_and_stops(void **unused)
+TEST(at_rest_it_says_so_and_stops)
 {
-    (void)unused;
     begin("square --segments 2");
     run_until_it_pauses();
     CHECK(player.rests && player.halted && player.paused);
@@ -250,9 +246,8 @@ static void compare_with_plain_run(const char *line)
  * from there; of one that only the tolerance holds it is said that it does: in
  * long steps, in short ones, at a turning point, in the air.  A node that is a
  * hundredth of a spring from its balance swings twice as far. */
-static void rest_is_told_from_tolerance(void **unused)
+TEST(rest_is_told_from_tolerance)
 {
-    (void)unused;
 #define STANDS "square --stretch 1 --gravity 9.81 --ground 0,1,0,-0.6 "
     static const struct {
         const char *line;
@@ -295,9 +290,8 @@ static void rest_is_told_from_tolerance(void **unused)
 
 /* A free square that is thrown never comes to rest: once it deforms no more it
  * is said that it drifts, and it goes on; a pin makes it swing again. */
-static void a_free_square_drifts_and_says_so(void **unused)
+TEST(a_free_square_drifts_and_says_so)
 {
-    (void)unused;
     double centre, turn;
     begin("square --segments 2 --velocity 3,4");
     const Simulation *simulation = player_simulation(&player);
@@ -332,9 +326,8 @@ static void a_free_square_drifts_and_says_so(void **unused)
 
 /* The number under the mouse, or the lit one, is explained: who solves and why,
  * and what the tolerance means in metres. */
-static void numbers_are_explained(void **unused)
+TEST(numbers_are_explained)
 {
-    (void)unused;
     static const struct {
         const char *line, *name, *value, *words;
     } rows[] = {
@@ -371,9 +364,8 @@ static void numbers_are_explained(void **unused)
 }
 
 /* What is left of a motion beside the rigid one. */
-static void rigid_motion_deforms_nothing(void **unused)
+TEST(rigid_motion_deforms_nothing)
 {
-    (void)unused;
     double centre, turn;
     begin("square --segments 3 --stretch 1.2");
     Simulation *simulation = &lane(0)->track.simulation;
@@ -403,9 +395,8 @@ static void rigid_motion_deforms_nothing(void **unused)
 
 /* A failure beyond all numbers shows the last state below ten times the size,
  * and says so. */
-static void a_failure_shows_the_last_good_state(void **unused)
+TEST(a_failure_shows_the_last_good_state)
 {
-    (void)unused;
     begin("square --integrator forward-euler");
     CHECK_STATUS(player_run(&player), STATUS_OK);
     CHECK(player.paused && player.step < player.newest);
@@ -421,9 +412,8 @@ static void a_failure_shows_the_last_good_state(void **unused)
 
 /* Six methods side by side have one time and one past; the seventh is
  * refused. */
-static void up_to_six_panes(void **unused)
+TEST(up_to_six_panes)
 {
-    (void)unused;
     begin("square --segments 3 --timestep 0.0005");
     obey_all((const char *const[]){"next", "next", NULL});
     for (int i = 1; i < 6; i++) {
@@ -459,9 +449,8 @@ static void up_to_six_panes(void **unused)
 /* Line by line through a whole update and back: the lines come in the order of
  * the listing, the square moves at line 6 alone, and no bit of the state
  * changes. */
-static void an_update_line_by_line(void **unused)
+TEST(an_update_line_by_line)
 {
-    (void)unused;
     static const Line order[] = {LINE_START, LINE_DO,     LINE_PROJECT,
                                  LINE_SOLVE, LINE_SEARCH, LINE_UPDATE,
                                  LINE_TEST,  LINE_DO};
@@ -493,9 +482,8 @@ static void an_update_line_by_line(void **unused)
 
 /* A step that its start already passes shows the residual that passed, in its
  * summary and line by line: |p|/h = 1.5171e-4 m/s where h is 1000 s. */
-static void a_step_without_updates_has_a_residual(void **unused)
+TEST(a_step_without_updates_has_a_residual)
 {
-    (void)unused;
     begin("square --timestep 1000");
     obey_all((const char *const[]){"next", NULL});
     player_fill(&player);
@@ -517,9 +505,8 @@ static void a_step_without_updates_has_a_residual(void **unused)
 
 /* A step is taken again as it was made, and what was changed since is changed
  * once more: the energies beside it are those with the change. */
-static void energies_of_a_step_taken_again_have_its_changes(void **unused)
+TEST(energies_of_a_step_taken_again_have_its_changes)
 {
-    (void)unused;
     begin("square");
     obey_all((const char *const[]){"next", "next", "set stiffness 150000",
                                    "projection", NULL});
@@ -533,9 +520,8 @@ static void energies_of_a_step_taken_again_have_its_changes(void **unused)
 /* A step whose line search finds nothing, line by line: each line says what is
  * true of itself, and the verdict comes where the search gives up.  The test
  * after it shows the residual as it is, above the tolerance. */
-static void a_failed_search_is_no_convergence(void **unused)
+TEST(a_failed_search_is_no_convergence)
 {
-    (void)unused;
     int verdicts = 0, lines = 0;
     begin("unprojected");
     obey_all((const char *const[]){"finer", "finer", "next", NULL});
@@ -576,9 +562,8 @@ static void a_failed_search_is_no_convergence(void **unused)
 
 /* A window that opens under the mouse tells nothing of what happens to lie
  * there; once the mouse moves it does. */
-static void a_resting_mouse_asks_nothing(void **unused)
+TEST(a_resting_mouse_asks_nothing)
 {
-    (void)unused;
     begin("square --size 1280x800");
     CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
     player_fill(&player);
@@ -606,9 +591,8 @@ static void a_resting_mouse_asks_nothing(void **unused)
 /* What is under the mouse stays there while the middle button moves the
  * picture, from the first pixel on, in either pane; a node that is pulled at
  * has its hand where the mouse is. */
-static void the_picture_follows_the_mouse(void **unused)
+TEST(the_picture_follows_the_mouse)
 {
-    (void)unused;
     begin("square --integrator backward-euler,bdf2 --size 1280x800");
     CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
     player_fill(&player);
@@ -660,9 +644,8 @@ static void the_picture_follows_the_mouse(void **unused)
 
 /* Through time a step a frame, or as it was asked for; through iterations so
  * slowly that each is seen. */
-static void first_speeds_suit_the_scene(void **unused)
+TEST(first_speeds_suit_the_scene)
 {
-    (void)unused;
     static const struct {
         const char *line;
         int speed;
@@ -678,9 +661,8 @@ static void first_speeds_suit_the_scene(void **unused)
 }
 
 /* A scene tells of rest only where its method takes energy out. */
-static void captions_are_those_of_the_method(void **unused)
+TEST(captions_are_those_of_the_method)
 {
-    (void)unused;
     static const struct {
         const char *line, *words;
     } rows[] = {{"square", "relaxes"},
@@ -699,9 +681,8 @@ static void captions_are_those_of_the_method(void **unused)
 
 /* However a step is come to, the tape knows its updates and those of the step
  * before it, and nothing of the steps that were made again on the way. */
-static void old_steps_are_taped_as_new_ones(void **unused)
+TEST(old_steps_are_taped_as_new_ones)
 {
-    (void)unused;
     enum { STEP = 12 };
     begin("square");
     for (int i = 0; i < STEP; i++)
@@ -733,9 +714,8 @@ static void old_steps_are_taped_as_new_ones(void **unused)
 /* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
  * with contact; what is drawn of the last test is a p that belongs there, or
  * none. */
-static void the_curve_goes_through_the_step(void **unused)
+TEST(the_curve_goes_through_the_step)
 {
-    (void)unused;
     static const char *const lines[] = {"square", "drop --segments 6",
                                         "dent --segments 6",
                                         "tear --segments 6", "slope"};
@@ -777,9 +757,8 @@ static void the_curve_goes_through_the_step(void **unused)
 
 /* The last round ends with the test: with a direction where one was made, also
  * without where a bound decides. */
-static void last_rounds_have_their_lines(void **unused)
+TEST(last_rounds_have_their_lines)
 {
-    (void)unused;
     int passed[2] = {0, 0};
     begin("drop --segments 6");
     for (int step = 0; step < 60; step++) {
@@ -802,9 +781,8 @@ static void last_rounds_have_their_lines(void **unused)
 
 /* What a hand does on every scene: it pulls, pins, changes h and k, goes back
  * and on.  What makes no sense is refused; the rest leads to the same bits. */
-static void every_scene_is_taken_hold_of(void **unused)
+TEST(every_scene_is_taken_hold_of)
 {
-    (void)unused;
     static const char *const acts[] = {"next",         "grab 0",
                                        "drag 0.3 0.2", "next",
                                        "next",         "release",
@@ -846,9 +824,8 @@ static void every_scene_is_taken_hold_of(void **unused)
 
 /* A point that is dragged changes the state of this step: what energies and
  * paths show of it is the state of now. */
-static void what_is_dragged_is_shown_as_it_is(void **unused)
+TEST(what_is_dragged_is_shown_as_it_is)
 {
-    (void)unused;
     begin("arrows --integrator forward-euler");
     for (int step = 0; step < 3; step++) {
         const Lane *lane = &player.lane[0];
@@ -873,9 +850,8 @@ static const char *refused(const char *line)
 }
 
 /* Where a key makes no sense the last line says why. */
-static void what_makes_no_sense_is_said(void **unused)
+TEST(what_makes_no_sense_is_said)
 {
-    (void)unused;
     static const struct {
         const char *scene, *command, *words;
     } rows[] = {
@@ -911,9 +887,8 @@ static void what_makes_no_sense_is_said(void **unused)
 }
 
 /* A method of the other runs that a scene is about begins them again. */
-static void a_race_begins_again(void **unused)
+TEST(a_race_begins_again)
 {
-    (void)unused;
     begin("race");
     CHECK_STATUS(obey("step"), STATUS_OK);
     CHECK_STATUS(obey("projection"), STATUS_OK);
@@ -923,9 +898,8 @@ static void a_race_begins_again(void **unused)
 }
 
 /* The outcome of before is that of the one step, however it was come to. */
-static void a_toggle_tells_of_one_step(void **unused)
+TEST(a_toggle_tells_of_one_step)
 {
-    (void)unused;
     static const char *const lines[] = {"landscape", "spring", "tangent",
                                         "square"};
     for (int i = 0; i < 4; i++) {
@@ -946,9 +920,8 @@ static void a_toggle_tells_of_one_step(void **unused)
 
 /* A cell of the map as a scene: commands that a script repeats, and Escape
  * leads back. */
-static void a_cell_of_the_map_is_a_scene(void **unused)
+TEST(a_cell_of_the_map_is_a_scene)
 {
-    (void)unused;
     enum { CELL = 100 };
     char line[160];
     begin("envelope --segments 3 --stretch 1.3");
@@ -976,9 +949,8 @@ static void a_cell_of_the_map_is_a_scene(void **unused)
 }
 
 /* Lanes with different timesteps meet where the longest of them ends. */
-static void panes_meet_at_the_longest_timestep(void **unused)
+TEST(panes_meet_at_the_longest_timestep)
 {
-    (void)unused;
     begin("square --segments 2 --timestep 0.01,0.005");
     for (int step = 1; step <= 3; step++) {
         CHECK_STATUS(obey("step"), STATUS_OK);
@@ -989,9 +961,8 @@ static void panes_meet_at_the_longest_timestep(void **unused)
 }
 
 /* A pane that fails is not made good by the one after it. */
-static void every_pane_may_fail(void **unused)
+TEST(every_pane_may_fail)
 {
-    (void)unused;
     begin("square --integrator forward-euler,backward-euler --steps 1000");
     CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
     CHECK(lane(0)->failed && !lane(1)->failed);
@@ -1006,9 +977,8 @@ static void every_pane_may_fail(void **unused)
 }
 
 /* The hash is one of all panes. */
-static void every_pane_is_in_the_hash(void **unused)
+TEST(every_pane_is_in_the_hash)
 {
-    (void)unused;
     static const char *const timesteps[] = {"0.004,0.002", "0.004,0.001",
                                             "0.002,0.004", "0.001,0.004"};
     uint64_t hash[4];
@@ -1025,9 +995,8 @@ static void every_pane_is_in_the_hash(void **unused)
 }
 
 /* A run of a given number of steps ends at its failure. */
-static void a_counted_run_ends_at_its_failure(void **unused)
+TEST(a_counted_run_ends_at_its_failure)
 {
-    (void)unused;
     begin("square --integrator forward-euler --steps 1000");
     CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
     CHECK(!player.paused && player.step == player.newest);
@@ -1036,9 +1005,8 @@ static void a_counted_run_ends_at_its_failure(void **unused)
 
 /* Curves get each step once, however often it is drawn; a change at an old step
  * ends the time line there. */
-static void old_steps_are_neither_kept_twice_nor_for_ever(void **unused)
+TEST(old_steps_are_neither_kept_twice_nor_for_ever)
 {
-    (void)unused;
     begin("square --segments 2");
     obey_all((const char *const[]){"step", "step", "step", "back", NULL});
     long count = lane(0)->history.calls;
@@ -1052,9 +1020,8 @@ static void old_steps_are_neither_kept_twice_nor_for_ever(void **unused)
 
 /* The summary: no projection where there was none, and why the first step that
  * did not converge did not, whatever came after it. */
-static void the_summary_counts(void **unused)
+TEST(the_summary_counts)
 {
-    (void)unused;
     char text[2048], expected[80];
     begin("square --filter none --timestep 0.02 --stretch 0.5");
     CHECK_STATUS(obey("step"), STATUS_OK);
@@ -1078,9 +1045,8 @@ static void the_summary_counts(void **unused)
 
 /* Numbers of the material change while the run goes on: it does not begin
  * again, the steps before stay, and the step after is another one. */
-static void material_numbers_change_live(void **unused)
+TEST(material_numbers_change_live)
 {
-    (void)unused;
     static const char *const lines[][2] = {{"slope", "set friction 0.01"},
                                            {"drop", "set damping 0.5"},
                                            {"dent --damping 1", "lower"}};
@@ -1127,9 +1093,8 @@ static bool summary_has(const char *line, const char *words)
 
 /* What is counted as projected is called what it is: springs, or, where
  * contacts and cells have blocks too, blocks. */
-static void projections_have_their_name(void **unused)
+TEST(projections_have_their_name)
 {
-    (void)unused;
     static const char *const lines[] = {
         "square --stretch 0.5", "drop --stretch 0.6 --filter clamp",
         "square --stretch 0.6 --cells on --filter clamp",
@@ -1155,9 +1120,8 @@ static void give_up(int number)
 }
 
 /* A line of the script waits for its step only while steps are made. */
-static void scripts_wait_while_it_runs(void **unused)
+TEST(scripts_wait_while_it_runs)
 {
-    (void)unused;
     begin_script("0 pause\n9 step\n", "square --segments 2");
     signal(SIGALRM, give_up);
     alarm(20); /* s; it takes milliseconds */
@@ -1168,9 +1132,8 @@ static void scripts_wait_while_it_runs(void **unused)
 }
 
 /* Where a window shows sixteen steps a frame, a run of ten makes ten. */
-static void many_steps_a_frame_end_in_time(void **unused)
+TEST(many_steps_a_frame_end_in_time)
 {
-    (void)unused;
     begin("square --segments 2 --steps 10");
     CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
     player.window = true;
@@ -1180,47 +1143,4 @@ static void many_steps_a_frame_end_in_time(void **unused)
     end();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_command_has_one_deed),
-        cmocka_unit_test(the_explosion_is_seen_and_tamed),
-        cmocka_unit_test(a_toggle_tells_both_outcomes),
-        cmocka_unit_test(e_is_told_as_it_is),
-        cmocka_unit_test(at_rest_it_says_so_and_stops),
-        cmocka_unit_test(rest_is_told_from_tolerance),
-        cmocka_unit_test(a_free_square_drifts_and_says_so),
-        cmocka_unit_test(numbers_are_explained),
-        cmocka_unit_test(rigid_motion_deforms_nothing),
-        cmocka_unit_test(a_failure_shows_the_last_good_state),
-        cmocka_unit_test(up_to_six_panes),
-        cmocka_unit_test(an_update_line_by_line),
-        cmocka_unit_test(a_step_without_updates_has_a_residual),
-        cmocka_unit_test(energies_of_a_step_taken_again_have_its_changes),
-        cmocka_unit_test(a_failed_search_is_no_convergence),
-        cmocka_unit_test(captions_are_those_of_the_method),
-        cmocka_unit_test(a_resting_mouse_asks_nothing),
-        cmocka_unit_test(the_picture_follows_the_mouse),
-        cmocka_unit_test(first_speeds_suit_the_scene),
-        cmocka_unit_test(old_steps_are_taped_as_new_ones),
-        cmocka_unit_test(the_curve_goes_through_the_step),
-        cmocka_unit_test(last_rounds_have_their_lines),
-        cmocka_unit_test(every_scene_is_taken_hold_of),
-        cmocka_unit_test(what_is_dragged_is_shown_as_it_is),
-        cmocka_unit_test(what_makes_no_sense_is_said),
-        cmocka_unit_test(a_race_begins_again),
-        cmocka_unit_test(a_toggle_tells_of_one_step),
-        cmocka_unit_test(a_cell_of_the_map_is_a_scene),
-        cmocka_unit_test(panes_meet_at_the_longest_timestep),
-        cmocka_unit_test(every_pane_may_fail),
-        cmocka_unit_test(every_pane_is_in_the_hash),
-        cmocka_unit_test(a_counted_run_ends_at_its_failure),
-        cmocka_unit_test(old_steps_are_neither_kept_twice_nor_for_ever),
-        cmocka_unit_test(the_summary_counts),
-        cmocka_unit_test(projections_have_their_name),
-        cmocka_unit_test(material_numbers_change_live),
-        cmocka_unit_test(scripts_wait_while_it_runs),
-        cmocka_unit_test(many_steps_a_frame_end_in_time),
-    };
-    return cmocka_run_group_tests_name("player", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

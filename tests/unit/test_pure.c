@@ -1,7 +1,7 @@
 /* A step is a pure function of the state and the settings: whoever makes it,
  * whatever was made before, the next state has the same bits.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -105,9 +105,8 @@ static bool check_run(const Options *options)
 }
 
 /* Every scene in which time passes, with every method that can. */
-static void steps_are_pure(void **unused)
+TEST(steps_are_pure)
 {
-    (void)unused;
     int runs = 0;
     for (const Scene *scene = scenes; scene->name; scene++) {
         char line[80];
@@ -128,9 +127,8 @@ static void steps_are_pure(void **unused)
 }
 
 /* With every way to find a step, and terms that remember something. */
-static void all_solvers_are_pure(void **unused)
+TEST(all_solvers_are_pure)
 {
-    (void)unused;
     static const char *const lines[] = {
         "--segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
         "--segments 4 --filter on-demand --stretch 2.5 --timestep 0.01",
@@ -158,9 +156,8 @@ static void all_solvers_are_pure(void **unused)
 
 /* What a method remembers is of steps of one length: after a step of another
  * it begins as after a start. */
-static void another_timestep_begins_anew(void **unused)
+TEST(another_timestep_begins_anew)
 {
-    (void)unused;
     static const char *const methods[] = {"bdf2", "verlet"};
     for (int m = 0; m < 2; m++) {
         Simulation simulation, fresh;
@@ -189,12 +186,4 @@ static void another_timestep_begins_anew(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_are_pure),
-        cmocka_unit_test(all_solvers_are_pure),
-        cmocka_unit_test(another_timestep_begins_anew),
-    };
-    return cmocka_run_group_tests_name("pure", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,7 +1,7 @@
 /* The program against the slides' own: nine trajectories of the lecture's
  * Python code, in tests/data/reference.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -128,67 +128,58 @@ static void check_case(const char *name, const char *line, int steps)
     simulation_free(&simulation);
 }
 
-static void default_scene(void **unused)
+TEST(default_scene)
 {
-    (void)unused;
     check_case("default", "square", 50);
 }
 
-static void one_cell(void **unused)
+TEST(one_cell)
 {
-    (void)unused;
     check_case("one_cell", "--segments 1", 60);
 }
 
-static void gentle_8(void **unused)
+TEST(gentle_8)
 {
-    (void)unused;
     check_case("gentle_8", "--segments 8 --stretch 1.1", 25);
 }
 
-static void compressed(void **unused)
+TEST(compressed)
 {
-    (void)unused;
     check_case("compressed", "--stretch 0.5 --timestep 0.02", 25);
 }
 
-static void stiff_large_step(void **unused)
+TEST(stiff_large_step)
 {
-    (void)unused;
     check_case("stiff_large_step",
                "--segments 3 --stiffness 1e8 --stretch 2.5 --timestep 0.1", 20);
 }
 
-static void squashed(void **unused)
+TEST(squashed)
 {
-    (void)unused;
     check_case("squashed",
                "--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3",
                15);
 }
 
 /* Gravity and pins, from the lecture's second program. */
-static void hang(void **unused)
+TEST(hang)
 {
-    (void)unused;
     check_case("hang",
                "hang --segments 4 --stiffness 1e3 --timestep 0.02 "
                "--tolerance 1e-2",
                60);
 }
 
-static void hang_tight(void **unused)
+TEST(hang_tight)
 {
-    (void)unused;
     check_case("hang_tight",
                "square --gravity 9.81 --pin 24,4 --stretch 1 --segments 4 "
                "--stiffness 1e3 --timestep 0.02 --tolerance 1e-6",
                60);
 }
 
-static void hang_corner(void **unused)
+TEST(hang_corner)
 {
-    (void)unused;
     check_case("hang_corner", "hang --segments 6 --pin 6 --tolerance 1e-6", 40);
 }
 
@@ -198,70 +189,44 @@ static void hang_corner(void **unused)
     "square --segments 4 --stiffness 2e4 --stretch 1 --timestep 0.01 "         \
     "--gravity 9.81 --barrier 0.01,1e5 "
 
-static void drop(void **unused)
+TEST(drop)
 {
-    (void)unused;
     check_case("drop", LESSON "--ground 0,1,0,-1", 80);
 }
 
-static void drop_tight(void **unused)
+TEST(drop_tight)
 {
-    (void)unused;
     check_case("drop_tight", LESSON "--tolerance 1e-6 --ground 0,1,0,-1", 80);
 }
 
-static void drop_turned(void **unused)
+TEST(drop_turned)
 {
-    (void)unused;
     check_case("drop_turned",
                LESSON "--tolerance 1e-6 --ground 0,2,5,-1 --turn 20 --at "
                       "0,-0.2 --velocity 0,-2",
                50);
 }
 
-static void slope_stick(void **unused)
+TEST(slope_stick)
 {
-    (void)unused;
     check_case("slope_stick",
                LESSON "--ground 0.1,1,0,-1 --friction 0.11 --at 0,-0.42", 120);
 }
 
-static void slope_stick_tight(void **unused)
+TEST(slope_stick_tight)
 {
-    (void)unused;
     check_case("slope_stick_tight",
                LESSON "--tolerance 1e-6 --ground 0.1,1,0,-1 --friction 0.11 "
                       "--slip-speed 1e-3 --at 0,-0.42",
                120);
 }
 
-static void slope_slide_tight(void **unused)
+TEST(slope_slide_tight)
 {
-    (void)unused;
     check_case("slope_slide_tight",
                LESSON "--tolerance 1e-6 --ground 0.5,1,0,-1 --friction 0.3 "
                       "--at 0,-0.2 --cells off",
                60);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_scene),
-        cmocka_unit_test(one_cell),
-        cmocka_unit_test(gentle_8),
-        cmocka_unit_test(compressed),
-        cmocka_unit_test(squashed),
-        cmocka_unit_test(stiff_large_step),
-        cmocka_unit_test(hang),
-        cmocka_unit_test(hang_tight),
-        cmocka_unit_test(hang_corner),
-        cmocka_unit_test(drop),
-        cmocka_unit_test(drop_tight),
-        cmocka_unit_test(drop_turned),
-        cmocka_unit_test(slope_stick),
-        cmocka_unit_test(slope_stick_tight),
-        cmocka_unit_test(slope_slide_tight),
-    };
-    return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* Each scene shows what its sentence claims, with the numbers of the slides.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <math.h>
@@ -31,9 +31,8 @@ static Status run_to_end(Simulation *simulation, int limit)
 
 /* ---- the table ---------------------------------------------------------- */
 
-static void scenes_have_names_and_sentences(void **unused)
+TEST(scenes_have_names_and_sentences)
 {
-    (void)unused;
     const char *expected[] = {"square", "circle", "overshoot", "landscape",
                               "unprojected"};
     int count = 0;
@@ -55,9 +54,8 @@ static void scenes_have_names_and_sentences(void **unused)
 }
 
 /* No time passes while Newton iterates. */
-static void iterations_take_no_time(void **unused)
+TEST(iterations_take_no_time)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("landscape", NULL, NULL, &simulation);
     CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
@@ -73,9 +71,8 @@ static void iterations_take_no_time(void **unused)
 
 /* |x| grows by sqrt(1 + (h w)^2) in forward Euler, shrinks by it in backward
  * Euler, in every step. */
-static void euler_spirals_by_its_factor(void **unused)
+TEST(euler_spirals_by_its_factor)
 {
-    (void)unused;
     Simulation simulation;
     double factor = sqrt(1 + HW * HW);
     simulation_from_line("circle", NULL, NULL, &simulation);
@@ -95,9 +92,8 @@ static void euler_spirals_by_its_factor(void **unused)
  * leads to x = cos(n t + t/2)/cos(t/2), y = sin(n t)/cos(t/2), so
  *   |x|^2 = (1 - s sin(2 n t + t/2)) / (1 - s^2),
  * which lies between 1/(1 + s) and 1/(1 - s), and comes near both. */
-static void symplectic_euler_stays_in_its_bound(void **unused)
+TEST(symplectic_euler_stays_in_its_bound)
 {
-    (void)unused;
     Simulation simulation;
     double s = HW / 2, low = INFINITY, high = 0;
     simulation_from_line("circle --integrator symplectic-euler", NULL, NULL,
@@ -119,9 +115,8 @@ static void symplectic_euler_stays_in_its_bound(void **unused)
 /* ---- overshoot ---------------------------------------------------------- */
 
 /* From x the update leads to x - sinh(2 x)/2. */
-static void overshoot_follows_its_closed_form(void **unused)
+TEST(overshoot_follows_its_closed_form)
 {
-    (void)unused;
     Simulation simulation;
     const Descent *descent = &simulation.descent;
     simulation_from_line("overshoot", NULL, NULL, &simulation);
@@ -145,9 +140,8 @@ static void overshoot_follows_its_closed_form(void **unused)
     simulation_free(&simulation);
 }
 
-static void overshoot_converges_with_line_search(void **unused)
+TEST(overshoot_converges_with_line_search)
 {
-    (void)unused;
     const char *lines[] = {"overshoot --line-search backtrack",
                            "overshoot --line-search backtrack --start -9,0",
                            "overshoot --start 0.5,0"};
@@ -166,9 +160,8 @@ static void overshoot_converges_with_line_search(void **unused)
 }
 
 /* A key may turn the line search on in the middle. */
-static void overshoot_is_caught_by_the_line_search(void **unused)
+TEST(overshoot_is_caught_by_the_line_search)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("overshoot", NULL, NULL, &simulation);
     CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
@@ -179,9 +172,8 @@ static void overshoot_is_caught_by_the_line_search(void **unused)
 }
 
 /* Starts without a direction are unconverged at once; the minimum is not. */
-static void overshoot_may_end_at_its_start(void **unused)
+TEST(overshoot_may_end_at_its_start)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("overshoot --start 1e300,0", NULL, NULL, &simulation);
     CHECK(simulation.done && simulation.steps == 0);
@@ -195,9 +187,8 @@ static void overshoot_may_end_at_its_start(void **unused)
 
 /* ---- unprojected -------------------------------------------------------- */
 
-static void unprojected_points_uphill(void **unused)
+TEST(unprojected_points_uphill)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("unprojected", NULL, NULL, &simulation);
     CHECK_NEAR(simulation.options.timestep, 0.02, 0);
@@ -209,9 +200,8 @@ static void unprojected_points_uphill(void **unused)
     simulation_free(&simulation);
 }
 
-static void unprojected_converges_when_projected(void **unused)
+TEST(unprojected_converges_when_projected)
 {
-    (void)unused;
     const char *lines[] = {"unprojected --filter clamp",
                            "square --timestep 0.02 --stretch 0.5"};
     double *x[2];
@@ -229,9 +219,8 @@ static void unprojected_converges_when_projected(void **unused)
 }
 
 /* As by the key: while it runs, both ways. */
-static void projection_is_switched_while_running(void **unused)
+TEST(projection_is_switched_while_running)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("unprojected", NULL, NULL, &simulation);
     for (int i = 0; i < 3; i++)
@@ -252,9 +241,8 @@ static void projection_is_switched_while_running(void **unused)
 
 /* The start of the scene: its raw direction is uphill, the clamped one down;
  * a key turns it round on the spot. */
-static void landscape_starts_where_newton_goes_uphill(void **unused)
+TEST(landscape_starts_where_newton_goes_uphill)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("landscape --filter none", NULL, NULL, &simulation);
     CHECK(simulation.descent.slope > 0.1);
@@ -292,9 +280,8 @@ static void check_path(const Simulation *simulation)
 /* From a grid of starts the clamped direction is downhill and the run ends at
  * a minimum; the raw one is downhill where E is convex, uphill elsewhere from
  * some. */
-static void landscape_is_downhill_from_everywhere(void **unused)
+TEST(landscape_is_downhill_from_everywhere)
 {
-    (void)unused;
     int uphill = 0, hollow = 0;
     for (int i = -8; i <= 8; i++)
         for (int j = -8; j <= 8; j++) {
@@ -332,9 +319,8 @@ static double energy_by_hand(double x, double y)
 }
 
 /* Wherever Newton is, and after the keys too, the map is the same. */
-static void landscape_does_not_change(void **unused)
+TEST(landscape_does_not_change)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("landscape --start 0.7,0.9", NULL, NULL, &simulation);
     for (int i = 0; i < 4; i++) {
@@ -352,9 +338,8 @@ static void landscape_does_not_change(void **unused)
 }
 
 /* The pins never move, and the log's points are those of the states. */
-static void landscape_moves_one_node(void **unused)
+TEST(landscape_moves_one_node)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("landscape --start 0.5,0.25", NULL, NULL, &simulation);
     const double *x = simulation.run[0].x;
@@ -370,24 +355,4 @@ static void landscape_moves_one_node(void **unused)
     simulation_free(&simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_have_names_and_sentences),
-        cmocka_unit_test(iterations_take_no_time),
-        cmocka_unit_test(euler_spirals_by_its_factor),
-        cmocka_unit_test(symplectic_euler_stays_in_its_bound),
-        cmocka_unit_test(overshoot_follows_its_closed_form),
-        cmocka_unit_test(overshoot_converges_with_line_search),
-        cmocka_unit_test(overshoot_is_caught_by_the_line_search),
-        cmocka_unit_test(overshoot_may_end_at_its_start),
-        cmocka_unit_test(unprojected_points_uphill),
-        cmocka_unit_test(unprojected_converges_when_projected),
-        cmocka_unit_test(projection_is_switched_while_running),
-        cmocka_unit_test(landscape_starts_where_newton_goes_uphill),
-        cmocka_unit_test(landscape_is_downhill_from_everywhere),
-        cmocka_unit_test(landscape_does_not_change),
-        cmocka_unit_test(landscape_moves_one_node),
-    };
-    return cmocka_run_group_tests_name("scenes", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

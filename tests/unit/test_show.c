@@ -15,7 +15,7 @@
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
-#include "testing.h"
+#include "test.h"
 
 /* A scene after some steps, and what a player would show of it. */
 typedef struct Stand {
@@ -73,9 +73,8 @@ static Box whole(const Stand *stand)
 
 /* Two drawings of the same state are equal in every pixel; so is a second
  * one on the same paper, which has kept something. */
-static void frames_are_repeatable(void **unused)
+TEST(frames_are_repeatable)
 {
-    (void)unused;
     static Stand stand[2];
     for (const Scene *scene = scenes; scene->name; scene++) {
         for (int i = 0; i < 2; i++) {
@@ -96,9 +95,8 @@ static void frames_are_repeatable(void **unused)
 }
 
 /* Bare means bare: white, blue and what lies between. */
-static void a_bare_square_is_the_slide(void **unused)
+TEST(a_bare_square_is_the_slide)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 3, 300, 300, &stand);
     stand.show.bare = true;
@@ -115,9 +113,8 @@ static void a_bare_square_is_the_slide(void **unused)
 
 /* Cells below five pixels are faces: inside the outline each pixel is covered;
  * what has folded over is dark, and stands above the rest. */
-static void fine_squares_are_faces(void **unused)
+TEST(fine_squares_are_faces)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square --segments 90 --turn 17 --stretch 1.3", 0, 400, 400,
              &stand);
@@ -160,9 +157,8 @@ static void fine_squares_are_faces(void **unused)
 
 /* Any size can be drawn of any scene, all there is at once, and blown-up
  * positions do no harm. */
-static void every_size_is_drawn(void **unused)
+TEST(every_size_is_drawn)
 {
-    (void)unused;
     const int sizes[][2] = {{1, 1},     {1, 900},    {2000, 3}, {199, 201},
                             {400, 300}, {1500, 999}, {900, 900}};
     const int count = tests_are_long() ? 7 : 5;
@@ -192,9 +188,8 @@ static void every_size_is_drawn(void **unused)
 }
 
 /* Nothing of the stage is drawn over the cards, however near it is seen. */
-static void the_stage_keeps_to_itself(void **unused)
+TEST(the_stage_keeps_to_itself)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 1280, 800, &stand);
     text_free(stand.paper.text); /* letters have colours too */
@@ -213,9 +208,8 @@ static void the_stage_keeps_to_itself(void **unused)
 
 /* Every node is picked where it is drawn, also after zooming; so is the middle
  * of a spring, and left or right of the square there is nothing. */
-static void the_mouse_finds_nodes_and_springs(void **unused)
+TEST(the_mouse_finds_nodes_and_springs)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 2, 1280, 800, &stand);
     Layout layout = show_layout(&stand.show, 1280, 800);
@@ -248,9 +242,8 @@ static void the_mouse_finds_nodes_and_springs(void **unused)
 
 /* A spring is found within 8 pixels, half as far as a node; a broken one is
  * not; later than at the start a side is its springs. */
-static void springs_are_found_near_them(void **unused)
+TEST(springs_are_found_near_them)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 2, 1280, 800, &stand);
     stand.show.paused = true;
@@ -276,9 +269,8 @@ static void springs_are_found_near_them(void **unused)
 }
 
 /* Before the first step of a paused square its sides are edges. */
-static void edges_set_the_stretch(void **unused)
+TEST(edges_set_the_stretch)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 1280, 800, &stand);
     stand.show.paused = true;
@@ -295,9 +287,8 @@ static void edges_set_the_stretch(void **unused)
 }
 
 /* The landscape gives back the point that is drawn there. */
-static void maps_are_where_they_seem(void **unused)
+TEST(maps_are_where_they_seem)
 {
-    (void)unused;
     static Stand stand;
     stand_up("landscape --start 0.9,0.8 --tolerance 1e9", 0, 900, 700, &stand);
     Layout layout = show_layout(&stand.show, 900, 700);
@@ -325,9 +316,8 @@ static void maps_are_where_they_seem(void **unused)
 }
 
 /* Cells that have turned over are counted. */
-static void folds_are_counted(void **unused)
+TEST(folds_are_counted)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 400, 300, &stand);
     CHECK(pane_folded(&stand.show.pane[0]) == 0);
@@ -338,9 +328,8 @@ static void folds_are_counted(void **unused)
 }
 
 /* A cell is torn by each of its six springs: those between its four nodes. */
-static void cells_are_torn_by_their_springs(void **unused)
+TEST(cells_are_torn_by_their_springs)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square --segments 3", 0, 100, 100, &stand);
     System *system = &stand.simulation.system;
@@ -364,9 +353,8 @@ static void cells_are_torn_by_their_springs(void **unused)
 }
 
 /* The outline is seen on all four sides, and nowhere else. */
-static void outlines_go_round(void **unused)
+TEST(outlines_go_round)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square --segments 4 --stretch 1", 0, 200, 200, &stand);
     Stage stage = {.box = {0, 0, 200, 200}, .em = 10};
@@ -388,9 +376,8 @@ static void outlines_go_round(void **unused)
 }
 
 /* Blocks are lit while they are projected, where any was. */
-static void what_is_projected_is_lit(void **unused)
+TEST(what_is_projected_is_lit)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square --stretch 0.6", 0, 200, 200, &stand);
     Trace trace = {
@@ -409,9 +396,8 @@ static void what_is_projected_is_lit(void **unused)
 }
 
 /* Six panes side by side, each with its own square. */
-static void panes_are_drawn_apart(void **unused)
+TEST(panes_are_drawn_apart)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 1, 1280, 800, &stand);
     stand.show.panes = 6;
@@ -429,9 +415,8 @@ static void panes_are_drawn_apart(void **unused)
 }
 
 /* The bar under the mouse is the step that is asked for. */
-static void bars_are_steps(void **unused)
+TEST(bars_are_steps)
 {
-    (void)unused;
     static Stand stand;
     static StepBar bars[500];
     stand_up("square", 0, 1280, 800, &stand);
@@ -464,9 +449,8 @@ static double falling(const void *unused, double alpha)
     return 20 * alpha * alpha * alpha - 4 * alpha;
 }
 
-static void a_trace_is_seen(void **unused)
+TEST(a_trace_is_seen)
 {
-    (void)unused;
     static Stand stand;
     stand_up("unprojected --filter clamp", 0, 1280, 800, &stand);
     text_free(stand.paper.text);
@@ -513,9 +497,8 @@ static void a_trace_is_seen(void **unused)
 
 /* Values, estimates and bounds of residuals look different, and where there are
  * not values alone words above the curve say which is which. */
-static void kinds_of_residuals_are_told_apart(void **unused)
+TEST(kinds_of_residuals_are_told_apart)
 {
-    (void)unused;
     static Stand stand;
     int points[3], blank[3]; /* pixels in their colour, and white above them */
     stand_up("unprojected --filter clamp", 0, 1280, 800, &stand);
@@ -545,9 +528,8 @@ static void kinds_of_residuals_are_told_apart(void **unused)
 }
 
 /* A node or a spring under the mouse is marked, and told of beside it. */
-static void hovers_are_seen(void **unused)
+TEST(hovers_are_seen)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 1, 1280, 800, &stand);
     text_free(stand.paper.text);
@@ -634,9 +616,8 @@ static void check_number(int at, long double value)
 }
 
 /* Position, velocity, force and x_tilde of a node. */
-static void notes_of_nodes_are_right(void **unused)
+TEST(notes_of_nodes_are_right)
 {
-    (void)unused;
     enum { N = 25, NODE = 7 };
     static Stand stand;
     stand_up("square --stretch 0.5 --turn 10 --velocity 1,2", 2, 1280, 800,
@@ -669,9 +650,8 @@ static void notes_of_nodes_are_right(void **unused)
 }
 
 /* The block of a spring and its eigenvalues, and bars as long as these are. */
-static void notes_of_springs_are_right(void **unused)
+TEST(notes_of_springs_are_right)
 {
-    (void)unused;
     enum { N = 25, SPRING = 12, MOST = 40 };
     static Stand stand;
     static long double g[2 * N], H[4 * N * N];
@@ -713,9 +693,8 @@ static void notes_of_springs_are_right(void **unused)
 
 /* The tangent of g is 0 where the update goes, and the parabola, which E has in
  * common with it at the start, is lowest there. */
-static void tangents_lead_to_the_next_iterate(void **unused)
+TEST(tangents_lead_to_the_next_iterate)
 {
-    (void)unused;
     static Stand stand;
     stand_up("tangent", 0, 1280, 800, &stand);
     const Descent *descent = &stand.simulation.descent;
@@ -748,9 +727,8 @@ static void tangents_lead_to_the_next_iterate(void **unused)
 }
 
 /* The first, second, third time, and so on. */
-static void times_are_counted_in_words(void **unused)
+TEST(times_are_counted_in_words)
 {
-    (void)unused;
     static const struct {
         int time;
         const char *word;
@@ -774,9 +752,8 @@ static void times_are_counted_in_words(void **unused)
 }
 
 /* Code stands in the place of the cards, its lines at work lit. */
-static void pages_light_their_lines(void **unused)
+TEST(pages_light_their_lines)
 {
-    (void)unused;
     static Stand stand;
     const char *const lines[] = {"int a;", "int b;", "int c;", "int d;"};
     stand_up("square", 0, 1280, 800, &stand);
@@ -799,9 +776,8 @@ static void pages_light_their_lines(void **unused)
 }
 
 /* Walls, balls, forces, and springs that are gone. */
-static void contact_is_seen(void **unused)
+TEST(contact_is_seen)
 {
-    (void)unused;
     static Stand stand;
     stand_up("drop", 75, 1280, 800, &stand);
     text_free(stand.paper.text);
@@ -824,9 +800,8 @@ static void contact_is_seen(void **unused)
 
 /* Two of the slopes let the body slide, the third holds it; arrows of forces
  * end at their nodes, so that they come out of the slope. */
-static void contacts_slide_or_hold(void **unused)
+TEST(contacts_slide_or_hold)
 {
-    (void)unused;
     static Stand stand;
     stand_up("slope", 60, 600, 600, &stand);
     for (int r = 0; r < 3; r++) {
@@ -884,9 +859,8 @@ static void contacts_slide_or_hold(void **unused)
 }
 
 /* In a formula a number with a sign or a power of ten stands in parentheses. */
-static void formulas_can_be_read(void **unused)
+TEST(formulas_can_be_read)
 {
-    (void)unused;
     static const struct {
         double value;
         const char *text;
@@ -901,9 +875,8 @@ static void formulas_can_be_read(void **unused)
 }
 
 /* The energy with the square root has its tip at d = 0, inside the plot. */
-static void the_tip_is_inside_its_plot(void **unused)
+TEST(the_tip_is_inside_its_plot)
 {
-    (void)unused;
     static Stand stand;
     stand_up("spring --start 1.3,0", 0, 600, 400, &stand);
     const Card *card = picture_of(stand.simulation.scene)->cards[3];
@@ -927,9 +900,8 @@ static void the_tip_is_inside_its_plot(void **unused)
 }
 
 /* What is a unit but for rounding is called by it. */
-static void energies_near_a_unit_are_that(void **unused)
+TEST(energies_near_a_unit_are_that)
 {
-    (void)unused;
     static Stand stand;
     stand_up("arrows --integrator midpoint", 3, 1440, 900, &stand);
     stand.history.value[0][stand.history.count - 1] = 0.99999999;
@@ -939,9 +911,8 @@ static void energies_near_a_unit_are_that(void **unused)
 
 /* The strip says where a search ended that found no minimum, what one step of a
  * scene is, and who makes it. */
-static void ends_and_steps_have_their_names(void **unused)
+TEST(ends_and_steps_have_their_names)
 {
-    (void)unused;
     static const struct {
         const char *line, *sentence, *time, *method;
     } rows[] = {
@@ -994,9 +965,8 @@ static void ends_and_steps_have_their_names(void **unused)
 }
 
 /* The residual of a search that has ended is the one that passed. */
-static void the_last_residual_passes(void **unused)
+TEST(the_last_residual_passes)
 {
-    (void)unused;
     static const char *const lines[] = {
         "landscape", "landscape --filter none --line-search none", "tangent",
         "overshoot --line-search backtrack"};
@@ -1023,9 +993,8 @@ static void the_last_residual_passes(void **unused)
 /* What a later explosion would hide: the energies of a step before it keep
  * their numbers, and the axis is theirs; an axis that runs over many powers of
  * ten is a logarithmic one. */
-static void energies_before_an_explosion_are_seen(void **unused)
+TEST(energies_before_an_explosion_are_seen)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 6, 1280, 800, &stand);
     const History *history = &stand.history;
@@ -1075,9 +1044,8 @@ static void energies_before_an_explosion_are_seen(void **unused)
 
 /* However far nodes fly, the view goes with them as long as there are numbers;
  * beyond them words say why nothing is seen. */
-static void what_flies_far_is_drawn_or_told(void **unused)
+TEST(what_flies_far_is_drawn_or_told)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 1280, 800, &stand);
     Layout layout = show_layout(&stand.show, 1280, 800);
@@ -1110,9 +1078,8 @@ static void what_flies_far_is_drawn_or_told(void **unused)
 
 /* Words on a pane keep apart: the card at the mouse hides the label of the
  * pane, and the colours of strain stand above it. */
-static void words_of_a_pane_keep_apart(void **unused)
+TEST(words_of_a_pane_keep_apart)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 1, 1280, 800, &stand);
     Show *show = &stand.show;
@@ -1147,9 +1114,8 @@ static bool boxes_meet(Box a, Box b)
 
 /* On each side of the body where there is room, and inside the stage where
  * there is none. */
-static void notes_stand_beside_the_body(void **unused)
+TEST(notes_stand_beside_the_body)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 400, 400, &stand);
     Stage stage = {.box = {0, 0, 400, 400}, .em = 10};
@@ -1174,9 +1140,8 @@ static void notes_stand_beside_the_body(void **unused)
 
 /* The widest number of an axis has room left of it; the unit of one that is
  * too low for it is left out. */
-static void numbers_of_axes_have_room(void **unused)
+TEST(numbers_of_axes_have_room)
 {
-    (void)unused;
     static Stand stand;
     stand_up("square", 0, 400, 400, &stand);
     Axis x = {0, 1, false, false, "t in s"};
@@ -1199,9 +1164,8 @@ static void numbers_of_axes_have_room(void **unused)
 }
 
 /* Cards about updates promise none where a method makes none. */
-static void explicit_methods_promise_no_updates(void **unused)
+TEST(explicit_methods_promise_no_updates)
 {
-    (void)unused;
     static const struct {
         const char *line;
         bool explicit;
@@ -1219,9 +1183,8 @@ static void explicit_methods_promise_no_updates(void **unused)
 }
 
 /* Seven kinds of energy in a small card leave room for their curves. */
-static void a_legend_leaves_room_for_curves(void **unused)
+TEST(a_legend_leaves_room_for_curves)
 {
-    (void)unused;
     static Stand stand;
     stand_up("dent --size 1280x800", 60, 1280, 800, &stand);
     int energies = picture_card(&square_picture, "energies");
@@ -1240,9 +1203,8 @@ static void a_legend_leaves_room_for_curves(void **unused)
 
 /* Above the diagonal are the springs, below it what a factor has: eliminating a
  * node joins all its later neighbours. */
-static void the_pattern_is_that_of_the_factor(void **unused)
+TEST(the_pattern_is_that_of_the_factor)
 {
-    (void)unused;
     enum { N = 81, SIDE = 10 * N };
     static Stand stand;
     static bool matrix[N][N], factor[N][N];
@@ -1269,9 +1231,8 @@ static void the_pattern_is_that_of_the_factor(void **unused)
 }
 
 /* Every card of every picture has a name of its own, and they fit. */
-static void cards_have_names(void **unused)
+TEST(cards_have_names)
 {
-    (void)unused;
     for (const Scene *scene = scenes; scene->name; scene++) {
         const Picture *picture = picture_of(scene);
         int count = picture_cards(picture);
@@ -1284,9 +1245,8 @@ static void cards_have_names(void **unused)
 
 /* A square that drifts off is followed, once the view has grown a single time;
  * one that has something to meet is not. */
-static void the_view_follows_what_drifts(void **unused)
+TEST(the_view_follows_what_drifts)
 {
-    (void)unused;
     static const struct {
         const char *line;
         bool followed;
@@ -1320,49 +1280,4 @@ static void the_view_follows_what_drifts(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_view_follows_what_drifts),
-        cmocka_unit_test(frames_are_repeatable),
-        cmocka_unit_test(a_bare_square_is_the_slide),
-        cmocka_unit_test(fine_squares_are_faces),
-        cmocka_unit_test(every_size_is_drawn),
-        cmocka_unit_test(the_stage_keeps_to_itself),
-        cmocka_unit_test(the_mouse_finds_nodes_and_springs),
-        cmocka_unit_test(springs_are_found_near_them),
-        cmocka_unit_test(edges_set_the_stretch),
-        cmocka_unit_test(maps_are_where_they_seem),
-        cmocka_unit_test(folds_are_counted),
-        cmocka_unit_test(cells_are_torn_by_their_springs),
-        cmocka_unit_test(outlines_go_round),
-        cmocka_unit_test(what_is_projected_is_lit),
-        cmocka_unit_test(panes_are_drawn_apart),
-        cmocka_unit_test(bars_are_steps),
-        cmocka_unit_test(a_trace_is_seen),
-        cmocka_unit_test(kinds_of_residuals_are_told_apart),
-        cmocka_unit_test(hovers_are_seen),
-        cmocka_unit_test(notes_of_nodes_are_right),
-        cmocka_unit_test(notes_of_springs_are_right),
-        cmocka_unit_test(tangents_lead_to_the_next_iterate),
-        cmocka_unit_test(times_are_counted_in_words),
-        cmocka_unit_test(pages_light_their_lines),
-        cmocka_unit_test(contact_is_seen),
-        cmocka_unit_test(contacts_slide_or_hold),
-        cmocka_unit_test(formulas_can_be_read),
-        cmocka_unit_test(the_tip_is_inside_its_plot),
-        cmocka_unit_test(energies_near_a_unit_are_that),
-        cmocka_unit_test(ends_and_steps_have_their_names),
-        cmocka_unit_test(the_last_residual_passes),
-        cmocka_unit_test(energies_before_an_explosion_are_seen),
-        cmocka_unit_test(what_flies_far_is_drawn_or_told),
-        cmocka_unit_test(words_of_a_pane_keep_apart),
-        cmocka_unit_test(notes_stand_beside_the_body),
-        cmocka_unit_test(numbers_of_axes_have_room),
-        cmocka_unit_test(explicit_methods_promise_no_updates),
-        cmocka_unit_test(a_legend_leaves_room_for_curves),
-        cmocka_unit_test(the_pattern_is_that_of_the_factor),
-        cmocka_unit_test(cards_have_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -2,7 +2,7 @@
  * counter, or by formulas that share nothing with the solvers.
  */
 #include "model/pull_energy.h"
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,9 +59,8 @@ static void check_same_minimum(const char *scene, const char *method)
     simulation_free(&multigrid);
 }
 
-static void multigrid_finds_the_same_minimum(void **unused)
+TEST(multigrid_finds_the_same_minimum)
 {
-    (void)unused;
     const char *scenes_of_this[] = {
         "--tolerance 1e-10", "--segments 8 --stretch 1.1 --tolerance 1e-10",
         "--segments 8 --stretch 0.9 --tolerance 1e-10",
@@ -119,9 +118,8 @@ static void check_verdicts(const char *scene, const char *method, Solver solver)
 }
 
 /* At the slides' tolerance and below it. */
-static void converged_is_as_strict_as_algorithm_3(void **unused)
+TEST(converged_is_as_strict_as_algorithm_3)
 {
-    (void)unused;
     const char *scenes_of_this[] = {
         "square",
         "--tolerance 1e-4",
@@ -140,9 +138,8 @@ static void converged_is_as_strict_as_algorithm_3(void **unused)
 
 /* From the slides' scene to large steps of stiff, squashed squares; steps may
  * not converge there, but if they say that they did, they did. */
-static void converged_is_strict_wherever_it_is_said(void **unused)
+TEST(converged_is_strict_wherever_it_is_said)
 {
-    (void)unused;
     const double stretch[] = {-1, 0.05, 0.3, 0.5, 0.8, 1.2, 1.4, 2, 3};
     const double timestep[] = {0.004, 0.02, 0.1}, stiffness[] = {1e5, 1e8};
     const double tolerance[] = {1, 1e-1, 1e-2, 1e-3, 1e-5};
@@ -174,9 +171,8 @@ static void converged_is_strict_wherever_it_is_said(void **unused)
 
 /* At rest a minimisation costs one gradient (multigrid: one more, Newton's look
  * at a gradient that vanishes), and no matrix is ever made. */
-static void rest_needs_no_factor(void **unused)
+TEST(rest_needs_no_factor)
 {
-    (void)unused;
     for (int i = 0; i < IMPLICIT; i++)
         for (int s = 0; s < SOLVER_COUNT; s++) {
             Simulation simulation;
@@ -204,9 +200,8 @@ static bool count_projected(void *user, const NewtonRecord *record)
 }
 
 /* Springs longer than at rest are left as they are; shorter ones are not. */
-static void stretched_springs_are_not_projected(void **unused)
+TEST(stretched_springs_are_not_projected)
 {
-    (void)unused;
     for (int longer = 0; longer < 2; longer++) {
         Simulation simulation;
         long seen = 0;
@@ -233,9 +228,8 @@ static bool count_factored(void *user, const NewtonRecord *record)
     return true;
 }
 
-static void only_newton_has_factors(void **unused)
+TEST(only_newton_has_factors)
 {
-    (void)unused;
     for (int s = 0; s < SOLVER_COUNT; s++) {
         Simulation simulation;
         long factored = 0;
@@ -258,9 +252,8 @@ static void only_newton_has_factors(void **unused)
 
 /* Tiles are for steps that are not over after some directions of the whole
  * square: where it buckles, never where it is hardly moved. */
-static void only_hard_steps_get_tiles(void **unused)
+TEST(only_hard_steps_get_tiles)
 {
-    (void)unused;
     for (int hard = 0; hard < 2; hard++) {
         Simulation simulation;
         create_run(hard ? "--segments 40 --stretch 1.4"
@@ -277,9 +270,8 @@ static void only_hard_steps_get_tiles(void **unused)
 
 /* Asked for a minimum, Newton does not end where the Hessian bends down: the
  * default square of 16 segments comes to such a place when it buckles. */
-static void newton_leaves_a_saddle_when_asked(void **unused)
+TEST(newton_leaves_a_saddle_when_asked)
 {
-    (void)unused;
     for (int minimum = 0; minimum < 2; minimum++) {
         Simulation simulation;
         create_run(minimum ? "--segments 16 --minimum" : "--segments 16",
@@ -293,9 +285,8 @@ static void newton_leaves_a_saddle_when_asked(void **unused)
 
 /* What Newton counts of multigrid is what multigrid has done, and its limit of
  * iterations holds for it. */
-static void multigrid_is_counted(void **unused)
+TEST(multigrid_is_counted)
 {
-    (void)unused;
     Simulation simulation;
     create_run("--segments 8 --stretch 1.5 --minimum", "backward-euler",
                SOLVER_MULTIGRID, NULL, NULL, &simulation);
@@ -316,9 +307,8 @@ static void multigrid_is_counted(void **unused)
 }
 
 /* Who works, and why it is not multigrid. */
-static void what_does_not_fit_is_left_to_newton(void **unused)
+TEST(what_does_not_fit_is_left_to_newton)
 {
-    (void)unused;
     const struct {
         const char *line;
         Solver working;
@@ -362,9 +352,8 @@ static void what_does_not_fit_is_left_to_newton(void **unused)
 }
 
 /* Below rounding multigrid cannot go on; Newton judges the end. */
-static void newton_takes_back_what_multigrid_cannot_end(void **unused)
+TEST(newton_takes_back_what_multigrid_cannot_end)
 {
-    (void)unused;
     Simulation simulation;
     create_run("--segments 8 --stretch 1.2 --tolerance 1e-15", "backward-euler",
                SOLVER_MULTIGRID, NULL, NULL, &simulation);
@@ -377,9 +366,8 @@ static void newton_takes_back_what_multigrid_cannot_end(void **unused)
 }
 
 /* Explicit methods have no Newton object, so no matrix and no counters. */
-static void explicit_methods_have_no_matrix(void **unused)
+TEST(explicit_methods_have_no_matrix)
 {
-    (void)unused;
     const char *names[] = {"forward-euler", "symplectic-euler", "verlet"};
     for (int i = 0; i < 3; i++) {
         Simulation simulation;
@@ -396,9 +384,8 @@ static void explicit_methods_have_no_matrix(void **unused)
 
 /* What makes AVF conserve energy: grad Phi(u) . u = P(x_n + u) - P(x_n).
  * 1e-12 of both energies: rounding of x_n + u. */
-static void averaged_force_does_the_work(void **unused)
+TEST(averaged_force_does_the_work)
 {
-    (void)unused;
     Random random = {95};
     for (int trial = 0; trial < 50; trial++) {
         System system;
@@ -422,22 +409,4 @@ static void averaged_force_does_the_work(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(multigrid_finds_the_same_minimum),
-        cmocka_unit_test(converged_is_as_strict_as_algorithm_3),
-        cmocka_unit_test(converged_is_strict_wherever_it_is_said),
-        cmocka_unit_test(rest_needs_no_factor),
-        cmocka_unit_test(stretched_springs_are_not_projected),
-        cmocka_unit_test(only_newton_has_factors),
-        cmocka_unit_test(only_hard_steps_get_tiles),
-        cmocka_unit_test(newton_leaves_a_saddle_when_asked),
-        cmocka_unit_test(multigrid_is_counted),
-        cmocka_unit_test(what_does_not_fit_is_left_to_newton),
-        cmocka_unit_test(newton_takes_back_what_multigrid_cannot_end),
-        cmocka_unit_test(explicit_methods_have_no_matrix),
-        cmocka_unit_test(averaged_force_does_the_work),
-    };
-    return cmocka_run_group_tests_name("solvers", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -2,7 +2,7 @@
  * the assembly of the Hessian through them.
  */
 #include "model/pull_energy.h"
-#include "testing.h"
+#include "test.h"
 
 #include <float.h>
 #include <limits.h>
@@ -48,9 +48,8 @@ static void check_structure(const Sparse *A)
     }
 }
 
-static void lower_triangle_is_the_dense_matrix(void **unused)
+TEST(lower_triangle_is_the_dense_matrix)
 {
-    (void)unused;
     Random random = {1};
     for (int trial = 0; trial < 50; trial++) {
         Triplets triplets;
@@ -71,9 +70,8 @@ static void lower_triangle_is_the_dense_matrix(void **unused)
     }
 }
 
-static void multiply_is_dense_multiply(void **unused)
+TEST(multiply_is_dense_multiply)
 {
-    (void)unused;
     Random random = {3};
     for (int round = 0; round < 2; round++) {
         Triplets triplets;
@@ -98,9 +96,8 @@ static void multiply_is_dense_multiply(void **unused)
     }
 }
 
-static void duplicates_share_a_slot(void **unused)
+TEST(duplicates_share_a_slot)
 {
-    (void)unused;
     Triplets triplets;
     Sparse A;
     int slot[5];
@@ -118,9 +115,8 @@ static void duplicates_share_a_slot(void **unused)
     triplets_free(&triplets);
 }
 
-static void empty_matrix_is_possible(void **unused)
+TEST(empty_matrix_is_possible)
 {
-    (void)unused;
     Triplets triplets;
     Sparse A;
     int slot[1];
@@ -131,9 +127,8 @@ static void empty_matrix_is_possible(void **unused)
     triplets_free(&triplets);
 }
 
-static void too_large_is_refused(void **unused)
+TEST(too_large_is_refused)
 {
-    (void)unused;
     Triplets triplets;
     CHECK_STATUS(triplets_create(4, INT_MAX, &triplets), STATUS_TOO_LARGE);
     triplets_free(&triplets);
@@ -238,9 +233,8 @@ static void check_assembly(bool ordered, Filter filter)
     }
 }
 
-static void assembly_is_the_formula(void **unused)
+TEST(assembly_is_the_formula)
 {
-    (void)unused;
     check_assembly(false, FILTER_NONE);
     check_assembly(false, FILTER_CLAMP);
     check_assembly(true, FILTER_NONE);
@@ -248,9 +242,8 @@ static void assembly_is_the_formula(void **unused)
 }
 
 /* slot NULL: entry t of the triplets; summed by hand at its row and column. */
-static void plain_triplets_sum_to_the_same(void **unused)
+TEST(plain_triplets_sum_to_the_same)
 {
-    (void)unused;
     Random random = {8};
     for (int trial = 0; trial < 10; trial++) {
         Assembly a;
@@ -288,9 +281,8 @@ static void plain_triplets_sum_to_the_same(void **unused)
 
 /* A pinned node keeps its mass and loses every term; the others lose only what
  * couples them to it. */
-static void pinned_nodes_are_dropped(void **unused)
+TEST(pinned_nodes_are_dropped)
 {
-    (void)unused;
     Random random = {9};
     for (int trial = 0; trial < 10; trial++) {
         Assembly a;
@@ -327,9 +319,8 @@ static double ulps(double got, long double exact)
 }
 
 /* 1.5 units: what mathematics.h promises. */
-static void logarithms_are_right_to_the_last_place(void **unused)
+TEST(logarithms_are_right_to_the_last_place)
 {
-    (void)unused;
     static const double edges[] = {
         0,       1,       -1,       0.70710678118654752, INFINITY,       NAN,
         DBL_MIN, DBL_MAX, 4.9e-324, 1 - DBL_EPSILON,     1 + DBL_EPSILON};
@@ -352,9 +343,8 @@ static void logarithms_are_right_to_the_last_place(void **unused)
     CHECK_AT_MOST(worst, 1.5);
 }
 
-static void lengths_are_right_to_the_last_place(void **unused)
+TEST(lengths_are_right_to_the_last_place)
 {
-    (void)unused;
     static const double edges[] = {0,       1,       -3,       INFINITY, NAN,
                                    DBL_MIN, DBL_MAX, 4.9e-324, 1e-200,   1e200};
     const int count = sizeof edges / sizeof *edges;
@@ -373,19 +363,4 @@ static void lengths_are_right_to_the_last_place(void **unused)
     CHECK_AT_MOST(worst, 1.5);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lower_triangle_is_the_dense_matrix),
-        cmocka_unit_test(multiply_is_dense_multiply),
-        cmocka_unit_test(duplicates_share_a_slot),
-        cmocka_unit_test(empty_matrix_is_possible),
-        cmocka_unit_test(too_large_is_refused),
-        cmocka_unit_test(assembly_is_the_formula),
-        cmocka_unit_test(plain_triplets_sum_to_the_same),
-        cmocka_unit_test(pinned_nodes_are_dropped),
-        cmocka_unit_test(logarithms_are_right_to_the_last_place),
-        cmocka_unit_test(lengths_are_right_to_the_last_place),
-    };
-    return cmocka_run_group_tests_name("sparse", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

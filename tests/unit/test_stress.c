@@ -1,6 +1,7 @@
 /* A short run of what `make stress` does for minutes, and proofs that its
  * judge sees a broken promise.
  */
+#include "test.h"
 #include "model/pull_energy.h"
 #include "stress.h"
 #include "stress_large.h"
@@ -8,9 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-static void named_cases_keep_the_promise(void **unused)
+TEST(named_cases_keep_the_promise)
 {
-    (void)unused;
     for (const StressCase *row = stress_cases; row->name; row++) {
         char reason[512] = "";
         Tally tally = {0};
@@ -24,9 +24,8 @@ static void named_cases_keep_the_promise(void **unused)
     }
 }
 
-static void random_scenes_keep_the_promise(void **unused)
+TEST(random_scenes_keep_the_promise)
 {
-    (void)unused;
     Tally tally = {0};
     const long count = tests_are_long() ? 1000 : 250;
     for (long i = 0; i < count; i++) {
@@ -44,9 +43,8 @@ static void random_scenes_keep_the_promise(void **unused)
 
 /* Where plane search, Newton and moves of the centre of mass once raised E by
  * what rounding had hidden. */
-static void scenes_that_failed_once_do_not_fail(void **unused)
+TEST(scenes_that_failed_once_do_not_fail)
 {
-    (void)unused;
     const long once[] = {833, 11919, 17537, 19600, 20087, 10030, 36362, 3826};
     for (int i = 0; i < 8; i++) {
         Wild wild;
@@ -62,9 +60,8 @@ static void scenes_that_failed_once_do_not_fail(void **unused)
 }
 
 /* The wide formulas against those of the other suites. */
-static void two_exact_formulas_agree(void **unused)
+TEST(two_exact_formulas_agree)
 {
-    (void)unused;
     Random random = {3};
     for (int round = 0; round < 20; round++) {
         System system;
@@ -105,9 +102,8 @@ static void two_exact_formulas_agree(void **unused)
 
 /* H q spring by spring is H q by the dense Hessian, with every term, filter
  * and pin there is. */
-static void products_are_those_of_the_matrix(void **unused)
+TEST(products_are_those_of_the_matrix)
 {
-    (void)unused;
     Random random = {6};
     for (int round = 0; round < 24; round++) {
         System system;
@@ -144,9 +140,8 @@ static void products_are_those_of_the_matrix(void **unused)
 
 /* One light node that moves along the diagonal: its |p_x| + |p_y| is all that
  * the bound allows. */
-static void light_nodes_are_not_overlooked(void **unused)
+TEST(light_nodes_are_not_overlooked)
 {
-    (void)unused;
     Wild wild = {.nodes = 2,
                  .springs = 1,
                  .steps = 1,
@@ -172,9 +167,8 @@ static void light_nodes_are_not_overlooked(void **unused)
 
 /* A direction that bends down leads downhill, and nothing is left over of the
  * one that was found before. */
-static void bends_are_found_afresh(void **unused)
+TEST(bends_are_found_afresh)
 {
-    (void)unused;
     Simulation simulation;
     simulation_from_line("--segments 3 --stretch 0.3", NULL, NULL, &simulation);
     Newton *newton = simulation.run[0].newton;
@@ -204,9 +198,8 @@ static bool keep_shift(void *user, const NewtonRecord *record)
     return true;
 }
 
-static void shifts_are_small(void **unused)
+TEST(shifts_are_small)
 {
-    (void)unused;
     Simulation simulation;
     double shift = 0, scale = 16e-6 * 1e30; /* h^2 k */
     simulation_from_line("--segments 3 --stiffness 1e30", keep_shift, &shift,
@@ -220,9 +213,8 @@ static void shifts_are_small(void **unused)
 /* A square that only flies and turns: forces that the masses alone resist,
  * while the shift is some 1e12 masses.  1e-8: of p, 1e-3, what is left when
  * rounding of products with the springs' 1e30 ends the solves. */
-static void shifted_solves_find_the_masses(void **unused)
+TEST(shifted_solves_find_the_masses)
 {
-    (void)unused;
     enum { N = 2 * 9 }; /* nodes at multiples of 1/2: no strain at all */
     Simulation simulation;
     simulation_from_line("--segments 2 --stretch 1 --stiffness 1e30", NULL,
@@ -246,9 +238,8 @@ static void shifted_solves_find_the_masses(void **unused)
 }
 
 /* Averaged: its gradient is the slope of its energy. */
-static void averaged_formulas_agree(void **unused)
+TEST(averaged_formulas_agree)
 {
-    (void)unused;
     Random random = {4};
     System system;
     double x[MAX_SIZE], u[MAX_SIZE] = {0}, target[MAX_SIZE] = {0};
@@ -367,9 +358,8 @@ static void check_blamed(Status (*step)(TimeIntegrator *), const char *why)
     simulation_free(&simulation);
 }
 
-static void broken_promises_are_noticed(void **unused)
+TEST(broken_promises_are_noticed)
 {
-    (void)unused;
     check_blamed(add_momentum, "momentum");
     check_blamed(make_nan, "not finite");
     check_blamed(move_and_fail, "moved");
@@ -391,16 +381,14 @@ static Status be_content(TimeIntegrator *run)
     return status;
 }
 
-static void false_convergence_is_noticed(void **unused)
+TEST(false_convergence_is_noticed)
 {
-    (void)unused;
     check_blamed(be_content, "the residual is");
 }
 
 /* Caps are looked at through the records of a real minimisation. */
-static void too_many_iterations_are_noticed(void **unused)
+TEST(too_many_iterations_are_noticed)
 {
-    (void)unused;
     Simulation simulation;
     Watch watch;
     simulation_from_line("--segments 3", NULL, NULL, &simulation);
@@ -423,9 +411,8 @@ static bool heavy_and_stiff(const Wild *wild, void *user)
     return false;
 }
 
-static void failures_shrink(void **unused)
+TEST(failures_shrink)
 {
-    (void)unused;
     int shrunk = 0, calls = 0;
     for (long i = 0; i < 50; i++) {
         Wild wild;
@@ -447,9 +434,8 @@ static void failures_shrink(void **unused)
 
 /* The picture in the README is drawn from a table; cells of it, computed
  * again, are what it says. */
-static void envelope_is_up_to_date(void **unused)
+TEST(envelope_is_up_to_date)
 {
-    (void)unused;
     static Envelope envelope;
     Random random = {11};
     Tally tally = {0};
@@ -475,9 +461,8 @@ static void envelope_is_up_to_date(void **unused)
 
 /* Large squares by multigrid, judged without a matrix; and the judge sees an
  * iterate that is not the end. */
-static void large_squares_pass_what_they_say(void **unused)
+TEST(large_squares_pass_what_they_say)
 {
-    (void)unused;
     const char *const lines[] = {
         "--segments 33 --stretch 1.4", "--segments 40 --minimum",
         "--segments 20 --stretch 0.5 --timestep 0.02",
@@ -502,25 +487,4 @@ static void large_squares_pass_what_they_say(void **unused)
     simulation_free(&simulation);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(large_squares_pass_what_they_say),
-        cmocka_unit_test(two_exact_formulas_agree),
-        cmocka_unit_test(averaged_formulas_agree),
-        cmocka_unit_test(products_are_those_of_the_matrix),
-        cmocka_unit_test(bends_are_found_afresh),
-        cmocka_unit_test(shifts_are_small),
-        cmocka_unit_test(shifted_solves_find_the_masses),
-        cmocka_unit_test(light_nodes_are_not_overlooked),
-        cmocka_unit_test(broken_promises_are_noticed),
-        cmocka_unit_test(false_convergence_is_noticed),
-        cmocka_unit_test(too_many_iterations_are_noticed),
-        cmocka_unit_test(failures_shrink),
-        cmocka_unit_test(named_cases_keep_the_promise),
-        cmocka_unit_test(random_scenes_keep_the_promise),
-        cmocka_unit_test(scenes_that_failed_once_do_not_fail),
-        cmocka_unit_test(envelope_is_up_to_date),
-    };
-    return cmocka_run_group_tests_name("stress", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,6 +1,6 @@
 /* Triangular solves by panels against substitution in extended precision.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <string.h>
@@ -72,9 +72,8 @@ static void substitute(const Factor *factor, long double *x)
 
 /* Rounding grows with the products of the entries, which stay near 1: the
  * worst of 500 factors is off by 7e-16 of the largest unknown. */
-static void panels_solve(void **unused)
+TEST(panels_solve)
 {
-    (void)unused;
     Random random = {80};
     static Factor factor;
     for (int trial = 0; trial < 500; trial++) {
@@ -94,9 +93,8 @@ static void panels_solve(void **unused)
 
 /* Unit vectors go through with their zeros: what no entry of L connects stays
  * 0 to the last bit. */
-static void zeros_stay_zero(void **unused)
+TEST(zeros_stay_zero)
 {
-    (void)unused;
     double x[ROWS] = {0}, w[ROWS];
     Factor factor = {.view.count = 0};
     for (int i = 0; i < ROWS; i++) {
@@ -113,11 +111,4 @@ static void zeros_stay_zero(void **unused)
         CHECK(x[i] == (i == 7 ? 3 : 0));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(panels_solve),
-        cmocka_unit_test(zeros_stay_zero),
-    };
-    return cmocka_run_group_tests_name("supernodes", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

@@ -1,7 +1,7 @@
 /* Going back and on: every state is the same to the last bit, whatever was kept
  * and whatever was changed; scripts and commands.
  */
-#include "testing.h"
+#include "test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -102,9 +102,8 @@ static const char *const lines[] = {
     "bend",
 };
 
-static void states_come_back(void **unused)
+TEST(states_come_back)
 {
-    (void)unused;
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Track track;
         uint64_t hash[STEPS + 1];
@@ -118,9 +117,8 @@ static void states_come_back(void **unused)
 }
 
 /* With room for five states only every 2^k-th is kept, within the limit. */
-static void thinned_states_come_back(void **unused)
+TEST(thinned_states_come_back)
 {
-    (void)unused;
     for (size_t i = 0; i < sizeof lines / sizeof *lines;
          i += (size_t)stride(1, 2)) {
         Track track;
@@ -144,9 +142,8 @@ static void thinned_states_come_back(void **unused)
 }
 
 /* A state that fits nowhere leaves step 0, from which all can be repeated. */
-static void one_state_is_enough(void **unused)
+TEST(one_state_is_enough)
 {
-    (void)unused;
     Track track;
     uint64_t hash[13];
     begin("square --segments 2", &track);
@@ -158,9 +155,8 @@ static void one_state_is_enough(void **unused)
 }
 
 /* Scenes without time have no state: they are begun again. */
-static void iterations_come_back(void **unused)
+TEST(iterations_come_back)
 {
-    (void)unused;
     const char *scene[] = {"overshoot --line-search backtrack", "landscape"};
     for (int i = 0; i < 2; i++) {
         Track track;
@@ -187,9 +183,8 @@ static void change(Track *track, const char *line)
 
 /* All that may change, each while the run goes on; time goes on with the new
  * timestep. */
-static void changes_are_repeated(void **unused)
+TEST(changes_are_repeated)
 {
-    (void)unused;
     static const char *const changes[] = {
         "set timestep 0.01",   "set stiffness 2e4",     "pin 3",
         "set filter none",     "set solver multigrid",  "set timestep 0.002",
@@ -231,9 +226,8 @@ static void changes_are_repeated(void **unused)
  * through: plastic strains, broken springs, obstacles that moved; and the
  * ledger books what it did to the energy as work, so that nothing else in it
  * jumps. */
-static void elements_keep_their_past(void **unused)
+TEST(elements_keep_their_past)
 {
-    (void)unused;
     static const struct {
         const char *line;
         int steps;
@@ -291,9 +285,8 @@ static void elements_keep_their_past(void **unused)
 }
 
 /* A step or a change at an old step forgets the later ones. */
-static void going_on_forgets(void **unused)
+TEST(going_on_forgets)
 {
-    (void)unused;
     Track track;
     uint64_t hash[11];
     begin("square --segments 2", &track);
@@ -311,9 +304,8 @@ static void going_on_forgets(void **unused)
     track_free(&track);
 }
 
-static void bad_changes_change_nothing(void **unused)
+TEST(bad_changes_change_nothing)
 {
-    (void)unused;
     Track track;
     char message[256];
     begin("square --segments 2", &track);
@@ -333,9 +325,8 @@ static void bad_changes_change_nothing(void **unused)
 }
 
 /* A pinned node stays where it is, in every method. */
-static void pins_hold(void **unused)
+TEST(pins_hold)
 {
-    (void)unused;
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
         char line[128];
         Track track;
@@ -358,9 +349,8 @@ static void pins_hold(void **unused)
 }
 
 /* What is written can be read, and is the same. */
-static void commands_are_written_as_they_are_read(void **unused)
+TEST(commands_are_written_as_they_are_read)
 {
-    (void)unused;
     char message[256], line[160], again[160];
     static const char *const good[] = {
         "quit",        "set timestep 0.01",
@@ -398,9 +388,8 @@ static void commands_are_written_as_they_are_read(void **unused)
 }
 
 /* No key asks for two things. */
-static void keys_are_given_once(void **unused)
+TEST(keys_are_given_once)
 {
-    (void)unused;
     static const char *const keys[] = {
         "Space", "N", "Right", "Left",  "Home",   "End", "R", "I",   "Shift+N",
         "P",     "L", "M",     "Tab+M", "Ctrl+R", "?",   "+", "F11", "Escape",
@@ -440,9 +429,8 @@ static Status read_script(const char *name, const char *text, Script *script,
     return script_read(name, script, message, size);
 }
 
-static void scripts_wait(void **unused)
+TEST(scripts_wait)
 {
-    (void)unused;
     char name[] = "/tmp/elasto-script-XXXXXX", message[256];
     int file = mkstemp(name);
     CHECK(file >= 0);
@@ -491,21 +479,4 @@ static void scripts_wait(void **unused)
     script_free(&script);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(states_come_back),
-        cmocka_unit_test(thinned_states_come_back),
-        cmocka_unit_test(one_state_is_enough),
-        cmocka_unit_test(iterations_come_back),
-        cmocka_unit_test(changes_are_repeated),
-        cmocka_unit_test(elements_keep_their_past),
-        cmocka_unit_test(going_on_forgets),
-        cmocka_unit_test(bad_changes_change_nothing),
-        cmocka_unit_test(pins_hold),
-        cmocka_unit_test(commands_are_written_as_they_are_read),
-        cmocka_unit_test(keys_are_given_once),
-        cmocka_unit_test(scripts_wait),
-    };
-    return cmocka_run_group_tests_name("track", tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

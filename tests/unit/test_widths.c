@@ -56,7 +56,7 @@ Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
 Status multigrid_iterate(Multigrid *multigrid);
 void multigrid_displacement(const Multigrid *multigrid, double *u);
 
-#include "testing.h"
+#include "test.h"
 
 /* Steps of a square; each of one solver is the other's, too. */
 static void compare(const char *line, int steps)
@@ -109,18 +109,11 @@ static void compare(const char *line, int steps)
     simulation_free(&simulation);
 }
 
-static void bits_do_not_depend_on_registers(void **state)
+TEST(bits_do_not_depend_on_registers)
 {
-    (void)state;
     compare("--segments 40 --stretch 1.4", 10);
     compare("--segments 51 --stretch 1.5 --pin left", 6);
     compare("--segments 18 --stretch 0.5 --timestep 0.02", 4);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_do_not_depend_on_registers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(NULL, NULL)

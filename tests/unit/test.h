@@ -1,0 +1,33 @@
+/* test.h - TEST(name) { ... } is a test.  Those of a file run in their order;
+ * TESTS(setup, teardown) ends it: both run once around all, or are NULL.
+ */
+#ifndef ELASTO_TEST_H
+#define ELASTO_TEST_H
+
+#include "testing.h"
+
+static struct CMUnitTest test_list[128];
+static size_t test_count;
+
+#define TEST(name)                                                             \
+    static void name(void);                                                    \
+    static void name##_runs(void **unused)                                     \
+    {                                                                          \
+        (void)unused;                                                          \
+        name();                                                                \
+    }                                                                          \
+    __attribute__((constructor)) static void name##_is_listed(void)            \
+    {                                                                          \
+        test_list[test_count++] =                                              \
+            (struct CMUnitTest){#name, name##_runs, NULL, NULL, NULL};         \
+    }                                                                          \
+    static void name(void)
+
+#define TESTS(setup, teardown)                                                 \
+    int main(void)                                                             \
+    {                                                                          \
+        return _cmocka_run_group_tests(__BASE_FILE__, test_list, test_count,   \
+                                       setup, teardown);                       \
+    }
+
+#endif
