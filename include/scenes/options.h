@@ -50,7 +50,7 @@ typedef struct Options {
     Filter filter;
     LineSearch line_search;
     double start[2]; /* m, where scenes with a start begin */
-    double height;   /* m, of a beam; 0: a square.  Only scenes set this */
+    double aspect;   /* rows over columns; 0: a square.  Scenes set it */
     double cell_stiffness; /* and these: k_c over k; */
     bool moving_pins;      /* whether pins are moved */
     long steps;            /* -1: until closed, or 100 without a screen */

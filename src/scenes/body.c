@@ -19,12 +19,10 @@
 
 int body_rows(const Options *options)
 {
-    if (!(options->height > 0))
-        return options->segments;
-    double rows = round(options->segments * options->height / options->side);
-    return rows < 1                          ? 1
-           : rows > SQUARE_MESH_MAX_SEGMENTS ? SQUARE_MESH_MAX_SEGMENTS
-                                             : (int)rows;
+    double rows = round(options->segments * options->aspect);
+    return !(options->aspect > 0) ? options->segments
+           : rows < 1             ? 1
+                                  : (int)rows;
 }
 
 /* The order of elimination, with the nodes that are not in the mesh last. */

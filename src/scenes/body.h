@@ -9,7 +9,7 @@
 #include "model/contact.h"
 #include "scenes/simulation.h"
 
-/* Rows of cells: as many as columns, or what options->height has room for. */
+/* Rows of cells: as many as columns, or the part that options->aspect says. */
 int body_rows(const Options *options);
 
 /* Mesh, masses, springs and rest lengths (slide simulator.py): the mass of all

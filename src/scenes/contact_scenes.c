@@ -234,7 +234,7 @@ void bend_defaults(Options *options)
 {
     fall(options, 32, 2e5, 0.002);
     options->side = 2;
-    options->height = 0.375;
+    options->aspect = 0.1875;
     options->tear = 0.1;
     options->cell_stiffness = 0.3;
     options->friction = 0.3;

@@ -182,6 +182,19 @@ TEST(what_is_symmetric_stays_so)
     simulation_free(&simulation);
 }
 
+/* A beam of another size has the cells of the one that is shown. */
+TEST(a_beam_has_its_cells_at_every_size)
+{
+    static const char *const lines[] = {"bend", "bend --side 0.01",
+                                        "bend --side 1"};
+    for (int i = 0; i < 3; i++) {
+        Simulation simulation;
+        simulation_from_line(lines[i], NULL, NULL, &simulation);
+        CHECK(simulation.mesh.segments == 32 && simulation.mesh.rows == 6);
+        simulation_free(&simulation);
+    }
+}
+
 /* The three blocks of the slope begin as high above their grounds, whatever
  * their size.  1e-15: rounding of coordinates of size 1. */
 TEST(blocks_begin_alike)
