@@ -951,7 +951,7 @@ def plan(long):
         for command in ("begin " + script).split("; "):
             yield "frame " + name if command == "frame" else command
 
-SHORT = 4  # of these also in the short test
+SHORT = 5  # of these also in the short test
 MORE = {
     "square plastic": "square --yield 0.05 --hardening 0.1; run 4; hover node 3; frame; "
                       "hover spring 60; frame; "
@@ -959,6 +959,8 @@ MORE = {
     "square overflows": "square --integrator forward-euler; run 40; frame",
     "solid pages": "square; page-on; pages; frame",
     "square keys": "square; keys; frame",
+    "square loose": "square --timestep 1000 --stiffness 10; run 1; frame; finer; finer; "
+                    "next; next; next; next; frame",
     "dent late": "dent; run 90; hover node 128; frame; hover spring 390; frame; colours; frame",
     "tear late": "tear; run 90; hover node 24; frame; colours; frame",
     "drop late": "drop; run 70; hover node 0; frame; finer; finer; next; next; next; "
