@@ -143,6 +143,8 @@ static Status make_again(Player *player, const Command *change,
     if (is_method(option) && !failed &&
         state_size(&lane->track.simulation) > 0 && !lane_keep_ghost(lane, was))
         ghost = lane->ghost;
+    else
+        lane_drop_ghost(lane);
     lane->ghost = NULL; /* out of the reach of other steps */
     Status status = STATUS_OK;
     for (int i = 0; i < player->lanes && !failed && !status; i++)

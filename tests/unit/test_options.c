@@ -15,7 +15,7 @@
 static Status parse(const char *line, Options *options, char *message)
 {
     static char copy[1024];
-    char *argv[32] = {(char[]){"elasto"}};
+    char *argv[sizeof copy / 2 + 1] = {(char[]){"elasto"}};
     int argc = 1;
     snprintf(copy, sizeof copy, "%s", line);
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " ")) {
