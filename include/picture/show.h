@@ -215,7 +215,7 @@ typedef struct Show {
     char lecture_title[48]; /* of the card with its words */
     bool numbers;           /* of the nodes are shown, where they are few */
     HelpRow page_row[SHOW_PAGES]; /* the list of pages */
-    char page_key[SHOW_PAGES][4];
+    char page_key[SHOW_PAGES][12];
 } Show;
 
 /* Nothing selected, everything fits, one pane that shows the simulation. */

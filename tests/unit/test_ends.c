@@ -194,8 +194,8 @@ TEST(work_is_limited_by_the_size)
 {
     static const char *const lines[] = {
         "tear --segments 16 --pin top,bottom --stretch 1e-9",
-        "tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
-        "1e-9 --yield 0.01 --tear 0.01 --damping 1e6",
+        ("tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
+         "1e-9 --yield 0.01 --tear 0.01 --damping 1e6"),
         "--segments 12 --stretch 6 --timestep 10 --density 0.001 --yield 0.002",
         "--segments 8 --stretch 4 --timestep 10 --yield 0.01 --density 1"};
     for (int i = 0; i < 4; i++) {
