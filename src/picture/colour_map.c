@@ -3,24 +3,10 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One byte of from + (to - from) part / 256. */
-static uint32_t blend_byte(Colour from, Colour to, int shift, uint32_t part)
-{
-    uint32_t a = from >> shift & 0xff, b = to >> shift & 0xff;
-    return ((a * (256 - part) + b * part) >> 8) << shift;
-}
-
 /* Straight lines in RGB from the grey of rest to an end. */
 static Colour blend(Colour end, double part)
 {
-    uint32_t whole = 0;
-    if (part >= 1)
-        whole = 256;
-    else if (part > 0)
-        whole = (uint32_t)(256 * part);
-    return 0xff000000u | blend_byte(COLOUR_REST, end, 16, whole) |
-           blend_byte(COLOUR_REST, end, 8, whole) |
-           blend_byte(COLOUR_REST, end, 0, whole);
+    return canvas_mix(COLOUR_REST, end, part >= 1 ? 1 : part > 0 ? part : 0);
 }
 
 Colour colour_map_strain(double strain, double range)
