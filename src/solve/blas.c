@@ -4,8 +4,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/wide.h"
-
 /* Four numbers side by side, an extension of C that gcc and clang share; they
  * may begin at any number of an array. */
 enum { LANES = 4, GROUP = 4 };
@@ -90,8 +88,25 @@ static inline __attribute__((always_inline)) void multiply_by(const Product *at,
     }
 }
 
+/* What a function needs to have four numbers in one register, and whether this
+ * processor does. */
+#if defined(__x86_64__)
+#define FOUR_WIDE __attribute__((target("avx2")))
+static bool is_four_wide(void)
+{
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("avx2");
+}
+#else
+#define FOUR_WIDE
+static bool is_four_wide(void)
+{
+    return false;
+}
+#endif
+
 /* Two registers a column where they hold four numbers, else one pair of two. */
-TARGET_4 static void multiply_wide(const Product *at)
+FOUR_WIDE static void multiply_wide(const Product *at)
 {
     multiply_by(at, 2);
 }
@@ -105,7 +120,7 @@ static void (*multiply)(const Product *at) = multiply_narrow;
 
 void blas_start(void)
 {
-    if (wide_doubles() >= LANES)
+    if (is_four_wide())
         multiply = multiply_wide;
 }
 
