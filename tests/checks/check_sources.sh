@@ -190,9 +190,9 @@ if command -v perl >/dev/null; then
     verdict mutants_stand_where_the_list_says \
         "$(perl tests/checks/mutate.pl check tests/data/mutants.txt 2>&1)"
     {
-        echo 'main @@ a_function_of_none @@ x @@ y'
-        echo 'base @@ sparse_multiply @@ ; @@ y'
-        echo 'base @@ sparse_multiply @@ no such text @@ y'
+        echo 'a_function_of_none @@ x @@ y @@ by terms'
+        echo 'sparse_multiply @@ ; @@ y @@ by sparse'
+        echo 'sparse_multiply @@ no such text @@ y @@ by sparse'
     } >"$temporary/list"
     verdict mutants_elsewhere_are_found "$(
         lines=$(perl tests/checks/mutate.pl check "$temporary/list" | wc -l)
