@@ -1,30 +1,14 @@
-/* main.c - the program: options, simulation, loop, summary. */
-#include <errno.h>
+/* main.c - the program on a computer: its streams, signals and window. */
 #include <fcntl.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-#include "scenes/one_line.h"
-#include "play/player.h"
-#include "scenes/pages.h"
-#include "scenes/scene.h"
-
-/* How the program ends. */
-enum ExitCode {
-    EXIT_FINE = 0,
-    EXIT_FAILED = 1,      /* while running */
-    EXIT_MISUSED = 2,     /* the command line, or a line of its script */
-    EXIT_UNCONVERGED = 3, /* the run ended, but steps did not converge */
-};
+#include "play/program.h"
 
 static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */
-static bool main_begun;    /* and it was created */
 
 /* A time in seconds: of the wall, or of the processor for this program. */
 static double seconds(clockid_t clock)
@@ -101,231 +85,24 @@ static void hold_standard_streams(void)
         close(file);
 }
 
-/* The one line about what went wrong, fit for a terminal. */
-static void tell(const char *format, ...)
-{
-    char line[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    one_line(line, line, sizeof line);
-    fprintf(stderr, "elasto: %s\n", line);
-}
-
-/* Whether everything printed arrived; errno was 0 before.  what: for the one
- * line if it did not. */
-static int check_output(const char *what)
-{
-    if (!ferror(stdout) && fflush(stdout) == 0)
-        return EXIT_FINE;
-    tell("cannot write %s: %s", what, output_reason(errno));
-    return EXIT_FAILED;
-}
-
-/* --help, --version, --list. */
-static int print_information(const Options *options)
-{
-    errno = 0;
-    if (options->help)
-        fputs(options_help(), stdout);
-    else if (options->version)
-        puts("elasto " ELASTO_VERSION);
-    else if (options->page)
-        for (int i = 0; lecture_pages[i].name; i++)
-            printf("%2d %-12s %s\n", i + 1, lecture_pages[i].name,
-                   lecture_pages[i].topic);
-    else
-        for (const Scene *scene = scenes; scene->name; scene++)
-            printf("%-12s %s\n", scene->name, scene->sentence);
-    return check_output(options->help      ? "the help"
-                        : options->version ? "the version"
-                                           : "the list");
-}
-
-/* What a user can do about a failure. */
-static const char *advice(const Player *player, Status status)
-{
-    unsigned needs = player->given[0].scene->needs;
-    switch (status) {
-    case STATUS_OUT_OF_MEMORY:
-    case STATUS_TOO_LARGE:
-        return "; try fewer --segments";
-    case STATUS_NOT_FINITE:
-        return needs & NEEDS_MESH   ? "; try a smaller --timestep or --stretch"
-               : needs & NEEDS_TIME ? "; try a smaller --timestep"
-                                    : "; try a --start nearer to 0,0";
-    case STATUS_NOT_POSITIVE_DEFINITE:
-        return "; try --filter clamp";
-    case STATUS_INVALID_INPUT:
-        return "; try numbers nearer to the defaults";
-    default:
-        return "";
-    }
-}
-
-/* The first lane whose simulation ended so; NULL: none did. */
-static const Lane *lane_that_ended(const Player *player, Status status)
-{
-    for (int i = 0; i < player->lanes; i++)
-        if (player->lane[i].track.simulation.status == status)
-            return &player->lane[i];
-    return NULL;
-}
-
-/* The one line about a failure. */
-static void report_failure(const Player *player, Status status)
-{
-    const Recording *recording = &player->recording;
-    const Lane *lane = lane_that_ended(player, status);
-    char reason[256] = "", name[256], pane[32] = "";
-    if (lane && player->lanes > 1)
-        snprintf(pane, sizeof pane, "pane %d, ", lane->number + 1);
-    if (status == STATUS_SCREEN_FAILED)
-        view_failure(reason, sizeof reason);
-    one_line(recording->failed, name, sizeof name);
-    if (player->message[0] || recording->message[0])
-        tell("%s", player->message[0] ? player->message : recording->message);
-    else if (recording->reason)
-        tell("%s: %s", name, output_reason(recording->reason));
-    else if (lane)
-        tell("%sstep %ld failed: %s%s", pane, lane->track.simulation.steps + 1,
-             status_text(status), advice(player, status));
-    else
-        tell("%s%s%s%s", status_text(status), reason[0] ? ": " : "", reason,
-             advice(player, status));
-}
-
-/* A square that does not fit is refused before it is begun: where memory is
- * promised that is not there, the program would end without a word. */
-static bool fits_in_memory(const Options *options)
-{
-    Options smaller = *options;
-    double there =
-        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    double needed = simulation_bytes(options);
-    if (!(there > 0) || needed <= there)
-        return true;
-    while (smaller.segments > 1 && simulation_bytes(&smaller) > there)
-        smaller.segments--;
-    tell("--segments %d needs about %.1f GB of memory and there are %.1f: from "
-         "1 to %d",
-         options->segments, 1e-9 * needed, 1e-9 * there, smaller.segments);
-    return false;
-}
-
-/* Files, then the summary or the failure.  Returns the exit code. */
-static int finish(Player *player, Status status)
-{
-    const Options *options = &player->given[0];
-    bool standard = (options->states && output_is_standard(options->states)) ||
-                    (options->log && output_is_standard(options->log));
-    if (!main_begun)
-        recording_discard(&player->recording);
-    long steps = player->lane[0].track.simulation.steps;
-    player->recording.aside = status && steps == 0;
-    Status closed = player_finish(player);
-    if (!status)
-        status = closed;
-    if (status) {
-        report_failure(player, status);
-        return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
-    }
-    errno = 0;
-    if (!options->quiet)
-        summary_print(standard ? stderr : stdout, player);
-    int code = check_output("the summary");
-    if (code == EXIT_FINE && player->refused)
-        return EXIT_MISUSED;
-    if (code == EXIT_FINE && player_unconverged(player))
-        return EXIT_UNCONVERGED;
-    return code;
-}
-
 /* The server of the window's screen is gone, or did not answer after a signal:
  * files are finished without it.  A step may be half made: no summary. */
 static void on_lost_screen(void)
 {
     main_player.view = NULL;
     main_player.given[0].quiet = true;
-    exit(finish(&main_player, main_stop ? STATUS_OK : STATUS_SCREEN_FAILED));
-}
-
-/* --handout.  Returns the exit code. */
-static int make_handout(const Options *options, Player *player)
-{
-    char message[512];
-    Status status =
-        handout_write(options, &main_stop, player, message, sizeof message);
-    if (!status)
-        return EXIT_FINE;
-    tell("%s: %s", options->handout,
-         message[0]                     ? message
-         : status == STATUS_FILE_FAILED ? output_reason(errno)
-                                        : status_text(status));
-    return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
-}
-
-/* The words of the command line that decide what is simulated, for messages. */
-static void join_line(int argc, char **argv, char *line, size_t size)
-{
-    static const char *const left_out[] = {
-        "--script", "--film",  "--frames", "--states", "--log",        "--size",
-        "--speed",  "--steps", "--paused", "--quiet",  "--fullscreen",
-    };
-    enum { LEFT_OUT = sizeof left_out / sizeof *left_out, SWITCHES = 3 };
-    size_t used = (size_t)snprintf(line, size, "elasto");
-    for (int i = 1; i < argc && used < size; i++) {
-        int k = 0;
-        size_t length = strcspn(argv[i], "=");
-        while (k < LEFT_OUT && (strlen(left_out[k]) != length ||
-                                strncmp(argv[i], left_out[k], length) != 0))
-            k++;
-        char shown[256];
-        one_line(argv[i], shown, sizeof shown);
-        if (k == LEFT_OUT)
-            used += (size_t)snprintf(line + used, size - used, " %s", shown);
-        else if (k < LEFT_OUT - SWITCHES && argv[i][length] == '\0')
-            i++; /* its value is the next word */
-    }
+    exit(program_end(&main_player,
+                     main_stop ? STATUS_OK : STATUS_SCREEN_FAILED));
 }
 
 int main(int argc, char **argv)
 {
-    Player *player = &main_player;
-    Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[512], line[1024];
     hold_standard_streams();
-    for (int i = 0; i < options[0].panes; i++)
-        if (options_parse_pane(argc, argv, i, &options[i], message,
-                               sizeof message)) {
-            tell("%s", message);
-            return EXIT_MISUSED;
-        }
-    if (options->help || options->version || options->list)
-        return print_information(options);
-    if (recording_check(options, message, sizeof message)) {
-        tell("%s", message);
-        return EXIT_MISUSED;
-    }
-    for (int i = 0; i < options->panes; i++)
-        if (!fits_in_memory(&options[i]))
-            return EXIT_MISUSED;
-    join_line(argc, argv, line, sizeof line);
     handle_signals();
     view_when_lost(on_lost_screen);
-    if (options->handout)
-        return make_handout(options, player);
-    Status status =
-        player_create(options, options->panes, line, &main_stop, player);
-    main_begun = !status;
-    if (main_begun && options->panes > 1 && !options->quiet) {
-        options_panes(argc, argv, message, sizeof message);
-        fprintf(stderr, "%s\n", message);
-    }
-    if (main_begun)
-        status = player_run(player);
-    int code = finish(player, status);
-    player_free(player);
+    int code = program_begin(argc, argv, &main_stop, &main_player);
+    if (code == PROGRAM_PLAYS)
+        code = program_end(&main_player, player_run(&main_player));
+    player_free(&main_player);
     return code;
 }

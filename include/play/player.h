@@ -50,16 +50,17 @@ typedef struct Player {
     long forgotten[2];            /* the first and the last step that was just
                                      forgotten, and not told; 0: none */
     Recording recording;
-    View *view;       /* NULL: nothing is drawn */
-    bool window;      /* the view is a window: it takes keys */
-    bool attended;    /* a window or a script: it may pause and go back */
-    Script script;    /* of the command line */
-    const char *line; /* the command line, without files and scripts */
-    Script journal;   /* what was done so far, as a script */
-    bool quit;        /* somebody asked for the end */
-    bool changed;     /* the window must be drawn again */
-    bool warned;      /* paused once because a step did not converge */
-    bool holds;       /* the hand has not let go since it took a node */
+    View *view;      /* NULL: nothing is drawn */
+    bool window;     /* the view is a window: it takes keys */
+    bool attended;   /* a window or a script: it may pause and go back */
+    Script script;   /* of the command line */
+    char line[1024]; /* the command line, without files and scripts */
+    Script journal;  /* what was done so far, as a script */
+    bool begun;      /* player_create worked */
+    bool quit;       /* somebody asked for the end */
+    bool changed;    /* the window must be drawn again */
+    bool warned;     /* paused once because a step did not converge */
+    bool holds;      /* the hand has not let go since it took a node */
     bool paused;
     bool halted;       /* by itself: at rest, at an end, after a failure */
     bool rests;        /* nothing moves any more, */
@@ -80,6 +81,7 @@ typedef struct Player {
     bool warning;                      /* and it is a bad thing */
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */
+    double due;                        /* s, the next step */
     double clock_mark, time_mark;      /* s, where the speed is measured from */
     double measured; /* simulated over real time; 0: unknown */
     Energies start[OPTIONS_MAX_PANES]; /* where a summary will want them */
@@ -94,7 +96,7 @@ typedef struct Player {
     double glide;   /* s, when the way to the next line began; 0: it is over */
     bool typing;    /* every key belongs into what is typed: */
     char typed[28]; /* for the selected number, or a page of the list */
-    CommandKind chip[LAYOUT_CHIPS];     /* what the chips ask for */
+    CommandKind chip[LAYOUT_CHIPS];        /* what the chips ask for */
     const OptionRow *number[OPTIONS_MOST]; /* what the row has */
     int numbers;
     Mouse mouse;
@@ -104,7 +106,7 @@ typedef struct Player {
 /* Sets everything up.  Says on standard error if there is no screen, and then
  * asks for frames in the folder "frames" and 100 steps.
  *   options  [count] in, of the panes
- *   line     in, how the program was called, for messages; must live as long
+ *   line     in, how the program was called, for messages
  *   stop     in, must live as long; not 0 ends the run after the present step
  *   player   out; must stay where it is; close it in any case
  * Returns OK, or why it failed; INVALID_INPUT: player->message may say more. */
@@ -127,6 +129,14 @@ Status player_draw(Player *player);
 
 /* Until the window is closed, or to the end. */
 Status player_run(Player *player);
+
+/* The same in its parts, for a program that is called a frame at a time, as a
+ * page is: the first frame; inputs, script, steps and a frame, as far as they
+ * are due; for how many milliseconds nothing is; whether it is over. */
+Status player_start(Player *player);
+Status player_frame(Player *player);
+int player_wait(const Player *player);
+bool player_ended(const Player *player);
 
 /* Whether any step, or the scene as a whole, did not converge. */
 bool player_unconverged(const Player *player);

@@ -104,8 +104,7 @@ void player_deselect(Player *player)
     player->typed[0] = '\0';
 }
 
-/* Whether there is nothing left to do. */
-static bool player_ended(const Player *player)
+bool player_ended(const Player *player)
 {
     const Options *options = &player->given[0];
     const Simulation *simulation = &player->lane[0].track.simulation;
@@ -331,8 +330,13 @@ static void measure_speed(Player *player)
     player->time_mark = time;
 }
 
-/* Commands, steps and a frame, as far as they are due.  next s, in/out */
-static Status run_frame(Player *player, double *next)
+Status player_start(Player *player)
+{
+    player->due = clock_now();
+    return player_draw(player);
+}
+
+Status player_frame(Player *player)
 {
     double period = 1 / fmin(FRAME_RATE, player_rate(player));
     Status status = obey_inputs(player);
@@ -340,11 +344,11 @@ static Status run_frame(Player *player, double *next)
         status = obey_script(player);
     double now = player->window ? clock_now() : 0; /* else nobody waits */
     if (player->sampled < 0) /* a new run: step 0 is a frame too */
-        *next = now + period;
-    bool due = !player->window || now >= *next - EARLY;
+        player->due = now + period;
+    bool due = !player->window || now >= player->due - EARLY;
     bool first = player->sampled < 0 && player->view;
     if (!status && !player_ended(player) && !player->paused && due && !first) {
-        *next = fmax(*next + period, now);
+        player->due = fmax(player->due + period, now);
         status = step_frame(player);
         if (player->window)
             measure_speed(player);
@@ -354,21 +358,25 @@ static Status run_frame(Player *player, double *next)
     return status;
 }
 
+int player_wait(const Player *player)
+{
+    if (!player->window || (player->paused && !script_is_over(&player->script)))
+        return 0;
+    double wait = player->glide > 0 ? 1e3 / FRAME_RATE
+                  : player->paused  ? IDLE_WAIT
+                                    : 1e3 * (player->due - clock_now());
+    return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
+}
+
 Status player_run(Player *player)
 {
-    double next = clock_now();
-    Status status = player_draw(player);
+    Status status = player_start(player);
     while (!status && !player_ended(player)) {
-        status = run_frame(player, &next);
-        bool busy = !script_is_over(&player->script) && player->paused;
-        if (!player->window) {
+        status = player_frame(player);
+        if (!player->window)
             show_progress(player);
-        } else if (!status && !busy && !player_ended(player)) {
-            double wait = player->glide > 0 ? 1e3 / FRAME_RATE
-                          : player->paused  ? IDLE_WAIT
-                                            : 1e3 * (next - clock_now());
-            view_wait(player->view, (int)fmin(ceil(wait), IDLE_WAIT));
-        }
+        else if (!status && !player_ended(player))
+            view_wait(player->view, player_wait(player));
     }
     return status;
 }
@@ -448,7 +456,8 @@ bool player_explains(const Options *options)
 Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player)
 {
-    *player = (Player){.given_count = count, .line = line, .stop = stop};
+    *player = (Player){.given_count = count, .stop = stop};
+    snprintf(player->line, sizeof player->line, "%s", line);
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     player->speed = player_first_speed(options);
@@ -472,6 +481,7 @@ Status player_create(const Options *options, int count, const char *line,
     player->left = options->page;
     if (!status && options->page && player->window && !options->script)
         status = lesson_prepare(player);
+    player->begun = !status;
     return status;
 }
 
