@@ -14,6 +14,7 @@
 #ifndef ELASTO_CELLS_H
 #define ELASTO_CELLS_H
 
+#include "model/square_mesh.h"
 #include "model/system.h"
 
 #define CELL_J_HAT 0.4
@@ -59,12 +60,9 @@ typedef struct Cells {
 /* sum of W over the triangles whose springs are whole; data: Cells. */
 extern const TermKind cell_energy;
 
-/* Adds the corners of a grid of columns x rows cells, whose nodes and springs
- * are numbered as those of a SquareMesh.
- *   step       m, side of a cell
+/* Adds all triangles of the mesh.
  *   stiffness  J/m^2, k_c
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status cells_add(System *system, int columns, int rows, double step,
-                 double stiffness);
+Status cells_add(System *system, const SquareMesh *shape, double stiffness);
 
 #endif

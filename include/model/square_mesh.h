@@ -1,27 +1,42 @@
-/* square_mesh.h - the square of masses and springs (slide square_mesh.py).
+/* square_mesh.h - the square of masses and springs (slide square_mesh.py), and
+ * its shape: cells, their triangles, the outline, the sides.
  *
  * (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
  * i*(rows+1)+j is column i, row j, counted from the lower left.  Springs, in
- * this order: horizontal, vertical, then the two diagonals of each cell.
+ * this order: horizontal, vertical, then the two diagonals of each cell.  Who
+ * wants the springs of a cell or the nodes of the outline asks here: nobody
+ * else counts them out, but for multigrid and the grid's planes.
  */
 #ifndef ELASTO_SQUARE_MESH_H
 #define ELASTO_SQUARE_MESH_H
+
+#include <stdbool.h>
 
 #include "base/status.h"
 
 enum { SQUARE_MESH_MAX_SEGMENTS = 4096 };
 
 typedef struct SquareMesh {
-    int segments; /* segments per side; of a beam: columns of cells */
-    int rows;     /* of cells */
-    double side;  /* m */
-    int nodes;    /* n = (segments+1) (rows+1) */
-    int springs;  /* in a square 2 segments (segments+1) + 2 segments^2 */
-    double *x;    /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
-    int *e;       /* [2 springs] nodes of each spring */
-    int *order;   /* [n] place of node i in the elimination order, by nested
-                     dissection: a Cholesky factor has O(n log n) entries */
+    int segments;   /* segments per side; of a beam: columns of cells */
+    int rows;       /* of cells */
+    double side;    /* m */
+    double spacing; /* m, between neighbours: side/segments */
+    int nodes;      /* n = (segments+1) (rows+1) */
+    int springs;    /* in a square 2 segments (segments+1) + 2 segments^2 */
+    int cells;      /* segments rows; each has four triangles */
+    int outline;    /* nodes on it, 2 (segments + rows) */
+    double *x;      /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
+    int *e;         /* [2 springs] nodes of each spring */
+    int *order;     /* [n] place of node i in the elimination order, by nested
+                       dissection: a Cholesky factor has O(n log n) entries */
 } SquareMesh;
+
+/* The sides that a node is on, added up. */
+enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
+
+/* The numbers of a mesh alone, its arrays NULL: enough for all functions with
+ * `shape`.  columns, rows >= 1 */
+SquareMesh square_mesh_shape(int columns, int rows, double side);
 
 /* Builds the mesh.
  *   columns, rows  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS; equal: the square,
@@ -33,5 +48,31 @@ Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh);
 
 /* Accepts NULL and a zeroed struct. */
 void square_mesh_free(SquareMesh *mesh);
+
+/* Where node i is at rest, x [2] m, out; and the sides that it is on. */
+void square_mesh_place(const SquareMesh *shape, int i, double x[2]);
+int square_mesh_sides(const SquareMesh *shape, int i);
+
+/* What cell c, 0 ... cells-1, is made of.
+ *   node    [4] out, its corners a b c d, anticlockwise from the lower left
+ *   spring  [6] out: ab bc dc ad ac bd */
+void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
+                      int spring[6]);
+
+/* Triangle t = 4 c + k is corner k of cell c with the neighbours of that
+ * corner.
+ *   node  [3] out, anticlockwise from the corner
+ *   side  [3] out, springs */
+void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
+                          int side[3]);
+
+/* The corners of stride x stride cells of which c is the lower left one; fewer
+ * at the edges.  node [4] out, anticlockwise.  Returns false where no such
+ * patch begins at c: with all others they cover the square once. */
+bool square_mesh_patch(const SquareMesh *shape, int c, int stride, int node[4]);
+
+/* Node k of the outline, 0 ... outline, anticlockwise from the lower left; the
+ * last is the first again. */
+int square_mesh_outline(const SquareMesh *shape, int k);
 
 #endif

@@ -406,33 +406,14 @@ const TermKind cell_energy = {
     .end_of_step = true,
 };
 
-/* The four corners of the cell with a at (i, j); springs in the mesh's order:
- * horizontal, vertical, then both diagonals of each cell. */
-static void fill_cell(Cells *cells, int columns, int rows, int i, int j)
+Status cells_add(System *system, const SquareMesh *shape, double stiffness)
 {
-    int high = rows + 1, cell = i * rows + j;
-    int a = i * high + j, b = a + high, c = b + 1, d = a + 1;
-    int upright = columns * high, diagonals = upright + (columns + 1) * rows;
-    int ab = i * high + j, dc = ab + 1;
-    int ad = upright + i * rows + j, bc = ad + rows;
-    int ac = diagonals + 2 * cell, bd = ac + 1;
-    const int node[12] = {a, b, d, b, c, a, c, d, b, d, a, c};
-    const int spring[12] = {ab, bd, ad, bc, ac, ab, dc, bd, bc, ad, ac, dc};
-    for (int k = 0; k < 12; k++) {
-        cells->node[12 * cell + k] = node[k];
-        cells->spring[12 * cell + k] = spring[k];
-    }
-}
-
-Status cells_add(System *system, int columns, int rows, double step,
-                 double stiffness)
-{
-    size_t triangles = 4 * (size_t)columns * (size_t)rows;
+    size_t triangles = 4 * (size_t)shape->cells;
     Cells *cells = calloc(1, sizeof *cells);
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     cells->triangles = (int)triangles;
-    cells->area = 0.5 * step * step;
+    cells->area = 0.5 * shape->spacing * shape->spacing;
     cells->c = cells->area * stiffness;
     cells->node = calloc(3 * triangles, sizeof *cells->node);
     cells->spring = calloc(3 * triangles, sizeof *cells->spring);
@@ -441,8 +422,8 @@ Status cells_add(System *system, int columns, int rows, double step,
         free_cells(cells);
         return STATUS_OUT_OF_MEMORY;
     }
-    for (int i = 0; i < columns; i++)
-        for (int j = 0; j < rows; j++)
-            fill_cell(cells, columns, rows, i, j);
+    for (int t = 0; t < cells->triangles; t++)
+        square_mesh_triangle(shape, t, cells->node + 3 * t,
+                             cells->spring + 3 * t);
     return system_add_term(system, &cell_energy, cells);
 }

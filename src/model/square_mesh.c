@@ -2,19 +2,91 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* x_(i,j) = (-side/2 + i step, -high/2 + j step), step = side/segments */
-static void square_mesh_nodes(SquareMesh *mesh)
+SquareMesh square_mesh_shape(int columns, int rows, double side)
 {
-    int row = mesh->rows + 1;
-    double step = mesh->side / mesh->segments;
-    double high = mesh->rows == mesh->segments ? mesh->side : mesh->rows * step;
-    for (int i = 0; i <= mesh->segments; i++)
-        for (int j = 0; j < row; j++) {
-            double *x = mesh->x + 2 * (i * row + j);
-            x[0] = -mesh->side / 2 + i * step;
-            x[1] = -high / 2 + j * step;
-        }
+    return (SquareMesh){.segments = columns,
+                        .rows = rows,
+                        .side = side,
+                        .spacing = side / columns,
+                        .nodes = (columns + 1) * (rows + 1),
+                        .springs = columns * (rows + 1) + rows * (columns + 1) +
+                                   2 * columns * rows,
+                        .cells = columns * rows,
+                        .outline = 2 * (columns + rows)};
+}
+
+/* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
+void square_mesh_place(const SquareMesh *shape, int i, double x[2])
+{
+    int row = shape->rows + 1;
+    double step = shape->spacing;
+    double high =
+        shape->rows == shape->segments ? shape->side : shape->rows * step;
+    x[0] = -shape->side / 2 + i / row * step;
+    x[1] = -high / 2 + i % row * step;
+}
+
+int square_mesh_sides(const SquareMesh *shape, int i)
+{
+    int column = i / (shape->rows + 1), row = i % (shape->rows + 1);
+    return (column == 0 ? MESH_LEFT : 0) |
+           (column == shape->segments ? MESH_RIGHT : 0) |
+           (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
+}
+
+void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
+                      int spring[6])
+{
+    int columns = shape->segments, rows = shape->rows, row = rows + 1;
+    int a = c / rows * row + c % rows;
+    int upright = columns * row + c;
+    int diagonals = columns * row + (columns + 1) * rows + 2 * c;
+    const int corners[4] = {a, a + row, a + row + 1, a + 1};
+    const int springs[6] = {a,       upright + rows, a + 1,
+                            upright, diagonals,      diagonals + 1};
+    memcpy(node, corners, sizeof corners);
+    memcpy(spring, springs, sizeof springs);
+}
+
+void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
+                          int side[3])
+{
+    int corner[4], spring[6], k = t % 4, before = (t + 3) % 4;
+    square_mesh_cell(shape, t / 4, corner, spring);
+    node[0] = corner[k];
+    node[1] = corner[(k + 1) % 4];
+    node[2] = corner[before];
+    side[0] = spring[k];
+    side[1] = spring[k % 2 ? 4 : 5];
+    side[2] = spring[before];
+}
+
+bool square_mesh_patch(const SquareMesh *shape, int c, int stride, int node[4])
+{
+    int columns = shape->segments, rows = shape->rows, row = rows + 1;
+    int left = c / rows, low = c % rows;
+    int right = left + stride < columns ? left + stride : columns;
+    int up = low + stride < rows ? low + stride : rows;
+    node[0] = left * row + low;
+    node[1] = right * row + low;
+    node[2] = right * row + up;
+    node[3] = left * row + up;
+    return left % stride == 0 && low % stride == 0;
+}
+
+int square_mesh_outline(const SquareMesh *shape, int k)
+{
+    int columns = shape->segments, rows = shape->rows, row = rows + 1;
+    k %= shape->outline;
+    if (k < columns)
+        return k * row;
+    if (k < columns + rows)
+        return columns * row + (k - columns);
+    if (k < 2 * columns + rows)
+        return (2 * columns + rows - k) * row + rows;
+    return shape->outline - k;
 }
 
 /* Appends a spring between nodes a and b; returns the place of the next. */
@@ -76,20 +148,19 @@ static int dissect_grid(GridPart part, int row, int *order, int next)
 
 Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh)
 {
-    *mesh = (SquareMesh){.segments = columns, .rows = rows, .side = side};
+    *mesh = (SquareMesh){0};
     if (columns < 1 || columns > SQUARE_MESH_MAX_SEGMENTS || rows < 1 ||
         rows > SQUARE_MESH_MAX_SEGMENTS || !isfinite(side) || !(side > 0))
         return STATUS_INVALID_INPUT;
-    mesh->nodes = (columns + 1) * (rows + 1);
-    mesh->springs =
-        columns * (rows + 1) + rows * (columns + 1) + 2 * columns * rows;
+    *mesh = square_mesh_shape(columns, rows, side);
     size_t n = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     mesh->x = malloc(2 * n * sizeof *mesh->x);
     mesh->e = malloc(2 * springs * sizeof *mesh->e);
     mesh->order = malloc(n * sizeof *mesh->order);
     if (!mesh->x || !mesh->e || !mesh->order)
         return STATUS_OUT_OF_MEMORY;
-    square_mesh_nodes(mesh);
+    for (int i = 0; i < mesh->nodes; i++)
+        square_mesh_place(mesh, i, mesh->x + 2 * i);
     square_mesh_springs(mesh);
     GridPart all = {{0, 0}, {columns + 1, rows + 1}};
     dissect_grid(all, rows + 1, mesh->order, 0);

@@ -152,7 +152,7 @@ int pane_folded(const Pane *pane)
     int folded = 0;
     if (!mesh->nodes || pane->simulation->runs < 1)
         return 0;
-    for (int cell = 0; cell < mesh->segments * mesh->rows; cell++)
+    for (int cell = 0; cell < mesh->cells; cell++)
         folded += square_picture_folded(mesh, pane_x(pane), cell) &&
                   !square_picture_torn(&pane->simulation->system, mesh, cell);
     return folded;

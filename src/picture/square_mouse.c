@@ -22,14 +22,14 @@ static double distance2(const double p[2], const double q[2], double x,
 static void pick_edge(const Show *show, const Simulation *simulation,
                       Pick *pick)
 {
-    const SquareMesh *mesh = &simulation->mesh;
     const int *e = simulation->system.e + 2 * (size_t)pick->index;
-    int row = mesh->rows + 1, column = e[0] / row;
-    if (!show->paused || simulation->steps > 0 || e[1] / row != column ||
-        (column != 0 && column != mesh->segments))
+    int sides = square_mesh_sides(&simulation->mesh, e[0]) &
+                square_mesh_sides(&simulation->mesh, e[1]);
+    if (!show->paused || simulation->steps > 0 ||
+        !(sides & (MESH_LEFT | MESH_RIGHT)))
         return;
     pick->kind = PICK_EDGE;
-    pick->index = column != 0;
+    pick->index = sides & MESH_LEFT ? 0 : 1;
 }
 
 /* The nearest node, else the nearest spring, within reach of the mouse. */
@@ -37,9 +37,8 @@ Pick square_pick(const Show *show, const Stage *stage, double x, double y)
 {
     const Pane *pane = &show->pane[stage->pane];
     const System *system = &pane->simulation->system;
-    const SquareMesh *mesh = &pane->simulation->mesh;
     const double *at = pane_x(pane);
-    double spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
+    double spacing = stage->camera.scale[0] * pane->simulation->mesh.spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach;
     Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
     camera_world(&stage->camera, x, y, pick.point);

@@ -26,9 +26,10 @@ static double plastic_range(const System *system, const double *ep)
 
 /* Pixels between two nodes: at rest, or where nodes have flown so far that the
  * rest shape is nothing beside it, of as many over what they fill. */
-static double seen_spacing(const SpringPen *pen, int nodes, int segments)
+static double seen_spacing(const SpringPen *pen, int nodes,
+                           const SquareMesh *mesh)
 {
-    double rest = pen->spacing * segments, reach = 0;
+    double cells = mesh->side / mesh->spacing, reach = 0;
     for (int k = 0; pen->at && k < 2; k++) {
         double low = INFINITY, high = -INFINITY;
         for (int i = 0; i < nodes; i++) {
@@ -38,7 +39,8 @@ static double seen_spacing(const SpringPen *pen, int nodes, int segments)
         }
         reach = fmax(reach, high - low);
     }
-    return reach > FLOWN * rest ? reach / segments : pen->spacing;
+    double rest = pen->spacing * cells;
+    return reach > FLOWN * rest ? reach / cells : pen->spacing;
 }
 
 SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
@@ -54,8 +56,8 @@ SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
     pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
     if (pen.at)
         camera_pixels(&stage->camera, simulation->system.nodes, pen.x, pen.at);
-    pen.spacing = stage->camera.scale[0] * mesh->side / mesh->segments;
-    pen.spacing = seen_spacing(&pen, simulation->system.nodes, mesh->segments);
+    pen.spacing = stage->camera.scale[0] * mesh->spacing;
+    pen.spacing = seen_spacing(&pen, simulation->system.nodes, mesh);
     pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
     pen.width = fmax(1, pen.width * paper->unit);
     const Plasticity *plasticity = plasticity_of(system);
@@ -102,18 +104,6 @@ static void draw_spring(const SpringPen *pen, int i, int j, double l2,
     }
     const double *p = pen->at + 2 * (size_t)i, *q = pen->at + 2 * (size_t)j;
     canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
-}
-
-/* The springs of a cell: below, above, left, right, both diagonals. */
-static void cell_springs(const SquareMesh *mesh, int cell, int spring[6])
-{
-    int columns = mesh->segments, rows = mesh->rows;
-    int i = cell / rows, j = cell % rows, upright = columns * (rows + 1);
-    int low = i * (rows + 1) + j, left = upright + i * rows + j;
-    int diagonal = upright + (columns + 1) * rows + 2 * cell;
-    const int of_cell[6] = {low,         low + 1,  left,
-                            left + rows, diagonal, diagonal + 1};
-    memcpy(spring, of_cell, sizeof of_cell);
 }
 
 void square_pen_springs(const SpringPen *pen, const System *system)
@@ -186,9 +176,9 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
 static double cell_plastic(const SpringPen *pen, const SquareMesh *mesh,
                            int cell)
 {
-    int spring[6];
+    int node[4], spring[6];
     double most = 0;
-    cell_springs(mesh, cell, spring);
+    square_mesh_cell(mesh, cell, node, spring);
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(most))
             most = pen->ep[spring[k]];
@@ -200,36 +190,33 @@ static double cell_plastic(const SpringPen *pen, const SquareMesh *mesh,
 static int draw_faces(const SpringPen *pen, const SquareMesh *mesh, int stride,
                       bool folded)
 {
-    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
     int left_out = 0;
-    double side = stride * mesh->side / columns;
-    for (int i = 0; i < columns; i += stride)
-        for (int j = 0; j < rows; j += stride) {
-            int right = i + stride < columns ? i + stride : columns;
-            int up = j + stride < rows ? j + stride : rows;
-            const int node[4] = {i * row + j, right * row + j, right * row + up,
-                                 i * row + up};
-            double p[8];
-            if (is_folded(pen->x, node) != folded) {
-                left_out++;
-                continue;
-            }
-            Colour colour = COLOUR_FOLDED;
-            if (!folded)
-                colour = face_colour(pen, node, side,
-                                     cell_plastic(pen, mesh, i * rows + j));
-            for (int k = 0; k < 8; k++)
-                p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
-            const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
-            canvas_triangle(&pen->paper->canvas, p, false, colour);
-            canvas_triangle(&pen->paper->canvas, half, false, colour);
+    double side = stride * mesh->spacing;
+    for (int cell = 0; cell < mesh->cells; cell++) {
+        int node[4];
+        double p[8];
+        if (!square_mesh_patch(mesh, cell, stride, node))
+            continue;
+        if (is_folded(pen->x, node) != folded) {
+            left_out++;
+            continue;
         }
+        Colour colour = COLOUR_FOLDED;
+        if (!folded)
+            colour =
+                face_colour(pen, node, side, cell_plastic(pen, mesh, cell));
+        for (int k = 0; k < 8; k++)
+            p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
+        const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
+        canvas_triangle(&pen->paper->canvas, p, false, colour);
+        canvas_triangle(&pen->paper->canvas, half, false, colour);
+    }
     return left_out;
 }
 
 void square_pen_faces(const SpringPen *pen, const SquareMesh *mesh)
 {
-    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->segments);
+    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->cells);
     if (draw_faces(pen, mesh, stride, false) > 0)
         draw_faces(pen, mesh, stride, true);
     square_outline(pen->paper, pen->stage, mesh, pen->x, false, COLOUR_X);
@@ -258,27 +245,13 @@ void square_pen_nodes(const SpringPen *pen, const System *system, bool bare)
 
 /* ---- outlines, ghosts, cells -------------------------------------------- */
 
-/* Node k of the outline, anticlockwise from the lower left. */
-static int outline_node(const SquareMesh *mesh, int k)
-{
-    int columns = mesh->segments, rows = mesh->rows, row = rows + 1;
-    k %= 2 * (columns + rows);
-    if (k < columns)
-        return k * row;
-    if (k < columns + rows)
-        return columns * row + (k - columns);
-    if (k < 2 * columns + rows)
-        return (2 * columns + rows - k) * row + rows;
-    return 2 * (columns + rows) - k;
-}
-
 void square_outline(Paper *paper, const Stage *stage, const SquareMesh *mesh,
                     const double *x, bool dashed, Colour colour)
 {
     double phase = 0, unit = paper->unit;
-    for (int k = 0; k < 2 * (mesh->segments + mesh->rows); k++) {
-        const double *a = x + 2 * (size_t)outline_node(mesh, k);
-        const double *b = x + 2 * (size_t)outline_node(mesh, k + 1);
+    for (int k = 0; k < mesh->outline; k++) {
+        const double *a = x + 2 * (size_t)square_mesh_outline(mesh, k);
+        const double *b = x + 2 * (size_t)square_mesh_outline(mesh, k + 1);
         double p[2], q[2];
         stage_pixel(stage, a, p);
         stage_pixel(stage, b, q);
@@ -306,8 +279,8 @@ void square_ghost(Paper *paper, const Stage *stage,
 
 bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
 {
-    int spring[6];
-    cell_springs(mesh, cell, spring);
+    int node[4], spring[6];
+    square_mesh_cell(mesh, cell, node, spring);
     for (int k = 0; system->breaks && k < 6; k++)
         if (spring_is_broken(system, spring[k]))
             return true;
@@ -316,9 +289,9 @@ bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
 
 bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
 {
-    int row = mesh->rows + 1;
-    int a = cell / mesh->rows * row + cell % mesh->rows;
-    return is_folded(x, (const int[4]){a, a + row, a + row + 1, a + 1});
+    int node[4], spring[6];
+    square_mesh_cell(mesh, cell, node, spring);
+    return is_folded(x, node);
 }
 
 int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
@@ -326,10 +299,9 @@ int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
 {
     int count = 0;
     const SquareMesh *mesh = &simulation->mesh;
-    int rows = mesh->rows, row = rows + 1;
-    for (int cell = 0; cell < mesh->segments * rows; cell++) {
-        int a = cell / rows * row + cell % rows;
-        const int node[4] = {a, a + row, a + row + 1, a + 1};
+    for (int cell = 0; cell < mesh->cells; cell++) {
+        int node[4], spring[6];
+        square_mesh_cell(mesh, cell, node, spring);
         bool folded = square_picture_folded(mesh, pen->x, cell);
         double p[4][2];
         if ((!folded && !all) ||

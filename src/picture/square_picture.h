@@ -22,8 +22,7 @@ double square_picture_strain_range(const Simulation *simulation);
 bool square_picture_torn(const System *system, const SquareMesh *mesh,
                          int cell);
 
-/* Whether one of the two triangles of a cell has turned over.
- *   cell  segments * column + row, from the lower left */
+/* Whether one of the two triangles of a cell has turned over. */
 bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell);
 
 #endif

@@ -216,7 +216,7 @@ static int near_node(const Player *player, const Pick *pick)
     const Simulation *simulation = pane->simulation;
     const SquareMesh *mesh = &simulation->mesh;
     const double *x = pane_x(pane);
-    double reach = mesh->segments ? 0.75 * mesh->side / mesh->segments : 0;
+    double reach = 0.75 * mesh->spacing;
     int nearest = -1;
     for (int i = 0; i < mesh->nodes; i++) {
         double away =

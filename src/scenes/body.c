@@ -17,12 +17,13 @@
 /* Part by which the strengths of springs differ. */
 #define TEAR_SCATTER 0.1
 
-int body_rows(const Options *options)
+SquareMesh body_shape(const Options *options)
 {
     double rows = round(options->segments * options->aspect);
-    return !(options->aspect > 0) ? options->segments
-           : rows < 1             ? 1
-                                  : (int)rows;
+    if (!(options->aspect > 0))
+        rows = options->segments;
+    return square_mesh_shape(options->segments, rows < 1 ? 1 : (int)rows,
+                             options->side);
 }
 
 /* The order of elimination, with the nodes that are not in the mesh last. */
@@ -45,8 +46,9 @@ static Status take_order(SquareMesh *mesh, System *system)
 Status body_create(const Options *options, int more, SquareMesh *mesh,
                    System *system)
 {
-    Status status = square_mesh_create(options->segments, body_rows(options),
-                                       options->side, mesh);
+    const SquareMesh shape = body_shape(options);
+    Status status =
+        square_mesh_create(shape.segments, shape.rows, shape.side, mesh);
     if (!status)
         status = system_create(mesh->nodes + more, mesh->springs, system);
     if (status)
@@ -71,9 +73,7 @@ Status body_create(const Options *options, int more, SquareMesh *mesh,
     if (status || !options->pin)
         return status;
     status = system_create_pins(system);
-    return status ? status
-                  : pins_read(options->pin, mesh->segments, mesh->rows,
-                              system->pinned);
+    return status ? status : pins_read(options->pin, mesh, system->pinned);
 }
 
 /* Stretched, turned, moved; 0 degrees leave every bit. */
@@ -179,8 +179,7 @@ Status body_add_terms(const Options *options, const SquareMesh *mesh, int more,
     if (!status && options->yield > 0)
         status = plasticity_set(system, options->yield, options->hardening);
     if (!status && options->cells)
-        status = cells_add(system, mesh->segments, mesh->rows,
-                           mesh->side / mesh->segments,
+        status = cells_add(system, mesh,
                            options->cell_stiffness * options->stiffness);
     if (!status && options->damping > 0)
         status = damping_add(system, options->damping);
@@ -231,13 +230,11 @@ static bool obstacle_is_sound(const Options *options, int i)
 static double nearest_node(const Options *options, const unsigned char *pinned,
                            const Obstacle *obstacle, int *node)
 {
-    double nearest = INFINITY, step = options->side / options->segments;
-    int columns = options->segments, rows = body_rows(options);
-    double low[2] = {-options->side / 2, -0.5 * rows * step};
-    for (int i = 0; i < (columns + 1) * (rows + 1); i++) {
-        double rest[2] = {low[0] + i / (rows + 1) * step,
-                          low[1] + i % (rows + 1) * step};
-        double x[2];
+    const SquareMesh shape = body_shape(options);
+    double nearest = INFINITY;
+    for (int i = 0; i < shape.nodes; i++) {
+        double rest[2], x[2];
+        square_mesh_place(&shape, i, rest);
         place_node(options, rest, x);
         double d = contact_gap(obstacle, obstacle->o, x, 0).d;
         if (d < nearest && !(pinned && pinned[i])) {
@@ -325,15 +322,15 @@ Status body_check(const Options *options, char *message, size_t size)
                  options->stretch, options->stretch);
         return STATUS_INVALID_INPUT;
     }
-    int columns = options->segments, rows = body_rows(options);
+    const SquareMesh shape = body_shape(options);
     bool own = options->scene && options->scene->own;
     unsigned char *pinned = NULL;
     Status status = STATUS_OK;
     if (options->grounds == 0 && options->balls == 0 && !own)
         return STATUS_OK;
     if (options->pin) {
-        pinned = calloc((size_t)(columns + 1) * (size_t)(rows + 1), 1);
-        status = pinned ? pins_read(options->pin, columns, rows, pinned)
+        pinned = calloc((size_t)shape.nodes, 1);
+        status = pinned ? pins_read(options->pin, &shape, pinned)
                         : STATUS_OUT_OF_MEMORY;
     }
     if (!status)

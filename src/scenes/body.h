@@ -9,8 +9,9 @@
 #include "model/contact.h"
 #include "scenes/simulation.h"
 
-/* Rows of cells: as many as columns, or the part that options->aspect says. */
-int body_rows(const Options *options);
+/* The square, or of its rows the part that options->aspect says; without
+ * arrays. */
+SquareMesh body_shape(const Options *options);
 
 /* Mesh, masses, springs and rest lengths (slide simulator.py): the mass of all
  * cells shared out evenly over the nodes; l2 = |d|^2 in the rest positions.

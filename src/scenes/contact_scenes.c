@@ -220,9 +220,9 @@ Status create_tear(Simulation *simulation, const NewtonSettings *settings)
         if (system->pinned && system->pinned[i])
             system->pin_v[2 * i] =
                 copysign(0.2 * options->side, mesh->x[2 * i]);
-    double a = options->side / options->segments;
     if (system->breaks)
-        cut(mesh, 0.5 * a, -0.12 * options->side, 0.12 * options->side, system);
+        cut(mesh, 0.5 * mesh->spacing, -0.12 * options->side,
+            0.12 * options->side, system);
     simulation->runs = 1;
     return body_start(options, mesh, system, settings, NULL,
                       &simulation->run[0]);
@@ -248,7 +248,8 @@ void bend_defaults(Options *options)
 /* It begins 0.05 m above the beam. */
 Obstacle bend_ball(const Options *options)
 {
-    double half = 0.5 * body_rows(options) * options->side / options->segments;
+    const SquareMesh shape = body_shape(options);
+    double half = 0.5 * shape.rows * options->side / options->segments;
     return (Obstacle){.kind = OBSTACLE_BALL,
                       .o = {0, half + 0.18 + 0.05},
                       .radius = 0.18,
@@ -264,7 +265,7 @@ Status create_bend(Simulation *simulation, const NewtonSettings *settings)
     Status status = body_create(options, 1, mesh, system);
     if (status)
         return status;
-    double a = options->side / options->segments, half = 0.5 * mesh->rows * a;
+    double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     Obstacle ball = bend_ball(options);
     const double start[4] = {ball.o[0], ball.o[1], 0, -3};
     ball.node = mesh->nodes;

@@ -286,15 +286,14 @@ static Status check_integrator(const Options *options, const Complaint *why)
 static Status check_body(Line *line)
 {
     Options *options = line->options;
-    int columns = options->segments, rows = body_rows(options);
+    const SquareMesh shape = body_shape(options);
     if (!(options->scene->needs & NEEDS_BODY))
         return STATUS_OK;
-    if (options->pin && pins_read(options->pin, columns, rows, NULL))
+    if (options->pin && pins_read(options->pin, &shape, NULL))
         return complain(&line->why,
                         "--pin: '%s' is no list of node numbers from 0 to %d, "
                         "or of: " PINS_WORDS,
-                        typed(options->pin).text,
-                        (columns + 1) * (rows + 1) - 1);
+                        typed(options->pin).text, shape.nodes - 1);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->idle && line->given[row - option_rows] && row->idle(options))
             return complain(&line->why, "--%s: %s", row->name,

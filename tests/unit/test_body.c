@@ -173,9 +173,9 @@ TEST(the_words_of_pin_name_their_nodes)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char pinned[9] = {0};
-        CHECK_STATUS(
-            pins_read(cases[i].text, cases[i].columns, cases[i].rows, pinned),
-            STATUS_OK);
+        const SquareMesh shape =
+            square_mesh_shape(cases[i].columns, cases[i].rows, 1);
+        CHECK_STATUS(pins_read(cases[i].text, &shape, pinned), STATUS_OK);
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }
@@ -187,8 +187,9 @@ TEST(the_words_of_pin_name_their_nodes)
         "+1",  "top left",   "0x1",
         "1e0", "4294967296", "99999999999999999999999999999999",
     };
+    const SquareMesh shape = square_mesh_shape(2, 2, 1);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        CHECK_STATUS(pins_read(bad[i], 2, 2, NULL), STATUS_INVALID_INPUT);
+        CHECK_STATUS(pins_read(bad[i], &shape, NULL), STATUS_INVALID_INPUT);
 }
 
 TEST(pins_are_refused_in_one_line)

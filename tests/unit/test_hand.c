@@ -142,7 +142,8 @@ TEST(a_full_list_refuses_terms)
     CHECK_STATUS(fracture_add(&system, 0.1, 0), STATUS_TOO_LARGE);
     CHECK_STATUS(contact_add(&system, &barrier, 0, NULL), STATUS_TOO_LARGE);
     CHECK_STATUS(friction_add(&system, 0.1), STATUS_TOO_LARGE);
-    CHECK_STATUS(cells_add(&system, 1, 1, 1, 1), STATUS_TOO_LARGE);
+    const SquareMesh shape = square_mesh_shape(1, 1, 1);
+    CHECK_STATUS(cells_add(&system, &shape, 1), STATUS_TOO_LARGE);
     CHECK(system.terms == SYSTEM_MAX_TERMS && !contact_of(&system));
     system_free(&system);
 }

@@ -92,6 +92,63 @@ TEST(springs_have_the_lengths_of_a_cell)
     }
 }
 
+/* Whether the springs join the nodes in pairs, in any order. */
+static bool joins(const SquareMesh *mesh, int spring, int a, int b)
+{
+    const int *e = mesh->e + 2 * spring;
+    return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
+}
+
+/* Of a beam: cells and triangles lie anticlockwise, have the area of a cell and
+ * of half a one, and the springs that join their nodes; the outline has what is
+ * left over at all sides.  Coordinates are halves: exact. */
+TEST(cells_triangles_and_outline_are_those_of_the_springs)
+{
+    enum { COLUMNS = 5, ROWS = 3 };
+    int node[4], spring[6], seen = 0;
+    SquareMesh mesh;
+    CHECK_STATUS(square_mesh_create(COLUMNS, ROWS, 2.5, &mesh), STATUS_OK);
+    CHECK(mesh.cells == 15 && mesh.spacing == 0.5);
+    for (int t = 0; t < 4 * mesh.cells; t++) {
+        square_mesh_triangle(&mesh, t, node, spring);
+        const double *a = mesh.x + 2 * node[0], *b = mesh.x + 2 * node[1];
+        const double *c = mesh.x + 2 * node[2];
+        CHECK((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) ==
+              0.25);
+        for (int k = 0; k < 3; k++)
+            CHECK(joins(&mesh, spring[k], node[k], node[(k + 1) % 3]));
+        square_mesh_cell(&mesh, t / 4, node, spring);
+        for (int k = 0; k < 4; k++)
+            CHECK(joins(&mesh, spring[k], node[k], node[(k + 1) % 4]));
+        CHECK(joins(&mesh, spring[4], node[0], node[2]) &&
+              joins(&mesh, spring[5], node[1], node[3]));
+    }
+    double twice = 0;
+    for (int k = 0; k < mesh.outline; k++) {
+        int i = square_mesh_outline(&mesh, k);
+        const double *a = mesh.x + 2 * i;
+        const double *b = mesh.x + 2 * square_mesh_outline(&mesh, k + 1);
+        CHECK(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) == 0.5);
+        CHECK(square_mesh_sides(&mesh, i) ==
+              (a[0] == -1.25 ? MESH_LEFT : 0) +
+                  (a[0] == 1.25 ? MESH_RIGHT : 0) +
+                  (a[1] == -0.75 ? MESH_BOTTOM : 0) +
+                  (a[1] == 0.75 ? MESH_TOP : 0));
+        twice += a[0] * b[1] - a[1] * b[0];
+    }
+    CHECK(mesh.outline == 16 && twice == 2 * 2.5 * 1.5);
+    twice = 0;
+    for (int c = 0; c < mesh.cells; c++) /* 2 x 2, cut at the edges */
+        if (square_mesh_patch(&mesh, c, 2, node)) {
+            const double *low = mesh.x + 2 * node[0];
+            const double *up = mesh.x + 2 * node[2];
+            twice += 2 * (up[0] - low[0]) * (up[1] - low[1]);
+            seen++;
+        }
+    CHECK(seen == 6 && twice == 2 * 2.5 * 1.5);
+    square_mesh_free(&mesh);
+}
+
 TEST(order_is_a_permutation)
 {
     static bool seen[71 * 71];

@@ -98,8 +98,8 @@ static void make_grid(const Row *row, Case *c)
         c->system.l2[s] = (s < 2 * n * (n + 1) ? 1.0 : 2.0) / (n * n);
         c->system.k[s] = 2;
     }
+    CHECK_STATUS(cells_add(&c->system, &mesh, 5), STATUS_OK);
     square_mesh_free(&mesh);
-    CHECK_STATUS(cells_add(&c->system, n, n, 1.0 / n, 5), STATUS_OK);
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
         for (int s = 0; s < c->system.springs; s++)
