@@ -9,7 +9,7 @@ $(B)/tests/%.o: tests/%.c $(B)/flags
 	$(Q)$(COMPILE) -Itests/unit -Itests/stress -MMD -MP -c $< -o $@
 
 $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
-                        $(LIBRARY) $(B)/flags
+                        $(B)/tests/unit/oracle.o $(LIBRARY) $(B)/flags
 	$(call shown,LINK)
 	$(Q)$(LINK)
 
@@ -17,7 +17,6 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 # count CHOLMOD's calls.
 wrap = $(1:%=-Wl,--wrap=%)
 $(B)/tests/unit/test_orders: $(B)/bench/reference.o
-$(B)/tests/unit/test_terms: $(B)/tests/unit/oracle.o
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
   -lsuitesparseconfig

@@ -11,6 +11,8 @@
 #include "model/plasticity.h"
 #include "model/pull_energy.h"
 
+enum { MOST_UNKNOWNS = 512 };
+
 static Jet plus(Jet a, Real factor, Jet b)
 {
     return (Jet){a.f + factor * b.f, a.p + factor * b.p, a.q + factor * b.q,
@@ -243,4 +245,119 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
         book(spot, &sum, system->m[c / 2] / (Real)2, times(away, away));
     }
     return sum;
+}
+
+/* ---- of a minimisation --------------------------------------------------- */
+
+static Jet step_jet(const IncrementalPotential *E, const double *u,
+                    const double *x, const double *p, const double *q)
+{
+    Place at = place_at(E->system, E->x_n, u, x);
+    at.w = E->weight;
+    Spot spot = {.at = &at, .h = 1, .t = 1, .p = p, .q = q};
+    return u ? oracle_step(&spot, E->u_tilde) : oracle_energy(&spot, NULL);
+}
+
+Real exact_energy(const IncrementalPotential *E, const double *u,
+                  const double *x)
+{
+    return step_jet(E, u, x, NULL, NULL).f;
+}
+
+void exact_derivatives(const IncrementalPotential *E, const double *u,
+                       const double *x, Real *g, Real *H)
+{
+    int size = 2 * E->system->nodes;
+    double p[MOST_UNKNOWNS] = {0}, q[MOST_UNKNOWNS] = {0};
+    CHECK(size <= MOST_UNKNOWNS);
+    for (int i = 0; i < size; i++) {
+        p[i] = 1;
+        g[i] = step_jet(E, u, x, p, NULL).p;
+        for (int j = 0; H && j < size; j++) {
+            q[j] = 1;
+            H[size * i + j] = step_jet(E, u, x, p, q).pq;
+            q[j] = 0;
+        }
+        p[i] = 0;
+    }
+}
+
+/* Adds lambda q q^T of the direction q across the spring's four unknowns:
+ * [q, -q] [q, -q]^T. */
+static void add_mode(const System *system, int s, Real lambda, const Real q[2],
+                     Real *H)
+{
+    int size = 2 * system->nodes;
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) {
+            int row = 2 * system->e[2 * s + r / 2] + r % 2;
+            int column = 2 * system->e[2 * s + c / 2] + c % 2;
+            Real sign = r / 2 == c / 2 ? 1 : -1;
+            H[size * row + column] += sign * lambda * q[r % 2] * q[c % 2];
+        }
+}
+
+void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
+                   Real *H)
+{
+    const System *system = E->system;
+    int size = 2 * system->nodes;
+    for (int i = 0; i < size * size; i++)
+        H[i] = i % (size + 1)
+                   ? 0
+                   : system->m[i / size / 2] *
+                         (1 + (Real)E->weight * central_omega2(system));
+    for (int s = 0; s < system->springs; s++) {
+        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+        Real dx = (Real)x[i] - x[j], dy = (Real)x[i + 1] - x[j + 1];
+        Real length = hypotl(dx, dy), l2 = system->l2[s];
+        Real factor = 2 * (Real)E->weight * system->k[s] / l2;
+        Real along = factor * (3 * length * length - l2);
+        Real across = factor * (length * length - l2);
+        Real q[2] = {1, 0}, r[2] = {0, 1};
+        if (length > 0) {
+            q[0] = r[1] = dx / length;
+            q[1] = dy / length;
+            r[0] = -q[1];
+        }
+        add_mode(system, s, clamp ? fmaxl(along, 0) : along, q, H);
+        add_mode(system, s, clamp ? fmaxl(across, 0) : across, r, H);
+    }
+}
+
+void exact_eigen(int n, Real *a, Real *v)
+{
+    for (int i = 0; i < n * n; i++)
+        v[i] = i % (n + 1) == 0;
+    for (int k = 0; k < 30 * n * n; k++) {
+        int r = k / n % n, c = k % n;
+        if (r >= c || a[n * r + c] == 0)
+            continue;
+        Real theta = (a[n * c + c] - a[n * r + r]) / (2 * a[n * r + c]);
+        Real t = copysignl(1, theta) / (fabsl(theta) + hypotl(1, theta));
+        Real cosine = 1 / hypotl(1, t), sine = t * cosine;
+        for (int pass = 0; pass < 3; pass++)
+            for (int i = 0; i < n; i++) {
+                Real *m = pass == 2 ? v : a;
+                int j = pass == 1 ? n * r + i : n * i + r;
+                int l = pass == 1 ? n * c + i : n * i + c;
+                Real one = m[j], two = m[l];
+                m[j] = cosine * one - sine * two;
+                m[l] = sine * one + cosine * two;
+            }
+    }
+}
+
+void make_psd(double a[16])
+{
+    Real l[16], q[16];
+    for (int i = 0; i < 16; i++)
+        l[i] = a[i];
+    exact_eigen(4, l, q);
+    for (int i = 0; i < 16; i++) {
+        Real sum = 0;
+        for (int k = 0; k < 4; k++)
+            sum += fmaxl(l[5 * k], 0) * q[i / 4 * 4 + k] * q[i % 4 * 4 + k];
+        a[i] = (double)sum;
+    }
 }

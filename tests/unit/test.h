@@ -1,10 +1,11 @@
 /* test.h - TEST(name) { ... } is a test.  Those of a file run in their order;
  * TESTS(setup, teardown) ends it: both run once around all, or are NULL.
+ * What a test begins (testing.h) is freed after it.
  */
 #ifndef ELASTO_TEST_H
 #define ELASTO_TEST_H
 
-#include "testing.h"
+#include "oracle.h"
 
 static struct CMUnitTest test_list[128];
 static size_t test_count;
@@ -15,6 +16,7 @@ static size_t test_count;
     {                                                                          \
         (void)unused;                                                          \
         name();                                                                \
+        free_all_begun();                                                      \
     }                                                                          \
     __attribute__((constructor)) static void name##_is_listed(void)            \
     {                                                                          \

@@ -28,7 +28,7 @@ static long double kinetic(const System *system, const double *v,
 static long double potential(const System *system, const double *x)
 {
     IncrementalPotential E = {.system = system, .weight = 1};
-    return exact_energy(&E, NULL, x, -1, -1).f;
+    return exact_energy(&E, NULL, x);
 }
 
 /* |v| of a metre per second in random directions. */

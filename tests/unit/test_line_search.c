@@ -18,8 +18,8 @@ static long double energy_difference(const IncrementalPotential *E,
         u_new[i] = u[i] + alpha * p[i];
         x_new[i] = x[i] + alpha * p[i];
     }
-    return exact_energy(E, u_new, x_new, -1, -1).f -
-           exact_energy(E, u, x, -1, -1).f;
+    return exact_energy(E, u_new, x_new) -
+           exact_energy(E, u, x);
 }
 
 /* Coordinates on a grid of 2^-20 and steps of 2^-k: x + alpha p is exact, so

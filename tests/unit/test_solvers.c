@@ -398,8 +398,8 @@ TEST(averaged_force_does_the_work)
             x[i] = x_n[i] + u[i];
         }
         IncrementalPotential E = {.system = &system, .weight = 1};
-        long double before = exact_energy(&E, NULL, x_n, -1, -1).f;
-        long double after = exact_energy(&E, NULL, x, -1, -1).f, work = 0;
+        long double before = exact_energy(&E, NULL, x_n);
+        long double after = exact_energy(&E, NULL, x), work = 0;
         E = (IncrementalPotential){&system, 1, x_n, u, true}; /* no inertia */
         incremental_potential_gradient(&E, u, x, g);
         for (int i = 0; i < 2 * system.nodes; i++)

@@ -350,30 +350,6 @@ static void limit(Case *c, const TermKind *kind)
         near("what the limit leaves", part_left(c, x), 0.1, 1e-8);
 }
 
-/* Cyclic Jacobi: values on the diagonal of a, vectors in the columns of v. */
-static void eigen(int n, Real *a, Real *v)
-{
-    for (int i = 0; i < n * n; i++)
-        v[i] = i % (n + 1) == 0;
-    for (int k = 0; k < 30 * n * n; k++) {
-        int r = k / n % n, c = k % n;
-        if (r >= c || a[n * r + c] == 0)
-            continue;
-        Real theta = (a[n * c + c] - a[n * r + r]) / (2 * a[n * r + c]);
-        Real t = copysignl(1, theta) / (fabsl(theta) + hypotl(1, theta));
-        Real cosine = 1 / hypotl(1, t), sine = t * cosine;
-        for (int pass = 0; pass < 3; pass++)
-            for (int i = 0; i < n; i++) {
-                Real *m = pass == 2 ? v : a;
-                int j = pass == 1 ? n * r + i : n * i + r;
-                int l = pass == 1 ? n * c + i : n * i + c;
-                Real one = m[j], two = m[l];
-                m[j] = cosine * one - sine * two;
-                m[l] = sine * one + cosine * two;
-            }
-    }
-}
-
 /* The matrix is the products' one, and filtered it has the eigenvalues cut or
  * mirrored: of single elements all, of many that none is below 0. */
 static void projection(Case *c, Random *random)
@@ -417,7 +393,7 @@ static void projection(Case *c, Random *random)
             continue;
         for (int i = 0; i < n * n; i++)
             a[i] = plain[i] - (i % (n + 1) ? 0 : c->system.m[i / n / 2]);
-        eigen(n, a, v);
+        exact_eigen(n, a, v);
         for (int i = 0; i < n; i++)
             largest = fmaxl(largest, fabsl(a[(n + 1) * i]));
         for (int i = 0; i < n * n; i++) {

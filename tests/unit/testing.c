@@ -10,6 +10,23 @@
 #include "model/contact.h"
 #include "model/pull_energy.h"
 
+/* ---- checks ------------------------------------------------------------- */
+
+enum { MAX_RUNS = 32 };
+
+static struct {
+    Simulation *run[MAX_RUNS];
+    int count;
+    char line[400]; /* of the last that began */
+} begun;
+
+static void end_test(const char *file, int line)
+{
+    if (begun.count > 0)
+        print_error("in: %s\n", begun.line);
+    _fail(file, line);
+}
+
 void check_near(const char *what, long double got, long double expected,
                 long double tolerance, const char *file, int line)
 {
@@ -18,7 +35,7 @@ void check_near(const char *what, long double got, long double expected,
     print_error("%s: got %.21Lg, expected %.21Lg, differs by %.3Lg, "
                 "tolerance %.3Lg\n",
                 what, got, expected, got - expected, tolerance);
-    _fail(file, line);
+    end_test(file, line);
 }
 
 void check_at_most(const char *what, long double got, long double limit,
@@ -27,7 +44,7 @@ void check_at_most(const char *what, long double got, long double limit,
     if (got <= limit)
         return;
     print_error("%s: got %.21Lg, expected at most %.21Lg\n", what, got, limit);
-    _fail(file, line);
+    end_test(file, line);
 }
 
 void check_same_bits(const char *what, const double *got,
@@ -39,7 +56,7 @@ void check_same_bits(const char *what, const double *got,
             continue;
         print_error("%s[%d]: got %a, expected the same bits as %a\n", what, i,
                     got[i], expected[i]);
-        _fail(file, line);
+        end_test(file, line);
     }
 }
 
@@ -50,7 +67,7 @@ void check_status(const char *what, Status got, Status expected,
         return;
     print_error("%s: got %s, expected %s\n", what, status_name(got),
                 status_name(expected));
-    _fail(file, line);
+    end_test(file, line);
 }
 
 void check_true(bool condition, const char *what, const char *file, int line)
@@ -58,7 +75,7 @@ void check_true(bool condition, const char *what, const char *file, int line)
     if (condition)
         return;
     print_error("not true: %s\n", what);
-    _fail(file, line);
+    end_test(file, line);
 }
 
 bool tests_are_long(void)
@@ -130,45 +147,6 @@ void random_system(Random *random, SpringState state, System *system, double *x)
     }
 }
 
-static Dual dual_add(Dual a, Dual b)
-{
-    return (Dual){a.f + b.f, a.d1 + b.d1, a.d2 + b.d2, a.d12 + b.d12};
-}
-
-static Dual dual_multiply(Dual a, Dual b)
-{
-    return (Dual){a.f * b.f, a.f * b.d1 + a.d1 * b.f, a.f * b.d2 + a.d2 * b.f,
-                  a.f * b.d12 + a.d1 * b.d2 + a.d2 * b.d1 + a.d12 * b.f};
-}
-
-/* factor a^2 */
-static Dual dual_square(long double factor, Dual a)
-{
-    return dual_multiply((Dual){.f = factor}, dual_multiply(a, a));
-}
-
-/* Coordinate c, to be differentiated if it is i or j. */
-static Dual dual_coordinate(long double value, int c, int i, int j)
-{
-    return (Dual){value, c == i, c == j, 0};
-}
-
-/* k/(2 l2) (|d|^2 - l2)^2 of one spring */
-static Dual exact_spring(const System *system, const double *x, int s, int i,
-                         int j)
-{
-    Dual length2 = {.f = -(long double)system->l2[s]};
-    for (int axis = 0; axis < 2; axis++) {
-        int a = 2 * system->e[2 * s] + axis;
-        int b = 2 * system->e[2 * s + 1] + axis;
-        Dual d = {(long double)x[a] - x[b], (a == i) - (b == i),
-                  (a == j) - (b == j), 0};
-        length2 = dual_add(length2, dual_square(1, d));
-    }
-    return dual_square(system->k[s] / (2 * (long double)system->l2[s]),
-                       length2);
-}
-
 double central_omega2(const System *system)
 {
     const Term *term = system_find_term(system, &central_field);
@@ -199,154 +177,6 @@ double smallest_cell(const System *system, const double *x)
             smallest = fmin(smallest, corner.J);
     }
     return smallest;
-}
-
-/* Sum of squares above the diagonal. */
-static double off_diagonal(const double a[16])
-{
-    double sum = 0;
-    for (int r = 0; r < 4; r++)
-        for (int c = r + 1; c < 4; c++)
-            sum += a[4 * r + c] * a[4 * r + c];
-    return sum;
-}
-
-/* A = J^T A J and Q = Q J with the rotation J in plane (r, c) that makes
- * A_rc = 0: t = tan of the smaller of the two possible angles. */
-static void jacobi_rotate(double a[16], double q[16], int r, int c)
-{
-    double a_rc = a[4 * r + c];
-    if (a_rc == 0)
-        return;
-    double theta = (a[5 * c] - a[5 * r]) / (2 * a_rc);
-    double t = copysign(1, theta) / (fabs(theta) + hypot(1, theta));
-    double cosine = 1 / hypot(1, t), sine = t * cosine;
-    for (int i = 0; i < 4; i++) { /* columns r and c of A and of Q */
-        double ar = a[4 * i + r], ac = a[4 * i + c];
-        double qr = q[4 * i + r], qc = q[4 * i + c];
-        a[4 * i + r] = cosine * ar - sine * ac;
-        a[4 * i + c] = sine * ar + cosine * ac;
-        q[4 * i + r] = cosine * qr - sine * qc;
-        q[4 * i + c] = sine * qr + cosine * qc;
-    }
-    for (int i = 0; i < 4; i++) { /* rows r and c of A */
-        double ar = a[4 * r + i], ac = a[4 * c + i];
-        a[4 * r + i] = cosine * ar - sine * ac;
-        a[4 * c + i] = sine * ar + cosine * ac;
-    }
-    a[4 * r + c] = a[4 * c + r] = 0;
-}
-
-/* A = Q L Q^T: the eigenvalues end on the diagonal of A, the eigenvectors in
- * the columns of Q.  Convergence is quadratic; 4x4 needs about 5 sweeps. */
-static void jacobi_eigen(double a[16], double q[16])
-{
-    enum { MAX_SWEEPS = 30 };
-    for (int i = 0; i < 16; i++)
-        q[i] = i % 5 == 0;
-    for (int sweep = 0; sweep < MAX_SWEEPS && off_diagonal(a) > 0; sweep++)
-        for (int r = 0; r < 4; r++)
-            for (int c = r + 1; c < 4; c++)
-                jacobi_rotate(a, q, r, c);
-}
-
-void make_psd(double a[16])
-{
-    double l[16], q[16];
-    memcpy(l, a, sizeof l);
-    jacobi_eigen(l, q);
-    /* Eigenvalues that are 0 but for rounding are not negative. */
-    double largest = 0;
-    bool negative = false;
-    for (int i = 0; i < 4; i++)
-        largest = fmax(largest, fabs(l[5 * i]));
-    for (int i = 0; i < 4; i++)
-        negative = negative || l[5 * i] < -1e-15 * largest;
-    if (!negative)
-        return;
-    for (int r = 0; r < 4; r++)
-        for (int c = r; c < 4; c++) {
-            double sum = 0;
-            for (int i = 0; i < 4; i++)
-                sum += fmax(l[5 * i], 0) * q[4 * r + i] * q[4 * c + i];
-            a[4 * r + c] = a[4 * c + r] = sum;
-        }
-}
-
-Dual exact_energy(const IncrementalPotential *E, const double *u,
-                  const double *x, int i, int j)
-{
-    const System *system = E->system;
-    Dual P = {0}, inertia = {0};
-    for (int s = 0; s < system->springs; s++)
-        P = dual_add(P, exact_spring(system, x, s, i, j));
-    for (int c = 0; c < 2 * system->nodes; c++) {
-        long double half_m = 0.5L * system->m[c / 2];
-        P = dual_add(P, dual_square(half_m * central_omega2(system),
-                                    dual_coordinate(x[c], c, i, j)));
-        if (!u)
-            continue;
-        long double away = (long double)u[c] - E->u_tilde[c];
-        inertia = dual_add(inertia,
-                           dual_square(half_m, dual_coordinate(away, c, i, j)));
-    }
-    P = dual_multiply(P, (Dual){.f = E->weight});
-    return dual_add(P, inertia);
-}
-
-void exact_derivatives(const IncrementalPotential *E, const double *u,
-                       const double *x, long double *g, long double *H)
-{
-    int size = 2 * E->system->nodes;
-    for (int i = 0; i < size; i++) {
-        g[i] = exact_energy(E, u, x, i, -1).d1;
-        for (int j = 0; H && j < size; j++)
-            H[size * i + j] = exact_energy(E, u, x, i, j).d12;
-    }
-}
-
-/* Adds lambda q q^T of the direction q across the spring's four unknowns:
- * [q, -q] [q, -q]^T. */
-static void add_mode(const System *system, int s, long double lambda,
-                     const long double q[2], long double *H)
-{
-    int size = 2 * system->nodes;
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++) {
-            int row = 2 * system->e[2 * s + r / 2] + r % 2;
-            int column = 2 * system->e[2 * s + c / 2] + c % 2;
-            long double sign = r / 2 == c / 2 ? 1 : -1;
-            H[size * row + column] += sign * lambda * q[r % 2] * q[c % 2];
-        }
-}
-
-void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
-                   long double *H)
-{
-    const System *system = E->system;
-    int size = 2 * system->nodes;
-    for (int i = 0; i < size * size; i++)
-        H[i] = 0;
-    for (int i = 0; i < size; i++)
-        H[size * i + i] = system->m[i / 2] *
-                          (1 + (long double)E->weight * central_omega2(system));
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        long double dx = (long double)x[i] - x[j];
-        long double dy = (long double)x[i + 1] - x[j + 1];
-        long double length = hypotl(dx, dy), l2 = system->l2[s];
-        long double factor = 2 * (long double)E->weight * system->k[s] / l2;
-        long double along = factor * (3 * length * length - l2);
-        long double across = factor * (length * length - l2);
-        long double q[2] = {1, 0}, r[2] = {0, 1};
-        if (length > 0) {
-            q[0] = r[1] = dx / length;
-            q[1] = dy / length;
-            r[0] = -q[1];
-        }
-        add_mode(system, s, clamp ? fmaxl(along, 0) : along, q, H);
-        add_mode(system, s, clamp ? fmaxl(across, 0) : across, r, H);
-    }
 }
 
 bool dense_solve(int n, long double *A, long double *b)
@@ -406,6 +236,34 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
     CHECK(message[0] == '\0');
     CHECK_STATUS(simulation_create(&options, observer, user, simulation),
                  STATUS_OK);
+}
+
+Simulation *simulate_watched(NewtonObserver observer, void *user,
+                             const char *line, ...)
+{
+    va_list words;
+    Simulation *run = calloc(1, sizeof *run);
+    CHECK(run && begun.count < MAX_RUNS);
+    va_start(words, line);
+    vsnprintf(begun.line, sizeof begun.line, line, words);
+    va_end(words);
+    simulation_from_line(begun.line, observer, user, run);
+    return begun.run[begun.count++] = run;
+}
+
+Simulation *make_steps(Simulation *simulation, int count)
+{
+    for (int i = 0; i < count; i++)
+        CHECK_STATUS(simulation_step(simulation), STATUS_OK);
+    return simulation;
+}
+
+void free_all_begun(void)
+{
+    while (begun.count > 0) {
+        simulation_free(begun.run[--begun.count]);
+        free(begun.run[begun.count]);
+    }
 }
 
 double energies_of(const Energies *energies, const char *name)

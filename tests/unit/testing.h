@@ -1,6 +1,5 @@
 /* testing.h - what all suites share: checks that print what they saw, seeded
- * random numbers and springs, and the formulas of the slides once more in
- * extended precision, written without a look at the sources.
+ * random numbers and springs, and runs of command lines.
  */
 #ifndef ELASTO_TESTING_H
 #define ELASTO_TESTING_H
@@ -90,35 +89,6 @@ double central_omega2(const System *system);
 double smallest_gap(const System *system, const double *x);
 double smallest_cell(const System *system, const double *x);
 
-/* A, a symmetric 4x4 block, becomes the nearest positive semi-definite matrix
- * in the Frobenius norm: A = Q L Q^T -> Q max(L, 0) Q^T (slide utils.py).  A
- * block without negative eigenvalues stays as it is, to the last bit.
- *   a  [16] in/out, row by row
- * Eigenvalues by cyclic Jacobi rotations (Golub, Van Loan: 8.5). */
-void make_psd(double a[16]);
-
-/* Sums, products and with them both derivatives of a polynomial, exactly:
- * a + b e1 + c e2 + d e1 e2 with e1^2 = e2^2 = 0. */
-typedef struct Dual {
-    long double f, d1, d2, d12;
-} Dual;
-
-/* sum m/2 |u - u_tilde|^2 (left out where u is NULL)
- *   + w (sum k/(2 l2) (|d|^2 - l2)^2 + omega2 sum m/2 |x|^2), the terms that
- * the system has,
- * with derivatives along coordinates i and j (-1: none). */
-Dual exact_energy(const IncrementalPotential *E, const double *u,
-                  const double *x, int i, int j);
-
-/* Gradient [2n] and full Hessian [2n 2n] of the above; H may be NULL. */
-void exact_derivatives(const IncrementalPotential *E, const double *u,
-                       const double *x, long double *g, long double *H);
-
-/* M + w (sum over springs of the block, negative eigenvalues replaced by 0 if
- * clamp), [2n 2n]. */
-void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
-                   long double *H);
-
 /* b = A^-1 b by Gaussian elimination with pivots; A [n n] is destroyed.
  * Returns false where A is singular. */
 bool dense_solve(int n, long double *A, long double *b);
@@ -130,6 +100,16 @@ void dense_from_sparse(const Sparse *A, double *dense);
  * spaces; free it with simulation_free. */
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);
+
+/* The same, freed when the test ends; the line may have formats. */
+#define simulate(...) simulate_watched(NULL, NULL, __VA_ARGS__)
+Simulation *simulate_watched(NewtonObserver observer, void *user,
+                             const char *line, ...)
+    __attribute__((format(printf, 3, 4)));
+void free_all_begun(void);
+
+/* So many steps, all of which converge; returns the simulation. */
+Simulation *make_steps(Simulation *simulation, int count);
 
 /* One row of a ledger; of that of a run now, J. */
 #define OF(energies, name) energies_of(energies, #name)
