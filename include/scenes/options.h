@@ -19,71 +19,85 @@ enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
+/* All numbers are doubles that are seen as an array, too: a slot is the place
+ * of one in it.  Whole numbers, switches (0 or 1) and names (their place in the
+ * row's list) are among them. */
+enum { OPTIONS_NUMBERS = 99 };
+
 typedef struct Options {
+    union {
+        struct {
+            double segments;
+            double side;           /* m */
+            double density;        /* kg/m^2 */
+            double stiffness;      /* J/m^2 */
+            double stretch;        /* initial horizontal factor */
+            double turn;           /* degrees, anticlockwise, after it */
+            double at[2];          /* m, then moved by this */
+            double velocity[2];    /* m/s, of every node at the start */
+            double gravity;        /* m/s^2, downwards */
+            double start[2];       /* m, where scenes with a start begin */
+            double grounds, balls; /* obstacles */
+            double ground[OPTIONS_MAX_GROUNDS][4]; /* normal, m: a point */
+            double ball[OPTIONS_MAX_BALLS][3];     /* m, centre and radius */
+            double
+                barrier[2];  /* d_hat in m, kappa in J/m^3; 0: side/100, 4 k */
+            double friction; /* mu of the obstacles */
+            double slip_speed;  /* m/s, eps_v: above it a contact slides */
+            double cells;       /* 1: they cannot turn over */
+            double yield;       /* strain at which springs flow; 0: never */
+            double hardening;   /* of the yield strain for flowing by 1 */
+            double tear;        /* strain at which springs break; 0: never */
+            double damping;     /* s, eta of the springs; 0: none */
+            double timestep;    /* s */
+            double integrator;  /* its row; -1: the scene's choice */
+            double tolerance;   /* m/s */
+            double solver;      /* enum Solver */
+            double minimum;     /* 1: no step ends on a saddle */
+            double filter;      /* enum Filter */
+            double line_search; /* enum LineSearch */
+            double flips;   /* bit s: switch s of the scene is turned over at
+                               the start; only pages set this */
+            double steps;   /* -1: until closed, or 100 without a screen */
+            double paused;  /* at the start */
+            double speed;   /* steps a frame; 0: the scene's */
+            double size[2]; /* pixels of window or frames; 0: the usual ones */
+            double fullscreen;
+            double headless; /* no window even where there is a screen */
+            double quiet;
+            double help, version, list; /* print that and stop */
+        };
+        double number[OPTIONS_NUMBERS];
+    };
     const struct Scene *scene;
-    int segments;
-    double side;        /* m */
-    double density;     /* kg/m^2 */
-    double stiffness;   /* J/m^2 */
-    double stretch;     /* initial horizontal factor */
-    double turn;        /* degrees, anticlockwise, after it */
-    double at[2];       /* m, then moved by this */
-    double velocity[2]; /* m/s, of every node at the start */
-    double gravity;     /* m/s^2, downwards */
-    const char *pin;    /* which nodes never move, or NULL */
-    int grounds, balls; /* obstacles */
-    double ground[OPTIONS_MAX_GROUNDS][4]; /* normal, m: a point of it */
-    double ball[OPTIONS_MAX_BALLS][3];     /* m, centre and radius */
-    double barrier[2]; /* d_hat in m, kappa in J/m^3; 0: side/100, 4 k */
-    double friction;   /* mu of the obstacles */
-    double slip_speed; /* m/s, eps_v: above it a contact slides */
-    int cells;         /* 1: they cannot turn over */
-    double yield;      /* strain at which springs flow; 0: never */
-    double hardening;  /* of the yield strain for flowing by 1 */
-    double tear;       /* strain at which springs break; 0: never */
-    double damping;    /* s, eta of the springs; 0: none */
-    double timestep;   /* s */
-    double tolerance;  /* m/s */
-    const IntegratorMethod *integrator; /* NULL: the scene's choice */
-    Solver solver;
-    bool minimum;
-    Filter filter;
-    LineSearch line_search;
-    double start[2]; /* m, where scenes with a start begin */
-    double aspect;   /* rows over columns; 0: a square.  Scenes set it */
-    double cell_stiffness; /* and these: k_c over k; */
-    bool moving_pins;      /* whether pins are moved */
-    long steps;            /* -1: until closed, or 100 without a screen */
-    bool headless;         /* no window even where there is a screen */
-    const char *frames;    /* folder for PNG frames, or NULL */
+    const struct LecturePage *page; /* of the lecture, or NULL */
+    const char *pin;                /* which nodes never move, or NULL */
+    const char *frames;             /* folder for PNG frames, or NULL */
     const char *states;    /* file for states, "-" for stdout, or NULL */
     const char *log;       /* file for the Newton log, or NULL */
     const char *film;      /* file for a film of all drawn steps, or NULL */
     const char *script;    /* file of commands, or NULL */
-    bool paused;           /* at the start */
-    bool fullscreen;
-    int size[2];  /* pixels of window or frames; 0: the usual ones */
-    double speed; /* steps a frame; 0: the scene's */
-    const struct LecturePage *page; /* of the lecture, or NULL */
-    unsigned flips;      /* bit s: switch s of the scene is turned over at the
-                            start; only pages set this */
-    const char *handout; /* file for the pages as one HTML file, or NULL */
-    bool quiet;
-    bool help, version, list; /* print that and stop */
-    int panes;                /* side by side, 1: no lists of values */
+    const char *handout;   /* file for the pages as one HTML file, or NULL */
+    double aspect;         /* rows over columns; 0: a square.  Scenes set it */
+    double cell_stiffness; /* and these: k_c over k; */
+    bool moving_pins;      /* whether pins are moved */
+    int panes;             /* side by side, 1: no lists of values */
 } Options;
+
+/* The slot of a number of Options: OPTION_SLOT(timestep). */
+#define OPTION_SLOT(field) ((int)(offsetof(Options, field) / sizeof(double)))
+
+_Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
 
 enum { OPTIONS_MAX_PANES = 6 };
 
 /* ---- the table ---------------------------------------------------------- */
 
 typedef enum OptionKind {
-    OPTION_SWITCH, /* bool; takes no value */
-    OPTION_NUMBER, /* double [count] */
-    OPTION_WHOLE,  /* int [count] */
-    OPTION_LONG,   /* long */
-    OPTION_NAME,   /* int: the place of one of the row's names */
-    OPTION_METHOD, /* an integrator */
+    OPTION_SWITCH, /* 0 or 1; takes no value */
+    OPTION_NUMBER, /* [count] */
+    OPTION_WHOLE,  /* [count] without a fraction */
+    OPTION_NAME,   /* the place of one of the row's names */
     OPTION_TEXT,   /* a file, a folder: not empty */
     OPTION_PAGE,   /* of the lecture; the value may be left out */
 } OptionKind;
@@ -95,16 +109,18 @@ typedef struct OptionRow {
     const char *value; /* what stands for the value in --help */
     const char *help;  /* what it is */
     OptionKind kind;
-    size_t offset;            /* of its field in Options */
-    int count;                /* numbers of one value; 0: one */
-    char between;             /* what stands between them; 0: a comma */
-    int times;                /* more than 1: it may be given so often; the */
-    size_t counter;           /* field is an array, its length an int here */
-    double standard;          /* the slides' number */
-    double low, high;         /* from ... to, both included */
-    const char *unit;         /* of the numbers, or "" */
-    const char *const *names; /* OPTION_NAME; NULL behind the last */
-    unsigned needs;           /* of enum SceneNeeds, one of them; 0: nothing */
+    int slot;         /* of its first number */
+    size_t offset;    /* OPTION_TEXT: of its field in Options */
+    int count;        /* numbers of one value; 0: one */
+    char between;     /* what stands between them; 0: a comma */
+    int times;        /* more than 0: it may be given so often; the values */
+    int counter;      /* stand behind one another, how many in this slot */
+    double standard;  /* the slides' number */
+    double low, high; /* from ... to, both included */
+    const char *unit; /* of the numbers, or "" */
+    /* OPTION_NAME: name i as on the command line; NULL behind the last. */
+    const char *(*names)(int i);
+    unsigned needs; /* of enum SceneNeeds, one of them; 0: nothing */
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
     bool compared; /* a list of values is side by side */
@@ -122,17 +138,19 @@ enum { OPTIONS_MOST = 64 }; /* rows */
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
 
-/* Whether its values are names. */
-bool option_is_named(const OptionRow *row);
+/* The row whose number, or one of whose numbers, is in this slot, or NULL. */
+const OptionRow *option_at(int slot);
 
-/* The value of an option that is compared, as on the command line.
+/* A single number as somebody types it, "1/60", "0,02", "4 ms", "clamp".
+ *   value  out
+ * Returns whether it can be read and is in the row's range. */
+bool option_read(const OptionRow *row, const char *text, double *value);
+
+/* A number of the row as text: with as many digits as option_read needs to read
+ * the same number again, or in short, as the window has room for it.
  *   text  [size] out */
+void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_value(const OptionRow *row, const Options *options, char *text,
-                  size_t size);
-
-/* A number as somebody types it, "1/60", "0,02", "4 ms", written out with all
- * its digits; another text as it is.  value [size] out */
-void option_meant(const OptionRow *row, const char *text, char *value,
                   size_t size);
 
 /* Its unit as the window writes it, "J/m\u00b2"; "": none.
@@ -144,13 +162,11 @@ void option_unit(const OptionRow *row, char *text, size_t size);
  * Returns how many. */
 int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST]);
 
-/* The value `paces` paces up (or, below 0, down), as text: by what the row says
- * a pace adds; or a factor of 10 is 6 paces, and whole paces end on 1, 1.5, 2,
- * 3, 5, 7; names follow one another in a circle.  Parts of a pace are for
- * dragging.
- *   text  [size] out */
-void option_paced(const OptionRow *row, const Options *options, double paces,
-                  char *text, size_t size);
+/* The value `paces` paces up (or, below 0, down): by what the row says a pace
+ * adds; or a factor of 10 is 6 paces, and whole paces end on 1, 1.5, 2, 3, 5,
+ * 7; names follow one another in a circle.  Parts of a pace are for dragging:
+ * they have three digits. */
+double option_paced(const OptionRow *row, const Options *options, double paces);
 
 /* ---- what reads and writes it ------------------------------------------- */
 
@@ -178,12 +194,19 @@ void options_panes(int argc, char **argv, char *text, size_t size);
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
+/* The same of a number that is one already. */
+Status options_set_number(Options *options, int slot, double value,
+                          char *message, size_t size);
+
+/* The chosen integrator; NULL: the scene's choice. */
+const IntegratorMethod *options_integrator(const Options *options);
+
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
 
-/* The name of a value as on the command line. */
-const char *solver_name(Solver solver);
-const char *filter_name(Filter filter);
-const char *line_search_name(LineSearch search);
+/* The name of a value as on the command line; NULL: there is none. */
+const char *solver_name(int solver);
+const char *filter_name(int filter);
+const char *line_search_name(int search);
 
 #endif

@@ -38,7 +38,7 @@ Status bench_frames(Bench *bench)
     for (int n = 4; n <= (bench->quick ? 8 : 256) && !status; n *= 2) {
         Simulation simulation;
         Options options = slides_options(n);
-        options.integrator = integrator_method("verlet");
+        options.integrator = integrator_method("verlet") - integrator_methods;
         status = simulation_create(&options, NULL, NULL, &simulation);
         if (!status) {
             history_clear(&history);

@@ -64,7 +64,7 @@ static Status create_problem(const Motion *motion, int segments,
     Options options = slides_options(segments);
     options.stiffness = motion->stiffness;
     options.stretch = motion->stretch;
-    options.integrator = integrator_method("verlet");
+    options.integrator = integrator_method("verlet") - integrator_methods;
     *problem = (Problem){.motion = motion};
     Simulation *simulation = &problem->simulation;
     Status status = simulation_create(&options, NULL, NULL, simulation);

@@ -95,7 +95,8 @@ static Status set_option(Player *player, const char *text)
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
     if (strcmp(name, "integrator") == 0 &&
-        integrator_method_refuses(options.integrator, &simulation->system))
+        integrator_method_refuses(options_integrator(&options),
+                                  &simulation->system))
         return player_refuse(player, "a term of this scene refuses it");
     find_lanes(player, name, &from, &to);
     const OptionRow *row = option_find(name);
@@ -146,8 +147,10 @@ static Status pace_number(Player *player, const Command *command)
         return player_refuse(player, "there is no number to change here");
     if (player->selected < 0 || player->selected >= count)
         player->selected = 0;
-    option_paced(number[player->selected], options,
-                 command->kind == COMMAND_RAISE ? 1 : -1, value, sizeof value);
+    option_write(number[player->selected],
+                 option_paced(number[player->selected], options,
+                              command->kind == COMMAND_RAISE ? 1 : -1),
+                 value, sizeof value);
     return obey_set(player, number[player->selected]->name, value);
 }
 

@@ -54,13 +54,12 @@ static Status ask_set(Player *player, const char *option, const char *value)
 /* One pace of a number, by wheel or key. */
 static Status pace(Player *player, int index, int paces)
 {
-    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
+    char value[COMMAND_TEXT_SIZE / 2];
     if (index < 0 || index >= player->numbers)
         return STATUS_OK;
     const OptionRow *row = player->number[index];
     Options options = player_numbers(player);
-    option_paced(row, &options, paces, text, sizeof text);
-    snprintf(value, sizeof value, "%.31s", text);
+    option_write(row, option_paced(row, &options, paces), value, sizeof value);
     return ask_set(player, row->name, value);
 }
 
@@ -71,10 +70,9 @@ static Status drag_number(Player *player)
     if (mouse->index >= player->numbers)
         return STATUS_OK;
     const OptionRow *row = player->number[mouse->index];
-    char text[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE / 2];
-    char now[COMMAND_TEXT_SIZE];
+    char value[COMMAND_TEXT_SIZE / 2];
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
-    if (option_is_named(row)) {
+    if (row->kind == OPTION_NAME) {
         double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
         if (fabs(names) < 1)
             return STATUS_OK;
@@ -85,12 +83,11 @@ static Status drag_number(Player *player)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
-    option_paced(row, &mouse->options, paces, text, sizeof text);
-    snprintf(value, sizeof value, "%.31s", text);
-    Options options = player_numbers(player);
-    option_value(row, &options, now, sizeof now);
-    return strcmp(now, value) == 0 ? STATUS_OK
-                                   : ask_set(player, row->name, value);
+    double wanted = option_paced(row, &mouse->options, paces);
+    option_write(row, wanted, value, sizeof value);
+    return player_numbers(player).number[row->slot] == wanted
+               ? STATUS_OK
+               : ask_set(player, row->name, value);
 }
 
 /* ---- what is typed ------------------------------------------------------ */
@@ -125,7 +122,11 @@ static Status give_typed(Player *player)
         return status;
     }
     const OptionRow *row = player->number[player->selected];
-    option_meant(row, typed, value, sizeof value);
+    double number;
+    bool known = option_read(row, typed, &number);
+    snprintf(value, sizeof value, "%s", typed);
+    if (known)
+        option_write(row, number, value, sizeof value);
     Status status = ask_set(player, row->name, value);
     if (status)
         return status;
@@ -465,7 +466,7 @@ static Status released(Player *player)
         return ask(player, COMMAND_RELEASE);
     if (drag == DRAG_NUMBER && !mouse->moved &&
         mouse->index < player->numbers &&
-        option_is_named(player->number[mouse->index]))
+        player->number[mouse->index]->kind == OPTION_NAME)
         return pace(player, mouse->index, 1);
     return STATUS_OK;
 }

@@ -407,7 +407,8 @@ static Status open_view(Player *player)
     Status status = STATUS_OK;
     player_title(player, title, sizeof title);
     if (!options->headless) {
-        status = view_create_window(title, options->size, options->fullscreen,
+        const int size[] = {(int)options->size[0], (int)options->size[1]};
+        status = view_create_window(title, size, options->fullscreen,
                                     &player->view, reason, sizeof reason);
         if (status == STATUS_OUT_OF_MEMORY)
             return status;

@@ -120,7 +120,8 @@ static bool fits_in_memory(const Options *options, char *message, size_t size)
     snprintf(message, size,
              "--segments %d needs about %.1f GB of memory and there are %.1f: "
              "from 1 to %d",
-             options->segments, 1e-9 * needed, 1e-9 * there, smaller.segments);
+             (int)options->segments, 1e-9 * needed, 1e-9 * there,
+         (int)smaller.segments);
     return false;
 }
 

@@ -117,13 +117,13 @@ static void value_text(const OptionRow *row, const Options *options,
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
         unit[0] = '\0'; /* of a gradient */
     option_value(row, options, value, sizeof value);
-    if (row->kind == OPTION_METHOD)
-        snprintf(text, size, "%s",
-                 simulation->runs > 1 && !options->integrator &&
-                         simulation->run[0].method != simulation->run[1].method
-                     ? "three Eulers"
-                 : options->integrator ? options->integrator->label
-                                       : integrator_methods[0].label);
+    if (row->slot == OPTION_SLOT(integrator))
+        snprintf(
+            text, size, "%s",
+            simulation->runs > 1 && options->integrator < 0 &&
+                    simulation->run[0].method != simulation->run[1].method
+                ? "three Eulers"
+                : integrator_methods[(int)fmax(options->integrator, 0)].label);
     else if (strcmp(row->name, "solver") == 0 && simulation->steps > 0 &&
              simulation->run[0].newton &&
              simulation->run[0].newton->working != options->solver)
@@ -311,7 +311,7 @@ void player_label_lanes(Player *player)
                 continue;
             value_text(row, options, &lane->track.simulation, value,
                        sizeof value);
-            bool alone = row->kind == OPTION_METHOD;
+            bool alone = row->slot == OPTION_SLOT(integrator);
             used += (size_t)snprintf(lane->label + used,
                                      sizeof lane->label - used, "%s%s%s%s",
                                      used ? ", " : "", alone ? "" : row->label,

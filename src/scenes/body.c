@@ -105,9 +105,10 @@ Status body_start(const Options *options, const SquareMesh *mesh,
         memcpy(v + 2 * i, more + 2, 2 * sizeof *v);
     }
     if (!status)
-        status = time_integrator_create(
-            options->integrator ? options->integrator : &integrator_methods[0],
-            system, settings, x, v, run);
+        status = time_integrator_create(options_integrator(options)
+                                            ? options_integrator(options)
+                                            : &integrator_methods[0],
+                                        system, settings, x, v, run);
     free(x);
     free(v);
     return status;
@@ -206,7 +207,7 @@ static void name_obstacle(const Options *options, int i, char *text,
                           size_t size)
 {
     bool ball = i >= options->grounds;
-    int number = ball ? i - options->grounds : i;
+    int number = ball ? i - (int)options->grounds : i;
     const double *value =
         ball ? options->ball[number] : options->ground[number];
     if (ball)
@@ -220,7 +221,7 @@ static void name_obstacle(const Options *options, int i, char *text,
 static bool obstacle_is_sound(const Options *options, int i)
 {
     if (i >= options->grounds)
-        return options->ball[i - options->grounds][2] > 0;
+        return options->ball[i - (int)options->grounds][2] > 0;
     const double *ground = options->ground[i];
     return hypot(ground[0], ground[1]) > 0;
 }

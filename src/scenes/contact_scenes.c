@@ -27,7 +27,7 @@ static void fall(Options *options, int segments, double stiffness,
 static void add_ground(Options *options, double nx, double ny, double ox,
                        double oy)
 {
-    double *ground = options->ground[options->grounds++];
+    double *ground = options->ground[(int)options->grounds++];
     ground[0] = nx;
     ground[1] = ny;
     ground[2] = ox;
@@ -36,7 +36,7 @@ static void add_ground(Options *options, double nx, double ny, double ox,
 
 static void add_ball(Options *options, double x, double y, double radius)
 {
-    double *ball = options->ball[options->balls++];
+    double *ball = options->ball[(int)options->balls++];
     ball[0] = x;
     ball[1] = y;
     ball[2] = radius;

@@ -37,7 +37,7 @@ static Status create_orbit(Simulation *simulation,
 {
     static const char *const names[SIMULATION_MAX_RUNS] = {
         "forward-euler", "symplectic-euler", "backward-euler"};
-    const IntegratorMethod *chosen = simulation->options.integrator;
+    const IntegratorMethod *chosen = options_integrator(&simulation->options);
     Status status = system_create(1, 0, &simulation->system);
     if (status)
         return status;
@@ -142,7 +142,7 @@ Status create_spring(Simulation *simulation, const NewtonSettings *settings)
     system->l2[0] = SPRING_LENGTH * SPRING_LENGTH;
     system->k[0] = SPRING_STIFFNESS;
     simulation->runs = 1;
-    return time_integrator_create(options->integrator ? options->integrator
-                                                      : &integrator_methods[0],
-                                  system, settings, x, v, &simulation->run[0]);
+    return time_integrator_create(
+        &integrator_methods[(int)fmax(options->integrator, 0)], system,
+        settings, x, v, &simulation->run[0]);
 }

@@ -51,7 +51,7 @@ static void help_option(Help *help, const OptionRow *row)
     snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
              row->value ? " " : "", row->value ? row->value : "",
              row->letter ? ", -" : "", &row->letter);
-    for (int i = 0; option_is_named(row) && (name = option_name(row, i)); i++)
+    for (int i = 0; row->kind == OPTION_NAME && (name = row->names(i)); i++)
         add_name(&list, "", name);
     snprintf(text.text, sizeof text.text, "%s%s%s", row->help,
              row->unit[0] ? ", " : "", row->unit);

@@ -1,4 +1,5 @@
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -187,7 +188,6 @@ static Status read_line(Line *line)
 static Status begin_options(Line *line)
 {
     Options *options = line->options;
-    const int none = 0;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool given = line->given[row - option_rows];
         if (given && options->page && row->needs)
@@ -208,7 +208,7 @@ static Status begin_options(Line *line)
         options->scene->defaults(options);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->times && line->given[row - option_rows])
-            memcpy((char *)options + row->counter, &none, sizeof none);
+            options->number[row->counter] = 0;
     return STATUS_OK;
 }
 
@@ -229,9 +229,9 @@ static Status choose_values(Line *line, int pane, int *chosen)
     return STATUS_OK;
 }
 
-/* One value, unless it says something about what the scene lacks. */
-static Status set_value(const OptionRow *row, const char *text,
-                        Options *options, const Complaint *why)
+/* Whether the scene has what the row is about. */
+static Status check_scene(const OptionRow *row, const Options *options,
+                          const Complaint *why)
 {
     const char *lacks = row->needs & NEEDS_MESH      ? "square"
                         : row->needs == NEEDS_TIME   ? "time steps"
@@ -240,10 +240,18 @@ static Status set_value(const OptionRow *row, const char *text,
                         : row->needs & NEEDS_START   ? "start to choose"
                         : row->needs & NEEDS_BODY    ? "body that falls"
                                                      : "minimum to find";
-    if (row->needs && !(row->needs & options->scene->needs))
-        return complain(why, "--%s: the scene '%s' has no %s", row->name,
-                        options->scene->name, lacks);
-    return option_apply(row, text, options, why);
+    if (!row->needs || (row->needs & options->scene->needs))
+        return STATUS_OK;
+    return complain(why, "--%s: the scene '%s' has no %s", row->name,
+                    options->scene->name, lacks);
+}
+
+/* One value, unless it says something about what the scene lacks. */
+static Status set_value(const OptionRow *row, const char *text,
+                        Options *options, const Complaint *why)
+{
+    Status status = check_scene(row, options, why);
+    return status ? status : option_apply(row, text, options, why);
 }
 
 /* Second look: the values. */
@@ -272,12 +280,13 @@ static Status apply_line(Line *line, int pane)
 static Status check_integrator(const Options *options, const Complaint *why)
 {
     const char *end = body_needs_end_of_step(options);
-    if (!end || !options->integrator || options->integrator->at_end)
+    const IntegratorMethod *method = options_integrator(options);
+    if (!end || !method || method->at_end)
         return STATUS_OK;
     return complain(why,
                     "--integrator: '%s' has no %s; of all methods only "
                     "backward-euler has",
-                    options->integrator->name, end);
+                    method->name, end);
 }
 
 /* What depends on several options: which nodes there are to be pinned, what
@@ -357,4 +366,26 @@ Status options_set(Options *options, const char *name, const char *value,
                         typed(name).text);
     Status status = set_value(row, value, options, &why);
     return status ? status : check_integrator(options, &why);
+}
+
+Status options_set_number(Options *options, int slot, double value,
+                          char *message, size_t size)
+{
+    const Complaint why = {message, size};
+    const OptionRow *row = option_at(slot);
+    char text[64];
+    if (!row)
+        return complain(&why, "there is no number %d", slot);
+    int names = option_names(row);
+    double high = names > 0 ? names - 1 : row->high;
+    bool inside = value >= row->low && value <= high;
+    bool whole = row->kind == OPTION_NUMBER || value == floor(value);
+    snprintf(text, sizeof text, "%g", value);
+    Status status = check_scene(row, options, &why);
+    if (!status && !(inside && whole) && value != row->standard)
+        status = refuse_number(row, 1, text, &why);
+    if (status)
+        return status;
+    options->number[slot] = value;
+    return check_integrator(options, &why);
 }

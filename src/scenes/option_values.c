@@ -194,28 +194,29 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
             *comma = '.';
         number[i] = number_meant(row, at);
         if (!(number[i] >= row->low && number[i] <= row->high) ||
-            (row->kind != OPTION_NUMBER && number[i] != floor(number[i])))
+            (row->kind == OPTION_WHOLE && number[i] != floor(number[i])))
             return false;
         at = next + 1;
     }
     return true;
 }
 
-void option_meant(const OptionRow *row, const char *text, char *value,
-                  size_t size)
+bool option_read(const OptionRow *row, const char *text, double *value)
 {
-    double number;
-    snprintf(value, size, "%s", text);
-    if (option_is_named(row) || !read_numbers(row, 1, text, &number))
-        return;
-    snprintf(value, size, "%.15g", number);
-    if (strtod(value, NULL) != number)
-        snprintf(value, size, "%.17g", number);
+    const char *name;
+    if (row->kind != OPTION_NAME)
+        return read_numbers(row, 1, text, value);
+    for (int i = 0; (name = row->names(i)); i++)
+        if (strcmp(name, text) == 0) {
+            *value = i;
+            return true;
+        }
+    return false;
 }
 
 /* "a whole number from 1 to 4096", "X,Y, each from -1 to 1, in m" */
-static Status refuse_number(const OptionRow *row, int count, const char *text,
-                            const Complaint *complaint)
+Status refuse_number(const OptionRow *row, int count, const char *text,
+                     const Complaint *complaint)
 {
     return complain(complaint, "--%s: '%s' is not %s%s from %s to %s%s%s",
                     row->name, typed(text).text, count > 1 ? row->value : "",
@@ -238,14 +239,14 @@ static Status apply_numbers(const OptionRow *row, const char *text,
         count = 1;
     if (!read_numbers(row, count, text, number))
         return refuse_number(row, count, text, complaint);
-    int *counter = (int *)(void *)((char *)options + row->counter);
+    double *counter = &options->number[row->counter];
     if (row->times && *counter >= row->times)
         return complain(complaint, "--%s: '%s' is one too many: at most %d",
                         row->name, typed(text).text, row->times);
     if (row->times)
-        used = (*counter)++;
+        used = (int)(*counter)++;
     for (int i = 0; i < most; i++)
-        option_put(row, used * most + i, number[i], options);
+        options->number[row->slot + used * most + i] = number[i];
     return STATUS_OK;
 }
 
@@ -267,9 +268,9 @@ static Status apply_name(const OptionRow *row, const char *text,
     }
     if (word && strncmp(word + 2, row->name, length) == 0 && word[length + 2])
         text = word + length + 3;
-    for (int i = 0; (name = option_name(row, i)); i++) {
+    for (int i = 0; (name = row->names(i)); i++) {
         if (strcmp(name, text) == 0) {
-            option_put(row, 0, i, options);
+            options->number[row->slot] = i;
             return STATUS_OK;
         }
         add_name(&list, "", name);
@@ -289,7 +290,7 @@ Status option_apply(const OptionRow *row, const char *text, Options *options,
 {
     switch (row->kind) {
     case OPTION_SWITCH:
-        option_put(row, 0, 1, options);
+        options->number[row->slot] = 1;
         return STATUS_OK;
     case OPTION_TEXT:
         if (text[0] == '\0')
@@ -297,7 +298,6 @@ Status option_apply(const OptionRow *row, const char *text, Options *options,
         memcpy((char *)options + row->offset, &text, sizeof text);
         return STATUS_OK;
     case OPTION_NAME:
-    case OPTION_METHOD:
     case OPTION_PAGE:
         return apply_name(row, text, options, complaint);
     default:

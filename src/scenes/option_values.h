@@ -28,14 +28,15 @@ Text number_text(double number);
 /* Adds to a list: "--a, --b". */
 void add_name(Text *list, const char *before, const char *name);
 
-/* Name i of a row of names, methods or pages; NULL behind the last. */
-const char *option_name(const OptionRow *row, int i);
-
-/* Number i of its field. */
-void option_put(const OptionRow *row, int i, double number, Options *options);
+/* How many names the values of a row have; 0: they are numbers. */
+int option_names(const OptionRow *row);
 
 /* The slides' numbers. */
 Options option_defaults(void);
+
+/* "--side: '0' is not a number from 1e-30 to 1e30, in m" */
+Status refuse_number(const OptionRow *row, int count, const char *text,
+                     const Complaint *complaint);
 
 /* What the option is followed by on the command line, into its field; nothing
  * for a page is the first.

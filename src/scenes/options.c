@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/square_mesh.h"
@@ -16,11 +17,50 @@
 #include "scenes/pins.h"
 #include "scenes/scene.h"
 
-static const char *const solver_names[] = {"newton", "multigrid", "auto", NULL};
-static const char *const filter_names[] = {"clamp", "none", "abs", "on-demand",
-                                           NULL};
-static const char *const search_names[] = {"backtrack", "none", NULL};
-static const char *const cells_names[] = {"off", "on", NULL};
+/* Name i of a list that ends with NULL; NULL: there is none. */
+static const char *pick(const char *const *list, int i)
+{
+    while (i > 0 && *list) {
+        list++;
+        i--;
+    }
+    return *list;
+}
+
+const char *solver_name(int solver)
+{
+    static const char *const names[] = {"newton", "multigrid", "auto", NULL};
+    return pick(names, solver);
+}
+
+const char *filter_name(int filter)
+{
+    static const char *const names[] = {"clamp", "none", "abs", "on-demand",
+                                        NULL};
+    return pick(names, filter);
+}
+
+const char *line_search_name(int search)
+{
+    static const char *const names[] = {"backtrack", "none", NULL};
+    return pick(names, search);
+}
+
+static const char *cells_name(int cells)
+{
+    static const char *const names[] = {"off", "on", NULL};
+    return pick(names, cells);
+}
+
+static const char *integrator_name(int i)
+{
+    return integrator_methods[i].name;
+}
+
+static const char *page_name(int i)
+{
+    return lecture_pages[i].name;
+}
 
 static const char *nothing_to_touch(const Options *options)
 {
@@ -39,27 +79,30 @@ static const char *nothing_flows(const Options *options)
  * for the value, what it is; then, of numbers, the unit, the slides' number,
  * from ... to. */
 #define SECTION(text) .name = "", .help = text
-#define VALUE(sort, word, field, letters, text, u)                             \
+#define VALUE(sort, word, letters, text, u)                                    \
     .name = word, .value = letters, .help = text, .kind = OPTION_##sort,       \
-    .offset = offsetof(Options, field), .unit = u
+    .unit = u
 #define RANGE(sort, word, field, letters, text, u, number, from, to)           \
-    VALUE(sort, word, field, letters, text, u), .standard = number,            \
-                                                .low = from, .high = to
+    VALUE(sort, word, letters, text, u), .slot = OPTION_SLOT(field),           \
+                                         .standard = number, .low = from,      \
+                                         .high = to
 #define NUMBER(field, ...) RANGE(NUMBER, #field, field, __VA_ARGS__)
 #define WHOLE(field, ...)  RANGE(WHOLE, #field, field, __VA_ARGS__)
 #define NUMBERS(field, many, letters, text, u, from, to)                       \
     NUMBER(field, letters, text, u, 0, from, to), .count = many
 #define NAME(word, field, letters, text, number, all)                          \
-    VALUE(NAME, word, field, letters, text, ""), .standard = number,           \
-                                                 .names = all
-#define TEXT(field, letters, text) VALUE(TEXT, #field, field, letters, text, "")
-#define SWITCH(field, text)        VALUE(SWITCH, #field, field, NULL, text, "")
+    VALUE(NAME, word, letters, text, ""), .slot = OPTION_SLOT(field),          \
+                                          .standard = number, .names = all
+#define TEXT(field, letters, text)                                             \
+    VALUE(TEXT, #field, letters, text, ""), .offset = offsetof(Options, field)
+#define SWITCH(field, text)                                                    \
+    VALUE(SWITCH, #field, NULL, text, ""), .slot = OPTION_SLOT(field)
 
 /* What it may go on with: what the scene must have, how often it may be given,
  * a list of values (with what the window calls it); and in the row of numbers:
  * where, its longest value, what a pace adds. */
 #define NEEDS(what)           .needs = NEEDS_##what
-#define TIMES(n, field)       .times = n, .counter = offsetof(Options, field)
+#define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
 #define LIST(text)            .compared = true, .label = text
 #define LIVE                  .live = true
 #define IDLE(why)             .idle = why
@@ -113,7 +156,7 @@ const OptionRow option_rows[] = {
            "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
     {NAME("cells", cells, "on|off", "cells that cannot turn over", 0,
-          cells_names),
+          cells_name),
      NEEDS(BODY), LIST("cells")},
     {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
      NEEDS(BODY), LIST("yield")},
@@ -128,22 +171,22 @@ const OptionRow option_rows[] = {
     {SECTION("how it moves:")},
     {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),
      .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, ROW(1, 8, 0)},
-    {VALUE(METHOD, "integrator", integrator, "I", "", ""), NEEDS(TIME),
+    {NAME("integrator", integrator, "I", "", -1, integrator_name), NEEDS(TIME),
      LIST("method"), LIVE, ROW(8, 16, 0)},
     {NUMBER(tolerance, "T", "the search ends at |p|/h <= T", "m/s", 1e-2,
             1e-300, 1e300),
      NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
-    {NAME("solver", solver, "S", "", SOLVER_AUTO, solver_names), NEEDS(MESH),
+    {NAME("solver", solver, "S", "", SOLVER_AUTO, solver_name), NEEDS(MESH),
      LIST("solver"), LIVE, ROW(11, 15, 0)},
     {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(SPRINGS)},
-    {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_names),
+    {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_name),
      NEEDS(SPRINGS), LIST("projection"), LIVE, ROW(9, 9, 0)},
     {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK,
-          search_names),
+          line_search_name),
      NEEDS(MINIMUM), LIST("line search"), LIVE, ROW(10, 9, 0)},
 
     {SECTION("how long, and what is left behind:")},
-    {RANGE(LONG, "steps", steps, "N", "then end; without a screen after 100",
+    {RANGE(WHOLE, "steps", steps, "N", "then end; without a screen after 100",
            "", -1, 0, 1e15)},
     {SWITCH(paused, "at the start")},
     {NUMBER(speed, "S", "steps a frame, 60 frames a second", "", 0, 1.0 / 64,
@@ -157,8 +200,9 @@ const OptionRow option_rows[] = {
     {TEXT(log, "FILE", "CSV, a row per Newton iteration")},
     {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
     {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
-    {VALUE(PAGE, "lecture", page, "[PAGE]",
-           "page by page; Page Down is the next one", "")},
+    {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
+           ""),
+     .names = page_name},
     {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
     {SWITCH(quiet, "no summary")},
     {SWITCH(help, "this"), .letter = 'h'},
@@ -178,87 +222,63 @@ const OptionRow *option_find(const char *name)
     return NULL;
 }
 
-bool option_is_named(const OptionRow *row)
+const OptionRow *option_at(int slot)
 {
-    return row->kind == OPTION_NAME || row->kind == OPTION_METHOD;
-}
-
-const char *option_name(const OptionRow *row, int i)
-{
-    return row->kind == OPTION_METHOD ? integrator_methods[i].name
-           : row->kind == OPTION_PAGE ? lecture_pages[i].name
-                                      : row->names[i];
-}
-
-const char *solver_name(Solver solver)
-{
-    return solver_names[solver];
-}
-
-const char *filter_name(Filter filter)
-{
-    return filter_names[filter];
-}
-
-const char *line_search_name(LineSearch search)
-{
-    return search_names[search];
-}
-
-/* ---- numbers of options ------------------------------------------------- */
-
-static double option_get(const OptionRow *row, const Options *options)
-{
-    const char *field = (const char *)options + row->offset;
-    double number;
-    int whole;
-    if (row->kind == OPTION_METHOD) /* NULL: the first */
-        return options->integrator
-                   ? (double)(options->integrator - integrator_methods)
-                   : 0;
-    if (row->kind == OPTION_NUMBER) {
-        memcpy(&number, field, sizeof number);
-        return number;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        int count = row->count ? row->count : 1;
+        count *= row->times ? row->times : 1;
+        if (row->name[0] && row->kind <= OPTION_NAME && slot >= row->slot &&
+            slot < row->slot + count)
+            return row;
     }
-    memcpy(&whole, field, sizeof whole);
-    return whole;
+    return NULL;
 }
 
-void option_put(const OptionRow *row, int i, double number, Options *options)
+int option_names(const OptionRow *row)
 {
-    char *field = (char *)options + row->offset;
-    const int whole = (int)number;
-    const long large = (long)number;
-    if (row->kind == OPTION_METHOD)
-        options->integrator = &integrator_methods[whole];
-    else if (row->kind == OPTION_SWITCH)
-        *(bool *)(void *)field = true;
-    else if (row->kind == OPTION_NUMBER)
-        memcpy(field + (size_t)i * sizeof number, &number, sizeof number);
-    else if (row->kind == OPTION_LONG)
-        memcpy(field, &large, sizeof large);
-    else
-        memcpy(field + (size_t)i * sizeof whole, &whole, sizeof whole);
+    int count = 0;
+    while (row->kind == OPTION_NAME && row->names(count))
+        count++;
+    return count;
 }
 
-/* Whatever is no number begins as nothing; which integrator, the scene says. */
+const IntegratorMethod *options_integrator(const Options *options)
+{
+    int i = (int)options->integrator;
+    return i < 0 ? NULL : &integrator_methods[i];
+}
+
+/* Whatever is no number begins as nothing. */
 Options option_defaults(void)
 {
     Options options = {.cell_stiffness = 0.5, .panes = 1};
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->standard != 0)
-            option_put(row, 0, row->standard, &options);
+            options.number[row->slot] = row->standard;
     return options;
+}
+
+/* ---- numbers as text ---------------------------------------------------- */
+
+void option_write(const OptionRow *row, double value, char *text, size_t size)
+{
+    if (row->kind == OPTION_NAME) /* the scene's choice: the first */
+        snprintf(text, size, "%s", row->names((int)fmax(value, 0)));
+    if (row->kind == OPTION_NAME)
+        return;
+    snprintf(text, size, "%.15g", value);
+    if (strtod(text, NULL) != value)
+        snprintf(text, size, "%.17g", value);
 }
 
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size)
 {
-    double number = option_get(row, options);
-    if (option_is_named(row))
-        snprintf(text, size, "%s", option_name(row, (int)number));
+    double value = options->number[row->slot];
+    if (row->kind == OPTION_NAME)
+        option_write(row, value, text, size);
     else
-        snprintf(text, size, "%g", number);
+        snprintf(text, size, "%g", value);
 }
 
 /* ---- the row of numbers ------------------------------------------------- */
@@ -279,8 +299,8 @@ int options_row(const Options *options, const OptionRow *found[OPTIONS_MOST])
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->place == place && (row->needs & options->scene->needs) &&
                 !(row->idle && row->idle(options)) &&
-                (option_is_named(row) || row->pace > 0 ||
-                 option_get(row, options) > 0))
+                (row->kind == OPTION_NAME || row->pace > 0 ||
+                 options->number[row->slot] > 0))
                 found[count++] = row;
     return count;
 }
@@ -310,19 +330,19 @@ static double factor_paced(double value, double paces)
     return round_value(paces > 0 ? below + paces : below + 1 + paces);
 }
 
-void option_paced(const OptionRow *row, const Options *options, double paces,
-                  char *text, size_t size)
+double option_paced(const OptionRow *row, const Options *options, double paces)
 {
-    double value = option_get(row, options);
-    if (option_is_named(row)) {
-        int count = 0, now = (int)value + (paces < 0 ? -1 : 1);
-        while (option_name(row, count))
-            count++;
-        snprintf(text, size, "%s", option_name(row, (now + count) % count));
-        return;
+    double value = options->number[row->slot];
+    char text[32];
+    if (row->kind == OPTION_NAME) {
+        int count = option_names(row);
+        int now = (int)fmax(value, 0) + (paces < 0 ? -1 : 1);
+        return (now + count) % count;
     }
     value = row->pace > 0 ? (rint(value / row->pace) + rint(paces)) * row->pace
                           : factor_paced(value, paces);
     value = fmax(value, row->low);
-    snprintf(text, size, row->kind == OPTION_NUMBER ? "%.3g" : "%.0f", value);
+    snprintf(text, sizeof text, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g",
+             value);
+    return strtod(text, NULL);
 }

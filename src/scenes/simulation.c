@@ -49,7 +49,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     };
     Status status = options->scene->create(simulation, &settings);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
-        if (options->flips >> i & 1 && options->scene->parts[i])
+        if ((unsigned)options->flips >> i & 1 && options->scene->parts[i])
             exhibit_flip(simulation, i);
     if (!status)
         begin_ledger(simulation);
@@ -444,7 +444,7 @@ static bool expects_multigrid(const Options *options)
              options->segments > AUTO_NEWTON_SEGMENTS)) &&
            options->filter == FILTER_CLAMP &&
            options->line_search == LINE_SEARCH_BACKTRACK &&
-           !(options->integrator && options->integrator->averaged);
+           !integrator_methods[(int)fmax(options->integrator, 0)].averaged;
 }
 
 double simulation_bytes(const Options *options)
@@ -452,7 +452,7 @@ double simulation_bytes(const Options *options)
     if (!(options->scene->needs & NEEDS_MESH))
         return 0;
     double row = options->segments + 1.0, n = row * row;
-    if (options->integrator && !options->integrator->implicit)
+    if (!integrator_methods[(int)fmax(options->integrator, 0)].implicit)
         return 250 * n;
     if (expects_multigrid(options))
         return 655 * n;

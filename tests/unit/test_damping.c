@@ -661,7 +661,7 @@ TEST(other_methods_refuse_it)
         CHECK_STATUS(
             options_parse(1, arguments, &options, message, sizeof message),
             STATUS_OK);
-        options.integrator = method;
+        options.integrator = method - integrator_methods;
         CHECK_STATUS(
             options_set(&options, "damping", "0.1", message, sizeof message),
             STATUS_INVALID_INPUT);

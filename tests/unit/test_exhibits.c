@@ -85,7 +85,8 @@ TEST(mass_knows_its_path)
     double before[2], after[2];
     mass_exact(&simulation, 1, before);
     simulation_step(&simulation);
-    other.integrator = integrator_method("symplectic-euler");
+    other.integrator =
+        integrator_method("symplectic-euler") - integrator_methods;
     CHECK_STATUS(simulation_change(&simulation, &other), STATUS_OK);
     CHECK(mass_next_step(&simulation, 0, &step) && !step.by_old_v);
     mass_exact(&simulation, 1, after);
@@ -568,7 +569,7 @@ TEST(envelope_cells_are_runs)
         snprintf(line, sizeof line,
                  "square --segments %d --stretch %.17g --timestep %.17g "
                  "--stiffness %.17g",
-                 map.options.segments, map.options.stretch,
+                 (int)map.options.segments, map.options.stretch,
                  envelope_timestep(cells[i][0]),
                  envelope_stiffness(cells[i][1]));
         simulation_from_line(line, NULL, NULL, &run);

@@ -163,7 +163,8 @@ TEST(values_are_read)
     CHECK(o.minimum && o.paused && o.fullscreen && o.headless && o.quiet);
     CHECK(o.help && o.version && o.list);
     o = parse_good(""); /* of the integrators: the scene's choice */
-    CHECK(o.scene == scenes && !o.integrator && o.steps == -1 && !o.minimum);
+    CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1 &&
+          !o.minimum);
     CHECK(!o.frames && !o.states && !o.log && !o.page && o.panes == 1);
     CHECK(!o.headless && !o.quiet && !o.help && !o.version && !o.list);
     assert_string_equal(parse_good("--lecture").page->name, "solid");
@@ -219,9 +220,43 @@ TEST(names_are_read)
     CHECK(parse_good("--solver multigrid").solver == SOLVER_MULTIGRID);
     CHECK(parse_good("--cells on").cells == 1);
     CHECK(parse_good("--integrator implicit-euler").integrator ==
-          integrator_method("backward-euler"));
+          integrator_method("backward-euler") - integrator_methods);
     CHECK(parse_good("--integrator Explicit_Euler").integrator ==
-          integrator_method("forward-euler"));
+          integrator_method("forward-euler") - integrator_methods);
+}
+
+/* A number that is one already is held against the same rows. */
+TEST(slots_are_held_against_their_rows)
+{
+    static const struct {
+        int slot;
+        double good, bad;
+    } rows[] = {{OPTION_SLOT(timestep), 0.1, 0},
+                {OPTION_SLOT(segments), 7, 7.5},
+                {OPTION_SLOT(filter), FILTER_ABS, FILTER_COUNT},
+                {OPTION_SLOT(cells), 1, -1},
+                {OPTION_SLOT(yield), 0, 1e-10}, /* 0: by default */
+                {OPTION_SLOT(at[1]), -2, NAN},
+                {OPTION_SLOT(ground[1][2]), 5, INFINITY}};
+    char message[512];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Options options = parse_good("");
+        int slot = rows[i].slot;
+        CHECK_STATUS(options_set_number(&options, slot, rows[i].good, message,
+                                        sizeof message),
+                     STATUS_OK);
+        CHECK(options.number[slot] == rows[i].good);
+        CHECK_STATUS(options_set_number(&options, slot, rows[i].bad, message,
+                                        sizeof message),
+                     STATUS_INVALID_INPUT);
+        CHECK(options.number[slot] == rows[i].good);
+        CHECK(strstr(message, option_at(slot)->name) != NULL);
+    }
+    Options circle = parse_good("circle");
+    CHECK_STATUS(options_set_number(&circle, OPTION_SLOT(side), 2, message,
+                                    sizeof message),
+                 STATUS_INVALID_INPUT);
+    CHECK(strstr(message, "has no square") != NULL);
 }
 
 TEST(scenes_stand_anywhere)
@@ -384,20 +419,21 @@ TEST(numbers_are_worked_out)
         char value[64], again[64], message[512];
         Options typed, meant;
         const OptionRow *row = option_find(rows[i][0]);
-        option_meant(row, rows[i][1], value, sizeof value);
-        assert_string_equal(value, rows[i][2] ? rows[i][2] : rows[i][1]);
+        double number = NAN;
+        bool known = option_read(row, rows[i][1], &number);
+        CHECK(known == (rows[i][2] != NULL));
+        option_write(row, number, value, sizeof value);
+        CHECK(!known || strcmp(value, rows[i][2]) == 0);
         Status status = set_option(&typed, row->name, rows[i][1], message);
         CHECK_STATUS(status, rows[i][2] ? STATUS_OK : STATUS_INVALID_INPUT);
         if (status)
             continue;
         CHECK_STATUS(set_option(&meant, row->name, value, again), STATUS_OK);
-        CHECK(memcmp((char *)&typed + row->offset, (char *)&meant + row->offset,
-                     row->kind == OPTION_NUMBER ? sizeof(double)
-                                                : sizeof(int)) == 0);
+        CHECK(typed.number[row->slot] == meant.number[row->slot]);
     }
-    char value[64];
-    option_meant(option_find("filter"), "abs", value, sizeof value);
-    assert_string_equal(value, "abs");
+    double value;
+    CHECK(option_read(option_find("filter"), "abs", &value));
+    CHECK(value == FILTER_ABS);
     CHECK(parse_good("--at 10cm,5mm").at[1] == 0.005);
 }
 
@@ -430,16 +466,16 @@ TEST(the_row_has_its_places_and_paces)
         CHECK_STATUS(options_set(&options, row->name, paces[i][1], message,
                                  sizeof message),
                      STATUS_OK);
-        option_paced(row, &options, 1, text, sizeof text);
-        assert_string_equal(text, paces[i][2]);
-        option_paced(row, &options, -1, text, sizeof text);
-        assert_string_equal(text, paces[i][3]);
-        option_paced(row, &options, 1, text, sizeof text);
+        for (int up = 0; up < 2; up++) {
+            double paced = option_paced(row, &options, up ? 1 : -1), wanted;
+            CHECK(option_read(row, paces[i][up ? 2 : 3], &wanted));
+            CHECK_NEAR(paced, wanted, 0);
+        }
+        option_value(row, &options, text, sizeof text);
         CHECK(strlen(text) <= (size_t)row->letters || i >= 8);
     }
     options.timestep = 0.01;
-    option_paced(found[0], &options, 1.5, text, sizeof text); /* 10^(1.5/6) */
-    assert_string_equal(text, "0.0178");
+    CHECK(option_paced(found[0], &options, 1.5) == 0.0178); /* 10^(1.5/6) */
     options = parse_good("overshoot");
     for (int i = 0; i < options_row(&options, found); i++)
         strcat(strcat(names, found[i]->name), " ");

@@ -118,7 +118,7 @@ TEST(steps_are_pure)
         runs += check_run(&options);
         for (const IntegratorMethod *method = integrator_methods; method->name;
              method++) {
-            options.integrator = method;
+            options.integrator = method - integrator_methods;
             options.timestep = method->implicit ? options.timestep : 1e-4;
             runs += check_run(&options);
         }
@@ -162,7 +162,7 @@ TEST(another_timestep_begins_anew)
     for (int m = 0; m < 2; m++) {
         Simulation simulation, fresh;
         Options options = line_options("--segments 3 --timestep 1e-3");
-        options.integrator = integrator_method(methods[m]);
+        options.integrator = integrator_method(methods[m]) - integrator_methods;
         CHECK_STATUS(simulation_create(&options, NULL, NULL, &simulation),
                      STATUS_OK);
         for (int i = 0; i < 5; i++)
