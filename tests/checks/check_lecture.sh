@@ -44,11 +44,8 @@ ends() {
         <err || echo "lecture $*: $(wc -l <err) lines on standard error"
 }
 verdict bad_arguments_end_with_2 "$(
-    for argument in --help -h foo k k= =1 k=x k=1x 'k= ' k=nan k=inf k=0 k=-1 \
-        rho=0 side_len=0 h=0 h=-1 tol=0 tol=-1 initial_stretch=nan n_seg=0 \
-        n_seg=1.5 n_seg=1e9 steps=-1 steps=0.5 method=3 K=1 states k=1=2 \
-        'k=1 h=2' 1e5 initial_stretc=1; do
-        ends 2 "$argument"
+    for argument in --help foo k k= =1 k=1x 'k= ' k=nan k=inf rho=0 h=-1 \
+        n_seg=1.5 n_seg=1e9 steps=0.5 method=3 K=1 states k=1=2 'k=1 h=2' 1e5; do
         ends 2 steps=1 "$argument"
     done
 )"

@@ -1,0 +1,228 @@
+#!/bin/sh
+# Command lines, a row each: exit code, what is said, and what is in the tables
+# afterwards.
+set -u
+failed=0
+elasto=$(realpath "${ELASTO:-build/elasto}")
+. "$(dirname "$0")/verdict.sh"
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM
+cd "$work" || exit 1
+unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+
+# ---- what is refused ---------------------------------------------------------
+# k.csv has a link, one of a link, and a second name; d is a folder; jump is a
+# script: nothing else is there, and nothing is made or changed.  Code, words of
+# the one line on standard error, arguments.
+pages=$("$elasto" --lecture --list | wc -l)
+refusals() {
+    echo precious >k.csv
+    ln -s k.csv link
+    ln -s link chain
+    ln k.csv hard
+    ln -s round round
+    mkdir d
+    echo '0 jump' >jump
+    ls -A >../before.$$
+    while IFS='|' read -r expected words arguments; do
+        # shellcheck disable=SC2086
+        timeout 60 "$elasto" $arguments >../out.$$ 2>../error.$$
+        code=$?
+        [ $code = "$expected" ] || echo "$arguments: exit $code"
+        [ "$(wc -l <../error.$$)" -eq 1 ] && grep -q -e "$words" ../error.$$ ||
+            echo "$arguments: $(cat ../error.$$)"
+        [ ! -s ../out.$$ ] || echo "$arguments: something on standard output"
+        [ "$(cat k.csv)" = precious ] || echo "$arguments: k.csv is lost"
+        ls -A | cmp -s - ../before.$$ || echo "$arguments: $(ls -A)"
+    done
+}
+mkdir refused
+cd refused || exit 1
+verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
+2|--segments: '0' .*from 1 to 4096|--segments 0
+2|--timestep: 'nan' .*a number from 1e-30 to 1e30|--timestep=nan
+2|--steps: '1.5' .*a whole number from 0 to 1e15|--steps=1.5
+2|--solver: 'NEWTON' .*none of: |--solver NEWTON
+2|--start: '1,2,3' .*X,Y|landscape --start=1,2,3
+2|--frames.*missing|--frames
+2|--log.*empty|--log=
+2|no option --nonsense.*--help|--nonsense --states k.csv
+2|did you mean --segments?|--segment5
+2|'nowhere'.*--list|nowhere
+2|'circle'.*one scene|square circle
+2|--tolerance.*'circle'.*no minimum|circle --tolerance 1
+2|side by side|--segments 1,2,3 --stiffness 1,2,3
+2|--segments|--states k.csv --segments 5000
+2|--density|--states k.csv --log l.csv --density 1,1e-320
+2|from 1 to $pages|--lecture 0
+2|from 1 to $pages|--lecture $((pages + 1))
+2|did you mean dial|--lecture dail
+2|--segments|--lecture 3 --segments 5
+2|'circle'|circle --lecture
+2|--steps|--handout x.html --steps 3
+2|a page in HTML|--handout x.pdf
+1|missing/x.html|--handout missing/x.html
+2|line 1.*'jump'.* pause .* set .* escape$|--headless --script jump
+2|nowhere: No such file|--headless --script nowhere
+2|one file|--states k.csv --log k.csv
+2|one file|--states k.csv --log ./k.csv
+2|one file|--states k.csv --log $work/refused/d/../k.csv
+2|one file|--states chain --log k.csv
+2|one file|--states link --log hard
+2|one file|--states new --log d/../new
+2|one file|--states - --log -
+2|one file|--states - --log /dev/stdout
+2|one file|--states /dev/fd/1 --log /proc/self/fd/1
+2|--log 'k.csv' and --script 'hard'|--log k.csv --script hard
+2|--states 'new' and --script|--states new --script new.part
+2|--states 'd' and --frames|--states d --frames d/
+2|--states 'new' and --frames './new'|--states new --frames ./new
+2|--film 'n.gif' and --frames|--film n.gif --frames d/../n.gif
+2|--film 'n.gif' and --script|--film n.gif --script n.gif
+2|a table in CSV|--states s.npy
+2|a table in CSV|--log l.json
+2|a table in CSV|--states d/k.csv.part
+2|a table in CSV|--film n.apng --log n.apng
+2|.mp4, .webm, .gif or .apng|--headless --film n.avi
+2|.mp4, .webm, .gif or .apng|--headless --film -
+2|does not end|--headless --film n.avi --timestep 0.004,0.01
+1|Is a directory|--headless --states d
+1|No such file|--headless --states d/e/k
+1|No such file|--headless --states k.csv --log d/e/k
+1|symbolic links|--headless --states round
+END
+)"
+cd "$work" || exit 1
+
+# No control reaches the terminal: of ASCII, of C1 as UTF-8 and as one byte, of
+# the direction of writing.
+odd=$(printf 'no\nwhere\033[31m\302\233m\233m\342\200\256\342\201\246x')
+one_clean_line() { # what
+    [ "$(wc -l <error)" -eq 1 ] || echo "$1: $(wc -l <error) lines"
+    LC_ALL=C grep -q "$(printf '[\033\200-\237]')" error &&
+        echo "$1: a control gets through"
+}
+names() {
+    printf '0 %s\n' "$odd" >script
+    printf '0 page %s\n' "${odd#*where}" >other
+    while read -r option; do
+        "$elasto" --headless --quiet --steps 1 "$option$odd" >out 2>error &&
+            echo "$option: it is taken"
+        one_clean_line "$option"
+    done <<'END'
+--states=/nowhere/
+--frames=/dev/null/
+--film=
+--script=
+--script=script
+--
+--side=
+x
+END
+    "$elasto" --headless --steps 1 --quiet --script other 2>error
+    one_clean_line 'a page'
+    "$elasto" --headless --quiet --steps 1 --states "$odd" 2>error || cat error
+    rm "$odd"
+    "$elasto" --headless --steps 0 --frames "$odd" >out
+    [ "$(wc -l <out)" = "$("$elasto" --headless --steps 0 | wc -l)" ] ||
+        echo "the summary has $(wc -l <out) lines"
+    for option in segments stiffness; do
+        "$elasto" "--$option" "$(printf 'x%0500d' 0)" 2>error
+        one_clean_line $option
+        grep -q ' from .* to ' error || echo "--$option: no range: $(cat error)"
+    done
+}
+verdict messages_are_one_line "$(names)"
+
+if [ -c /dev/full ]; then
+    verdict a_full_output_is_called_what_it_was "$(
+        while IFS='|' read -r what arguments; do
+            # shellcheck disable=SC2086
+            "$elasto" $arguments >/dev/full 2>error
+            [ $? = 1 ] && [ "$(cat error)" = \
+                "elasto: cannot write the $what: No space left on device" ] ||
+                echo "$what: $(cat error)"
+        done <<'END'
+help|--help
+version|--version
+list|--list
+summary|--headless --steps 1
+END
+    )"
+fi
+
+# ---- what scenes leave -------------------------------------------------------
+# Code, rows of the states, arguments; below it a test in awk: what it prints is
+# wrong.  Of the log or the summary where it says so, else of the states.
+scenes() {
+    while IFS='|' read -r expected rows arguments && read -r test; do
+        # shellcheck disable=SC2086
+        timeout 60 "$elasto" $arguments --headless --states states --log log \
+            >summary 2>error
+        code=$?
+        [ $code = "$expected" ] || echo "$arguments: exit $code"
+        [ $(($(wc -l <states) - 1)) = "$rows" ] ||
+            echo "$arguments: $(wc -l <states) lines"
+        case $test in
+        summary*) awk "${test#summary}" summary ;;
+        log*) awk -F, "${test#log}" log ;;
+        *) awk -F, "$test" states ;;
+        esac | sed "s/^/$arguments: /"
+    done
+}
+verdict scenes_leave_what_they_should "$(scenes <<'END'
+0|63|circle --steps 20
+NR > 61 { r[$3] = sqrt($4^2 + $5^2) } END { if (!(r[0] > 1.1 && r[1] > 0.95 && r[1] < 1.05 && r[2] < 0.9)) print r[0], r[1], r[2] }
+0|21|circle --steps 20 --integrator verlet
+NR > 1 && NF != 7
+3|3|overshoot
+(NR == 3 && $4 > -11.6449585) || (NR == 4 && !($4 > 3.2e9 && $4 < 3.3e9)) || (NR > 1 && $2 != 0)
+3|3|overshoot
+log NR == 2 && ($13 != 2 || $15 > -11.64)
+3|3|overshoot
+summary /^steps not converged 1/ { n = 1 } END { if (!n) print "the summary is silent" }
+0|7|overshoot --line-search backtrack
+log NR > 1 && $7 >= 0
+0|7|overshoot --line-search backtrack
+{ x = $4 } END { if (!(x < 1e-9 && x > -1e-9)) print x }
+3|6|landscape --filter none
+log NR > 1 && !($6 > 0 && $4 == 0)
+0|18|landscape
+log NR > 1 && !($6 < 0)
+3|15|landscape --filter none --line-search none
+NF != 7
+0|24|landscape --start 1,1
+NR == 2 && $0 != "0,0,0,1,1,0,0"
+3|150|unprojected --steps 5
+log $4 == 0 && $6 > 0 { n = 1 } END { if (!n) print "no direction uphill" }
+0|775|unprojected --steps 30 --filter clamp
+NF != 7
+0|150|square --steps 5 --timestep 0.001 --integrator forward-euler
+summary /^(Newton|factorisations|solves|matrix)/
+0|150|square --steps 5 --timestep 0.001 --integrator verlet
+summary /^(Newton|factorisations|solves|matrix)/
+0|75|square --steps 2
+summary /^(Newton iterations|factorisations|solves|matrix entries)  *[1-9]/ { n++ } END { if (n != 4) print n }
+0|75|square --steps 2
+summary /^energy at start     103680 J$/ { n++ } END { if (!n) print "20 springs along with strain 0.96, 32 diagonals with 0.48, l2 k/2 strain^2 each" }
+0|3468|square --steps 2 --segments 33
+summary /^V-cycles  *[1-9]/ { n = 1 } /^(factorisations|solves)/ { n = 0 } END { if (!n) print "not by V-cycles" }
+0|4335|square --segments 16 --minimum --steps 14
+summary /^saddles left  *[1-9]/ { n = 1 } /^V-cycles/ { n = 0 } END { if (!n) print "none was left, or not by newton" }
+0|4335|square --segments 16 --steps 14
+summary /^saddles left/
+END
+)"
+
+verdict lists_have_a_sentence_each "$(
+    "$elasto" --list | awk '
+        NF < 4 || length($0) > 80
+        { names = names " " $1 }
+        END { if (names !~ /^ square circle overshoot landscape/) print names }'
+    "$elasto" --lecture --list | awk '$1 != NR || NF < 3
+        END { if (NR < 26) print NR, "pages" }'
+)"
+
+exit $failed
