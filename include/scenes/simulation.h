@@ -36,7 +36,9 @@ typedef struct Simulation {
     SquareMesh mesh;                  /* zeroed in scenes without a square */
     System system;                    /* of run 0, and of all others but */
     System more[SIMULATION_MAX_RUNS]; /* where runs differ: run 1, 2 */
-    int runs, stepping; /* the run whose step is made, while it is made */
+    int runs;
+    int stepping; /* the run whose step is made, while it is made */
+    Status worst; /* of the runs before it */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     double start[SIMULATION_MAX_RUNS]; /* J, total energy when it began */
     Descent descent;       /* zeroed in scenes that move through time */
@@ -91,6 +93,14 @@ void simulation_free(Simulation *simulation);
  * OK; an unconverged status: the step was made; a failure or INTERRUPTED:
  * nothing moved in the run that failed. */
 Status simulation_step(Simulation *simulation);
+
+/* The same, a Newton iteration at a time: both return RUNNING while there is
+ * more to do, and at the end as simulation_step. */
+Status simulation_begin(Simulation *simulation);
+Status simulation_iterate(Simulation *simulation);
+
+/* Leaves a step that was begun; state_restore has to follow. */
+void simulation_drop(Simulation *simulation);
 
 /* For scenes that show iterations: keeps the record and passes it on to the
  * observer; false: the observer asks to stop. */

@@ -1,9 +1,12 @@
 /* time_integrator.h - one step forward in time (slide time_integrator.py).
  *
- * A method's step function (methods.c) reads x and v, those of t_n, and fills
- * new_x and new_v, those of t_n + h, which become x and v unless it fails or
- * one of them is not finite.  Implicit ones fill u_tilde and call
- * time_integrator_minimise.
+ * A method (methods.c) reads x and v, those of t_n, and fills new_x and new_v,
+ * those of t_n + h, which become x and v unless one of them is not finite.
+ * Explicit ones do so at once.  Implicit ones minimise E once or, stage by
+ * stage, several times: aim says what, land reads the minimiser.
+ *
+ * A step can be made an iteration of Newton's method at a time:
+ * time_integrator_begin, then time_integrator_iterate while it is RUNNING.
  */
 #ifndef ELASTO_TIME_INTEGRATOR_H
 #define ELASTO_TIME_INTEGRATOR_H
@@ -21,7 +24,14 @@ typedef struct IntegratorMethod {
     bool at_end;       /* x_(n+1) is the minimiser itself: all terms will do */
     bool damps;        /* takes energy out of motion: it comes to rest */
     int memory;        /* arrays [2n] kept between steps */
-    Status (*step)(TimeIntegrator *);
+    int stages;        /* minimisations of a step; explicit: 0 */
+    /* Fills newton->u_tilde and weight for the present stage, x_n where that is
+     * not x.  Gravity is added to it by completing the square:
+     *   |u - u_tilde|_M^2/2 - weight m g.u
+     *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
+    void (*aim)(TimeIntegrator *);
+    void (*land)(TimeIntegrator *); /* from newton->at.u; the last stage, and an
+                                       explicit method, fill new_x and new_v */
 } IntegratorMethod;
 
 struct TimeIntegrator {
@@ -42,6 +52,15 @@ struct TimeIntegrator {
     double *memory;  /* [memory * 2n] what the method remembers */
     double memory_h; /* s, of the step that it is of; 0: it holds nothing */
     Newton *newton;  /* NULL for explicit methods */
+    /* Of the step that is being made: */
+    int stage;         /* 0 ... stages - 1 */
+    const double *x_n; /* [2n] m, where its minimisation begins */
+    double weight;     /* s^2, of P in it */
+    double left;       /* part of the way of moved things, still to go; */
+    int part;          /* their parts so far, */
+    long before;       /* Newton's iterations before the first of them; */
+    bool blocked;      /* they can go no further, */
+    double tolerance;  /* m/s, of the last part; of those before it is looser */
 };
 
 /* The table; it ends with a row whose name is NULL. */
@@ -64,18 +83,19 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const double *v, TimeIntegrator *integrator);
 void time_integrator_free(TimeIntegrator *integrator);
 
-/* One step.  OK; or a status for which status_is_unconverged holds: the step
- * was made with the best iterate; or a failure: x, v are those of t_n. */
-Status time_integrator_step(TimeIntegrator *integrator);
+/* Begins a step; one Newton iteration of it.  Both return RUNNING while there
+ * is more to do.  At the end of the step: OK; or a status for which
+ * status_is_unconverged holds: the step was made with the best iterate; or a
+ * failure: x, v are those of t_n. */
+Status time_integrator_begin(TimeIntegrator *integrator);
+Status time_integrator_iterate(TimeIntegrator *integrator);
 
-/* For step functions: minimises with newton->u_tilde as target, to which it
- * adds weight times gravity: completing the square,
- *   |u - u_tilde|_M^2/2 - weight m g.u
- *       = |u - (u_tilde + weight g)|_M^2/2 + constant.
- * Returns OK where newton->at.u can be used, or a failure; integrator->status
- * tells whether it has converged. */
-Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
-                                double weight);
+/* Leaves a step that was begun.  x and v are those of t_n; what the terms
+ * remember and where walls are the caller restores. */
+void time_integrator_drop(TimeIntegrator *integrator);
+
+/* A whole step.  Returns as time_integrator_iterate at its end. */
+Status time_integrator_step(TimeIntegrator *integrator);
 
 /* Whether the forces at x balance: whether the test of Algorithm 3 would be
  * passed by a step from rest that is so long that the masses hardly count.  Its

@@ -69,21 +69,6 @@ void simulation_free(Simulation *simulation)
     *simulation = (Simulation){0};
 }
 
-/* A step in time of every run; the last status that is not OK counts. */
-static Status step_runs(Simulation *simulation)
-{
-    Status worst = STATUS_OK;
-    for (int i = 0; i < simulation->runs; i++) {
-        simulation->stepping = i;
-        Status status = time_integrator_step(&simulation->run[i]);
-        if (status)
-            worst = status;
-        if (status && !status_is_unconverged(status))
-            break;
-    }
-    return worst;
-}
-
 int simulation_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
@@ -119,22 +104,64 @@ static void compare_prediction(Simulation *simulation)
     prediction->shown = true;
 }
 
-Status simulation_step(Simulation *simulation)
+/* The step is over, or could not be made. */
+static Status end_step(Simulation *simulation, Status status)
+{
+    simulation->status = status;
+    if (status && !status_is_unconverged(status))
+        return status;
+    simulation->steps++;
+    compare_prediction(simulation);
+    if (status)
+        simulation->reasons[status]++;
+    if (status && simulation->unconverged++ == 0)
+        simulation->first = status;
+    return status;
+}
+
+/* From a run whose step is over to the next; of all statuses the last one that
+ * is not OK counts. */
+static Status go_on(Simulation *simulation, Status status)
+{
+    while (status != STATUS_RUNNING) {
+        simulation->worst = status ? status : simulation->worst;
+        if ((status && !status_is_unconverged(status)) ||
+            ++simulation->stepping == simulation->runs)
+            return end_step(simulation, simulation->worst);
+        status = time_integrator_begin(&simulation->run[simulation->stepping]);
+    }
+    return STATUS_RUNNING;
+}
+
+Status simulation_begin(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
     if (simulation->done)
         return STATUS_OK;
-    simulation->status =
-        scene->step ? scene->step(simulation) : step_runs(simulation);
-    if (simulation->status && !status_is_unconverged(simulation->status))
-        return simulation->status;
-    simulation->steps++;
-    compare_prediction(simulation);
-    if (simulation->status)
-        simulation->reasons[simulation->status]++;
-    if (simulation->status && simulation->unconverged++ == 0)
-        simulation->first = simulation->status;
-    return simulation->status;
+    if (scene->step)
+        return end_step(simulation, scene->step(simulation));
+    simulation->stepping = 0;
+    simulation->worst = STATUS_OK;
+    return go_on(simulation, time_integrator_begin(&simulation->run[0]));
+}
+
+Status simulation_iterate(Simulation *simulation)
+{
+    TimeIntegrator *run = &simulation->run[simulation->stepping];
+    return go_on(simulation, time_integrator_iterate(run));
+}
+
+void simulation_drop(Simulation *simulation)
+{
+    time_integrator_drop(&simulation->run[simulation->stepping]);
+}
+
+Status simulation_step(Simulation *simulation)
+{
+    Status status = simulation_begin(simulation);
+    while (status == STATUS_RUNNING)
+        status = simulation_iterate(simulation);
+    return status;
 }
 
 bool simulation_record(Simulation *simulation, const NewtonRecord *record)

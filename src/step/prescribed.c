@@ -10,7 +10,7 @@
 
 /* Halvings of a part of the way, and parts of it; a wall at 50 m/s in steps of
  * 0.01 s onto cells of 1/8 m needs 19 parts. */
-enum { MAX_HALVINGS = 40, MAX_ROUNDS = 100 };
+enum { MAX_HALVINGS = 40, MAX_PARTS = 100 };
 
 /* Nodes that a wall would touch are carried along and keep this much of the
  * barrier's width. */
@@ -96,43 +96,66 @@ static bool make_part(TimeIntegrator *integrator, const double *x_n,
     return false;
 }
 
-Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
-                           double weight)
+/* Puts things on their way, and starts from there.  A first guess, from which
+ * another part follows, need not be exact. */
+static Status start_part(TimeIntegrator *integrator)
 {
     Newton *newton = integrator->newton;
-    double tolerance = newton->settings.tolerance, left = 1;
     double *u = integrator->new_x, *x = integrator->new_v;
-    long before = newton->counters.iterations;
-    Status status = STATUS_OK;
-    for (int round = 0; left > 0; round++) {
-        double part = left;
-        int halvings = 0;
-        while (halvings < MAX_HALVINGS && round < MAX_ROUNDS &&
-               !make_part(integrator, x_n, part, round == 0, u, x)) {
-            part /= 2;
-            halvings++;
-        }
-        bool blocked = halvings == MAX_HALVINGS || round == MAX_ROUNDS;
-        if (blocked) /* nothing moves any more in this step */
-            make_part(integrator, x_n, 0, round == 0, u, x);
-        else
-            integrator->moved += part;
-        left = blocked ? 0 : left - part;
-        if (left > 0)
-            newton->settings.tolerance = 10 * tolerance + 0.01;
-        status = newton_minimise(newton, x_n, u, weight);
-        newton->settings.tolerance = tolerance;
-        if (status && !status_is_unconverged(status))
-            return status;
-        if (blocked && !status)
-            status = STATUS_BLOCKED;
-        if (left > 0 && newton->counters.iterations - before >=
-                            newton_most_iterations(newton)) {
-            left = 0; /* all parts together get no more than one would */
-            status = STATUS_ITERATION_LIMIT;
-        }
+    double part = integrator->left;
+    int halvings = 0;
+    bool first = integrator->part == 0;
+    while (halvings < MAX_HALVINGS && integrator->part < MAX_PARTS &&
+           !make_part(integrator, integrator->x_n, part, first, u, x)) {
+        part /= 2;
+        halvings++;
     }
-    return status;
+    integrator->blocked =
+        halvings == MAX_HALVINGS || integrator->part == MAX_PARTS;
+    if (integrator->blocked) /* nothing moves any more in this step */
+        make_part(integrator, integrator->x_n, 0, first, u, x);
+    else
+        integrator->moved += part;
+    integrator->left = integrator->blocked ? 0 : integrator->left - part;
+    integrator->part++;
+    if (integrator->left > 0)
+        newton->settings.tolerance = 10 * integrator->tolerance + 0.01;
+    return newton_start(newton, integrator->x_n, u, integrator->weight);
+}
+
+Status prescribed_start(TimeIntegrator *integrator)
+{
+    const Newton *newton = integrator->newton;
+    integrator->left = 1;
+    integrator->part = 0;
+    integrator->before = newton->counters.iterations;
+    integrator->tolerance = newton->settings.tolerance;
+    return start_part(integrator);
+}
+
+Status prescribed_next(TimeIntegrator *integrator, Status status)
+{
+    Newton *newton = integrator->newton;
+    newton->settings.tolerance = integrator->tolerance;
+    if (status && !status_is_unconverged(status))
+        return status;
+    if (integrator->blocked && !status)
+        return STATUS_BLOCKED;
+    if (integrator->left <= 0)
+        return status;
+    if (newton->counters.iterations - integrator->before >=
+        newton_most_iterations(newton)) /* all parts get no more than one */
+        return STATUS_ITERATION_LIMIT;
+    status = start_part(integrator);
+    if (status == STATUS_RUNNING)
+        return status;
+    newton_finish(newton);
+    return prescribed_next(integrator, newton->status);
+}
+
+void prescribed_drop(TimeIntegrator *integrator)
+{
+    integrator->newton->settings.tolerance = integrator->tolerance;
 }
 
 /* Of the pins: their reaction, which is what E's gradient has in their places,

@@ -15,10 +15,16 @@
  * Returns whether anything moves. */
 bool prescribed_begin(TimeIntegrator *integrator);
 
-/* Minimises E with u_tilde as target from where the motion has put things.
- * Returns as newton_minimise; BLOCKED where they could not be put there. */
-Status prescribed_minimise(TimeIntegrator *integrator, const double *x_n,
-                           double weight);
+/* Starts to minimise E with u_tilde as target from where the motion has put
+ * things.  Returns as newton_start. */
+Status prescribed_start(TimeIntegrator *integrator);
+
+/* After one of its minimisations: starts the next one, RUNNING; or how all of
+ * them ended, BLOCKED where things could not be put where they belong. */
+Status prescribed_next(TimeIntegrator *integrator, Status status);
+
+/* Newton's tolerance is that of the settings again. */
+void prescribed_drop(TimeIntegrator *integrator);
 
 /* After a step was minimised: J, what those who moved things have done in it.
  */

@@ -83,15 +83,10 @@ static void change_terms(TimeIntegrator *integrator, bool at_end)
         system_changed(system, false);
 }
 
-Status time_integrator_step(TimeIntegrator *integrator)
+/* All stages are over, or one failed. */
+static Status end_step(TimeIntegrator *integrator, Status failure)
 {
     size_t both = 2 * integrator->size; /* v is behind x, new_v behind new_x */
-    integrator->status = STATUS_OK;
-    if (integrator->newton)
-        integrator->newton->change = 0;
-    integrator->moves = prescribed_begin(integrator);
-    change_terms(integrator, false);
-    Status failure = integrator->method->step(integrator);
     if (!failure && !all_finite(integrator->new_x, both)) {
         integrator->memory_h = 0;
         failure = STATUS_NOT_FINITE;
@@ -108,22 +103,76 @@ Status time_integrator_step(TimeIntegrator *integrator)
     return integrator->status;
 }
 
-Status time_integrator_minimise(TimeIntegrator *integrator, const double *x_n,
-                                double weight)
+/* The minimisation of the present stage begins. */
+static Status begin_stage(TimeIntegrator *integrator)
 {
     const System *system = integrator->system;
+    Newton *newton = integrator->newton;
+    integrator->x_n = integrator->x;
+    integrator->method->aim(integrator);
     if (system_has_gravity(system))
         for (size_t i = 0; i < integrator->size; i++)
-            integrator->newton->u_tilde[i] += weight * system->gravity[i % 2];
-    integrator->newton->step = integrator->steps + 1;
-    Status status =
-        integrator->moves
-            ? prescribed_minimise(integrator, x_n, weight)
-            : newton_minimise(integrator->newton, x_n, NULL, weight);
-    if (!status_is_unconverged(status))
-        return status;
-    integrator->status = status;
-    return STATUS_OK;
+            newton->u_tilde[i] += integrator->weight * system->gravity[i % 2];
+    newton->step = integrator->steps + 1;
+    return integrator->moves ? prescribed_start(integrator)
+                             : newton_start(newton, integrator->x_n, NULL,
+                                            integrator->weight);
+}
+
+/* From a minimisation that is over to the next one, to the end where none is
+ * left. */
+static Status go_on(TimeIntegrator *integrator, Status status)
+{
+    while (status != STATUS_RUNNING) {
+        newton_finish(integrator->newton);
+        status = integrator->newton->status;
+        if (integrator->moves)
+            status = prescribed_next(integrator, status);
+        if (status == STATUS_RUNNING)
+            break;
+        if (status && !status_is_unconverged(status))
+            return end_step(integrator, status);
+        if (status)
+            integrator->status = status;
+        integrator->method->land(integrator);
+        if (++integrator->stage == integrator->method->stages)
+            return end_step(integrator, STATUS_OK);
+        status = begin_stage(integrator);
+    }
+    return STATUS_RUNNING;
+}
+
+Status time_integrator_begin(TimeIntegrator *integrator)
+{
+    integrator->status = STATUS_OK;
+    integrator->stage = 0;
+    if (integrator->newton)
+        integrator->newton->change = 0;
+    integrator->moves = prescribed_begin(integrator);
+    change_terms(integrator, false);
+    if (integrator->newton)
+        return go_on(integrator, begin_stage(integrator));
+    integrator->method->land(integrator);
+    return end_step(integrator, STATUS_OK);
+}
+
+Status time_integrator_iterate(TimeIntegrator *integrator)
+{
+    return go_on(integrator, newton_iterate(integrator->newton));
+}
+
+void time_integrator_drop(TimeIntegrator *integrator)
+{
+    if (integrator->moves && integrator->newton)
+        prescribed_drop(integrator);
+}
+
+Status time_integrator_step(TimeIntegrator *integrator)
+{
+    Status status = time_integrator_begin(integrator);
+    while (status == STATUS_RUNNING)
+        status = time_integrator_iterate(integrator);
+    return status;
 }
 
 /* A Newton object of its own: nothing that the run remembers is touched. */

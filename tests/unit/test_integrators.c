@@ -279,7 +279,7 @@ TEST(the_table_is_complete)
     CHECK(integrator_method("") == NULL);
     for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
         Pair pair;
-        CHECK(integrator_method(row->name) == row && row->label && row->step);
+        CHECK(integrator_method(row->name) == row && row->label && row->land);
         CHECK(row->order >= 1);
         pair_create(row->name, 1e-3, &pair);
         CHECK((pair.run.newton != NULL) == row->implicit);
