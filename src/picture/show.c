@@ -7,7 +7,6 @@
 #include "picture/frame.h"
 #include "picture/handles.h"
 #include "picture/picture.h"
-#include "picture/square_picture.h"
 
 void show_create(const Simulation *simulation, Show *show)
 {
@@ -144,18 +143,6 @@ long show_step_at(const Show *show, const Layout *layout, double x)
 const double *pane_x(const Pane *pane)
 {
     return pane->x ? pane->x : pane->simulation->run[0].x;
-}
-
-int pane_folded(const Pane *pane)
-{
-    const SquareMesh *mesh = &pane->simulation->mesh;
-    int folded = 0;
-    if (!mesh->nodes || pane->simulation->runs < 1)
-        return 0;
-    for (int cell = 0; cell < mesh->cells; cell++)
-        folded += square_picture_folded(mesh, pane_x(pane), cell) &&
-                  !square_picture_torn(&pane->simulation->system, mesh, cell);
-    return folded;
 }
 
 void show_sample(const Simulation *simulation, History *history, Trail *trail)

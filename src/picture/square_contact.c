@@ -1,51 +1,38 @@
-#include "picture/square_contact.h"
-
 #include <math.h>
 #include <stdio.h>
 
 #include "model/contact.h"
 #include "model/friction.h"
 #include "picture/colour_map.h"
+#include "picture/square_pen.h"
 
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
-bool square_contact_apart(const Simulation *simulation)
+/* What its pair's obstacle does to its node; false: nothing. */
+static bool find_touch(const SpringPen *pen, Touch *touch)
 {
-    return simulation->runs > 1 &&
-           simulation->run[1].system != &simulation->system;
-}
-
-void square_contact_obstacles(const ContactView *view, bool thin)
-{
-    const Contact *contact = contact_of(view->run->system);
-    if (contact)
-        stage_obstacles(view->paper, view->stage, contact, view->x, thin);
-}
-
-bool square_contact_touch(const ContactView *view, int node, int number,
-                          Touch *touch)
-{
-    const System *system = view->run->system;
-    const Contact *contact = contact_of(system);
+    const System *system = pen->system;
+    const Contact *contact = pen->contact;
+    int number = touch->pair / system->nodes, node = touch->node;
     const Obstacle *obstacle = &contact->obstacle[number];
-    *touch = (Touch){0};
     if (!contact_has_pair(contact, system, node, number))
         return false;
-    Gap gap = contact_pair_gap(contact, view->x, node, number);
+    Gap gap = contact_pair_gap(contact, pen->x, node, number);
     double push = contact_force(&contact->barrier, &gap), rub = 0;
     if (!(push > 0) || !isfinite(push))
         return false;
     const Term *term = system_find_term(system, &friction_energy);
-    const double *v = view->run->v;
+    const double *v = pen->simulation->run[pen->run].v;
     const double *u = obstacle->node < 0 ? obstacle->v : v + 2 * obstacle->node;
-    double t[2] = {-gap.n[1], gap.n[0]};
+    double h = pen->simulation->options.timestep, t[2] = {-gap.n[1], gap.n[0]};
     double slip = t[0] * (v[2 * node] - u[0]) + t[1] * (v[2 * node + 1] - u[1]);
-    if (term && obstacle->friction > 0) {
+    touch->rough = term && obstacle->friction > 0;
+    touch->slides = false;
+    if (touch->rough) {
         const Friction *friction = term->data;
-        double e = friction->slip_speed * view->h;
-        rub = -obstacle->friction * push * friction_slope(slip * view->h, e);
-        touch->rough = true;
+        rub = -obstacle->friction * push *
+              friction_slope(slip * h, friction->slip_speed * h);
         touch->slides = fabs(slip) >= friction->slip_speed;
     }
     for (int c = 0; c < 2; c++)
@@ -53,81 +40,69 @@ bool square_contact_touch(const ContactView *view, int node, int number,
     return true;
 }
 
-/* Whether friction holds no node of a run that touches something. */
-static bool slides(const ContactView *view)
+bool square_next_touch(const SpringPen *pen, Touch *touch)
 {
-    const Contact *contact = contact_of(view->run->system);
+    int pairs = pen->contact ? pen->contact->obstacles * pen->system->nodes : 0;
+    while (++touch->pair < pairs) {
+        touch->node = touch->pair % pen->system->nodes;
+        if (find_touch(pen, touch))
+            return true;
+    }
+    return false;
+}
+
+/* Whether friction holds no node of a run that touches something. */
+static bool slides(const SpringPen *pen)
+{
     bool moves = false;
-    for (int o = 0; o < contact->obstacles; o++)
-        for (int i = 0; i < view->run->system->nodes; i++) {
-            Touch touch;
-            if (square_contact_touch(view, i, o, &touch) && touch.rough) {
-                if (!touch.slides)
-                    return false;
-                moves = true;
-            }
-        }
+    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
+        if (touch.rough && !touch.slides)
+            return false;
+        moves = moves || touch.rough;
+    }
     return moves;
 }
 
-double square_contact_most(const ContactView *view)
+double square_contact_most(const SpringPen *pen)
 {
-    const Contact *contact = contact_of(view->run->system);
     double most = 0;
-    for (int o = 0; contact && o < contact->obstacles; o++)
-        for (int i = 0; i < view->run->system->nodes; i++) {
-            Touch touch;
-            if (square_contact_touch(view, i, o, &touch))
-                most = fmax(most, hypot(touch.force[0], touch.force[1]));
-        }
+    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);)
+        most = fmax(most, hypot(touch.force[0], touch.force[1]));
     return isfinite(most) ? most : 0;
 }
 
-/* A disc where it sticks, a ring where it slides. */
-static void draw_state(const ContactView *view, const double *at,
-                       const Touch *touch)
+void square_contact_forces(const SpringPen *pen, double most)
 {
-    double radius = fmax(view->node, 2 * view->paper->unit);
-    if (touch->slides)
-        stage_ring(view->paper, view->stage, at, 1.6 * radius, 1.5,
-                   COLOUR_FORCE);
-    else
-        stage_disc(view->paper, view->stage, at, 1.4 * radius, COLOUR_FORCE);
-}
-
-void square_contact_forces(const ContactView *view, double most)
-{
-    const Contact *contact = contact_of(view->run->system);
-    if (!contact || !(most > 0))
+    double scale = pen->stage->camera.scale[0], em = pen->paper->em;
+    double factor = FORCE_ROOM * em / (plot_round_up(most) * scale);
+    double radius = fmax(pen->radius, 2 * pen->paper->unit);
+    if (!(most > 0))
         return;
-    double factor = FORCE_ROOM * view->paper->em /
-                    (plot_round_up(most) * view->stage->camera.scale[0]);
-    for (int o = 0; o < contact->obstacles; o++)
-        for (int i = 0; i < view->run->system->nodes; i++) {
-            const double *at = view->x + 2 * (size_t)i;
-            Touch touch;
-            if (!square_contact_touch(view, i, o, &touch))
-                continue;
-            const double tail[2] = {at[0] - factor * touch.force[0],
-                                    at[1] - factor * touch.force[1]};
-            if (hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
-                stage_arrow(view->paper, view->stage, tail, touch.force, factor,
-                            1.8, COLOUR_FORCE);
-            if (touch.rough)
-                draw_state(view, at, &touch);
-        }
+    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
+        const double *at = pen->x + 2 * (size_t)touch.node;
+        const double tail[2] = {at[0] - factor * touch.force[0],
+                                at[1] - factor * touch.force[1]};
+        if (hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
+            stage_arrow(pen->paper, pen->stage, tail, touch.force, factor, 1.8,
+                        COLOUR_FORCE);
+        if (touch.rough && touch.slides)
+            stage_ring(pen->paper, pen->stage, at, 1.6 * radius, 1.5,
+                       COLOUR_FORCE);
+        else if (touch.rough)
+            stage_disc(pen->paper, pen->stage, at, 1.4 * radius, COLOUR_FORCE);
+    }
 }
 
-void square_contact_legend(const ContactView *view, double most, Legend *legend)
+void square_contact_legend(const SpringPen *pen, double most)
 {
     char number[48];
     if (!(most > 0))
         return;
     plot_number(number, sizeof number, plot_round_up(most));
-    stage_key(view->paper, view->stage, legend, FORCE_ROOM, COLOUR_FORCE,
+    stage_key(pen->paper, pen->stage, pen->legend, FORCE_ROOM, COLOUR_FORCE,
               "contact force %s N", number);
-    if (system_find_term(view->run->system, &friction_energy))
-        stage_legend(view->paper, view->stage, legend, COLOUR_FORCE,
+    if (system_find_term(pen->system, &friction_energy))
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_FORCE,
                      "\u25cf sticks   \u25cb slides");
 }
 
@@ -137,31 +112,29 @@ static double slope_of(const Obstacle *wall)
     return -wall->n[0] / wall->n[1];
 }
 
-bool square_contact_words(const ContactView *view, char *text, size_t size)
+bool square_contact_words(const SpringPen *pen, char *text, size_t size)
 {
-    const Contact *contact = contact_of(view->run->system);
-    if (!contact || contact->obstacle[0].kind != OBSTACLE_WALL)
+    const Obstacle *wall = &pen->contact->obstacle[0];
+    double slope = slope_of(wall), grip = pen->simulation->grip[pen->run];
+    if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
+        !(fabs(slope) > 1e-6))
         return false;
-    const Obstacle *wall = &contact->obstacle[0];
-    double slope = slope_of(wall);
-    if (!(wall->n[1] > 0) || !(fabs(slope) > 1e-6))
-        return false;
-    int used = view->grip > 0 ? snprintf(text, size, "%.3g ", view->grip) : 0;
+    int used = grip > 0 ? snprintf(text, size, "%.3g ", grip) : 0;
     snprintf(text + used, size - (size_t)used,
              "\u03bc = %.3g tan %.3g\u00b0: %s", wall->friction / fabs(slope),
-             fabs(atan(slope)) / DEGREE, slides(view) ? "slides" : "holds");
+             fabs(atan(slope)) / DEGREE, slides(pen) ? "slides" : "holds");
     return true;
 }
 
-void square_contact_label(const ContactView *view)
+/* These words under the left end of that wall. */
+static void draw_words(const SpringPen *pen)
 {
-    const Contact *contact = contact_of(view->run->system);
-    const Stage *stage = view->stage;
-    double em = view->paper->em, left[2], at[2];
+    const Stage *stage = pen->stage;
+    double em = pen->paper->em, left[2], at[2];
     char words[64];
-    if (!square_contact_words(view, words, sizeof words))
+    if (!square_contact_words(pen, words, sizeof words))
         return;
-    const Obstacle *wall = &contact->obstacle[0];
+    const Obstacle *wall = &pen->contact->obstacle[0];
     double slope = slope_of(wall);
     camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);
     const double foot[2] = {left[0],
@@ -172,6 +145,16 @@ void square_contact_label(const ContactView *view)
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
-    paper_write(view->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
+    paper_write(pen->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
                 at[1] + 1.5 * em, ALIGN_LEFT, "%s", words);
+}
+
+void square_contact_obstacles(const SpringPen *pen)
+{
+    bool apart = pen->simulation->runs > 1;
+    if (!pen->contact)
+        return;
+    stage_obstacles(pen->paper, pen->stage, pen->contact, pen->x, apart);
+    if (apart && pen->stage->text)
+        draw_words(pen);
 }

@@ -26,94 +26,116 @@ static double plastic_range(const System *system, const double *ep)
 
 /* Pixels between two nodes: at rest, or where nodes have flown so far that the
  * rest shape is nothing beside it, of as many over what they fill. */
-static double seen_spacing(const SpringPen *pen, int nodes,
-                           const SquareMesh *mesh)
+static double seen_spacing(const SpringPen *pen)
 {
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    double spacing = pen->stage->camera.scale[0] * mesh->spacing;
     double cells = mesh->side / mesh->spacing, reach = 0;
-    for (int k = 0; pen->at && k < 2; k++) {
+    for (int k = 0; k < 2; k++) {
         double low = INFINITY, high = -INFINITY;
-        for (int i = 0; i < nodes; i++) {
+        for (int i = 0; i < pen->system->nodes; i++) {
             double at = pen->at[2 * (size_t)i + k];
             low = isfinite(at) && at < low ? at : low;
             high = isfinite(at) && at > high ? at : high;
         }
         reach = fmax(reach, high - low);
     }
-    double rest = pen->spacing * cells;
-    return reach > FLOWN * rest ? reach / cells : pen->spacing;
+    return reach > FLOWN * spacing * cells ? reach / cells : spacing;
 }
 
-SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
-                     int run)
+/* Sizes and colours, where simulation, run and places are known. */
+static void set_looks(SpringPen *pen)
+{
+    const Show *show = pen->show;
+    const Trace *trace = pen->pane->trace;
+    double unit = pen->paper->unit;
+    pen->spacing = seen_spacing(pen);
+    pen->width = fmin(fmax(0.06 * pen->spacing / unit, 1.1), 1.9);
+    pen->width = fmax(1, pen->width * unit);
+    pen->radius = NODE * pen->spacing;
+    if (!show->bare)
+        pen->radius = fmin(pen->radius, 6.5 * unit);
+    const Plasticity *plasticity = plasticity_of(pen->system);
+    pen->contact = contact_of(pen->system);
+    pen->ep = plasticity ? plasticity->ep : NULL;
+    pen->plastic = !show->strain && !show->bare && pen->ep;
+    pen->strain = square_picture_strain_range(pen->simulation);
+    pen->range = show->strain   ? pen->strain
+                 : pen->plastic ? plastic_range(pen->system, pen->ep)
+                                : 0;
+    if (pen->range > 0)
+        pen->width *= 1.4;
+    pen->projected = trace && trace->line >= LINE_PROJECT &&
+                     trace->line <= LINE_SEARCH && !show->strain &&
+                     pen->simulation->options.filter != FILTER_NONE &&
+                     trace->projected != 0;
+}
+
+bool square_pens(Paper *paper, const Stage *stage, const Show *show,
+                 Legend *legend, SpringPen *pen)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
-    const SquareMesh *mesh = &simulation->mesh;
-    const Trace *trace = pane->trace;
-    SpringPen pen = {.paper = paper, .stage = stage, .pane = pane};
-    const System *system = simulation->run[run].system;
-    pen.x = run == 0 ? pane_x(pane) : simulation->run[run].x;
-    pen.at = paper_places(paper, 2 * (size_t)simulation->system.nodes);
-    if (pen.at)
-        camera_pixels(&stage->camera, simulation->system.nodes, pen.x, pen.at);
-    pen.spacing = stage->camera.scale[0] * mesh->spacing;
-    pen.spacing = seen_spacing(&pen, simulation->system.nodes, mesh);
-    pen.width = fmin(fmax(0.06 * pen.spacing / paper->unit, 1.1), 1.9);
-    pen.width = fmax(1, pen.width * paper->unit);
-    const Plasticity *plasticity = plasticity_of(system);
-    pen.contact = contact_of(system);
-    pen.ep = plasticity ? plasticity->ep : NULL;
-    pen.plastic = !show->strain && !show->bare && pen.ep;
-    pen.range = show->strain ? square_picture_strain_range(simulation) : 0;
-    if (pen.plastic)
-        pen.range = plastic_range(system, pen.ep);
-    if (pen.range > 0)
-        pen.width *= 1.4;
-    pen.strain = square_picture_strain_range(simulation);
-    pen.projected = trace && trace->line >= LINE_PROJECT &&
-                    trace->line <= LINE_SEARCH && !show->strain &&
-                    simulation->options.filter != FILTER_NONE &&
-                    trace->projected != 0;
-    return pen;
-}
-
-/* Whether the block of this spring has a negative eigenvalue: it is shorter
- * than at rest. */
-static bool spring_projected(const double *a, const double *b, double l2)
-{
-    double dx = a[0] - b[0], dy = a[1] - b[1];
-    return dx * dx + dy * dy < l2;
-}
-
-/* The line from node i to node j, l2 their squared distance at rest. */
-static void draw_spring(const SpringPen *pen, int i, int j, double l2,
-                        double plastic)
-{
-    const double *a = pen->x + 2 * (size_t)i, *b = pen->x + 2 * (size_t)j;
-    Colour colour = COLOUR_X;
-    double width = pen->width;
-    if (pen->plastic) {
-        colour = colour_map_plastic(plastic, pen->range);
-    } else if (pen->range > 0) {
-        double dx = a[0] - b[0], dy = a[1] - b[1];
-        double strain = sqrt((dx * dx + dy * dy) / l2) - 1;
-        colour = colour_map_strain(strain, pen->range);
-    } else if (pen->projected && spring_projected(a, b, l2)) {
-        colour = COLOUR_PROJECT;
-        width *= 1.15;
+    int nodes = simulation->system.nodes;
+    double *places =
+        paper_places(paper, 2 * (size_t)nodes * (size_t)simulation->runs);
+    for (int r = 0; r < simulation->runs && places; r++) {
+        double *at = places + 2 * (size_t)nodes * (size_t)r;
+        pen[r] = (SpringPen){.paper = paper,
+                             .stage = stage,
+                             .show = show,
+                             .pane = pane,
+                             .simulation = simulation,
+                             .run = r,
+                             .system = simulation->run[r].system,
+                             .x = r ? simulation->run[r].x : pane_x(pane),
+                             .at = at,
+                             .legend = legend};
+        camera_pixels(&stage->camera, nodes, pen[r].x, at);
+        set_looks(&pen[r]);
     }
-    const double *p = pen->at + 2 * (size_t)i, *q = pen->at + 2 * (size_t)j;
-    canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
+    return places != NULL;
 }
 
-void square_pen_springs(const SpringPen *pen, const System *system)
+/* What springs and faces tell alike: plastic flow, strain, or whether their
+ * block is projected, where they are shorter than at rest.  False: nothing. */
+static bool told_colour(const SpringPen *pen, double plastic, double strain,
+                        bool shorter, Colour *colour)
 {
-    for (int s = 0; s < system->springs; s++)
-        if (!spring_is_broken(system, s))
-            draw_spring(pen, system->e[2 * (size_t)s],
-                        system->e[2 * (size_t)s + 1], system->l2[s],
-                        pen->ep ? pen->ep[s] : 0);
+    if (pen->plastic)
+        *colour = colour_map_plastic(plastic, pen->range);
+    else if (pen->range > 0)
+        *colour = colour_map_strain(strain, pen->range);
+    else if (pen->projected && shorter)
+        *colour = COLOUR_PROJECT;
+    else
+        return false;
+    return true;
 }
+
+void square_pen_springs(const SpringPen *pen)
+{
+    const System *system = pen->system;
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * (size_t)s;
+        const double *p = pen->at + 2 * (size_t)e[0];
+        const double *q = pen->at + 2 * (size_t)e[1];
+        double l2 = system->l2[s], width = pen->width;
+        double dx = pen->x[2 * e[0]] - pen->x[2 * e[1]];
+        double dy = pen->x[2 * e[0] + 1] - pen->x[2 * e[1] + 1];
+        double d2 = dx * dx + dy * dy;
+        Colour colour = COLOUR_X;
+        if (spring_is_broken(system, s))
+            continue;
+        if (told_colour(pen, pen->ep ? pen->ep[s] : 0, sqrt(d2 / l2) - 1,
+                        d2 < l2, &colour) &&
+            pen->range == 0)
+            width *= 1.15;
+        canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
+    }
+}
+
+/* ---- cells -------------------------------------------------------------- */
 
 /* > 0 if the triangle a b c was not turned over: twice its area, in units in
  * which no product overflows. */
@@ -135,6 +157,58 @@ static bool is_folded(const double *x, const int node[4])
            turn(x, node[0], node[2], node[3]) < 0;
 }
 
+/* Whether one of a cell's triangles has turned over and all of its springs are
+ * there; node [4] out. */
+static bool cell_folded(const Simulation *simulation, const double *x, int cell,
+                        int node[4])
+{
+    int spring[6];
+    square_mesh_cell(&simulation->mesh, cell, node, spring);
+    return is_folded(x, node) &&
+           !square_torn(&simulation->system, &simulation->mesh, cell);
+}
+
+bool square_torn(const System *system, const SquareMesh *mesh, int cell)
+{
+    int node[4], spring[6];
+    square_mesh_cell(mesh, cell, node, spring);
+    for (int k = 0; system->breaks && k < 6; k++)
+        if (spring_is_broken(system, spring[k]))
+            return true;
+    return false;
+}
+
+int pane_folded(const Pane *pane)
+{
+    int folded = 0, node[4];
+    for (int c = 0; c < pane->simulation->mesh.cells; c++)
+        folded += cell_folded(pane->simulation, pane_x(pane), c, node);
+    return folded;
+}
+
+static void fill_face(const SpringPen *pen, const int node[4], Colour colour)
+{
+    double p[8];
+    for (int k = 0; k < 8; k++)
+        p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
+    const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
+    canvas_triangle(&pen->paper->canvas, p, false, colour);
+    canvas_triangle(&pen->paper->canvas, half, false, colour);
+}
+
+int square_pen_cells(const SpringPen *pen, bool all)
+{
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    int count = 0, node[4];
+    for (int c = 0; c < mesh->cells; c++) {
+        bool folded = cell_folded(pen->simulation, pen->x, c, node);
+        count += folded;
+        if (folded || (all && !square_torn(pen->system, mesh, c)))
+            fill_face(pen, node, folded ? 0x38d00000u : 0x180000ffu);
+    }
+    return count;
+}
+
 /* From dark at 0 over the springs' blue at 1/2 to light at 1. */
 static Colour shade(double part)
 {
@@ -144,93 +218,70 @@ static Colour shade(double part)
                       COLOUR_WHITE, 0.7 * light);
 }
 
-/* A face says what its springs would: plastic flow, strain, or which of them
- * are projected; else how far it is stretched and turned.  node [4]
- * anticlockwise, from the lower left. */
+/* A face says what its springs would; else how far it is stretched and turned.
+ *   side   m, of the face at rest
+ *   cell   in its lower left corner, whose plastic strain counts */
 static Colour face_colour(const SpringPen *pen, const int node[4], double side,
-                          double plastic)
+                          int cell)
 {
-    const double *a = pen->x + 2 * (size_t)node[0];
-    const double *b = pen->x + 2 * (size_t)node[1];
-    const double *c = pen->x + 2 * (size_t)node[2];
-    const double *d = pen->x + 2 * (size_t)node[3];
-    double one[2] = {c[0] - a[0], c[1] - a[1]};
-    double other[2] = {d[0] - b[0], d[1] - b[1]};
-    double l2 = 2 * side * side;
-    double length = sqrt(one[0] * one[0] + one[1] * one[1]);
-    double width = sqrt(other[0] * other[0] + other[1] * other[1]);
-    double strain = (length + width) / (2 * sqrt(l2)) - 1;
-    if (pen->plastic)
-        return colour_map_plastic(plastic, pen->range);
-    if (pen->range > 0)
-        return colour_map_strain(strain, pen->range);
-    if (pen->projected &&
-        (spring_projected(a, c, l2) || spring_projected(b, d, l2)))
-        return COLOUR_PROJECT;
-    double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
-    double turned = (one[1] - one[0]) / length; /* 0 at rest */
-    return shade(0.55 + 0.9 * seen + 0.3 * turned);
-}
-
-/* The largest plastic strain of a cell's springs; 0 where none flows. */
-static double cell_plastic(const SpringPen *pen, const SquareMesh *mesh,
-                           int cell)
-{
-    int node[4], spring[6];
-    double most = 0;
-    square_mesh_cell(mesh, cell, node, spring);
+    int corner[4], spring[6];
+    const double *x = pen->x;
+    double l2 = 2 * side * side, plastic = 0, d2[2], turned = 0;
+    Colour colour;
+    for (int k = 0; k < 2; k++) { /* both diagonals */
+        const double *a = x + 2 * (size_t)node[k];
+        const double *c = x + 2 * (size_t)node[k + 2];
+        double d[2] = {c[0] - a[0], c[1] - a[1]};
+        d2[k] = d[0] * d[0] + d[1] * d[1];
+        if (k == 0) /* 0 at rest */
+            turned = (d[1] - d[0]) / sqrt(d2[k]);
+    }
+    double strain = (sqrt(d2[0]) + sqrt(d2[1])) / (2 * sqrt(l2)) - 1;
+    square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
     for (int k = 0; pen->ep && k < 6; k++)
-        if (fabs(pen->ep[spring[k]]) > fabs(most))
-            most = pen->ep[spring[k]];
-    return most;
+        if (fabs(pen->ep[spring[k]]) > fabs(plastic))
+            plastic = pen->ep[spring[k]];
+    if (told_colour(pen, plastic, strain, d2[0] < l2 || d2[1] < l2, &colour))
+        return colour;
+    double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
+    return shade(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
 /* The faces that have folded over, or the others; stride: cells in one.
  * Returns how many it has left out. */
-static int draw_faces(const SpringPen *pen, const SquareMesh *mesh, int stride,
-                      bool folded)
+static int draw_faces(const SpringPen *pen, int stride, bool folded)
 {
-    int left_out = 0;
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    int left_out = 0, node[4];
     double side = stride * mesh->spacing;
     for (int cell = 0; cell < mesh->cells; cell++) {
-        int node[4];
-        double p[8];
         if (!square_mesh_patch(mesh, cell, stride, node))
             continue;
-        if (is_folded(pen->x, node) != folded) {
+        if (is_folded(pen->x, node) != folded)
             left_out++;
-            continue;
-        }
-        Colour colour = COLOUR_FOLDED;
-        if (!folded)
-            colour =
-                face_colour(pen, node, side, cell_plastic(pen, mesh, cell));
-        for (int k = 0; k < 8; k++)
-            p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
-        const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
-        canvas_triangle(&pen->paper->canvas, p, false, colour);
-        canvas_triangle(&pen->paper->canvas, half, false, colour);
+        else
+            fill_face(pen, node,
+                      folded ? COLOUR_FOLDED
+                             : face_colour(pen, node, side, cell));
     }
     return left_out;
 }
 
-void square_pen_faces(const SpringPen *pen, const SquareMesh *mesh)
+void square_pen_faces(const SpringPen *pen)
 {
-    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->cells);
-    if (draw_faces(pen, mesh, stride, false) > 0)
-        draw_faces(pen, mesh, stride, true);
-    square_outline(pen->paper, pen->stage, mesh, pen->x, false, COLOUR_X);
+    int cells = pen->simulation->mesh.cells;
+    int stride = (int)fmin(fmax(1 / pen->spacing, 1), cells);
+    if (draw_faces(pen, stride, false) > 0)
+        draw_faces(pen, stride, true);
+    square_outline(pen, pen->x, false, COLOUR_X);
 }
 
-double square_pen_radius(const SpringPen *pen, bool bare)
-{
-    double radius = NODE * pen->spacing;
-    return bare ? radius : fmin(radius, 6.5 * pen->paper->unit);
-}
+/* ---- nodes, outlines, ghosts -------------------------------------------- */
 
-void square_pen_nodes(const SpringPen *pen, const System *system, bool bare)
+void square_pen_nodes(const SpringPen *pen)
 {
-    double radius = square_pen_radius(pen, bare);
+    const System *system = pen->system;
+    double radius = pen->radius;
     Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
     if (pen->range > 0) /* they would hide the colours of a fine mesh */
         radius *= 0.75;
@@ -243,79 +294,33 @@ void square_pen_nodes(const SpringPen *pen, const System *system, bool bare)
             stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
 }
 
-/* ---- outlines, ghosts, cells -------------------------------------------- */
-
-void square_outline(Paper *paper, const Stage *stage, const SquareMesh *mesh,
-                    const double *x, bool dashed, Colour colour)
+void square_outline(const SpringPen *pen, const double *x, bool dashed,
+                    Colour colour)
 {
-    double phase = 0, unit = paper->unit;
-    for (int k = 0; k < mesh->outline; k++) {
-        const double *a = x + 2 * (size_t)square_mesh_outline(mesh, k);
-        const double *b = x + 2 * (size_t)square_mesh_outline(mesh, k + 1);
-        double p[2], q[2];
-        stage_pixel(stage, a, p);
-        stage_pixel(stage, b, q);
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    double unit = pen->paper->unit, width = fmax(1, 1.4 * unit), phase = 0;
+    double p[2], q[2];
+    stage_pixel(pen->stage, x, p);
+    for (int k = 1; k <= mesh->outline; k++) {
+        stage_pixel(pen->stage, x + 2 * (size_t)square_mesh_outline(mesh, k),
+                    q);
         if (dashed)
-            canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
-                          fmax(1, 1.4 * unit), 6 * unit, 4 * unit, &phase,
-                          colour);
+            canvas_dashes(&pen->paper->canvas, p[0], p[1], q[0], q[1], width,
+                          6 * unit, 4 * unit, &phase, colour);
         else
-            canvas_line(&paper->canvas, p[0], p[1], q[0], q[1],
-                        fmax(1, 1.4 * unit), colour);
+            canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width,
+                        colour);
+        memcpy(p, q, sizeof p);
     }
 }
 
-void square_ghost(Paper *paper, const Stage *stage,
-                  const Simulation *simulation, const double *x, Colour colour)
+void square_ghost(const SpringPen *pen, const double *x, Colour colour)
 {
-    const System *system = &simulation->system;
+    const System *system = pen->system;
     Colour faint = (colour & 0xffffff) | 0x50000000u;
     for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
          s++)
-        stage_line(paper, stage, x + 2 * (size_t)system->e[2 * s],
+        stage_line(pen->paper, pen->stage, x + 2 * (size_t)system->e[2 * s],
                    x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
-    square_outline(paper, stage, &simulation->mesh, x, true, colour);
-}
-
-bool square_picture_torn(const System *system, const SquareMesh *mesh, int cell)
-{
-    int node[4], spring[6];
-    square_mesh_cell(mesh, cell, node, spring);
-    for (int k = 0; system->breaks && k < 6; k++)
-        if (spring_is_broken(system, spring[k]))
-            return true;
-    return false;
-}
-
-bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell)
-{
-    int node[4], spring[6];
-    square_mesh_cell(mesh, cell, node, spring);
-    return is_folded(x, node);
-}
-
-int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
-                     bool all)
-{
-    int count = 0;
-    const SquareMesh *mesh = &simulation->mesh;
-    for (int cell = 0; cell < mesh->cells; cell++) {
-        int node[4], spring[6];
-        square_mesh_cell(mesh, cell, node, spring);
-        bool folded = square_picture_folded(mesh, pen->x, cell);
-        double p[4][2];
-        if ((!folded && !all) ||
-            square_picture_torn(&simulation->system, mesh, cell))
-            continue;
-        count += folded;
-        for (int k = 0; k < 4; k++)
-            stage_pixel(pen->stage, pen->x + 2 * (size_t)node[k], p[k]);
-        for (int k = 0; k < 2; k++) {
-            const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
-                                       p[1 + k][1], p[2 + k][0], p[2 + k][1]};
-            canvas_triangle(&pen->paper->canvas, corners, false,
-                            folded ? 0x38d00000u : 0x180000ffu);
-        }
-    }
-    return count;
+    square_outline(pen, x, true, colour);
 }

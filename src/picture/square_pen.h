@@ -1,5 +1,6 @@
-/* square_pen.h - springs, nodes, outlines and cells of a square, as they are
- * drawn: what square_picture.c puts its layers together from.
+/* square_pen.h - a body of a square's scene as it is drawn: springs, nodes,
+ * faces, outlines, and what obstacles do to it; what square_picture.c puts its
+ * layers together from.
  */
 #ifndef ELASTO_SQUARE_PEN_H
 #define ELASTO_SQUARE_PEN_H
@@ -8,52 +9,93 @@
 #include "picture/marks.h"
 #include "scenes/simulation.h"
 
-/* What does not change from spring to spring. */
+/* One run of a pane, and what does not change from spring to spring. */
 typedef struct SpringPen {
     Paper *paper;
     const Stage *stage;
+    const Show *show;
     const Pane *pane;
+    const Simulation *simulation;
+    int run;
+    const System *system;
     const double *x;        /* [2n] m */
-    double *at;             /* [2n] pixels; NULL: not enough memory */
+    const double *at;       /* [2n] pixels */
     double spacing;         /* pixels, of two nodes at rest */
-    double width;           /* pixels */
+    double width;           /* pixels, of a spring */
+    double radius;          /* pixels, of a node */
     double range;           /* of the strains; 0: all blue */
     double strain;          /* of the shades of faces, all blue */
     bool plastic;           /* the colour is the plastic strain ... */
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
     bool projected;         /* springs whose block was changed are lit */
+    Legend *legend;         /* where its next word goes */
 } SpringPen;
 
-/* For this run of the stage's pane; the places of its nodes stand on the paper
- * until another pen is made. */
-SpringPen square_pen(Paper *paper, const Stage *stage, const Show *show,
-                     int run);
+/* A pen [runs] for each run of the stage's pane; false: not enough memory.  The
+ * places of their nodes stand on the paper until the next call. */
+bool square_pens(Paper *paper, const Stage *stage, const Show *show,
+                 Legend *legend, SpringPen *pen);
 
 /* All springs but the broken ones. */
-void square_pen_springs(const SpringPen *pen, const System *system);
+void square_pen_springs(const SpringPen *pen);
 
 /* The cells of a fine square as shaded faces, those that have folded over dark,
  * and its outline; of cells below a pixel, larger ones in their place. */
-void square_pen_faces(const SpringPen *pen, const SquareMesh *mesh);
-
-/* Radius of the nodes' discs, pixels. */
-double square_pen_radius(const SpringPen *pen, bool bare);
+void square_pen_faces(const SpringPen *pen);
 
 /* Discs at all nodes; those that the springs hide are left out. */
-void square_pen_nodes(const SpringPen *pen, const System *system, bool bare);
+void square_pen_nodes(const SpringPen *pen);
 
 /* The outline of the square at x. */
-void square_outline(Paper *paper, const Stage *stage, const SquareMesh *mesh,
-                    const double *x, bool dashed, Colour colour);
+void square_outline(const SpringPen *pen, const double *x, bool dashed,
+                    Colour colour);
 
 /* All springs of a small square, faintly, and its outline in dashes. */
-void square_ghost(Paper *paper, const Stage *stage,
-                  const Simulation *simulation, const double *x, Colour colour);
+void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
-/* Cells whose four sides are whole are filled lightly, if all are asked for;
- * those that have turned over in another colour.  Returns how many have. */
-int square_pen_cells(const SpringPen *pen, const Simulation *simulation,
-                     bool all);
+/* Whether a cell has lost one of its six springs; segments * column + row, from
+ * the lower left. */
+bool square_torn(const System *system, const SquareMesh *mesh, int cell);
+
+/* Cells whose springs are whole are filled lightly, if all are asked for; those
+ * that have turned over in another colour.  Returns how many have. */
+int square_pen_cells(const SpringPen *pen, bool all);
+
+/* ---- contact: it follows from positions and velocities alone, so that a state
+ * from the history is drawn as it was when it was new ---------------------- */
+
+/* One contact as it is now, with the normal force of now. */
+typedef struct Touch {
+    int pair; /* of all nodes with all obstacles; -1: before the first */
+    int node;
+    double force[2]; /* N, on the node, friction included */
+    bool rough;      /* it has friction ... */
+    bool slides;     /* ... and is faster than eps_v */
+} Touch;
+
+/* The next contact of the pen's simulation, run, system, x and contact; touch
+ * in/out; false: there are no more. */
+bool square_next_touch(const SpringPen *pen, Touch *touch);
+
+/* Walls and balls of a run.  Several runs have theirs as slabs, so that they
+ * stay apart, and words under the left end of the first one: square_contact_
+ * words. */
+void square_contact_obstacles(const SpringPen *pen);
+
+/* The largest force that an obstacle and its friction put on a node, N. */
+double square_contact_most(const SpringPen *pen);
+
+/* These forces as arrows that end at their nodes, `most` some ems long; a disc
+ * where friction holds a node, a ring where it slides. */
+void square_contact_forces(const SpringPen *pen, double most);
+
+/* What arrows, discs and rings mean. */
+void square_contact_legend(const SpringPen *pen, double most);
+
+/* The first wall's coefficient of friction as a part of the options' and of its
+ * slope, and whether the body slides; false: it has no slope.  text [size] out
+ */
+bool square_contact_words(const SpringPen *pen, char *text, size_t size);
 
 #endif

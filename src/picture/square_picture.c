@@ -2,16 +2,14 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/hover.h"
-#include "model/contact.h"
 #include "model/fracture.h"
-#include "model/plasticity.h"
 #include "picture/marks.h"
-#include "picture/square_contact.h"
 #include "picture/square_pen.h"
 #include "scenes/scene.h"
 
@@ -91,107 +89,76 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
 {
     const Pane *shown = &show->pane[pane];
     const Simulation *simulation = shown->simulation;
-    const double *x = pane_x(shown);
+    const double *x = pane_x(shown), *frame = shown->frame;
     double extent = square_extent(simulation->options.stretch);
-    double room = show->bare ? BARE_ROOM : ROOM;
-    double half = 0.5 * simulation->mesh.side * room;
+    double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
+    const double size[2] = {half * extent,
+                            half * (show->bare ? extent : fmin(extent, 1.25))};
     double by[2];
-    bounds[2] = half * extent;
-    bounds[3] = show->bare ? half * extent : half * fmin(extent, 1.25);
-    if (shown->frame) {
-        for (int k = 0; k < 4; k++)
-            bounds[k] = shown->frame[k];
+    if (!frame && has_frame(simulation))
+        frame = simulation->scene->frame;
+    if (frame) {
+        memcpy(bounds, frame, 4 * sizeof *bounds);
         return;
     }
-    if (has_frame(simulation)) {
-        for (int k = 0; k < 4; k++)
-            bounds[k] = simulation->scene->frame[k];
-        return;
-    }
-    drifted(simulation, x, bounds + 2, by);
-    double grow = grown(reach_from(simulation, x, by, bounds + 2));
+    drifted(simulation, x, size, by);
+    double grow = grown(reach_from(simulation, x, by, size));
     for (int k = 0; k < 2; k++) {
-        double wide = grow * bounds[2 + k];
-        bounds[k] = by[k] - wide;
-        bounds[2 + k] = by[k] + wide;
+        bounds[k] = by[k] - grow * size[k];
+        bounds[2 + k] = by[k] + grow * size[k];
     }
 }
 
 /* ---- what Newton does --------------------------------------------------- */
 
-static int arrow_stride(const SpringPen *pen)
-{
-    int stride = (int)ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
-    return stride < 1 ? 1 : stride;
-}
-
 /* p as arrows that end where a full step leads, if that can be seen. */
-static void draw_direction(const SpringPen *pen, const double *p,
-                           Legend *legend)
+static void draw_direction(const SpringPen *pen)
 {
     const Box *box = &pen->stage->box;
     const Trace *trace = pen->pane->trace;
     double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
+    double apart = ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
     char number[48];
-    double factor = stage_arrows(pen->paper, pen->stage,
-                                 pen->pane->simulation->system.nodes,
-                                 arrow_stride(pen), pen->x, p, grown,
+    double factor = stage_arrows(pen->paper, pen->stage, pen->system->nodes,
+                                 (int)fmax(apart, 1), pen->x, trace->p, grown,
                                  0.5 * fmin(box->width, box->height), COLOUR_P);
-    if (factor == 0 || !pen->stage->text)
+    if (factor == 0)
         return;
     plot_number(number, sizeof number, factor);
-    if (factor == 1)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
-                     "search direction p");
-    else
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_P,
-                     "search direction p \u00d7 %s", number);
-}
-
-/* The run of this number as its contacts see it. */
-static ContactView contact_view(const SpringPen *pen, int run)
-{
-    const Simulation *simulation = pen->pane->simulation;
-    return (ContactView){.paper = pen->paper,
-                         .stage = pen->stage,
-                         .run = &simulation->run[run],
-                         .x = run == 0 ? pen->x : simulation->run[run].x,
-                         .h = simulation->options.timestep,
-                         .grip = simulation->grip[run],
-                         .node = square_pen_radius(pen, false)};
+    stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_P,
+                 "search direction p%s%s", factor == 1 ? "" : " \u00d7 ",
+                 factor == 1 ? "" : number);
 }
 
 /* The start of the hand's spring, the spring, and its force. */
-static void draw_hand(const SpringPen *pen, const Show *show)
+static void draw_hand(const SpringPen *pen)
 {
-    const Hand *hand = &show->hand;
+    const Hand *hand = &pen->show->hand;
     const Stage *stage = pen->stage;
     double unit = pen->paper->unit, at[2];
     if (!hand->on || hand->pane != stage->pane)
         return;
     const double *node = pen->x + 2 * (size_t)hand->node;
     stage_dashes(pen->paper, stage, node, hand->target, 2, COLOUR_HAND);
-    stage_ring(pen->paper, stage, node,
-               square_pen_radius(pen, false) + 4 * unit, 2, COLOUR_HAND);
+    stage_ring(pen->paper, stage, node, pen->radius + 4 * unit, 2, COLOUR_HAND);
     stage_disc(pen->paper, stage, hand->target, 4 * unit, COLOUR_HAND);
     stage_pixel(stage, hand->target, at);
-    if (hand->force > 0 && stage->text)
+    if (hand->force > 0)
         paper_write(pen->paper, FACE_REGULAR, 0.9, COLOUR_HAND,
                     at[0] + 8 * unit, at[1] - 18 * unit, ALIGN_LEFT, "%.3g N",
                     hand->force);
 }
 
 /* What the mouse is over. */
-static void draw_hover(const SpringPen *pen, const Show *show)
+static void draw_hover(const SpringPen *pen)
 {
-    const Pick *hover = &show->hover;
-    const System *system = &pen->pane->simulation->system;
-    double unit = pen->paper->unit;
+    const Pick *hover = &pen->show->hover;
+    const System *system = pen->system;
     if (hover->pane != pen->stage->pane)
         return;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         stage_ring(pen->paper, pen->stage, pen->x + 2 * (size_t)hover->index,
-                   square_pen_radius(pen, false) + 4 * unit, 2, COLOUR_TEXT);
+                   pen->radius + 4 * pen->paper->unit, 2, COLOUR_TEXT);
     if (hover->kind == PICK_SPRING && hover->index < system->springs)
         stage_line(pen->paper, pen->stage,
                    pen->x + 2 * (size_t)system->e[2 * hover->index],
@@ -203,87 +170,79 @@ static void draw_hover(const SpringPen *pen, const Show *show)
 
 /* Below the springs: rest shape, ghosts, cells.  Returns how many cells have
  * folded over. */
-static int draw_ground(const SpringPen *pen, const Show *show, Legend *legend)
+static int draw_ground(const SpringPen *pen)
 {
     const Pane *pane = pen->pane;
-    const Simulation *simulation = pane->simulation;
     const Trace *trace = pane->trace;
-    Paper *paper = pen->paper;
-    const Stage *stage = pen->stage;
-    if (!pane->frame && !has_frame(simulation) && !pen->contact) {
-        square_outline(paper, stage, &simulation->mesh, simulation->mesh.x,
-                       false, COLOUR_RULE);
-        if (stage->text && stage->pane == 0)
-            stage_legend(paper, stage, legend, COLOUR_GREY, "rest shape");
+    if (!pane->frame && !has_frame(pen->simulation) && !pen->contact) {
+        square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
+        if (pen->stage->pane == 0)
+            stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GREY,
+                         "rest shape");
     }
-    int folded = square_pen_cells(
-        pen, simulation, pen->contact || fracture_of(&simulation->system));
-    for (int r = 1; r < simulation->runs; r++) /* the same with other numbers */
-        if (simulation->run[r].system == &simulation->system)
-            square_ghost(paper, stage, simulation, simulation->run[r].x,
-                         colour_of_run(r));
+    int folded =
+        square_pen_cells(pen, pen->contact || fracture_of(pen->system));
     if (pane->ghost) {
-        square_ghost(paper, stage, simulation, pane->ghost, COLOUR_GHOST);
-        if (stage->text)
-            stage_legend(paper, stage, legend, COLOUR_GHOST, "%s",
-                         pane->ghost_label ? pane->ghost_label : "before");
+        square_ghost(pen, pane->ghost, COLOUR_GHOST);
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GHOST, "%s",
+                     pane->ghost_label ? pane->ghost_label : "before");
     }
-    if (trace && trace->x_tilde && (trace->line || show->arrows)) {
-        square_ghost(paper, stage, simulation, trace->x_tilde, COLOUR_X_TILDE);
-        if (stage->text)
-            stage_legend(paper, stage, legend, COLOUR_X_TILDE,
-                         "{xt}, inertia alone");
+    if (trace && trace->x_tilde && (trace->line || pen->show->arrows)) {
+        square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_X_TILDE,
+                     "{xt}, inertia alone");
     }
     return folded;
 }
 
-/* Nodes without a place: words for what cannot be drawn. */
-static void draw_lost(const SpringPen *pen, Legend *legend)
+/* In words what cannot be drawn: nodes without a place, folded cells. */
+static void draw_warnings(const SpringPen *pen, int folded)
 {
-    int nodes = pen->pane->simulation->system.nodes, lost = 0;
+    int nodes = pen->system->nodes, lost = 0;
     for (int i = 0; i < nodes; i++)
         lost += !isfinite(pen->x[2 * (size_t)i]) ||
                 !isfinite(pen->x[2 * (size_t)i + 1]);
     if (lost == nodes)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
                      "no node has a place: beyond all numbers");
     else if (lost > 0)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
                      "%d of %d nodes are beyond all numbers", lost, nodes);
-}
-
-/* Above them. */
-static void draw_signs(const SpringPen *pen, const Show *show, int folded,
-                       Legend *legend)
-{
-    const Pane *pane = pen->pane;
-    const Trace *trace = pane->trace;
-    if (pen->projected && pen->stage->text)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_PROJECT,
-                     "projected spring");
-    if (trace && trace->p && trace->line >= LINE_SOLVE &&
-        trace->line <= LINE_SEARCH)
-        draw_direction(pen, trace->p, legend);
-    draw_hover(pen, show);
-    draw_hand(pen, show);
-    if (pen->stage->text)
-        draw_lost(pen, legend);
-    if (folded > 0 && pen->stage->text)
-        stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+    if (folded > 0)
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
                      "%d cell%s folded over", folded, folded == 1 ? "" : "s");
 }
 
-/* What the colours mean, lower right: from compressed to stretched, or from
- * nothing to the largest plastic strain; `raised` ems above its place. */
-static void draw_colour_bar(Paper *paper, const Stage *stage, double range,
-                            bool plastic, double raised)
+/* Above them. */
+static void draw_signs(const SpringPen *pen)
 {
+    const Trace *trace = pen->pane->trace;
+    if (pen->projected)
+        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_PROJECT,
+                     "projected spring");
+    if (trace && trace->p && trace->line >= LINE_SOLVE &&
+        trace->line <= LINE_SEARCH)
+        draw_direction(pen);
+    draw_hover(pen);
+    draw_hand(pen);
+}
+
+/* What the colours mean, lower right: from compressed to stretched, or from
+ * nothing to the largest plastic strain; above the label of a pane. */
+static void draw_colour_bar(const SpringPen *pen)
+{
+    Paper *paper = pen->paper;
+    const Box *box = &pen->stage->box;
+    bool plastic = pen->plastic;
+    double raised = pen->show->panes > 1 ? PANE_LABEL : 0;
     int width = paper_pixels(paper, 14), height = paper_pixels(paper, 0.6);
-    int x = stage->box.x + stage->box.width - width - paper_pixels(paper, 1);
-    int y =
-        stage->box.y + stage->box.height - paper_pixels(paper, 1.2 + raised);
+    int x = box->x + box->width - width - paper_pixels(paper, 1);
+    int y = box->y + box->height - paper_pixels(paper, 1.2 + raised);
     double above = y - 1.4 * paper->em;
     int rim = paper_pixels(paper, 0.4); /* walls may be behind it */
+    char low[32] = "0";
+    if (!plastic)
+        snprintf(low, sizeof low, "\u2212%.3g %%", 100 * fmin(pen->range, 1));
     canvas_rectangle(&paper->canvas, x - rim, (int)above - rim / 2,
                      width + 2 * rim, height + paper_pixels(paper, 1.9),
                      COLOUR_PANEL);
@@ -293,29 +252,24 @@ static void draw_colour_bar(Paper *paper, const Stage *stage, double range,
                          plastic ? colour_map_plastic(part, 1)
                                  : colour_map_strain(2 * part - 1, 1));
     }
-    if (plastic)
-        paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x, above,
-                    ALIGN_LEFT, "0");
-    else
-        paper_write(paper, FACE_REGULAR, 0.85, COLOUR_COMPRESS, x, above,
-                    ALIGN_LEFT, "\u2212%.3g %%", 100 * fmin(range, 1));
+    paper_write(paper, FACE_REGULAR, 0.85,
+                plastic ? COLOUR_FAINT : COLOUR_COMPRESS, x, above, ALIGN_LEFT,
+                "%s", low);
     paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * width, above,
                 ALIGN_CENTRE, plastic ? "plastic strain" : "strain");
     paper_write(paper, FACE_REGULAR, 0.85,
                 plastic ? COLOUR_PLASTIC : COLOUR_STRETCH, x + width, above,
-                ALIGN_RIGHT, plastic ? "%.3g %%" : "+%.3g %%", 100 * range);
+                ALIGN_RIGHT, "%s%.3g %%", plastic ? "" : "+", 100 * pen->range);
 }
 
 /* The number of each node beside it. */
-static void draw_numbers(const SpringPen *pen, const System *system)
+static void draw_numbers(const SpringPen *pen)
 {
-    for (int i = 0; i < system->nodes; i++) {
-        double at[2];
+    Paper *paper = pen->paper;
+    for (int i = 0; i < pen->system->nodes; i++) {
+        const double at[2] = {pen->at[2 * i] + 0.7 * paper->em,
+                              pen->at[2 * i + 1] + 0.4 * paper->em};
         char number[16];
-        Paper *paper = pen->paper;
-        stage_pixel(pen->stage, pane_x(pen->pane) + 2 * i, at);
-        at[0] += 0.7 * paper->em;
-        at[1] += 0.4 * paper->em;
         if (!box_contains(pen->stage->box, at[0], at[1]))
             continue;
         snprintf(number, sizeof number, "%d", i);
@@ -327,99 +281,69 @@ static void draw_numbers(const SpringPen *pen, const System *system)
     }
 }
 
-/* Obstacles of all runs, so that no wall hides a body. */
-static void draw_obstacles(const SpringPen *pen)
-{
-    const Simulation *simulation = pen->pane->simulation;
-    bool apart = square_contact_apart(simulation);
-    for (int r = 0; r < (apart ? simulation->runs : 1); r++) {
-        ContactView view = contact_view(pen, r);
-        square_contact_obstacles(&view, apart);
-        if (apart && pen->stage->text)
-            square_contact_label(&view);
-    }
-}
-
-/* Runs with a system of their own; the first one is drawn last. */
-static void draw_other_runs(Paper *paper, const Stage *stage, const Show *show)
-{
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    for (int r = 1; square_contact_apart(simulation) && r < simulation->runs;
-         r++) {
-        SpringPen pen = square_pen(paper, stage, show, r);
-        if (!pen.at)
-            return;
-        if (!show->bare)
-            square_pen_cells(&pen, simulation, true);
-        square_pen_springs(&pen, simulation->run[r].system);
-        square_pen_nodes(&pen, simulation->run[r].system, show->bare);
-    }
-}
-
 /* Forces on all runs, in one scale, and what they mean. */
-static void draw_forces(const SpringPen *pen, Legend *legend)
+static void draw_forces(const SpringPen *pen)
 {
-    const Simulation *simulation = pen->pane->simulation;
-    int runs = square_contact_apart(simulation) ? simulation->runs : 1;
-    ContactView view[SIMULATION_MAX_RUNS];
+    int runs = pen->simulation->runs;
     double most = 0;
-    for (int r = 0; r < runs; r++) {
-        view[r] = contact_view(pen, r);
-        most = fmax(most, square_contact_most(&view[r]));
-    }
     for (int r = 0; r < runs; r++)
-        square_contact_forces(&view[r], most);
-    if (pen->stage->text)
-        square_contact_legend(&view[0], most, legend);
+        most = fmax(most, square_contact_most(&pen[r]));
+    for (int r = 0; r < runs; r++)
+        square_contact_forces(&pen[r], most);
+    square_contact_legend(pen, most);
 }
 
 /* A tolerance at which bodies would hang in the air or freeze. */
-static void draw_tolerance(const SpringPen *pen, Legend *legend)
+static void draw_tolerance(const SpringPen *pen)
 {
-    const Simulation *simulation = pen->pane->simulation;
     double needed;
     char number[48];
-    if (!simulation_is_loose(simulation, &needed))
+    if (!simulation_is_loose(pen->simulation, &needed))
         return;
     plot_number(number, sizeof number, needed);
-    stage_legend(pen->paper, pen->stage, legend, COLOUR_WARNING,
+    stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
                  "\u03b5 is loose: above %s m/s bodies may hang or freeze",
                  number);
 }
 
-/* From the ground up. */
+/* From the ground up; of several runs the first one is drawn last, and no wall
+ * hides a body. */
 static void square_draw(Paper *paper, const Stage *stage, const Show *show)
 {
-    SpringPen pen = square_pen(paper, stage, show, 0);
-    const Simulation *simulation = pen.pane->simulation;
-    const System *system = &simulation->system;
+    SpringPen pen[SIMULATION_MAX_RUNS];
     Legend legend = {0, 0};
-    if (pen.contact)
-        draw_obstacles(&pen);
-    draw_other_runs(paper, stage, show);
-    pen = square_pen(paper, stage, show, 0); /* they took its places */
-    if (!pen.at)
+    int folded = 0;
+    if (!square_pens(paper, stage, show, &legend, pen))
         return;
-    int folded = show->bare ? 0 : draw_ground(&pen, show, &legend);
-    if (pen.spacing >= LEAST_CELL || fracture_of(system))
-        square_pen_springs(&pen, system);
+    const System *system = pen->system;
+    int runs = pen->simulation->runs;
+    for (int r = 0; r < runs; r++)
+        square_contact_obstacles(&pen[r]);
+    for (int r = 1; r < runs; r++) {
+        if (!show->bare)
+            square_pen_cells(&pen[r], true);
+        square_pen_springs(&pen[r]);
+        square_pen_nodes(&pen[r]);
+    }
+    if (!show->bare)
+        folded = draw_ground(pen);
+    if (pen->spacing >= LEAST_CELL || fracture_of(system))
+        square_pen_springs(pen);
     else
-        square_pen_faces(&pen, &simulation->mesh);
-    square_pen_nodes(&pen, system, show->bare);
+        square_pen_faces(pen);
+    square_pen_nodes(pen);
     if (show->bare)
         return;
-    if (pen.contact)
-        draw_forces(&pen, &legend);
-    draw_signs(&pen, show, folded, &legend);
-    if (stage->text && show->numbers && system->nodes <= NUMBERED)
-        draw_numbers(&pen, system);
-    if (stage->text) {
-        draw_tolerance(&pen, &legend);
-        stage_scale(paper, stage);
-        if (pen.range > 0)
-            draw_colour_bar(paper, stage, pen.range, pen.plastic,
-                            show->panes > 1 ? PANE_LABEL : 0);
-    }
+    if (pen->contact)
+        draw_forces(pen);
+    draw_signs(pen);
+    draw_warnings(pen, folded);
+    if (show->numbers && system->nodes <= NUMBERED)
+        draw_numbers(pen);
+    draw_tolerance(pen);
+    stage_scale(paper, stage);
+    if (pen->range > 0)
+        draw_colour_bar(pen);
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */

@@ -18,11 +18,4 @@ Pick square_pick(const Show *show, const Stage *stage, double x, double y);
 /* A range for the colours: half the strain of the start, at least 5 %. */
 double square_picture_strain_range(const Simulation *simulation);
 
-/* Whether a cell has lost one of its six springs. */
-bool square_picture_torn(const System *system, const SquareMesh *mesh,
-                         int cell);
-
-/* Whether one of the two triangles of a cell has turned over. */
-bool square_picture_folded(const SquareMesh *mesh, const double *x, int cell);
-
 #endif

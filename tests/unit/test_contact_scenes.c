@@ -12,7 +12,7 @@
 #include "model/contact.h"
 #include "model/friction.h"
 #include "picture/show.h"
-#include "picture/square_contact.h"
+#include "picture/square_pen.h"
 #include "scenes/scene.h"
 #include "scenes/state.h"
 
@@ -223,15 +223,14 @@ TEST(arrows_are_the_forces)
     for (int step = 0; step < 150; step++)
         CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
     for (int r = 0; r < 3; r++) {
-        const ContactView view = {.run = &simulation.run[r],
-                                  .x = simulation.run[r].x,
-                                  .h = simulation.options.timestep};
+        const SpringPen pen = {.simulation = &simulation,
+                               .run = r,
+                               .system = simulation.run[r].system,
+                               .x = simulation.run[r].x,
+                               .contact = contact_of(simulation.run[r].system)};
         double sum[2] = {0, 0};
         int slides = 0, touches = 0;
-        for (int i = 0; i < view.run->system->nodes; i++) {
-            Touch touch;
-            if (!square_contact_touch(&view, i, 0, &touch))
-                continue;
+        for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
             touches++;
             slides += touch.slides;
             CHECK(touch.rough);
@@ -245,7 +244,7 @@ TEST(arrows_are_the_forces)
         CHECK_NEAR(normal, weight * cos(angle), 1e-3 * weight);
         CHECK_NEAR(along, fmin(part[r], 1) * weight * sin(angle),
                    1e-3 * weight);
-        CHECK_NEAR(square_contact_most(&view), hypot(sum[0], sum[1]) / 7,
+        CHECK_NEAR(square_contact_most(&pen), hypot(sum[0], sum[1]) / 7,
                    0.5 * weight);
     }
     simulation_free(&simulation);

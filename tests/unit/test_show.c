@@ -10,7 +10,6 @@
 #include "picture/handles.h"
 #include "picture/picture.h"
 #include "picture/marks.h"
-#include "picture/square_contact.h"
 #include "picture/square_pen.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
@@ -344,7 +343,7 @@ TEST(cells_are_torn_by_their_springs)
                 ends += node == a || node == a + 1 || node == a + 4 ||
                         node == a + 5;
             }
-            CHECK(square_picture_torn(system, &stand.simulation.mesh, cell) ==
+            CHECK(square_torn(system, &stand.simulation.mesh, cell) ==
                   (ends == 2));
         }
         system->k[s] = k;
@@ -360,8 +359,10 @@ TEST(outlines_go_round)
     Stage stage = {.box = {0, 0, 200, 200}, .em = 10};
     const double bounds[4] = {-1, -1, 1, 1};
     stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-    square_outline(&stand.paper, &stage, &stand.simulation.mesh,
-                   stand.simulation.run[0].x, false, COLOUR_X);
+    const SpringPen pen = {.paper = &stand.paper,
+                           .stage = &stage,
+                           .simulation = &stand.simulation};
+    square_outline(&pen, stand.simulation.run[0].x, false, COLOUR_X);
     static const double side[4][2] = {{-0.5, 0}, {0.5, 0}, {0, -0.5}, {0, 0.5}};
     for (int i = 0; i < 5; i++) {
         const double middle[2] = {i < 4 ? side[i][0] : 0,
@@ -386,12 +387,17 @@ TEST(what_is_projected_is_lit)
     Stage stage = {.box = {0, 0, 200, 200}, .em = 10};
     const double bounds[4] = {-1, -1, 1, 1};
     stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-    CHECK(square_pen(&stand.paper, &stage, &stand.show, 0).projected);
+    SpringPen pen[SIMULATION_MAX_RUNS];
+    Legend legend = {0, 0};
+    CHECK(square_pens(&stand.paper, &stage, &stand.show, &legend, pen));
+    CHECK(pen->projected);
     trace.projected = 0; /* on demand, where it was not needed */
-    CHECK(!square_pen(&stand.paper, &stage, &stand.show, 0).projected);
+    CHECK(square_pens(&stand.paper, &stage, &stand.show, &legend, pen));
+    CHECK(!pen->projected);
     trace.projected = 3;
     trace.line = LINE_UPDATE;
-    CHECK(!square_pen(&stand.paper, &stage, &stand.show, 0).projected);
+    CHECK(square_pens(&stand.paper, &stage, &stand.show, &legend, pen));
+    CHECK(!pen->projected);
     take_down(&stand);
 }
 
@@ -806,34 +812,31 @@ TEST(contacts_slide_or_hold)
     stand_up("slope", 60, 600, 600, &stand);
     for (int r = 0; r < 3; r++) {
         const TimeIntegrator *run = &stand.simulation.run[r];
-        const System *system = run->system;
         Stage stage = {.box = {0, 0, 600, 600}, .em = 10};
         const double bounds[4] = {run->x[0] - 2, run->x[1] - 2, run->x[0] + 2,
                                   run->x[1] + 2};
         stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-        ContactView view = {.paper = &stand.paper,
-                            .stage = &stage,
-                            .run = run,
-                            .x = run->x,
-                            .h = stand.simulation.options.timestep,
-                            .grip = stand.simulation.grip[r],
-                            .node = 1};
+        const SpringPen pen = {.paper = &stand.paper,
+                               .stage = &stage,
+                               .simulation = &stand.simulation,
+                               .run = r,
+                               .system = run->system,
+                               .x = run->x,
+                               .contact = contact_of(run->system),
+                               .radius = 1};
         int touches = 0;
         double lowest = -INFINITY, sum = 0;
-        for (int i = 0; i < system->nodes; i++) {
-            Touch touch;
+        for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
             double at[2];
-            if (!square_contact_touch(&view, i, 0, &touch))
-                continue;
             touches++;
             CHECK(touch.rough && touch.slides == (r < 2));
-            stage_pixel(&stage, run->x + 2 * i, at);
+            stage_pixel(&stage, run->x + 2 * touch.node, at);
             lowest = fmax(lowest, at[1]);
             sum += touch.force[1];
         }
         CHECK(touches > 1 && sum > 0);
         char words[64], expected[64];
-        const Obstacle *wall = &contact_of(system)->obstacle[0];
+        const Obstacle *wall = &pen.contact->obstacle[0];
         double angle = atan2(fabs(wall->n[0]), wall->n[1]);
         static const double part[] = {0.5, 0.9, 1.1};
         for (int k = 0; k < 2; k++) { /* as it is, and with another mu */
@@ -843,12 +846,12 @@ TEST(contacts_slide_or_hold)
                      "%g \u03bc = %.3g tan %.3g\u00b0: %s", part[r],
                      part[r] * mu / tan(angle), angle * 180 / M_PI,
                      r < 2 ? "slides" : "holds");
-            CHECK(square_contact_words(&view, words, sizeof words));
+            CHECK(square_contact_words(&pen, words, sizeof words));
             CHECK(strcmp(words, expected) == 0);
         }
         simulation_set_friction(&stand.simulation, tan(angle));
         canvas_rectangle(&stand.paper.canvas, 0, 0, 600, 600, COLOUR_WHITE);
-        square_contact_forces(&view, square_contact_most(&view));
+        square_contact_forces(&pen, square_contact_most(&pen));
         int below = 0;
         for (int j = (int)lowest + 6; j < 600; j++)
             for (int i = 0; i < 600; i++)
