@@ -13,15 +13,8 @@ enum { LISTING_VALUE = 96 };
 typedef struct Row {
     Line line;
     int indent;
-    const char *markup;
+    const char *markup; /* NULL ends the listing */
 } Row;
-
-typedef struct Listing {
-    const char *method; /* of the integrator; NULL ends the table */
-    const char *title;
-    const Row *rows; /* the last one has no markup */
-    const char *end; /* in the place of the rows' LINE_END; NULL: theirs */
-} Listing;
 
 /* Algorithm 3 */
 static const Row newton_rows[] = {
@@ -73,33 +66,26 @@ static const Row verlet_rows[] = {
      "v^{n+1} \u2190 v^{n+\u00bd} + \u00bd h M^{\u22121} f({x}^{n+1})"},
     {LINE_NONE, 0, NULL}};
 
-static const Listing listings[] = {
-    {"backward-euler", "Algorithm 3: projected Newton", newton_rows, NULL},
-    {"forward-euler", "Forward Euler", forward_rows, NULL},
-    {"symplectic-euler", "Symplectic Euler", symplectic_rows, NULL},
-    {"verlet", "Velocity Verlet", verlet_rows, NULL},
-    {NULL, "Algorithm 3 inside another method", newton_rows,
-     "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it"},
+/* The listings of methods; of all others Algorithm 3 is inside. */
+static const struct {
+    const char *method, *title;
+    const Row *rows;
+} listings[] = {
+    {"forward-euler", "Forward Euler", forward_rows},
+    {"symplectic-euler", "Symplectic Euler", symplectic_rows},
+    {"verlet", "Velocity Verlet", verlet_rows},
 };
+enum { LISTINGS = sizeof listings / sizeof *listings };
 
-static const char algorithm_1[] = "Algorithm 1: Newton's method";
-static const Listing scalar_listing = {NULL, algorithm_1, scalar_rows, NULL};
-static const Listing plain_listing = {NULL, algorithm_1, plain_rows, NULL};
-
-static const Listing *find_listing(const Simulation *simulation)
-{
-    const Listing *row = listings;
-    const IntegratorMethod *method = simulation->run[0].method;
-    if (simulation->descent.scalar)
-        return &scalar_listing;
-    if (simulation->descent.by_gradient)
-        return &plain_listing;
-    if (!method) /* a minimisation without time */
-        return &listings[0];
-    while (row->method && strcmp(row->method, method->name) != 0)
-        row++;
-    return row;
-}
+/* What the active pane does, line by line. */
+typedef struct Listing {
+    const Simulation *simulation;
+    const Trace *trace; /* NULL: nothing yet */
+    const char *title;
+    const Row *rows;
+    int count;   /* without time the line that ends a step is not there */
+    bool inside; /* another method, which ends a step in its own way */
+} Listing;
 
 /* Whether the settings switch this line off. */
 static bool line_is_off(const Simulation *simulation, Line line)
@@ -107,6 +93,48 @@ static bool line_is_off(const Simulation *simulation, Line line)
     const Options *options = &simulation->options;
     return (line == LINE_PROJECT && options->filter == FILTER_NONE) ||
            (line == LINE_SEARCH && options->line_search == LINE_SEARCH_NONE);
+}
+
+/* Algorithm 3 with lines struck through goes by another name. */
+static const char *newton_title(const Simulation *simulation)
+{
+    bool project = !line_is_off(simulation, LINE_PROJECT);
+    bool search = !line_is_off(simulation, LINE_SEARCH);
+    return project && search ? "Algorithm 3: projected Newton"
+           : project         ? "Algorithm 3, line 5 is off"
+           : search          ? "Algorithm 3, line 3 is off"
+                             : "Algorithm 3, lines 3 and 5 are off";
+}
+
+static Listing find_listing(const Show *show)
+{
+    const Simulation *simulation = show->pane[show->active].simulation;
+    const IntegratorMethod *method = simulation->run[0].method;
+    Listing listing = {.simulation = simulation,
+                       .title = "Algorithm 1: Newton's method",
+                       .rows = plain_rows};
+    if (simulation->descent.scalar) {
+        listing.rows = scalar_rows;
+        if (!line_is_off(simulation, LINE_SEARCH))
+            listing.title = "Algorithm 1; line 4 is Algorithm 2";
+    } else if (!simulation->descent.by_gradient) {
+        listing.rows = newton_rows;
+        listing.title = newton_title(simulation);
+        listing.inside = method && strcmp(method->name, "backward-euler") != 0;
+        if (listing.inside)
+            listing.title = "Algorithm 3 inside another method";
+        for (int i = 0; method && i < LISTINGS; i++)
+            if (strcmp(method->name, listings[i].method) == 0) {
+                listing.title = listings[i].title;
+                listing.rows = listings[i].rows;
+            }
+        listing.inside = listing.inside && listing.rows == newton_rows;
+    }
+    bool time = simulation->scene->needs & NEEDS_TIME;
+    while (listing.rows[listing.count].markup &&
+           (time || listing.rows[listing.count].line != LINE_END))
+        listing.count++;
+    return listing;
 }
 
 /* 1/2, 1/4, ... where it is one of them. */
@@ -122,104 +150,101 @@ void alpha_text(char *text, size_t size, double alpha)
 
 /* "52 of 72 springs", or "60 blocks" of springs, contacts and cells */
 static void projected_value(char *value, const Simulation *simulation,
-                            const Trace *trace)
+                            int projected)
 {
     if (simulation->options.filter == FILTER_NONE)
         snprintf(value, LISTING_VALUE, "off: P = \u2207\u00b2E");
-    else if (trace->projected >= 0 && simulation_projects_springs(simulation))
-        snprintf(value, LISTING_VALUE, "%d of %d springs", trace->projected,
+    else if (projected >= 0 && simulation_projects_springs(simulation))
+        snprintf(value, LISTING_VALUE, "%d of %d springs", projected,
                  simulation->system.springs);
-    else if (trace->projected >= 0)
-        snprintf(value, LISTING_VALUE, "%d block%s", trace->projected,
-                 trace->projected == 1 ? "" : "s");
+    else if (projected >= 0)
+        snprintf(value, LISTING_VALUE, "%d block%s", projected,
+                 projected == 1 ? "" : "s");
 }
 
 /* "alpha = 1/4: refused" */
 static void search_value(char *value, const Simulation *simulation,
                          const Trace *trace)
 {
-    double alpha = trace->first > 0 ? trace->first : 1;
     char number[32];
     if (simulation->options.line_search == LINE_SEARCH_NONE) {
         snprintf(value, LISTING_VALUE, "off: {alpha} = 1");
-        return;
-    }
-    if (trace->trials < 1)
-        return;
-    if (trace->given_up && !trace->accepted) {
+    } else if (trace->trials > 0 && trace->given_up && !trace->accepted) {
         snprintf(value, LISTING_VALUE, "no {alpha} found");
-        return;
+    } else if (trace->trials > 0) {
+        alpha_text(number, sizeof number, trace_alpha(trace, trace->trials));
+        snprintf(value, LISTING_VALUE, "{alpha} = %s%s", number,
+                 trace->accepted ? "" : ": refused");
     }
-    alpha = ldexp(alpha, 1 - trace->trials);
-    alpha_text(number, sizeof number, alpha);
-    snprintf(value, LISTING_VALUE, "{alpha} = %s%s", number,
-             trace->accepted ? "" : ": refused");
+}
+
+/* "0.3 > 0.01 m/s"; where p was not needed only the tolerance is known. */
+static void test_value(char *value, const Trace *trace, Line line,
+                       const char *unit)
+{
+    bool above = trace->residual > trace->tolerance;
+    char a[32], b[32];
+    plot_number(a, sizeof a, trace->residual);
+    plot_number(b, sizeof b, trace->tolerance);
+    if (!trace->passed)
+        snprintf(value, LISTING_VALUE, "%s %s %s%s%s", a,
+                 above ? ">" : "\u2264", b, unit,
+                 above && trace->given_up ? ": given up" : "");
+    else if (line == LINE_TEST)
+        snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b, unit);
 }
 
 /* What stands at the right of a line that has been reached. */
 static void line_value(char *value, const Simulation *simulation,
                        const Trace *trace, Line line)
 {
-    double h = trace->h, tolerance = trace->tolerance;
     bool by_gradient = simulation->descent.by_gradient;
-    const char *unit = by_gradient ? "" : " m/s";
-    Line test = by_gradient ? LINE_DO : LINE_TEST;
-    char a[32], b[32];
-    value[0] = '\0';
+    bool known = isfinite(trace->residual);
+    char p[32];
     if (line == LINE_PROJECT)
-        projected_value(value, simulation, trace);
+        projected_value(value, simulation, trace->projected);
     if (line == LINE_SEARCH)
         search_value(value, simulation, trace);
-    if (line != test && (line != LINE_SOLVE || by_gradient))
-        return;
-    if (!isfinite(trace->residual))
-        return;
-    plot_number(b, sizeof b, tolerance);
-    if (trace->passed) {
-        if (line == LINE_TEST)
-            snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b, unit);
-        return;
-    }
-    if (line == LINE_SOLVE) {
-        plot_number(a, sizeof a, trace->residual * h);
-        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s m", a);
-    } else {
-        bool above = trace->residual > tolerance;
-        plot_number(a, sizeof a, trace->residual);
-        snprintf(value, LISTING_VALUE, "%s %s %s%s%s", a,
-                 above ? ">" : "\u2264", b, unit,
-                 above && trace->given_up ? ": given up" : "");
+    if (line == (by_gradient ? LINE_DO : LINE_TEST) && known)
+        test_value(value, trace, line, by_gradient ? "" : " m/s");
+    if (line == LINE_SOLVE && !by_gradient && known && !trace->passed) {
+        plot_number(p, sizeof p, trace->residual * trace->h);
+        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s m", p);
     }
 }
 
 /* One line: number, text, value; lit or struck through. */
-static void draw_row(Paper *paper, Box box, const Simulation *simulation,
-                     const Trace *trace, const Row *row, int number)
+static void draw_row(Paper *paper, Box box, const Listing *listing, int number)
 {
-    bool off = line_is_off(simulation, row->line);
-    bool lit = trace && trace->line == row->line && row->line != LINE_NONE;
+    const Row *row = &listing->rows[number - 1];
+    const Trace *trace = listing->trace;
+    bool off = line_is_off(listing->simulation, row->line);
+    bool lit = trace && trace->line == row->line;
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
-    Colour colour = off ? COLOUR_GREY : COLOUR_TEXT;
+    const char *words = row->markup;
     char value[LISTING_VALUE] = "";
     double size = 1, line = text_line(paper->em);
     double y = box.y + 0.5 * (box.height - line);
     int x = box.x + paper_pixels(paper, 2 + 1.2 * row->indent);
     int right = box.x + box.width - paper_pixels(paper, 0.6);
+    if (listing->inside && row->line == LINE_END)
+        words = "{x}^{n+1}, v^{n+1} from {x}^{i}, as the method has it";
     if (lit)
         canvas_card(&paper->canvas, box, 0.3 * paper->em, COLOUR_LIT, 0);
     paper_write(paper, FACE_REGULAR, 0.82, COLOUR_GREY, box.x + 1.2 * paper->em,
                 y + 0.12 * paper->em, ALIGN_RIGHT, "%d", number);
     if (reached || off)
-        line_value(value, simulation, trace ? trace : &(Trace){0}, row->line);
-    int text = paper_width(paper, FACE_REGULAR, size, row->markup);
+        line_value(value, listing->simulation, trace ? trace : &(Trace){0},
+                   row->line);
+    int text = paper_width(paper, FACE_REGULAR, size, words);
     int room = right - x - paper_pixels(paper, 0.8) -
                paper_width(paper, FACE_REGULAR, 0.88, value);
     if (text > room) /* smaller letters, if that is enough */
         size = fmax(0.8, (double)room / text);
-    text = paper_write(paper, FACE_REGULAR, size, colour, x,
-                       y + 0.6 * (1 - size) * paper->em, ALIGN_LEFT, "%s",
-                       row->markup);
+    text = paper_write(
+        paper, FACE_REGULAR, size, off ? COLOUR_GREY : COLOUR_TEXT, x,
+        y + 0.6 * (1 - size) * paper->em, ALIGN_LEFT, "%s", words);
     if (off) {
         double middle = floor(y + 0.62 * line) + 0.5;
         canvas_line(&paper->canvas, x, middle, x + text, middle,
@@ -230,58 +255,30 @@ static void draw_row(Paper *paper, Box box, const Simulation *simulation,
                     right, y + 0.08 * paper->em, ALIGN_RIGHT, "%s", value);
 }
 
-/* Without time the line that ends a step is not there. */
-static int count_rows(const Simulation *simulation, const Listing *listing)
-{
-    bool time = simulation->scene->needs & NEEDS_TIME;
-    int rows = 0;
-    while (listing->rows[rows].markup &&
-           (time || listing->rows[rows].line != LINE_END))
-        rows++;
-    return rows;
-}
-
 /* Ems, with title and margin. */
 static double listing_needs(const Show *show, double wide)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
     (void)wide;
-    return 1.5 * count_rows(simulation, find_listing(simulation)) + 2.6;
+    return 1.5 * find_listing(show).count + 2.6;
 }
 
 static void draw_listing(Paper *paper, Box inside, const Show *show)
 {
     DescentTrace space;
-    const Simulation *simulation = show->pane[show->active].simulation;
-    const Listing *listing = find_listing(simulation);
-    const Trace *trace = cards_trace(show, &space);
-    int rows = count_rows(simulation, listing);
+    Listing listing = find_listing(show);
+    listing.trace = cards_trace(show, &space);
     int pitch = paper_pixels(paper, 1.75);
-    if (pitch * rows > inside.height)
-        pitch = inside.height / rows;
-    for (int i = 0; i < rows; i++) {
-        Box box = {inside.x, inside.y + i * pitch, inside.width, pitch};
-        Row row = listing->rows[i];
-        if (row.line == LINE_END && listing->end)
-            row.markup = listing->end;
-        draw_row(paper, box, simulation, trace, &row, i + 1);
-    }
+    if (pitch * listing.count > inside.height)
+        pitch = inside.height / listing.count;
+    for (int i = 0; i < listing.count; i++)
+        draw_row(paper,
+                 (Box){inside.x, inside.y + i * pitch, inside.width, pitch},
+                 &listing, i + 1);
 }
 
-/* Algorithm 3 with lines struck through goes by another name. */
 static const char *listing_title(const Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
-    const Listing *listing = find_listing(simulation);
-    bool project = !line_is_off(simulation, LINE_PROJECT);
-    bool search = !line_is_off(simulation, LINE_SEARCH);
-    if (listing->rows == scalar_rows)
-        return search ? "Algorithm 1; line 4 is Algorithm 2" : algorithm_1;
-    if (listing->rows != newton_rows || listing->end || (project && search))
-        return listing->title;
-    return project  ? "Algorithm 3, line 5 is off"
-           : search ? "Algorithm 3, line 3 is off"
-                    : "Algorithm 3, lines 3 and 5 are off";
+    return find_listing(show).title;
 }
 
 const Card card_listing = {

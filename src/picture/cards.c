@@ -73,6 +73,11 @@ const Trace *cards_trace(const Show *show, DescentTrace *space)
     return descent_trace(pane->simulation, space);
 }
 
+double trace_alpha(const Trace *trace, int trial)
+{
+    return ldexp(trace->first > 0 ? trace->first : 1, 1 - trial);
+}
+
 bool cards_explicit(const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
