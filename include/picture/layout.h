@@ -79,10 +79,11 @@ typedef struct Hit {
     int index;
 } Hit;
 
-/* Places everything.  width, height >= 1. */
+/* Places everything; chips beyond the room are left out, but not the last one,
+ * which tells of all keys.  width, height >= 1. */
 Layout layout_create(int width, int height, const LayoutWish *wish);
 
-/* What is at this pixel. */
+/* What is at this pixel: of things above each other the upper one. */
 Hit layout_hit(const Layout *layout, double x, double y);
 
 /* The cross that closes a card. */

@@ -88,8 +88,6 @@ typedef struct Pane {
     const Trace *trace;
     const char *label;   /* over the pane where there are several */
     Status trouble;      /* how the shown step ended */
-    const double *frame; /* [4] left, bottom, right, top, m: what fits
-                            the stage; NULL: the picture's choice */
 } Pane;
 
 /* What the mouse is over, or holds. */
@@ -115,7 +113,6 @@ typedef struct Hand {
     bool on;
     int pane, node;
     double target[2]; /* m, the mouse */
-    double force;     /* N, for the text; 0: none shown */
 } Hand;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -207,11 +204,9 @@ typedef struct Show {
     Hand hand;
     bool strain; /* springs coloured by strain */
     bool bare;   /* the picture of the slide and nothing else */
-    bool arrows; /* p and forces as arrows also while running */
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
-    int lecture_number, lecture_count;
     char lecture_title[48]; /* of the card with its words */
     bool numbers;           /* of the nodes are shown, where they are few */
     HelpRow page_row[SHOW_PAGES]; /* the list of pages */

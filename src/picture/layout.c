@@ -71,66 +71,63 @@ static Box cut_top(Box *rest, int height)
     return top;
 }
 
-/* The settings in lines from the left; the lines they need, at most `most`:
- * the rest is left out.  Place them in layout->row, if it is there. */
-static int place_settings(const LayoutWish *wish, Layout *layout, int most)
+/* Boxes of these widths from the left, `gap` apart, in lines as high as the
+ * room, `lines` of them at most; returns how many there is room for. */
+static int place_row(Box room, int lines, int gap, int count, const int *width,
+                     Box *box)
 {
-    int gap = pixels(layout, SETTING_GAP), line = 0;
-    int left = pixels(layout, GAP + 0.5), x = left;
-    int right = layout->width - pixels(layout, GAP);
-    int height = pixels(layout, ROW - 0.4);
-    double letter = layout->em < 11 ? SMALL_LETTER : SETTING_LETTER;
-    layout->settings = 0;
-    for (int i = 0; i < wish->settings && i < LAYOUT_SETTINGS; i++) {
-        int width = pixels(layout, wish->setting_letters[i] * letter + 0.6);
-        if (x + width > right && x > left) {
+    int x = room.x, line = 0;
+    for (int i = 0; i < count; i++) {
+        if (x > room.x && x + width[i] > room.x + room.width) {
+            x = room.x;
             line++;
-            x = left;
         }
-        if (line >= most)
-            return most;
-        layout->setting[layout->settings++] =
-            (Box){x, layout->row.y + pixels(layout, 0.2) + line * height, width,
-                  height};
-        x += width + gap;
+        if (line == lines)
+            return i;
+        box[i] = (Box){x, room.y + line * room.height, width[i], room.height};
+        x += width[i] + gap;
     }
-    return line + 1;
+    return count;
 }
 
-/* Pixels of chips from the left with this room beside their letters; a chip
- * that does not fit has no width, but the last one always has. */
-static void place_chips_with(const LayoutWish *wish, Layout *layout,
-                             double padding)
+/* The settings in a strip off the rest, in one line or two. */
+static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
 {
-    int gap = pixels(layout, 0.6), margin = pixels(layout, GAP), x = margin;
-    int count = wish->chips < LAYOUT_CHIPS ? wish->chips : LAYOUT_CHIPS;
-    int inset = pixels(layout, 0.35), width[LAYOUT_CHIPS] = {0};
-    for (int i = 0; i < count; i++)
+    int width[LAYOUT_SETTINGS] = {0}, left = pixels(layout, GAP + 0.5);
+    double letter = layout->em < 11 ? SMALL_LETTER : SETTING_LETTER;
+    for (int i = 0; i < wish->settings; i++)
+        width[i] = pixels(layout, wish->setting_letters[i] * letter + 0.6);
+    Box room = {left, pixels(layout, 0.2),
+                layout->width - pixels(layout, GAP) - left,
+                pixels(layout, ROW - 0.4)};
+    Box *box = layout->setting;
+    layout->settings = place_row(room, 2, pixels(layout, SETTING_GAP),
+                                 wish->settings, width, box);
+    bool two = box[layout->settings - 1].y > room.y;
+    layout->row = cut_bottom(rest, pixels(layout, two ? 2 * ROW - 0.4 : ROW));
+    for (int i = 0; i < layout->settings; i++)
+        box[i].y += layout->row.y;
+}
+
+/* Chips with this room beside their letters: as many of the first ones as fit,
+ * and the last one, which tells of all keys; the others have no width. */
+static void place_chips(const LayoutWish *wish, Layout *layout, double padding)
+{
+    int gap = pixels(layout, 0.6), last = wish->chips - 1;
+    int width[LAYOUT_CHIPS];
+    Box room = box_inset(layout->last, pixels(layout, 0.35));
+    for (int i = 0; i <= last; i++)
         width[i] =
             pixels(layout, wish->chip_letters[i] * LETTER * 0.92 + padding);
-    int room = layout->width - 2 * margin - (count ? width[count - 1] : 0);
-    bool full = false;
-    layout->chips = count;
-    layout->chips_left_out = 0;
-    for (int i = 0; i < count; i++) {
-        full = full || (i < count - 1 && x - margin + width[i] + gap > room);
-        bool out = full && i < count - 1;
-        layout->chip[i] = (Box){x, layout->last.y + inset, out ? 0 : width[i],
-                                layout->last.height - 2 * inset};
-        layout->chips_left_out += out;
-        x += out ? 0 : width[i] + gap;
-    }
-}
-
-/* In a row; closer together if they need it, and then as many of the first ones
- * as fit.  The last one, which tells of all keys, is never lost. */
-static void place_chips(const LayoutWish *wish, Layout *layout)
-{
-    if (layout->last.width <= 0)
-        return;
-    place_chips_with(wish, layout, CHIP_PADDING);
-    if (layout->chips_left_out > 0)
-        place_chips_with(wish, layout, CHIP_PADDING_LEAST);
+    room.x = pixels(layout, GAP);
+    room.width = layout->width - 2 * room.x - width[last] - gap;
+    int fit = place_row(room, 1, gap, last, width, layout->chip);
+    int end = fit > 0 ? layout->chip[fit - 1].x + width[fit - 1] + gap : room.x;
+    for (int i = fit; i < last; i++)
+        layout->chip[i] = (Box){0};
+    layout->chip[last] = (Box){end, room.y, width[last], room.height};
+    layout->chips = wish->chips;
+    layout->chips_left_out = last - fit;
 }
 
 /* Strip, row, time line, last line off the whole; what is left is returned. */
@@ -145,13 +142,9 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
     if (high >= 20)
         layout->last = cut_bottom(&rest, pixels(layout, roomy ? LAST : 2.5));
     layout->time = cut_bottom(&rest, pixels(layout, roomy ? TIME : 2));
-    if (roomy && wish->settings > 0) {
-        int lines = place_settings(wish, layout, 2);
-        int height = pixels(layout, ROW + (lines - 1) * (ROW - 0.4));
-        layout->row = cut_bottom(&rest, height);
-        place_settings(wish, layout, 2);
-    }
-    layout->bars = box_inset(layout->time, 0);
+    if (roomy && wish->settings > 0)
+        place_settings(wish, layout, &rest);
+    layout->bars = layout->time;
     layout->bars.x += pixels(layout, GAP);
     layout->bars.width -= 2 * pixels(layout, GAP);
     if (roomy) {
@@ -161,88 +154,76 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
     }
     if (layout->bars.width < 1)
         layout->bars.width = 1;
-    place_chips(wish, layout);
+    if (layout->last.width > 0 && wish->chips > 0)
+        place_chips(wish, layout, CHIP_PADDING);
+    if (layout->chips_left_out > 0) /* closer together */
+        place_chips(wish, layout, CHIP_PADDING_LEAST);
     return rest;
 }
 
-/* Whether only the title of a card is seen. */
-static bool card_is_bar(const LayoutWish *wish, int cards, int card)
-{
-    bool large = wish->large >= 0 && wish->large < cards;
-    return (wish->closed >> card & 1) || (large && card != wish->large);
-}
+/* What is seen of a card: only its title, or all. */
+typedef enum Seen { HIDDEN, BAR, OPEN } Seen;
 
-/* Cards that become bars since there is no room for all: from the last one on,
- * and never the first that is open. */
-static LayoutWish fold_cards(const LayoutWish *wish, double room, double gap)
+/* What shall be seen; and, with one card a row, cards from the last one on
+ * become bars where there is no room for all, but never the first that is open.
+ *   room  ems */
+static void see_cards(const LayoutWish *wish, bool pairs, double room,
+                      Seen *seen)
 {
-    LayoutWish folded = *wish;
-    int cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
-    double least = -gap;
-    for (int i = 0; i < cards; i++)
-        if (!(wish->hidden >> i & 1))
-            least += gap +
-                     (card_is_bar(wish, cards, i) ? TITLE_BAR : wish->least[i]);
+    bool large = wish->large >= 0 && wish->large < wish->cards;
+    double least = -GAP;
     int open = 0;
-    for (int i = 0; i < cards; i++)
-        open += !(wish->hidden >> i & 1) && !card_is_bar(wish, cards, i);
-    for (int i = cards - 1; i > 0 && open > 1 && least > FOLDS * room; i--) {
-        if ((wish->hidden >> i & 1) || card_is_bar(wish, cards, i))
-            continue;
-        folded.closed |= 1u << i;
-        least -= wish->least[i] - TITLE_BAR;
-        open--;
+    for (int i = 0; i < wish->cards; i++) {
+        bool bar = (wish->closed >> i & 1) || (large && i != wish->large);
+        seen[i] = wish->hidden >> i & 1 ? HIDDEN : bar ? BAR : OPEN;
+        open += seen[i] == OPEN;
+        if (seen[i] != HIDDEN)
+            least += GAP + (bar ? TITLE_BAR : wish->least[i]);
     }
-    return folded;
-}
-
-/* Whether a card and the next one stand in one row. */
-static bool cards_pair(const LayoutWish *wish, const Layout *layout, int card)
-{
-    unsigned both = wish->half & ~wish->hidden;
-    return card + 1 < layout->cards && (both >> card & 1) &&
-           (both >> (card + 1) & 1) &&
-           !card_is_bar(wish, layout->cards, card) &&
-           !card_is_bar(wish, layout->cards, card + 1) &&
-           layout->column.width >= PAIR_LEAST * layout->em;
+    for (int i = wish->cards - 1;
+         i > 0 && open > 1 && least > FOLDS * room && !pairs; i--)
+        if (seen[i] == OPEN) {
+            seen[i] = BAR;
+            least -= wish->least[i] - TITLE_BAR;
+            open--;
+        }
 }
 
 /* Rows of one or two cards: each has what it needs, and what is left is shared
  * by weight; if there is not enough, what they need shrinks alike. */
-static void place_cards(const LayoutWish *wished, Layout *layout)
+static void place_cards(const LayoutWish *wish, Layout *layout)
 {
+    Seen seen[LAYOUT_CARDS + 1] = {HIDDEN}; /* one more that is not there */
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
     Box inner = box_inset(layout->column, pixels(layout, GAP));
     bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
-    LayoutWish folded = fold_cards(wished, inner.height / layout->em, GAP);
-    const LayoutWish *wish = pairs ? wished : &folded;
+    bool paired[LAYOUT_CARDS] = {false}; /* with the next one */
     double room = inner.height + gap, least = 0, weights = 0;
-    layout->cards = wish->cards < LAYOUT_CARDS ? wish->cards : LAYOUT_CARDS;
-    for (int i = 0; i < layout->cards; i++) {
-        if (wish->hidden >> i & 1)
+    see_cards(wish, pairs, inner.height / layout->em, seen);
+    layout->cards = wish->cards;
+    for (int i = 0; i < wish->cards; i++) {
+        room -= seen[i] == HIDDEN ? 0 : gap;
+        room -= seen[i] == BAR ? bar : 0;
+        if (seen[i] != OPEN)
             continue;
-        room -= gap;
-        if (card_is_bar(wish, layout->cards, i)) {
-            room -= bar;
-            continue;
-        }
         least += wish->least[i] * layout->em;
         weights += wish->weight[i];
-        i += cards_pair(wish, layout, i);
+        paired[i] = pairs && (wish->half >> i & 3) == 3 && seen[i + 1] == OPEN;
+        i += paired[i];
     }
     double shrink = least > room ? room / least : 1;
     double more = least < room ? (room - least) / weights : 0;
-    for (int i = 0, y = inner.y; i < layout->cards; i++) {
-        if (wish->hidden >> i & 1)
-            continue;
+    for (int i = 0, y = inner.y; i < wish->cards; i++) {
         double height =
             shrink * wish->least[i] * layout->em + more * wish->weight[i];
-        if (card_is_bar(wish, layout->cards, i) || height < bar)
+        if (seen[i] == HIDDEN)
+            continue;
+        if (seen[i] == BAR || height < bar)
             height = bar;
         Box row = {inner.x, y, inner.width, (int)height};
         y += row.height + gap;
         layout->card[i] = row;
-        if (cards_pair(wish, layout, i)) {
+        if (paired[i]) {
             layout->card[i] = box_column(row, 0, 2, gap);
             layout->card[++i] = box_column(row, 1, 2, gap);
         }
@@ -309,36 +290,27 @@ Box layout_close_box(const Layout *layout, int card)
                  box.height < side ? box.height : side};
 }
 
-static Hit hit_first(const Box *boxes, int count, Zone zone, double x, double y)
-{
-    for (int i = 0; i < count; i++)
-        if (box_contains(boxes[i], x, y))
-            return (Hit){zone, i};
-    return (Hit){ZONE_NONE, 0};
-}
-
 Hit layout_hit(const Layout *layout, double x, double y)
 {
-    if (box_contains(layout->column, x, y)) {
-        Hit hit = hit_first(layout->card, layout->cards, ZONE_CARD, x, y);
-        if (layout->cards == 0)
-            return (Hit){ZONE_PAGE, 0};
-        if (hit.zone == ZONE_CARD &&
-            box_contains(layout_close_box(layout, hit.index), x, y))
-            hit.zone = ZONE_CARD_CLOSE;
-        return hit;
-    }
-    if (box_contains(layout->stage, x, y))
-        return hit_first(layout->pane, layout->panes, ZONE_STAGE, x, y);
-    if (box_contains(layout->row, x, y))
-        return hit_first(layout->setting, layout->settings, ZONE_SETTING, x, y);
-    if (box_contains(layout->last, x, y))
-        return hit_first(layout->chip, layout->chips, ZONE_CHIP, x, y);
-    if (box_contains(layout->time, x, y))
-        return (Hit){ZONE_TIME, 0};
-    if (box_contains(layout->strip, x, y))
-        return (Hit){ZONE_STRIP, 0};
-    return (Hit){ZONE_NONE, 0};
+    const Layout *l = layout;
+    const struct {
+        Zone zone;
+        const Box *box;
+        int count;
+    } lists[] = {
+        {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
+        {ZONE_TIME, &l->time, 1},       {ZONE_PAGE, &l->column, l->cards == 0},
+        {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
+        {ZONE_CHIP, l->chip, l->chips}};
+    Hit hit = {ZONE_NONE, 0};
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
+        for (int i = 0; i < lists[k].count; i++)
+            if (box_contains(lists[k].box[i], x, y))
+                hit = (Hit){lists[k].zone, i};
+    if (hit.zone == ZONE_CARD &&
+        box_contains(layout_close_box(layout, hit.index), x, y))
+        hit.zone = ZONE_CARD_CLOSE;
+    return hit;
 }
 
 double layout_time_part(const Layout *layout, double x)

@@ -89,13 +89,11 @@ void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
     if (!page)
         return;
     show->lecture = page;
-    show->lecture_number = (int)(page - lecture_pages) + 1;
-    show->lecture_count = lecture_count();
     show->topic = page->topic;
     show->numbers = page->numbers;
     snprintf(show->lecture_title, sizeof show->lecture_title,
-             "page %d of %d \u00b7 K: its code and test", show->lecture_number,
-             show->lecture_count);
+             "page %d of %d \u00b7 K: its code and test",
+             (int)(page - lecture_pages) + 1, lecture_count());
     show->hidden = 0;
     for (int c = 0; picture->cards[c]; c++) {
         bool open = has_word(page->cards, picture->cards[c]->name);

@@ -89,15 +89,13 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
 {
     const Pane *shown = &show->pane[pane];
     const Simulation *simulation = shown->simulation;
-    const double *x = pane_x(shown), *frame = shown->frame;
+    const double *x = pane_x(shown), *frame = simulation->scene->frame;
     double extent = square_extent(simulation->options.stretch);
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     const double size[2] = {half * extent,
                             half * (show->bare ? extent : fmin(extent, 1.25))};
     double by[2];
-    if (!frame && has_frame(simulation))
-        frame = simulation->scene->frame;
-    if (frame) {
+    if (has_frame(simulation)) {
         memcpy(bounds, frame, 4 * sizeof *bounds);
         return;
     }
@@ -130,23 +128,18 @@ static void draw_direction(const SpringPen *pen)
                  factor == 1 ? "" : number);
 }
 
-/* The start of the hand's spring, the spring, and its force. */
+/* The start of the hand's spring, and the spring. */
 static void draw_hand(const SpringPen *pen)
 {
     const Hand *hand = &pen->show->hand;
     const Stage *stage = pen->stage;
-    double unit = pen->paper->unit, at[2];
+    double unit = pen->paper->unit;
     if (!hand->on || hand->pane != stage->pane)
         return;
     const double *node = pen->x + 2 * (size_t)hand->node;
     stage_dashes(pen->paper, stage, node, hand->target, 2, COLOUR_HAND);
     stage_ring(pen->paper, stage, node, pen->radius + 4 * unit, 2, COLOUR_HAND);
     stage_disc(pen->paper, stage, hand->target, 4 * unit, COLOUR_HAND);
-    stage_pixel(stage, hand->target, at);
-    if (hand->force > 0)
-        paper_write(pen->paper, FACE_REGULAR, 0.9, COLOUR_HAND,
-                    at[0] + 8 * unit, at[1] - 18 * unit, ALIGN_LEFT, "%.3g N",
-                    hand->force);
 }
 
 /* What the mouse is over. */
@@ -174,7 +167,7 @@ static int draw_ground(const SpringPen *pen)
 {
     const Pane *pane = pen->pane;
     const Trace *trace = pane->trace;
-    if (!pane->frame && !has_frame(pen->simulation) && !pen->contact) {
+    if (!has_frame(pen->simulation) && !pen->contact) {
         square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
         if (pen->stage->pane == 0)
             stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GREY,
@@ -185,9 +178,9 @@ static int draw_ground(const SpringPen *pen)
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
         stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GHOST, "%s",
-                     pane->ghost_label ? pane->ghost_label : "before");
+                     pane->ghost_label);
     }
-    if (trace && trace->x_tilde && (trace->line || pen->show->arrows)) {
+    if (trace && trace->x_tilde && trace->line) {
         square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
         stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_X_TILDE,
                      "{xt}, inertia alone");
