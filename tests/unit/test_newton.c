@@ -8,6 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/plasticity.h"
+#include "model/pull_energy.h"
+#include "solve/line_search.h"
+
 /* Squares of up to 4 segments; most have 3. */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
@@ -42,21 +46,16 @@ typedef struct Witness {
     Simulation *simulation;
     double u[LARGEST], x[LARGEST]; /* the last iterate */
     int iteration;
-    long iterations, trials, projected, records;
-    double worst_residual; /* relative error of the records */
-    double worst_change;   /* of E, over E */
-    bool good;
+    long iterations, trials, projected;
 } Witness;
 
 /* Before each step: the iterate is the state. */
 static void witness_start(Witness *witness)
 {
     const TimeIntegrator *run = &witness->simulation->run[0];
-    size_t bytes = 2 * (size_t)run->system->nodes * sizeof(double);
-    memset(witness->u, 0, bytes);
-    memcpy(witness->x, run->x, bytes);
+    memset(witness->u, 0, run->size * sizeof(double));
+    memcpy(witness->x, run->x, run->size * sizeof(double));
     witness->iteration = 0;
-    witness->good = true;
 }
 
 static bool witness_record(void *user, const NewtonRecord *record)
@@ -64,80 +63,63 @@ static bool witness_record(void *user, const NewtonRecord *record)
     Witness *witness = user;
     if (record->iteration < 0)
         return true;
-    const Newton *newton = witness->simulation->run[0].newton;
+    const TimeIntegrator *run = &witness->simulation->run[0];
+    const Newton *newton = run->newton;
     const IncrementalPotential *E = &newton->at.E;
     bool clamp = newton->settings.filter == FILTER_CLAMP;
     double residual =
         exact_residual(E, witness->u, witness->x, clamp, newton->settings.h);
     long double before = exact_energy(E, witness->u, witness->x);
     long double after = exact_energy(E, newton->at.u, newton->at.x);
-    witness->worst_residual =
-        fmax(witness->worst_residual, fabs(record->residual / residual - 1));
-    double change = (double)fabsl(record->change - (after - before));
-    witness->worst_change =
-        fmax(witness->worst_change, change / (double)before);
-    witness->good =
-        witness->good && record->kind == RESIDUAL_VALUE && record->slope < 0 &&
-        record->change <= 0 && after <= before &&
-        record->iteration == witness->iteration &&
-        record->step == witness->simulation->steps + 1 && record->factorised &&
-        record->seconds >= 0 && record->alpha == ldexp(1, 1 - record->trials) &&
-        record->projected == (clamp ? short_springs(E->system, witness->x) : 0);
-    size_t bytes = 2 * (size_t)E->system->nodes * sizeof(double);
-    memcpy(witness->u, newton->at.u, bytes);
-    memcpy(witness->x, newton->at.x, bytes);
-    witness->iteration++;
+    CHECK_NEAR(record->residual, residual, 1e-10 * residual);
+    CHECK_NEAR(record->change, after - before, 5e-13L * before);
+    CHECK(record->kind == RESIDUAL_VALUE && record->slope < 0);
+    CHECK(record->change <= 0 && after <= before);
+    CHECK(record->iteration == witness->iteration++ && record->factorised);
+    CHECK(record->step == witness->simulation->steps + 1);
+    CHECK(record->alpha == ldexp(1, 1 - record->trials));
+    CHECK(record->projected ==
+          (clamp ? short_springs(E->system, witness->x) : 0));
+    memcpy(witness->u, newton->at.u, run->size * sizeof(double));
+    memcpy(witness->x, newton->at.x, run->size * sizeof(double));
     witness->iterations++;
-    witness->records++;
     witness->trials += record->trials;
     witness->projected += record->projected;
     return true;
 }
 
-/* Steps of one command line, each iteration watched.  1e-10: the condition of
- * H, some thousand, times rounding; 5e-13 of E: the rounding of g, along p. */
-static void check_run(const char *line, int steps)
-{
-    Simulation simulation;
-    Witness witness = {.simulation = &simulation};
-    simulation_from_line(line, witness_record, &witness, &simulation);
-    for (int step = 0; step < steps; step++) {
-        witness_start(&witness);
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        CHECK(witness.good);
-    }
-    NewtonCounters counters = simulation_counters(&simulation);
-    CHECK(witness.records > 0);
-    CHECK_AT_MOST(witness.worst_residual, 1e-10);
-    CHECK_AT_MOST(witness.worst_change, 5e-13);
-    CHECK(counters.minimisations == steps);
-    CHECK(counters.iterations == witness.iterations);
-    CHECK(counters.trials == witness.trials);
-    CHECK(counters.projected >= witness.projected);
-    CHECK(counters.gradients == counters.minimisations + counters.iterations);
-    /* Each direction has a factor, unless its test was passed without. */
-    long factored = counters.gradients - counters.skipped;
-    CHECK(counters.factorisations >= factored);
-    CHECK(counters.solves >= factored);
-    CHECK(simulation.steps == steps && simulation.unconverged == 0);
-    simulation_free(&simulation);
-}
-
+/* Each iteration is watched.  1e-10: the condition of H, some thousand, times
+ * rounding; 5e-13 of E: the rounding of g, along p. */
 TEST(records_are_right)
 {
-    check_run("--segments 3", 15);
-    check_run("--segments 2 --side 3 --density 20 --stiffness 7e3", 15);
-}
-
-TEST(records_are_right_where_springs_are_compressed)
-{
-    check_run("--segments 3 --stretch 0.5 --timestep 0.02", 15);
-    check_run("--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3", 8);
-}
-
-TEST(records_are_right_without_projection)
-{
-    check_run("--segments 3 --filter none", 15);
+    static const char *const lines[] = {
+        "--segments 3", "--segments 2 --side 3 --density 20 --stiffness 7e3",
+        "--segments 3 --stretch 0.5 --timestep 0.02",
+        "--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3",
+        "--segments 3 --filter none"};
+    enum { STEPS = 15 };
+    for (int i = 0; i < 5; i++) {
+        Witness witness = {0};
+        Simulation *simulation =
+            simulate_watched(witness_record, &witness, "%s", lines[i]);
+        witness.simulation = simulation;
+        for (int step = 0; step < STEPS; step++) {
+            witness_start(&witness);
+            make_steps(simulation, 1);
+        }
+        NewtonCounters counters = simulation_counters(simulation);
+        CHECK(witness.iterations > 0);
+        CHECK(counters.minimisations == STEPS);
+        CHECK(counters.iterations == witness.iterations);
+        CHECK(counters.trials == witness.trials);
+        CHECK(counters.projected >= witness.projected);
+        CHECK(counters.gradients == STEPS + counters.iterations);
+        /* Each direction has a factor, unless its test was passed without. */
+        long factored = counters.gradients - counters.skipped;
+        CHECK(counters.factorisations >= factored);
+        CHECK(counters.solves >= factored);
+        CHECK(simulation->steps == STEPS && simulation->unconverged == 0);
+    }
 }
 
 /* A residual that is called a value is that of the exact direction, an estimate
@@ -152,15 +134,14 @@ TEST(residuals_are_what_they_are_called)
         "--segments 4 --solver multigrid --stretch 1.001"};
     int seen[2][3] = {{0}};
     for (int line = 0; line < 5; line++) {
-        Simulation simulation;
-        simulation_from_line(lines[line], NULL, NULL, &simulation);
-        TimeIntegrator *run = &simulation.run[0];
+        Simulation *simulation = simulate("%s", lines[line]);
+        TimeIntegrator *run = &simulation->run[0];
         const Newton *newton = run->newton;
-        double tolerance = simulation.options.tolerance;
+        double tolerance = simulation->options.tolerance;
         for (int step = 0; step < 60; step++) {
             double x_n[LARGEST];
             memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
-            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+            make_steps(simulation, 1);
             IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
             double residual = newton->residual;
@@ -174,7 +155,6 @@ TEST(residuals_are_what_they_are_called)
             else
                 CHECK_AT_MOST(exact, residual);
         }
-        simulation_free(&simulation);
     }
     CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] == 0 &&
           seen[0][RESIDUAL_BOUND] > 20);
@@ -182,67 +162,14 @@ TEST(residuals_are_what_they_are_called)
           seen[1][RESIDUAL_BOUND] > 0);
 }
 
-/* Where the bound on |p| ended the loop, p itself must pass the test, and be
- * below the bound. */
-TEST(bound_implies_the_test)
-{
-    const char *lines[] = {"--segments 3 --tolerance 0.1",
-                           "--segments 3 --tolerance 1e-3 --stretch 0.6",
-                           "--segments 2 --tolerance 3 --stretch 2"};
-    for (int line = 0; line < 3; line++) {
-        Simulation simulation;
-        long skipped = 0;
-        simulation_from_line(lines[line], NULL, NULL, &simulation);
-        TimeIntegrator *run = &simulation.run[0];
-        const Newton *newton = run->newton;
-        for (int step = 0; step < 20; step++) {
-            double x_n[SIZE];
-            memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
-            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-            IncrementalPotential E = newton->at.E;
-            E.x_n = x_n;
-            double residual =
-                exact_residual(&E, newton->at.u, newton->at.x, true, run->h);
-            CHECK_AT_MOST(residual, newton->settings.tolerance);
-            if (newton->counters.skipped > skipped)
-                CHECK_AT_MOST(residual, newton->residual);
-            skipped = newton->counters.skipped;
-        }
-        CHECK(skipped > 0);
-        simulation_free(&simulation);
-    }
-}
-
-/* One gradient a step, and nothing else, not even a matrix. */
-TEST(rest_costs_one_gradient)
-{
-    Simulation simulation;
-    double x[SIZE];
-    simulation_from_line("--segments 3 --stretch 1", NULL, NULL, &simulation);
-    TimeIntegrator *run = &simulation.run[0];
-    memcpy(x, run->x, sizeof x);
-    for (int step = 0; step < 5; step++)
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-    NewtonCounters counters = simulation_counters(&simulation);
-    CHECK(counters.gradients == 5 && counters.skipped == 5);
-    CHECK(counters.iterations == 0 && counters.factorisations == 0);
-    CHECK(counters.solves == 0 && counters.trials == 0);
-    CHECK(run->newton->search.cholesky == NULL);
-    CHECK_SAME_BITS(run->x, x, SIZE);
-    for (int i = 0; i < SIZE; i++)
-        CHECK(run->v[i] == 0);
-    simulation_free(&simulation);
-}
-
 TEST(pieces_are_the_whole)
 {
-    Simulation simulation;
-    simulation_from_line("--segments 3 --stretch 0.4 --timestep 0.02", NULL,
-                         NULL, &simulation);
-    Newton *whole = simulation.run[0].newton, pieces;
-    const double *x_n = simulation.run[0].x;
+    Simulation *simulation =
+        simulate("--segments 3 --stretch 0.4 --timestep 0.02");
+    Newton *whole = simulation->run[0].newton, pieces;
+    const double *x_n = simulation->run[0].x;
     double h = whole->settings.h;
-    CHECK_STATUS(newton_create(&simulation.system, &whole->settings, &pieces),
+    CHECK_STATUS(newton_create(&simulation->system, &whole->settings, &pieces),
                  STATUS_OK);
     CHECK_STATUS(newton_minimise(whole, x_n, NULL, h * h), STATUS_OK);
     CHECK_STATUS(newton_start(&pieces, x_n, NULL, h * h), STATUS_RUNNING);
@@ -257,112 +184,80 @@ TEST(pieces_are_the_whole)
     CHECK_SAME_BITS(pieces.at.x, whole->at.x, SIZE);
     newton_free(&pieces);
     newton_free(NULL);
-    simulation_free(&simulation);
 }
 
 /* Keys may change both at any time: the next step obeys. */
 TEST(settings_change_while_running)
 {
-    Simulation simulation;
-    simulation_from_line("--segments 3", NULL, NULL, &simulation);
-    const Newton *newton = simulation.run[0].newton;
+    Simulation *simulation = simulate("--segments 3");
+    const Newton *newton = simulation->run[0].newton;
     for (int round = 0; round < 3; round++) {
-        simulation_set_filter(&simulation, FILTER_CLAMP);
-        simulation_set_line_search(&simulation, LINE_SEARCH_BACKTRACK);
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        simulation_set_filter(simulation, FILTER_CLAMP);
+        simulation_set_line_search(simulation, LINE_SEARCH_BACKTRACK);
+        make_steps(simulation, 1);
         CHECK(newton->search.kind == CHOLESKY_DEFINITE);
         CHECK(newton->record.trials > 0);
-        simulation_set_filter(&simulation, FILTER_NONE);
-        simulation_set_line_search(&simulation, LINE_SEARCH_NONE);
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+        simulation_set_filter(simulation, FILTER_NONE);
+        simulation_set_line_search(simulation, LINE_SEARCH_NONE);
+        make_steps(simulation, 1);
         CHECK(newton->search.kind == CHOLESKY_INDEFINITE);
         CHECK(newton->record.trials == 0 && newton->record.alpha == 1);
         CHECK(newton->record.projected == 0);
     }
-    simulation_free(&simulation);
 }
 
-TEST(large_matrices_use_blocks)
+/* A step that ends like this is made all the same: the state is finite and E is
+ * not higher than at the start.  Without projection some directions point
+ * uphill. */
+TEST(what_does_not_converge_says_why)
 {
-    Simulation simulation;
-    simulation_from_line("--segments 24", NULL, NULL, &simulation);
-    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-    CHECK(simulation.run[0].newton->search.kind == CHOLESKY_DEFINITE);
-    simulation_free(&simulation);
-}
-
-/* A step that ends like this is made all the same: the state is finite and
- * E is not higher than at the start. */
-static void check_unconverged_step(Simulation *simulation, Status expected)
-{
-    TimeIntegrator *run = &simulation->run[0];
-    int size = 2 * run->system->nodes;
-    double x_n[LARGEST], zero[LARGEST] = {0};
-    memcpy(x_n, run->x, (size_t)size * sizeof *x_n);
-    long steps = simulation->steps, unconverged = simulation->unconverged;
-    CHECK_STATUS(simulation_step(simulation), expected);
-    IncrementalPotential E = run->newton->at.E;
-    E.x_n = x_n;
-    CHECK_AT_MOST(exact_energy(&E, run->newton->at.u, run->x),
-                  exact_energy(&E, zero, x_n));
-    for (int i = 0; i < size; i++)
-        CHECK(isfinite(run->x[i]) && isfinite(run->v[i]));
-    CHECK(simulation->steps == steps + 1 && run->steps == steps + 1);
-    CHECK(simulation->unconverged == unconverged + 1);
-    CHECK(status_is_unconverged(expected));
-}
-
-TEST(iteration_limit_is_reached)
-{
-    Simulation simulation;
-    simulation_from_line("--segments 3", NULL, NULL, &simulation);
-    simulation.run[0].newton->settings.max_iterations = 1;
-    check_unconverged_step(&simulation, STATUS_ITERATION_LIMIT);
-    CHECK(simulation.run[0].newton->counters.iterations == 1);
-    simulation_free(&simulation);
-}
-
-/* Without projection some directions point uphill. */
-TEST(ascent_is_reported)
-{
-    Simulation simulation;
-    simulation_from_line("--filter none --timestep 0.02 --stretch 0.5", NULL,
-                         NULL, &simulation);
-    check_unconverged_step(&simulation, STATUS_NOT_DESCENT);
-    CHECK(simulation.run[0].newton->record.slope > 0);
-    simulation_free(&simulation);
-}
-
-TEST(rounding_limit_is_reached)
-{
-    Simulation simulation;
-    simulation_from_line("--segments 3 --tolerance 1e-30", NULL, NULL,
-                         &simulation);
-    for (int step = 0; step < 5; step++)
-        check_unconverged_step(&simulation, STATUS_ROUNDING_LIMIT);
-    CHECK_AT_MOST(simulation_counters(&simulation).iterations, 250);
-    simulation_free(&simulation);
+    static const struct {
+        const char *line;
+        int iterations, steps;
+        Status status;
+    } rows[] = {
+        {"--segments 3", 1, 1, STATUS_ITERATION_LIMIT},
+        {"--filter none --timestep 0.02 --stretch 0.5", 50, 1,
+         STATUS_NOT_DESCENT},
+        {"--segments 3 --tolerance 1e-30", 50, 5, STATUS_ROUNDING_LIMIT}};
+    for (int i = 0; i < 3; i++) {
+        Simulation *simulation = simulate("%s", rows[i].line);
+        TimeIntegrator *run = &simulation->run[0];
+        run->newton->settings.max_iterations = rows[i].iterations;
+        for (int step = 1; step <= rows[i].steps; step++) {
+            double x_n[LARGEST], zero[LARGEST] = {0};
+            memcpy(x_n, run->x, run->size * sizeof *x_n);
+            CHECK_STATUS(simulation_step(simulation), rows[i].status);
+            IncrementalPotential E = run->newton->at.E;
+            E.x_n = x_n;
+            CHECK_AT_MOST(exact_energy(&E, run->newton->at.u, run->x),
+                          exact_energy(&E, zero, x_n));
+            for (size_t c = 0; c < run->size; c++)
+                CHECK(isfinite(run->x[c]) && isfinite(run->v[c]));
+            CHECK(simulation->steps == step && run->steps == step);
+            CHECK(simulation->unconverged == step);
+        }
+        CHECK(status_is_unconverged(rows[i].status));
+        CHECK_AT_MOST(simulation_counters(simulation).iterations,
+                      rows[i].iterations * rows[i].steps);
+    }
 }
 
 /* All nodes in one point: a maximum of P, where its gradient is 0. */
 TEST(maximum_is_not_taken_for_a_minimum)
 {
-    Simulation simulation;
-    simulation_from_line("--segments 3 --timestep 0.1", NULL, NULL,
-                         &simulation);
-    memset(simulation.run[0].x, 0, SIZE * sizeof(double));
-    double maximum = simulation_energies(&simulation, 0).total;
-    CHECK_STATUS(simulation_step(&simulation), STATUS_OK); /* it is left */
-    CHECK(simulation_energies(&simulation, 0).total < 0.9 * maximum);
-    CHECK(simulation_counters(&simulation).saddles > 0);
-    simulation_free(&simulation);
+    Simulation *simulation;
+    simulation = simulate("--segments 3 --timestep 0.1");
+    memset(simulation->run[0].x, 0, SIZE * sizeof(double));
+    double maximum = simulation_energies(simulation, 0).total;
+    make_steps(simulation, 1); /* it is left */
+    CHECK(simulation_energies(simulation, 0).total < 0.9 * maximum);
+    CHECK(simulation_counters(simulation).saddles > 0);
     /* h so small that the masses outweigh the springs: there it is one */
-    simulation_from_line("--segments 3 --timestep 1e-6", NULL, NULL,
-                         &simulation);
-    memset(simulation.run[0].x, 0, SIZE * sizeof(double));
-    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-    CHECK(simulation_counters(&simulation).factorisations == 0);
-    simulation_free(&simulation);
+    simulation = simulate("--segments 3 --timestep 1e-6");
+    memset(simulation->run[0].x, 0, SIZE * sizeof(double));
+    make_steps(simulation, 1);
+    CHECK(simulation_counters(simulation).factorisations == 0);
 }
 
 /* How a spring between two nodes in one point ends, h = 1: its Hessian is
@@ -484,23 +379,21 @@ static bool count_shifts(void *user, const NewtonRecord *record)
 
 TEST(lost_masses_are_found_again)
 {
-    Simulation simulation;
     int shifts = 0;
-    simulation_from_line("--segments 3 --stiffness 1e30", count_shifts, &shifts,
-                         &simulation);
-    TimeIntegrator *run = &simulation.run[0];
-    double start = system_potential(&simulation.system, run->x);
+    Simulation *simulation = simulate_watched(count_shifts, &shifts,
+                                              "--segments 3 --stiffness 1e30");
+    TimeIntegrator *run = &simulation->run[0];
+    double start = system_potential(&simulation->system, run->x);
     for (int i = 0; i < SIZE; i++)
         run->v[i] = i % 2 ? 2 : 1;
-    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    make_steps(simulation, 1);
     CHECK(shifts > 0);
     double mean[2] = {0, 0};
     for (int i = 0; i < SIZE; i++)
         mean[i % 2] += run->v[i] / (SIZE / 2);
     CHECK_NEAR(mean[0], 1, 1e-12); /* a sum of 16 terms of up to 100 m/s */
     CHECK_NEAR(mean[1], 2, 1e-12);
-    CHECK_AT_MOST(system_potential(&simulation.system, run->x), 1e-6 * start);
-    simulation_free(&simulation);
+    CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
 }
 
 /* Where a double cannot hold springs and masses side by side, slopes are
@@ -526,93 +419,46 @@ static const char *const massless[] = {
 
 enum { MASSLESS = sizeof massless / sizeof *massless };
 
-/* Not from one iterate to another either: E as it is, 1e-9 for rounding. */
-TEST(iterations_never_rise_without_masses)
-{
-    for (int i = 0; i < MASSLESS; i++) {
-        Simulation simulation;
-        simulation_from_line(massless[i], NULL, NULL, &simulation);
-        const TimeIntegrator *run = &simulation.run[0];
-        Newton *newton = run->newton;
-        double h = simulation.options.timestep;
-        for (int c = 0; c < 2 * simulation.system.nodes; c++)
-            newton->u_tilde[c] = 0;
-        Status status = newton_start(newton, run->x, NULL, h * h);
-        double start = incremental_potential_value(&newton->at.E, newton->at.u,
-                                                   newton->at.x);
-        while (status == STATUS_RUNNING) {
-            status = newton_iterate(newton);
-            CHECK_AT_MOST(incremental_potential_value(
-                              &newton->at.E, newton->at.u, newton->at.x),
-                          start * (1 + 1e-9));
-        }
-        simulation_free(&simulation);
-    }
-}
-
-/* From rest, M |v|^2/2 + P(x) <= P(x_n), with 1e-9 for rounding. */
+/* From rest, iterate by iterate and step by step; 1e-9 for rounding. */
 TEST(energy_never_rises_without_masses)
 {
     for (int i = 0; i < MASSLESS; i++) {
-        Simulation simulation;
-        simulation_from_line(massless[i], NULL, NULL, &simulation);
+        Simulation *simulation = simulate("%s", massless[i]);
+        TimeIntegrator *run = &simulation->run[0];
+        Newton *newton = run->newton;
         for (int step = 0; step < 6; step++) {
-            TimeIntegrator *run = &simulation.run[0];
-            for (int c = 0; c < 2 * simulation.system.nodes; c++)
-                run->v[c] = 0;
-            double before = simulation_energies(&simulation, 0).total;
-            Status status = simulation_step(&simulation);
+            memset(run->v, 0, run->size * sizeof *run->v);
+            memset(newton->u_tilde, 0, run->size * sizeof *run->v);
+            Status status = newton_start(newton, run->x, NULL, run->h * run->h);
+            double start = incremental_potential_value(
+                &newton->at.E, newton->at.u, newton->at.x);
+            while (status == STATUS_RUNNING) {
+                status = newton_iterate(newton);
+                CHECK_AT_MOST(incremental_potential_value(
+                                  &newton->at.E, newton->at.u, newton->at.x),
+                              start * (1 + 1e-9));
+            }
+            double before = simulation_energies(simulation, 0).total;
+            status = simulation_step(simulation);
             CHECK(!status || status_is_unconverged(status));
-            CHECK_AT_MOST(simulation_energies(&simulation, 0).total,
+            CHECK_AT_MOST(simulation_energies(simulation, 0).total,
                           before * (1 + 1e-9));
         }
-        simulation_free(&simulation);
     }
-}
-
-/* All filters that make H positive definite end in the same minimum; on demand
- * needs fewer iterations, because near it H is used as it is. */
-TEST(filters_share_the_minimum)
-{
-    const char *const names[] = {"clamp", "abs", "on-demand"};
-    double x[3][SIZE];
-    long iterations[3];
-    for (int i = 0; i < 3; i++) {
-        char line[128];
-        snprintf(line, sizeof line,
-                 "--segments 3 --stretch 0.7 --tolerance 1e-9 --filter %s",
-                 names[i]);
-        Simulation simulation;
-        simulation_from_line(line, NULL, NULL, &simulation);
-        for (int step = 0; step < 10; step++)
-            CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        memcpy(x[i], simulation.run[0].x, sizeof x[i]);
-        iterations[i] = simulation_counters(&simulation).iterations;
-        simulation_free(&simulation);
-    }
-    for (int i = 0; i < SIZE; i++) {
-        /* Ten steps of 1e-9 m/s times 0.004 s, times their growth. */
-        CHECK_NEAR(x[1][i], x[0][i], 1e-9);
-        CHECK_NEAR(x[2][i], x[0][i], 1e-9);
-    }
-    CHECK(iterations[2] < iterations[0]);
 }
 
 /* |d|^4 overflows: the step fails and leaves everything as it was. */
 TEST(overflow_is_reported)
 {
-    Simulation simulation;
     double x[SIZE];
-    simulation_from_line("--segments 3 --stretch 1e160", NULL, NULL,
-                         &simulation);
-    memcpy(x, simulation.run[0].x, sizeof x);
-    CHECK_STATUS(simulation_step(&simulation), STATUS_NOT_FINITE);
+    Simulation *simulation = simulate("--segments 3 --stretch 1e160");
+    memcpy(x, simulation->run[0].x, sizeof x);
+    CHECK_STATUS(simulation_step(simulation), STATUS_NOT_FINITE);
     CHECK(!status_is_unconverged(STATUS_NOT_FINITE));
-    CHECK_SAME_BITS(simulation.run[0].x, x, SIZE);
-    CHECK(simulation.steps == 0 && simulation.unconverged == 0);
+    CHECK_SAME_BITS(simulation->run[0].x, x, SIZE);
+    CHECK(simulation->steps == 0 && simulation->unconverged == 0);
     for (int i = 0; i < SIZE; i++)
-        CHECK(simulation.run[0].v[i] == 0);
-    simulation_free(&simulation);
+        CHECK(simulation->run[0].v[i] == 0);
 }
 
 /* Stops at the given record. */
@@ -625,56 +471,17 @@ static bool stop_at(void *user, const NewtonRecord *record)
 TEST(observers_can_interrupt)
 {
     for (int records = 1; records <= 3; records++) {
-        Simulation simulation;
         double x[SIZE];
         int left = records;
-        simulation_from_line("--segments 3 --tolerance 1e-9", stop_at, &left,
-                             &simulation);
-        memcpy(x, simulation.run[0].x, sizeof x);
-        CHECK_STATUS(simulation_step(&simulation), STATUS_INTERRUPTED);
-        CHECK(left == 0 && simulation.steps == 0);
-        CHECK_SAME_BITS(simulation.run[0].x, x, SIZE);
+        Simulation *simulation =
+            simulate_watched(stop_at, &left, "--segments 3 --tolerance 1e-9");
+        memcpy(x, simulation->run[0].x, sizeof x);
+        CHECK_STATUS(simulation_step(simulation), STATUS_INTERRUPTED);
+        CHECK(left == 0 && simulation->steps == 0);
+        CHECK_SAME_BITS(simulation->run[0].x, x, SIZE);
         left = 1000; /* and the step can be made again */
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        simulation_free(&simulation);
+        make_steps(simulation, 1);
     }
-}
-
-/* A term without any energy, which only exists where x > -0.3 and tells no
- * reach beforehand: as where rounding takes a step into a wall. */
-static double no_value(const Place *at)
-{
-    (void)at;
-    return 0;
-}
-
-static void no_gradient(const Place *at, double *g)
-{
-    (void)at;
-    (void)g;
-}
-
-static long long no_entries(const Place *at)
-{
-    (void)at;
-    return 0;
-}
-
-static void no_pattern(const Place *at, Triplets *triplets)
-{
-    (void)at;
-    (void)triplets;
-}
-
-static int no_hessian(const Place *at, Filter filter, const int *slot,
-                      const double *q, double *out)
-{
-    (void)at;
-    (void)filter;
-    (void)slot;
-    (void)q;
-    (void)out;
-    return 0;
 }
 
 static bool right_of_the_wall(const Place *at)
@@ -682,16 +489,16 @@ static bool right_of_the_wall(const Place *at)
     return at->x[0] > -0.3;
 }
 
-/* From x = 0 to x_tilde = -1: 1 and 1/2 are refused, with and without a line
- * search; no later one ends beyond the wall. */
+/* A wall at x = -0.3 that tells no reach beforehand, as where rounding takes a
+ * step into one: from x = 0 to x_tilde = -1 1 and 1/2 are refused, with and
+ * without a line search; no later one ends beyond the wall. */
 TEST(steps_into_a_wall_are_halved)
 {
-    const TermKind wall = {.value = no_value,
-                           .gradient = no_gradient,
-                           .entries = no_entries,
-                           .pattern = no_pattern,
-                           .hessian = no_hessian,
-                           .allowed = right_of_the_wall};
+    TermKind wall = central_field; /* of no strength */
+    Pull nothing = {.node = -1};
+    wall.allowed = right_of_the_wall;
+    wall.free = NULL;
+    wall.diagonal = false; /* else no line would be searched */
     for (int search = 0; search < LINE_SEARCH_COUNT; search++) {
         System system;
         Newton newton;
@@ -702,7 +509,7 @@ TEST(steps_into_a_wall_are_halved)
                                          .max_iterations = 100};
         CHECK_STATUS(system_create(1, 0, &system), STATUS_OK);
         system.m[0] = 1;
-        CHECK_STATUS(system_add_term(&system, &wall, NULL), STATUS_OK);
+        CHECK_STATUS(system_add_term(&system, &wall, &nothing), STATUS_OK);
         CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
         newton.u_tilde[0] = -1;
         CHECK_STATUS(newton_start(&newton, x, NULL, 1), STATUS_RUNNING);
@@ -714,6 +521,94 @@ TEST(steps_into_a_wall_are_halved)
         newton_free(&newton);
         system_free(&system);
     }
+}
+
+/* ---- backtracking -------------------------------------------------------- */
+
+/* Alphas up to the limit do not raise the energy. */
+typedef struct Probe {
+    double limit, at_limit, above;
+    int calls;
+} Probe;
+
+static double probe_difference(const void *function, double alpha)
+{
+    Probe *probe = *(Probe *const *)function;
+    probe->calls++;
+    return alpha <= probe->limit ? probe->at_limit : probe->above;
+}
+
+/* The first of start, start/2, start/4, ... that does not raise the energy; NaN
+ * is not lower; below 2^-64 it gives up. */
+TEST(backtracking_takes_the_first_that_is_not_higher)
+{
+    static const struct {
+        double start;
+        Probe probe;
+        double alpha;
+        int trials;
+    } rows[] = {
+        {1, {1, -1, 1, 0}, 1, 1},         {1, {1, 0, 1, 0}, 1, 1},
+        {1, {0.5, 0, 1, 0}, 0.5, 2},      {1, {0.25, -1, NAN, 0}, 0.25, 3},
+        {0.3, {0.1, -1, 1, 0}, 0.075, 3}, {1, {0x1p-64, -1, 1, 0}, 0x1p-64, 65},
+        {1, {0x1p-65, -1, 1, 0}, 0, 65},  {1, {0, -1, NAN, 0}, 0, 65}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Probe probe = rows[i].probe, *pointer = &probe;
+        double alpha = rows[i].start;
+        int trials;
+        CHECK_STATUS(
+            line_search_backtrack(probe_difference, &pointer, &alpha, &trials),
+            rows[i].alpha > 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT);
+        CHECK(alpha == rows[i].alpha);
+        CHECK(trials == rows[i].trials && probe.calls == trials);
+    }
+}
+
+/* Springs that flow, of which a long line says that E falls without end. */
+static double a_lie(const Place *at, const double *p, double alpha)
+{
+    return alpha > 0.001 ? -1e20 : plastic_energy.remainder(at, p, alpha);
+}
+
+/* E after each update. */
+typedef struct Falling {
+    Simulation *simulation;
+    double E;
+    int updates, halved;
+    bool good;
+} Falling;
+
+static bool see_fall(void *user, const NewtonRecord *record)
+{
+    Falling *falling = user;
+    const Iterate *at = &falling->simulation->run[0].newton->at;
+    double E = incremental_potential_value(&at->E, at->u, at->x);
+    if (record->iteration > 0) { /* 1e-9: the rounding of E */
+        falling->good = falling->good && E <= falling->E * (1 + 1e-9) &&
+                        record->change <= 0 &&
+                        record->change >= -falling->E * (1 + 1e-9);
+        falling->halved += record->alpha < 0.001;
+    }
+    falling->E = E;
+    falling->updates++;
+    return true;
+}
+
+/* Whatever a term says about a line: no update raises E, and none is said to
+ * lower it by more than there is of it.  Springs that flow let light nodes fly,
+ * so that long steps raise E. */
+TEST(no_update_is_taken_that_E_contradicts)
+{
+    Falling falling = {.good = true};
+    Simulation *flying = simulate_watched(
+        see_fall, &falling,
+        "--segments 4 --stretch 4 --timestep 1 --yield 0.01 --density 0.001");
+    TermKind liar = plastic_energy;
+    liar.remainder = a_lie;
+    falling.simulation = flying;
+    system_find_term(&flying->system, &plastic_energy)->kind = &liar;
+    make_steps(flying, 1);
+    CHECK(falling.good && falling.updates > 5 && falling.halved > 5);
 }
 
 /* Each constant has a name and a text of its own. */

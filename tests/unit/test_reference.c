@@ -110,22 +110,20 @@ static double largest_velocity(const char *name)
 static void check_case(const char *name, const char *line, int steps)
 {
     static Updates got, expected;
-    Simulation simulation;
     got.count = 0;
     read_updates(name, &expected);
     double largest_v = largest_velocity(name);
     FILE *file = reference_file(name, "states");
-    simulation_from_line(line, record_update, &got, &simulation);
-    check_states(file, &simulation, largest_v);
+    Simulation *simulation = simulate_watched(record_update, &got, "%s", line);
+    check_states(file, simulation, largest_v);
     for (int step = 0; step < steps; step++) {
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        check_states(file, &simulation, largest_v);
+        make_steps(simulation, 1);
+        check_states(file, simulation, largest_v);
     }
     CHECK(fscanf(file, " %*c") == EOF); /* nothing is left */
     check_updates(&got, &expected);
-    CHECK(simulation_counters(&simulation).iterations == expected.count);
+    CHECK(simulation_counters(simulation).iterations == expected.count);
     fclose(file);
-    simulation_free(&simulation);
 }
 
 TEST(default_scene)

@@ -169,11 +169,10 @@ TEST(light_nodes_are_not_overlooked)
  * one that was found before. */
 TEST(bends_are_found_afresh)
 {
-    Simulation simulation;
-    simulation_from_line("--segments 3 --stretch 0.3", NULL, NULL, &simulation);
-    Newton *newton = simulation.run[0].newton;
+    Simulation *simulation = simulate("--segments 3 --stretch 0.3");
+    Newton *newton = simulation->run[0].newton;
     double p[2][2 * 16], slope = 0;
-    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 0.01),
+    CHECK_STATUS(newton_start(newton, simulation->run[0].x, NULL, 0.01),
                  STATUS_RUNNING);
     for (int i = 0; i < 2; i++) {
         bool found;
@@ -187,7 +186,6 @@ TEST(bends_are_found_afresh)
     for (int i = 0; i < 2 * 16; i++)
         slope += newton->at.g[i] * p[0][i];
     CHECK(slope < 0);
-    simulation_free(&simulation);
 }
 
 /* The largest shift of all records. */
@@ -200,14 +198,12 @@ static bool keep_shift(void *user, const NewtonRecord *record)
 
 TEST(shifts_are_small)
 {
-    Simulation simulation;
     double shift = 0, scale = 16e-6 * 1e30; /* h^2 k */
-    simulation_from_line("--segments 3 --stiffness 1e30", keep_shift, &shift,
-                         &simulation);
-    CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
+    Simulation *simulation =
+        simulate_watched(keep_shift, &shift, "--segments 3 --stiffness 1e30");
+    make_steps(simulation, 1);
     CHECK(shift > 0);
     CHECK_AT_MOST(shift, 1e-10 * scale);
-    simulation_free(&simulation);
 }
 
 /* A square that only flies and turns: forces that the masses alone resist,
@@ -216,17 +212,16 @@ TEST(shifts_are_small)
 TEST(shifted_solves_find_the_masses)
 {
     enum { N = 2 * 9 }; /* nodes at multiples of 1/2: no strain at all */
-    Simulation simulation;
-    simulation_from_line("--segments 2 --stretch 1 --stiffness 1e30", NULL,
-                         NULL, &simulation);
-    TimeIntegrator *run = &simulation.run[0];
+    Simulation *simulation =
+        simulate("--segments 2 --stretch 1 --stiffness 1e30");
+    TimeIntegrator *run = &simulation->run[0];
     Newton *newton = run->newton;
     for (int i = 0; i < N; i += 2) {
         newton->u_tilde[i] = 1e-3 * (3 - run->x[i + 1]);
         newton->u_tilde[i + 1] = 1e-3 * (run->x[i] - 2);
     }
     CHECK_STATUS(newton_start(newton, run->x, NULL, 16e-6), STATUS_RUNNING);
-    CHECK(newton->search.shift > 1e6 * simulation.system.m[0]);
+    CHECK(newton->search.shift > 1e6 * simulation->system.m[0]);
     Wide g[N], H[N * N];
     int negative;
     wide_derivatives(&newton->at.E, newton->at.u, FILTER_CLAMP, g, H);
@@ -234,7 +229,6 @@ TEST(shifted_solves_find_the_masses)
     wide_solve(N, H, g);
     for (int i = 0; i < N; i++)
         CHECK_NEAR(newton->at.p[i], -(long double)g[i], 1e-8);
-    simulation_free(&simulation);
 }
 
 /* Averaged: its gradient is the slope of its energy. */
@@ -359,11 +353,9 @@ typedef void Part(TimeIntegrator *);
  */
 static void check_blamed(Part *aim, Part *land, const char *why)
 {
-    Simulation simulation;
     Watch watch;
-    simulation_from_line("--segments 2 --tolerance 1e-6", NULL, NULL,
-                         &simulation);
-    TimeIntegrator *run = &simulation.run[0];
+    Simulation *simulation = simulate("--segments 2 --tolerance 1e-6");
+    TimeIntegrator *run = &simulation->run[0];
     IntegratorMethod method = *run->method;
     CHECK(watch_create(run, &watch));
     CHECK(watch_step(&watch) == VERDICT_CONVERGED);
@@ -376,7 +368,6 @@ static void check_blamed(Part *aim, Part *land, const char *why)
         print_error("'%s' was not noticed; reason: %s\n", why, watch.reason);
     CHECK(seen);
     watch_free(&watch);
-    simulation_free(&simulation);
 }
 
 TEST(broken_promises_are_noticed)
@@ -400,16 +391,14 @@ TEST(false_convergence_is_noticed)
 /* Caps are looked at through the records of a real minimisation. */
 TEST(too_many_iterations_are_noticed)
 {
-    Simulation simulation;
     Watch watch;
-    simulation_from_line("--segments 3", NULL, NULL, &simulation);
-    TimeIntegrator *run = &simulation.run[0];
+    Simulation *simulation = simulate("--segments 3");
+    TimeIntegrator *run = &simulation->run[0];
     CHECK(watch_create(run, &watch));
     run->newton->settings.max_iterations = 0; /* one is made all the same */
     CHECK(watch_step(&watch) == VERDICT_WRONG);
     CHECK(strstr(watch.reason, "more than allowed") != NULL);
     watch_free(&watch);
-    simulation_free(&simulation);
 }
 
 /* Fails where a heavy node has a stiff spring. */
@@ -485,17 +474,14 @@ TEST(large_squares_pass_what_they_say)
             print_error("%s\n", reason);
         CHECK(tally.wrong == 0 && tally.judged > 0 && tally.blurred == 0);
     }
-    Simulation simulation;
-    simulation_from_line("--segments 12 --solver multigrid", NULL, NULL,
-                         &simulation);
-    Newton *newton = simulation.run[0].newton;
-    CHECK_STATUS(newton_start(newton, simulation.run[0].x, NULL, 1.6e-5),
+    Simulation *simulation = simulate("--segments 12 --solver multigrid");
+    Newton *newton = simulation->run[0].newton;
+    CHECK_STATUS(newton_start(newton, simulation->run[0].x, NULL, 1.6e-5),
                  STATUS_RUNNING);
     CHECK(large_judge(newton) == LARGE_FAILED);
     while (newton_iterate(newton) == STATUS_RUNNING)
         continue;
     CHECK(large_judge(newton) == LARGE_PASSED);
-    simulation_free(&simulation);
 }
 
 TESTS(NULL, NULL)

@@ -297,6 +297,8 @@ static void line(Case *c, const TermKind *kind, Random *random)
     if (kind->reach)
         reach = kind->reach(&c->at, c->p);
     double most = fmin(reach, row->far);
+    if (random_below(random, 2))
+        most *= random_logarithmic(random, 1e-6, 1);
     double alpha = random_below(random, 4) == 0
                        ? 1e-9
                        : most * random_logarithmic(random, 1e-9, 1);
@@ -448,6 +450,12 @@ static void whole_step(Case *c, Random *random)
     if (!damping_of(&c->system))
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * spot.size.f);
+    Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
+    const Along along = incremental_potential_along(&iterate, 1e-3);
+    spot.alpha = 1e-3L;
+    Real change = oracle_step(&spot, u_tilde).f - part.f;
+    near("E along p", along_difference(&along, 1e-3), change,
+         2 * noise.f + noise.p + 1e-13L * spot.size.f);
 }
 
 static void row_is_right(void **state)

@@ -12,7 +12,7 @@
 
 /* ---- checks ------------------------------------------------------------- */
 
-enum { MAX_RUNS = 32 };
+enum { MAX_RUNS = 1024 };
 
 static struct {
     Simulation *run[MAX_RUNS];

@@ -1,0 +1,834 @@
+/* Contact, friction, cells, plastic flow, damping, fracture and what moves, in
+ * whole steps: laws of mechanics with closed forms, the ledger of energies, and
+ * that no iterate ever penetrates or turns a cell over.  What the terms are at
+ * one place is test_terms' matter.
+ */
+#include "test.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/barrier.h"
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/damping.h"
+#include "model/fracture.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
+
+static const double G = 9.81;
+
+/* ---- remainders, to their last digits ------------------------------------ */
+
+/* (1 - s)(z - ln(1 + z)) + t ln(1 + z), z = t/s: both parts are positive. */
+static long double exact_barrier(long double s, long double t)
+{
+    long double z = t / s, less = log1pl(z) - z;
+    if (s >= 1)
+        return s + t < 1 ? (s + t - 1) * logl(s + t) : 0;
+    if (s + t >= 1)
+        return t * (1 - s) / s - logl(s) * (s + t - 1);
+    if (fabsl(z) < 0.3L) {
+        less = 0;
+        for (int k = 80; k > 1; k--)
+            less = z * (less + (k % 2 ? 1.0L : -1.0L) / k);
+        less *= z;
+    }
+    return (s - 1) * less + t * log1pl(z);
+}
+
+TEST(remainders_of_the_barrier_are_exact)
+{
+    Random random = {12};
+    for (int i = 0; i < 3000; i++) {
+        double s = random_logarithmic(&random, 1e-5, 3);
+        double t = s * random_logarithmic(&random, 1e-14, 10);
+        if (i % 2)
+            t = -fmin(t, 0.9 * s);
+        long double exact = exact_barrier(s, t);
+        /* leaving or entering the barrier: s + t - 1 has lost digits */
+        double lost = s > 1 || s + t > 1 ? 8e-16 * (s + 1) : 0;
+        if (s > 1 && s + t < 1)
+            lost = 2e-15 / fabs(s + t - 1);
+        CHECK_NEAR(barrier_remainder(s, t), exact, (2e-15 + lost) * exact);
+    }
+    CHECK(barrier_remainder(0.5, -0.5) == INFINITY);
+    CHECK(barrier_remainder(0.5, -0.7) == INFINITY);
+}
+
+/* f0 of friction.h and its slope. */
+static Wide friction_at(Wide y, Wide e, Wide *slope)
+{
+    Wide size = y < 0 ? -y : y, a = size < e ? size / e : 1;
+    *slope = (y < 0 ? -1 : 1) * a * (2 - a);
+    return size < e ? y * y / e * (1 - a / 3) : size - e / 3;
+}
+
+TEST(remainders_of_friction_are_exact)
+{
+    Random random = {13};
+    for (int i = 0; i < 20000; i++) {
+        double e = random_logarithmic(&random, 1e-8, 10);
+        double y = e * random_uniform(&random, -2, 2);
+        double t = e * random_logarithmic(&random, 1e-9, 10);
+        Wide slope, unused;
+        t = i % 2 ? t : -t;
+        Wide start = friction_at(y, e, &slope);
+        double exact =
+            (double)(friction_at((Wide)y + t, e, &unused) - start - slope * t);
+        /* y + t is rounded: of t an ulp of e, twice, in what f'' passes */
+        double lost = 4e-15 * (e + fabs(t)) * fmin(1, fabs(t) / e) * 2;
+        CHECK_NEAR(friction_remainder(y, t, e), exact, 2e-15 * exact + lost);
+    }
+}
+
+/* V of plasticity.h as it stands there, times 2. */
+static Wide twice_V(Wide Y, Wide flow, Wide theta, Wide e_n, Wide e)
+{
+    Wide over = e > Y ? e - Y : e < -Y ? -e - Y : 0, change = e - e_n;
+    return e * e - flow * over * over + theta * change * change;
+}
+
+/* Springs that flow, half of them without hardening, as far as light nodes may
+ * fly.  Where they are elastic, |e| < Y, is known to an ulp of e and Y: that
+ * moves the remainder by no more than 2Y times the way.  And the whole change,
+ * V(e + t) - V(e), is as exact as V is large. */
+TEST(remainders_of_flow_are_exact)
+{
+    Random random = {15};
+    for (int i = 0; i < 20000; i++) {
+        double Y = random_logarithmic(&random, 1e-8, 10), e_n = 0, theta = 0;
+        double flow = i % 2 ? 1 : random_uniform(&random, 0.3, 1);
+        double e = Y * random_logarithmic(&random, 1e-3, 1e9);
+        double t = random_below(&random, 3)
+                       ? Y * random_logarithmic(&random, 1e-9, 1e14)
+                       : e * random_uniform(&random, 0, 3);
+        e = random_below(&random, 2) ? e : -e;
+        t = random_below(&random, 2) ? t : -t;
+        if (random_below(&random, 4) == 0) {
+            e_n = e * random_uniform(&random, -1, 1);
+            theta = random_logarithmic(&random, 1e-3, 1e3);
+        }
+        SpringLaw law = {Y, flow, theta, e_n};
+        Wide start = twice_V(Y, flow, theta, e_n, e) / 2;
+        Wide end = twice_V(Y, flow, theta, e_n, (Wide)e + t) / 2;
+        Wide within = e > Y ? Y : e < -Y ? -Y : e;
+        Wide slope =
+            within + (1 - (Wide)flow) * (e - within) + theta * ((Wide)e - e_n);
+        double got = spring_law_remainder(law, e, t);
+        double exact = (double)(end - start - slope * t);
+        CHECK_NEAR(got, exact,
+                   1e-15 * exact +
+                       DBL_EPSILON * 2 * Y * (fabs(e) + Y + fabs(t)));
+        CHECK(got >= 0);
+        CHECK_NEAR(got + spring_law_slope(law, e) * t, end - start,
+                   2e-15 * (double)(start + end));
+    }
+}
+
+/* ---- some masses ----------------------------------------------------------
+ */
+
+/* The system and the run of a test; those of the one before are freed. */
+static System few;
+static TimeIntegrator run;
+
+/* Masses of 1 kg and springs of 1 J/m^2, 1 m long, between nodes 0 and s + 1.
+ */
+static System *few_masses(int nodes, int springs)
+{
+    time_integrator_free(&run);
+    system_free(&few);
+    memset(&run, 0, sizeof run);
+    CHECK_STATUS(system_create(nodes, springs, &few), STATUS_OK);
+    for (int i = 0; i < nodes; i++)
+        few.m[i] = 1;
+    for (int s = 0; s < springs; s++) {
+        few.e[2 * s + 1] = s + 1;
+        few.l2[s] = few.k[s] = 1;
+    }
+    return &few;
+}
+
+/* A mass above a wall through the origin. */
+static void point_on_wall(const double n[2], double friction, double slip_speed,
+                          double gravity)
+{
+    const Obstacle wall = {.kind = OBSTACLE_WALL,
+                           .n = {n[0], n[1]},
+                           .friction = friction,
+                           .node = -1};
+    few_masses(1, 0)->gravity[1] = -gravity;
+    CHECK_STATUS(contact_add(&few, &(Barrier){0.01, 1}, 1, &wall), STATUS_OK);
+    if (friction > 0)
+        CHECK_STATUS(friction_add(&few, slip_speed), STATUS_OK);
+}
+
+/* The masses, by backward Euler from x and v. */
+static void let_go(double h, const double *x, const double *v)
+{
+    const NewtonSettings settings = {
+        .h = h, .tolerance = 1e-11, .max_iterations = 2000};
+    time_integrator_free(&run);
+    CHECK_STATUS(time_integrator_create(&integrator_methods[0], &few, &settings,
+                                        x, v, &run),
+                 STATUS_OK);
+}
+
+static void step(void)
+{
+    CHECK_STATUS(time_integrator_step(&run), STATUS_OK);
+}
+
+static double between(double low, double high, double aim,
+                      double (*f)(double x))
+{
+    for (int i = 0; i < 200; i++) {
+        double middle = 0.5 * (low + high);
+        *(f(middle) < aim ? &low : &high) = middle;
+    }
+    return low;
+}
+
+static double fall_of_barrier(double s)
+{
+    return -(s - 1) * log(s);
+}
+
+/* A mass flies into the barrier and out again.  It turns where the barrier has
+ * taken all of m v^2/2; implicit Euler swallows a part of the bounce that goes
+ * to 0 with h. */
+TEST(a_bounce_comes_back_with_small_steps)
+{
+    static const double least[5] = {0.30, 0.70, 0.90, 0.97, 0.993};
+    const double n[2] = {0, 1}, x[2] = {0, 0.01}, v[2] = {0, -1}, d_hat = 0.01;
+    double exact = d_hat * between(0, 1, -0.5, fall_of_barrier), time = 0;
+    /* T = 2 int dd/sqrt(v^2 - 2 b/m), d = d_min + (d_hat - d_min) q^2 */
+    for (int i = 0; i < 100000; i++) {
+        double q = (i + 0.5) / 100000, d = exact + (d_hat - exact) * q * q;
+        double b = -fall_of_barrier(d / d_hat);
+        time += 2 * 2 * (d_hat - exact) * q / sqrt(1 - 2 * b) / 100000;
+    }
+    for (int k = 0; k < 5; k++) {
+        double h = time / pow(4, k + 1), lowest = 1;
+        point_on_wall(n, 0, 1, 0);
+        let_go(h, x, v);
+        for (int i = 0; i < 20 * pow(4, k + 1) && run.x[1] <= d_hat; i++) {
+            step();
+            lowest = fmin(lowest, run.x[1]);
+        }
+        CHECK(run.x[1] > d_hat);
+        CHECK(run.v[1] > least[k] && run.v[1] < 1);
+        CHECK_NEAR(lowest, exact, 3 * h);
+    }
+}
+
+/* A block on a slope.  mu > tan: it creeps at eps_v (1 - sqrt(1 - tan/mu));
+ * mu < tan: it slides with g (sin - mu cos). */
+TEST(slopes_hold_and_let_go)
+{
+    double angle = 0.35, down[2] = {-cos(angle), -sin(angle)};
+    const double n[2] = {-sin(angle), cos(angle)}, still[2] = {0, 0};
+    for (int slides = 0; slides < 2; slides++) {
+        double mu = tan(angle) * (slides ? 0.5 : 1.2), eps_v = 1e-2, before = 0;
+        point_on_wall(n, mu, eps_v, G);
+        let_go(0.01, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
+        for (int i = 0; i < 400; i++) {
+            before = run.v[0] * down[0] + run.v[1] * down[1];
+            step();
+        }
+        double speed = run.v[0] * down[0] + run.v[1] * down[1];
+        if (slides)
+            CHECK_NEAR((speed - before) / 0.01,
+                       G * (sin(angle) - mu * cos(angle)), 1e-6);
+        else
+            CHECK_NEAR(speed, eps_v * (1 - sqrt(1 - tan(angle) / mu)),
+                       1e-6 * eps_v);
+    }
+}
+
+/* A belt: an inclined wall that moves along itself at W takes a block along.
+ * While it slips, it feels mu N, N = m g cos; what the belt does is mu N W a
+ * second, part of which heats. */
+TEST(a_belt_takes_its_load_along)
+{
+    const double mu = 0.9, angle = 0.3, W = 10, h = 0.01, still[2] = {0, 0};
+    const double n[2] = {-sin(angle), cos(angle)}, N = G * cos(angle);
+    const double t[2] = {cos(angle), sin(angle)};
+    double speed = 0;
+    int slips = 0;
+    point_on_wall(n, mu, 1e-4, G);
+    contact_of(&few)->obstacle[0].motion =
+        (Motion){1, {1e9}, {{W * t[0], W * t[1]}}};
+    let_go(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
+    for (int i = 0; i < 200; i++) {
+        double before = speed, done = run.work;
+        double heat = system_lost(&few, &friction_energy);
+        step();
+        speed = run.v[0] * t[0] + run.v[1] * t[1];
+        if (i < 60 || speed > 0.9 * W)
+            continue; /* finds its height; is carried along */
+        CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
+        CHECK_NEAR((run.work - done) / h, mu * N * W, 1e-5);
+        CHECK_NEAR((system_lost(&few, &friction_energy) - heat) / h,
+                   mu * N * (W - speed), 1e-5);
+        slips++;
+    }
+    CHECK(slips > 30);
+    CHECK_NEAR(speed, W, 1e-4);
+}
+
+static const double YIELD = 0.05, HARDENING = 0.3, STIFFNESS = 1000;
+
+static double stored_and_lost(double e)
+{
+    double over = fmax(e - YIELD, 0);
+    return STIFFNESS * (e * e / 2 - over * over / (2 * (1 + HARDENING)));
+}
+
+/* Two masses fly apart: k l2 V(e_max) is the energy of their relative motion
+ * m v^2/4, and what has flowed is (e_max - Y)/(1 + H); it stays. */
+TEST(a_plastic_spring_keeps_what_has_flowed)
+{
+    const double x[4] = {-0.5, 0, 0.5, 0}, v[4] = {-4, 0, 4, 0};
+    double most = between(YIELD, 10, 64.0 / 4, stored_and_lost), error[2];
+    double exact = (most - YIELD) / (1 + HARDENING);
+    for (int fine = 0; fine < 2; fine++) {
+        few_masses(2, 1)->k[0] = STIFFNESS;
+        CHECK_STATUS(plasticity_set(&few, YIELD, HARDENING), STATUS_OK);
+        let_go(fine ? 1e-5 : 5e-5, x, v);
+        const Plasticity *flow = plasticity_of(&few);
+        for (double last = -1; flow->ep[0] > last || last == 0;) {
+            last = flow->ep[0];
+            step();
+            double dx = run.x[2] - run.x[0], e = dx * dx - 1 - flow->ep[0];
+            CHECK_AT_MOST(fabs(e),
+                          (YIELD + HARDENING * flow->kappa[0]) * (1 + 1e-12));
+        }
+        CHECK_NEAR(system_lost(&few, few.term[0].kind),
+                   STIFFNESS * YIELD * flow->ep[0], 1e-9);
+        error[fine] = fabs(flow->ep[0] - exact);
+    }
+    CHECK_AT_MOST(error[0], 0.05 * exact);
+    CHECK_AT_MOST(error[1], 0.3 * error[0]); /* O(h) */
+}
+
+/* What flows turns stored energy into lost energy, and nothing else: hardening
+ * is stored.  Twice, so that the second flow finds a hardened spring. */
+TEST(flow_is_booked)
+{
+    CHECK_STATUS(plasticity_set(few_masses(2, 1), 0.05, 0.4), STATUS_OK);
+    Term *term = &few.term[0];
+    for (int i = 0; i < 2; i++) {
+        double x[4] = {-0.5, 0, 0.6 + 0.1 * i, 0};
+        Place at = place_at(&few, x, NULL, x);
+        at.term = term;
+        double before = term->kind->value(&at) + system_lost(&few, term->kind);
+        CHECK(term->kind->end(term, &few, x, x, 1));
+        CHECK_NEAR(term->kind->value(&at) + system_lost(&few, term->kind),
+                   before, 1e-15);
+    }
+    CHECK(plasticity_of(&few)->kappa[0] > 0.1);
+}
+
+/* A spring that is broken stays as it was, however far its ends part: it does
+ * not flow, and nothing is damped. */
+TEST(broken_springs_do_nothing)
+{
+    const double x[4] = {0, 0, 3, 0}, far[4] = {0, 0, 30, 0};
+    const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
+    CHECK_STATUS(plasticity_set(few_masses(2, 1), 0.1, 0), STATUS_OK);
+    const Plasticity *flow = plasticity_of(&few);
+    CHECK(plastic_energy.end(&few.term[0], &few, x, x, 1));
+    CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* it does while it is whole */
+    few.k[0] = 0;
+    CHECK(!plastic_energy.end(&few.term[0], &few, far, far, 1));
+    CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
+    CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
+
+    few_masses(2, 1)->k[0] = STIFFNESS;
+    CHECK_STATUS(damping_add(&few, 0.01), STATUS_OK);
+    CHECK_STATUS(fracture_add(&few, 0.01, 0), STATUS_OK);
+    let_go(0.001, apart, v);
+    for (int i = 0; i < 200 && !spring_is_broken(&few, 0); i++)
+        step();
+    CHECK(spring_is_broken(&few, 0));
+    double lost = system_lost(&few, &damping), speed = run.v[2];
+    CHECK(lost > 0 && speed > 0);
+    for (int i = 0; i < 5; i++)
+        step();
+    CHECK_NEAR(run.v[2], speed, 1e-12 * speed);
+    CHECK(system_lost(&few, &damping) == lost);
+}
+
+/* Five equal springs from one node, equally loaded: it loses one a step, the
+ * one with the smallest number. */
+TEST(equal_loads_break_in_their_order)
+{
+    enum { SPRINGS = 5 };
+    const double x[2 * (SPRINGS + 1)] = {0, 0, 2, 0, 0, 2, -2, 0, 0, -2, 2, 0};
+    CHECK_STATUS(fracture_add(few_masses(SPRINGS + 1, SPRINGS), 1, 0),
+                 STATUS_OK);
+    for (int i = 0; i < SPRINGS; i++) {
+        CHECK(fracture.end(&few.term[1], &few, x, x, 1));
+        for (int s = 0; s < SPRINGS; s++)
+            CHECK((few.k[s] == 0) == (s <= i));
+    }
+    CHECK(!fracture.end(&few.term[1], &few, x, x, 1));
+}
+
+/* A pinned node can touch what moves by itself or is moved, and nothing else.
+ */
+TEST(pairs_are_those_that_can_move)
+{
+    enum { PINNED, BALL, WALL = 0, MOVED = 2 };
+    static const struct {
+        int node, obstacle;
+        bool plain, held, drawn; /* the ball is free; pinned; all are drawn */
+    } rows[] = {{PINNED, WALL, false, false, true},
+                {PINNED, BALL, true, false, true},
+                {PINNED, MOVED, true, true, true},
+                {BALL, WALL, true, false, true},
+                {BALL, BALL, false, false, false}};
+    unsigned char pinned[2] = {1, 0};
+    double pin_v[4] = {0};
+    System system = {.nodes = 2, .pinned = pinned};
+    Contact contact = {.obstacles = 3, .ball = BALL};
+    contact.obstacle[WALL] = (Obstacle){.kind = OBSTACLE_WALL, .node = -1};
+    contact.obstacle[BALL] = (Obstacle){.kind = OBSTACLE_BALL, .node = BALL};
+    contact.obstacle[MOVED] = contact.obstacle[WALL];
+    contact.obstacle[MOVED].motion.phases = 1;
+    for (int i = 0; i < 5; i++) {
+        int node = rows[i].node, k = rows[i].obstacle;
+        pinned[BALL] = 0;
+        system.pin_v = NULL;
+        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].plain);
+        pinned[BALL] = 1;
+        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].held);
+        system.pin_v = pin_v;
+        CHECK(contact_has_pair(&contact, &system, node, k) == rows[i].drawn);
+    }
+}
+
+/* ---- whole scenes ---------------------------------------------------------
+ */
+
+/* What is seen at each iterate. */
+typedef struct Watch {
+    const Simulation *simulation;
+    double gap, J; /* the smallest */
+    long iterates;
+} Watch;
+
+static bool watch_iterate(void *user, const NewtonRecord *record)
+{
+    Watch *watch = user;
+    (void)record;
+    for (int r = 0; watch->simulation && r < watch->simulation->runs; r++) {
+        const TimeIntegrator *it = &watch->simulation->run[r];
+        if (it->newton->counters.minimisations == 0)
+            continue;
+        watch->gap =
+            fmin(watch->gap, smallest_gap(it->system, it->newton->at.x));
+        watch->J = fmin(watch->J, smallest_cell(it->system, it->newton->at.x));
+        watch->iterates++;
+    }
+    return true;
+}
+
+/* What a minimum promises where nothing is moved: |v' - v|_M^2/2 and the
+ * energies after a step are not more than those before it, with
+ * k l2 theta (E - E_n)^2/2, half of what damping takes; and nothing lost comes
+ * back.  1e-9: rounding. */
+static void check_inequality(const TimeIntegrator *it, const double *v,
+                             const Energies *start, const Energies *end)
+{
+    static const char *const lost[] = {"plastic", "fracture", "friction",
+                                       "damping"};
+    double sum = 0, size = fabs(end->total) + fabs(end->work) + end->kinetic;
+    for (int c = 0; c < 2 * it->system->nodes; c++)
+        sum +=
+            0.5 * it->system->m[c / 2] * (it->v[c] - v[c]) * (it->v[c] - v[c]);
+    sum += end->total - end->kinetic - start->total;
+    for (int i = 0; i < 4; i++) {
+        double more = energies_of(end, lost[i]) - energies_of(start, lost[i]);
+        sum += i < 2 ? more : i == 3 ? more / 2 : 0;
+        CHECK(more >= 0);
+        size += energies_of(end, lost[i]);
+    }
+    if (end->work == start->work)
+        CHECK_AT_MOST(sum, 1e-9 * size);
+}
+
+/* At every iterate each gap and each cell is above 0; every step converges,
+ * where there is a line search, and keeps the inequality. */
+TEST(nothing_penetrates_turns_over_or_comes_back)
+{
+    static const char *const lines[] = {
+        "drop",
+        "slope --damping 0.01",
+        "squeeze --stiffness 5e4",
+        "dent",
+        "tear --damping 0.001",
+        "bend",
+        "squeeze --yield 0.05 --segments 8 --damping 0.02",
+        "drop --yield 0.05 --tear 0.2 --segments 8",
+        "drop --segments 6 --line-search none",
+        "hang --damping 0.1",
+        "square --damping 0.01 --filter on-demand",
+        "square --damping 0.01 --filter abs"};
+    static double v[SIMULATION_MAX_RUNS][2 * 1024];
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        Watch watch = {NULL, INFINITY, INFINITY, 0};
+        Simulation *scene =
+            simulate_watched(watch_iterate, &watch, "%s", lines[i]);
+        bool searched = !strstr(lines[i], "none");
+        watch.simulation = scene;
+        for (int n = 0; n < 120; n++) {
+            Energies start[SIMULATION_MAX_RUNS];
+            for (int r = 0; r < scene->runs; r++) {
+                start[r] = simulation_energies(scene, r);
+                memcpy(v[r], scene->run[r].v,
+                       scene->run[r].size * sizeof(double));
+            }
+            Status status = simulation_step(scene);
+            CHECK(!status || (!searched && status_is_unconverged(status)));
+            for (int r = 0; searched && r < scene->runs; r++) {
+                Energies end = simulation_energies(scene, r);
+                check_inequality(&scene->run[r], v[r], &start[r], &end);
+            }
+        }
+        CHECK(watch.iterates > 120);
+        CHECK(watch.gap > 0 && watch.J > 0);
+        CHECK(!strstr(lines[i], "damping") ||
+              energy_now(scene, 0, "damping") > 0);
+    }
+}
+
+/* J, what walls that move have done in the last step. */
+static double wall_work(const System *system, const double *x, double h)
+{
+    const Contact *contact = contact_of(system);
+    double sum = 0;
+    for (int k = 0; contact && k < contact->obstacles; k++) {
+        const Obstacle *wall = &contact->obstacle[k];
+        double way = (wall->n[0] * wall->v[0] + wall->n[1] * wall->v[1]) * h;
+        for (int i = 0; way != 0 && i < system->nodes; i++) {
+            double s = (wall->n[0] * (x[2 * i] - wall->o[0]) +
+                        wall->n[1] * (x[2 * i + 1] - wall->o[1])) /
+                       contact->barrier.d_hat;
+            if (s < 1)
+                sum -= contact->barrier.c / contact->barrier.d_hat *
+                       (log(s) + 1 - 1 / s) * way;
+        }
+    }
+    return sum;
+}
+
+/* What a step from x_n, v_n has dissipated: |v' - v|_M^2/2, what walls do, and
+ * what lies between the potential and its tangent at the end, damping's own
+ * loss aside.
+ *   k  [springs] as they were before it: forces were in balance with them
+ *   P  of the start */
+static double dissipated_in(const TimeIntegrator *it, double *k,
+                            const double *x_n, const double *v_n, Real P)
+{
+    System whole = *it->system;
+    static double dx[2 * 1024];
+    whole.k = k;
+    Real sum = P + wall_work(&whole, it->x, it->h);
+    for (int c = 0; c < 2 * whole.nodes; c++) {
+        double dv = it->v[c] - v_n[c];
+        dx[c] = it->x[c] - x_n[c];
+        sum += 0.5 * whole.m[c / 2] * dv * dv;
+    }
+    Place at = place_at(&whole, x_n, NULL, it->x);
+    Spot spot = {.at = &at, .h = it->h, .p = dx};
+    sum -= oracle_energy(&spot, NULL).f;
+    at.u = dx; /* with what damping does */
+    sum += oracle_energy(&spot, NULL).p;
+    if (system_find_term(&whole, &friction_energy)) /* it has its own loss */
+        sum -= oracle_energy(&spot, &friction_energy).p;
+    return (double)sum;
+}
+
+static Real potential_of(const System *system, const double *x)
+{
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at};
+    return oracle_energy(&spot, NULL).f;
+}
+
+/* The ledger's dissipation is what is left over; here it is summed from the
+ * oracle's formulas. */
+TEST(the_ledger_adds_up)
+{
+    static const char *const lines[] = {
+        "slope",   "dent --damping 0.003",
+        "tear",    "squeeze --segments 6 --damping 0.01",
+        "bend",    "drop",
+        "squeeze", "dent"};
+    static double x[2 * 1024], v[2 * 1024], k[8 * 1024];
+    for (int i = 0; i < (tests_are_long() ? 8 : 4); i++) {
+        Simulation *scene = simulate("%s --tolerance 1e-8", lines[i]);
+        double sum[SIMULATION_MAX_RUNS] = {0}, most = 0;
+        for (int n = 0; n < 110; n++)
+            for (int r = 0; r < scene->runs; r++) {
+                TimeIntegrator *it = &scene->run[r];
+                Energies start = simulation_energies(scene, r);
+                Real P = potential_of(it->system, it->x);
+                memcpy(x, it->x, it->size * sizeof *x);
+                memcpy(v, it->v, it->size * sizeof *v);
+                memcpy(k, it->system->k,
+                       (size_t)it->system->springs * sizeof *k);
+                CHECK_STATUS(time_integrator_step(it), STATUS_OK);
+                Energies end = simulation_energies(scene, r);
+                double stored = OF(&end, elastic) + OF(&end, contact);
+                CHECK_NEAR(stored, potential_of(it->system, it->x),
+                           1e-9 * (most + stored + 1));
+                CHECK_NEAR(end.total, end.kinetic + end.gravity + stored,
+                           1e-9 * (most + stored + 1));
+                sum[r] += dissipated_in(it, k, x, v, P) -
+                          (OF(&end, plastic) - OF(&start, plastic)) -
+                          (OF(&end, damping) - OF(&start, damping));
+                most = fmax(most, fabs(end.dissipated) + fabs(end.total) +
+                                      fabs(end.work) + end.kinetic);
+            }
+        for (int r = 0; r < scene->runs; r++)
+            CHECK_NEAR(simulation_energies(scene, r).dissipated, sum[r],
+                       2e-6 * most);
+    }
+}
+
+/* As the steps get shorter all that is lost is lost by damping. */
+TEST(damping_takes_what_is_lost)
+{
+    double share[2];
+    for (int fine = 0; fine < 2; fine++) {
+        Simulation *square =
+            simulate("--damping 0.002 --stretch 1.2 --tolerance 1e-8 "
+                     "--timestep %g",
+                     fine ? 2.5e-5 : 1e-4);
+        double start = simulation_energies(square, 0).total;
+        make_steps(square, fine ? 1600 : 400);
+        Energies end = simulation_energies(square, 0);
+        CHECK(end.total < 0.6 * start && end.dissipated > 0);
+        share[fine] = end.dissipated / (start - end.total);
+    }
+    CHECK_AT_MOST(share[0], 0.05);
+    CHECK_NEAR(share[1] / share[0], 0.25, 0.03); /* O(h) */
+}
+
+/* What a step breaks was overstretched, shares no node, and the energy booked
+ * is that of the springs and of the cells that end with them.  What was not
+ * broken was not overstretched, or shares a node with one that was more so. */
+TEST(breaking_books_its_energy)
+{
+    static double k[8 * 1024], load[8 * 1024], most[1024];
+    Simulation *scene = simulate("tear");
+    System *system = &scene->system;
+    int broken = 0;
+    for (int n = 0; n < 120; n++) {
+        double lost = energy_now(scene, 0, "fracture");
+        const double *x = scene->run[0].x;
+        memcpy(k, system->k, (size_t)system->springs * sizeof *k);
+        memset(most, 0, sizeof most);
+        make_steps(scene, 1);
+        for (int s = 0; s < system->springs; s++) {
+            Random random = {(uint64_t)s * 0x9e3779b97f4a7c15u};
+            double strength = 0.12 * (1 + 0.1 * random_uniform(&random, -1, 1));
+            double strain = 1 + strain_of(scene, s);
+            CHECK_NEAR(fracture_strength(fracture_of(system), s), strength,
+                       1e-16);
+            load[s] = (strain * strain - 1) / strength;
+            if (k[s] == 0 || system->k[s] > 0)
+                continue;
+            double *end[2] = {most + system->e[2 * s],
+                              most + system->e[2 * s + 1]};
+            CHECK(load[s] > 1 && *end[0] == 0 && *end[1] == 0);
+            *end[0] = *end[1] = load[s];
+            broken++;
+        }
+        for (int s = 0; s < system->springs; s++)
+            CHECK(system->k[s] == 0 || load[s] <= 1 ||
+                  load[s] * (1 - 1e-12) <=
+                      fmax(most[system->e[2 * s]], most[system->e[2 * s + 1]]));
+        System whole = *system;
+        whole.k = k;
+        CHECK_NEAR(energy_now(scene, 0, "fracture") - lost,
+                   potential_of(&whole, x) - potential_of(system, x),
+                   1e-10 * (1 + energy_now(scene, 0, "elastic")));
+    }
+    CHECK(broken > 30 && broken == fracture_of(system)->broken);
+}
+
+/* ---- laws of a scene ------------------------------------------------------
+ */
+
+/* The largest strain of a spring. */
+static double worst_strain(const Simulation *scene)
+{
+    double worst = 0;
+    for (int s = 0; s < scene->system.springs; s++)
+        worst = fmax(worst, fabs(strain_of(scene, s)));
+    return worst;
+}
+
+/* After the ceiling has gone the square is as it was; with springs that flow it
+ * is not. */
+static void comes_back(Simulation *scene)
+{
+    CHECK(worst_strain(scene) < 0.01 && energy_now(scene, 0, "plastic") == 0);
+}
+
+static void stays_dented(Simulation *scene)
+{
+    CHECK(worst_strain(scene) > 0.2 && energy_now(scene, 0, "plastic") > 1000);
+}
+
+/* What falls on the middle of a ball without a turn stays symmetric: the two
+ * halves are added in different orders. */
+static void is_symmetric(Simulation *scene)
+{
+    const double *x = scene->run[0].x;
+    for (int node = 0; node < 81; node++) {
+        int image = (8 - node / 9) * 9 + node % 9;
+        CHECK_NEAR(x[2 * node], -x[2 * image], 1e-10);
+        CHECK_NEAR(x[2 * node + 1], x[2 * image + 1], 1e-10);
+    }
+    CHECK(energy_now(scene, 0, "plastic") > 1000);
+}
+
+/* Springs that could flow, but never do, are the elastic ones. */
+static void flows_not_at_all(Simulation *scene)
+{
+    Simulation *plain =
+        make_steps(simulate("--damping 0.01 --tolerance 1e-10"), 50);
+    for (size_t i = 0; i < scene->run[0].size; i++)
+        CHECK_NEAR(scene->run[0].x[i], plain->run[0].x[i], 1e-12);
+    CHECK_NEAR(energy_now(scene, 0, "damping"), energy_now(plain, 0, "damping"),
+               1e-5);
+}
+
+TEST(laws_of_scenes)
+{
+    static const struct {
+        const char *line;
+        int steps;
+        void (*law)(Simulation *);
+    } rows[] = {
+        {"squeeze --segments 8 --gravity 0", 500, comes_back},
+        {"squeeze --segments 8 --gravity 0 --yield 0.05", 500, stays_dented},
+        {"dent --segments 8 --velocity 0,-2 --tolerance 1e-8", 150,
+         is_symmetric},
+        {"--damping 0.01 --tolerance 1e-10 --yield 100", 50, flows_not_at_all},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        rows[i].law(make_steps(simulate("%s", rows[i].line), rows[i].steps));
+}
+
+static void turn(double *p, double angle)
+{
+    double x = p[0], y = p[1];
+    p[0] = cos(angle) * x - sin(angle) * y;
+    p[1] = sin(angle) * x + cos(angle) * y;
+}
+
+/* Turned with its obstacles and gravity, mirrored, or with k, kappa and m times
+ * 16 (powers of two leave all bits) a scene is the same. */
+TEST(directions_do_not_matter)
+{
+    static const char plain[] = "dent --tolerance 1e-8 --segments 8";
+    static const struct {
+        double angle;
+        bool mirror;
+        const char *more, *both;
+        double tolerance;
+    } rows[] = {
+        {0.6457718232379019, false, "", "", 1e-9},
+        {0, true, "--velocity -0.02,-2", "", 1e-9},
+        {0, false, "--stiffness 3.2e6 --density 16000 --barrier 0.01,1.28e7",
+         "", 0},
+        {0.6457718232379019, false, "", "--damping 0.002", 1e-9},
+        {0, true, "--velocity -0.02,-2", "--damping 0.002", 1e-9},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        double angle = rows[i].angle;
+        Simulation *one = simulate("%s %s", plain, rows[i].both);
+        Simulation *other =
+            simulate("%s %s %s", plain, rows[i].both, rows[i].more);
+        Contact *contact = contact_of(&other->system);
+        turn(other->system.gravity, angle);
+        for (int k = 0; k < contact->obstacles; k++) {
+            turn(contact->obstacle[k].o, angle);
+            turn(contact->obstacle[k].n, angle);
+        }
+        for (size_t c = 0; c < other->run[0].size; c += 2) {
+            turn(other->run[0].x + c, angle);
+            turn(other->run[0].v + c, angle);
+        }
+        make_steps(one, 150);
+        make_steps(other, 150);
+        for (int node = 0; node < 81; node++) {
+            int image = (8 - node / 9) * 9 + node % 9;
+            const double *p = one->run[0].x + 2 * node;
+            double at[2] = {rows[i].mirror ? -p[0] : p[0], p[1]};
+            const double *got =
+                other->run[0].x + 2 * (rows[i].mirror ? image : node);
+            turn(at, angle);
+            CHECK_NEAR(got[0], at[0], rows[i].tolerance);
+            CHECK_NEAR(got[1], at[1], rows[i].tolerance);
+        }
+        CHECK(energy_now(one, 0, "plastic") > 1);
+    }
+}
+
+/* A ceiling of 50 m/s comes in parts, each from a place that is allowed; one
+ * that would crush the square to nothing is stopped, and the step says so. */
+TEST(a_fast_ceiling_comes_in_parts)
+{
+    Simulation *scene = simulate("squeeze --segments 8 --gravity 0");
+    TimeIntegrator *it = &scene->run[0];
+    Obstacle *ceiling = &contact_of(it->system)->obstacle[1];
+    ceiling->motion = (Motion){2, {0.01, 10}, {{0, -50}, {0, -60}}};
+    make_steps(scene, 1);
+    CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
+    CHECK(it->newton->counters.minimisations > 1);
+    CHECK_NEAR(it->moved, 1, 1e-15);
+    CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
+    CHECK(ceiling->o[1] > -0.51 && it->moved < 1);
+    CHECK(smallest_gap(it->system, it->x) > 0);
+}
+
+/* Without a line search updates of contact may go round in circles: such a step
+ * ends after some hundreds, with its reason. */
+TEST(circles_without_a_line_search_end)
+{
+    static const char *const lines[] = {
+        "drop --segments 6 --stiffness 8.29e4 --timestep 0.0192 --tolerance "
+        "6e-8 --velocity 0.229,-70.7",
+        "dent --segments 4 --stiffness 1.56e4 --timestep 0.0789 --tolerance "
+        "0.005 --velocity 0.436,-6.82",
+        "dent --segments 5 --stiffness 8.43e6 --timestep 0.342 --tolerance "
+        "6.5e-6 --velocity -0.102,-0.42"};
+    for (int n = 0; n < 3; n++) {
+        Simulation *scene = simulate("%s --line-search none", lines[n]);
+        long made = 0, longest = 0;
+        for (int i = 0; i < 6; i++) {
+            Status status = simulation_step(scene);
+            long now = simulation_counters(scene).iterations;
+            CHECK(!status || status_is_unconverged(status));
+            CHECK(now - made < 6000);
+            longest = status && now - made > longest ? now - made : longest;
+            made = now;
+            for (size_t c = 0; c < scene->run[0].size; c++)
+                CHECK(isfinite(scene->run[0].x[c]));
+        }
+        CHECK(longest >= 490);
+    }
+}
+
+TESTS(NULL, NULL)
