@@ -24,7 +24,8 @@ VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)
 B       := build/$(VARIANT)
 
 objects = $(patsubst %.c,$(B)/%.o,$(patsubst src/%,%,$(wildcard $(1))))
-OBJECTS := $(call objects,$(ROOMS:%=src/%/*.c)) $(B)/listing_text.o
+OBJECTS := $(filter-out %_web.o,$(call objects,$(ROOMS:%=src/%/*.c))) \
+           $(B)/listing_text.o
 SUITES  := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/test_*.c))
 STRESS  := $(filter-out %/stress.o,$(call objects,tests/stress/*.c))
 LIBRARY := $(B)/libelasto.a
@@ -53,7 +54,7 @@ run-lecture: build/lecture
 # build/config.mk holds their flags.  Its recipe installs what is missing, or
 # names it (INSTALL=no); make then starts again with the new file.
 GOALS := $(or $(MAKECMDGOALS),all)
-ifneq ($(filter-out clean help uninstall figures,$(GOALS)),)
+ifneq ($(filter-out clean help uninstall figures web,$(GOALS)),)
 include build/config.mk
 ifneq ($(filter test long-test suites stress envelope mutants build/stress \
           $(B)/tests/%,$(GOALS)),)
@@ -174,7 +175,7 @@ $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
 	$(call shown,CC)
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
-include tests/tests.mk
+include tests/tests.mk src/web/web.mk
 
 # ---- the rest --------------------------------------------------------------
 bench: build/elasto-bench
@@ -203,6 +204,7 @@ help:
 	@echo 'make run-lecture  src/lecture.c, the bare square (ARGS="k=1e6")'
 	@echo 'make test       build and run all tests; long-test: all variations'
 	@echo 'make pictures   draw the pictures of the README again'
+	@echo 'make web        write build/elasto.html, all of it as one page'
 	@echo 'make handout    write the lecture as build/handout.html'
 	@echo 'make bench      measure run time against error (ARGS=--help);'
 	@echo '                make figures: draw what it measured'
@@ -213,7 +215,7 @@ help:
 	@echo 'INSTALL=no only names missing packages; V=1 shows commands;'
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
 
-.PHONY: all elasto lecture run run-lecture test long-test suites stress envelope \
+.PHONY: all web elasto lecture run run-lecture test long-test suites stress envelope \
         same-bits mutants analyse pictures bench figures handout install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:

@@ -1,0 +1,68 @@
+/* film_web.c - film.h in a page: its browser films the canvas while it is drawn
+ * and gives the film as a download.
+ */
+#include "play/film.h"
+
+#include <emscripten.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* clang-format off */
+EM_JS(int, page_films, (void), { return Page.films() ? 1 : 0; });
+EM_JS(void, page_film, (const char *name), { Page.film(UTF8ToString(name)); });
+EM_JS(void, page_film_end, (int keep), { Page.filmEnd(keep); });
+/* clang-format on */
+
+bool film_is_possible(void)
+{
+    return page_films();
+}
+
+Status film_open(const char *name, Film *film, char *message, size_t size)
+{
+    *film = (Film){.rate = FILM_RATE};
+    if (!film_is_possible()) {
+        snprintf(message, size, "this browser makes no films of a page");
+        return STATUS_INVALID_INPUT;
+    }
+    film->output.name = strdup(name);
+    if (!film->output.name)
+        return STATUS_OUT_OF_MEMORY;
+    page_film(name);
+    return STATUS_OK;
+}
+
+Status film_add(Film *film, const Canvas *canvas, int shown)
+{
+    (void)canvas;
+    film->frames += shown;
+    return STATUS_OK;
+}
+
+static void film_end(Film *film, bool keep)
+{
+    if (film_runs(film))
+        page_film_end(keep);
+    free(film->output.name);
+    film->output.name = NULL;
+}
+
+Status film_close(Film *film)
+{
+    bool empty = film_runs(film) && film->frames == 0;
+    film_end(film, !empty);
+    film->reason = empty ? "no frame was drawn" : NULL;
+    return empty ? STATUS_FILE_FAILED : STATUS_OK;
+}
+
+void film_discard(Film *film)
+{
+    film_end(film, false);
+}
+
+bool film_runs(const Film *film)
+{
+    return film->output.name != NULL;
+}

@@ -1,0 +1,151 @@
+/* main_web.c - the program in a page: page.js begins it with a command line and
+ * asks for its frames.
+ */
+#include <emscripten.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "play/playing.h"
+#include "play/program.h"
+#include "scenes/pages.h"
+#include "scenes/scene.h"
+
+enum { MOST_WORDS = 128, MOST_TEXT = 4096 };
+
+/* A run, with the words that its options point into.  The next one is begun
+ * beside it: after a bad command line the old one goes on. */
+typedef struct Run {
+    Player player;
+    char text[MOST_TEXT];
+    char *word[MOST_WORDS];
+} Run;
+
+static volatile sig_atomic_t never = 0;
+static Run runs[2];
+static Run *run = &runs[0]; /* the one that is shown, if `plays` */
+static bool plays;
+
+/* Without a window: s, before the page may draw again. */
+static const double SLICE = 0.05;
+
+/* Begins a command line, a word a line.  Returns PROGRAM_PLAYS, or the exit
+ * code where nothing new is played. */
+EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
+{
+    Run *next = plays && run == &runs[0] ? &runs[1] : &runs[0];
+    int count = 1;
+    snprintf(next->text, sizeof next->text, "elasto\n%s", words);
+    next->word[0] = strtok(next->text, "\n");
+    while (count < MOST_WORDS && (next->word[count] = strtok(NULL, "\n")))
+        count++;
+    int code = program_begin(count, next->word, &never, &next->player);
+    if (code == PROGRAM_PLAYS && player_start(&next->player))
+        code = program_end(&next->player, STATUS_OUT_OF_MEMORY);
+    if (code != PROGRAM_PLAYS) {
+        player_free(&next->player);
+        return code;
+    }
+    if (plays)
+        player_free(&run->player);
+    run = next;
+    plays = true;
+    return code;
+}
+
+/* ---- the address -------------------------------------------------------- */
+
+/* Adds a word to a list of lines. */
+static void add_word(char *list, size_t size, const char *word)
+{
+    size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s", used ? "\n" : "", word);
+}
+
+/* What the run began with: the scene or page that is open, and its numbers.
+ * words  [MOST_TEXT] out; base out.  Returns false where nobody can say. */
+static bool first_options(const Player *player, const Options *now, char *words,
+                          Options *base)
+{
+    const Options *given = &player->given[0];
+    char message[512], program[] = "elasto", name[64];
+    char *argv[] = {program, name, NULL};
+    *base = *given;
+    words[0] = '\0';
+    if (now->page == given->page && now->scene == given->scene) {
+        snprintf(words, MOST_TEXT, "%s", player->line + strlen("elasto"));
+        for (char *blank = words; (blank = strchr(blank, ' '));)
+            *blank = '\n';
+    } else if (now->page) {
+        snprintf(words, MOST_TEXT, "--lecture\n%s", now->page->name);
+        return !lecture_options(now->page, base, message, sizeof message);
+    } else {
+        snprintf(name, sizeof name, "%s", now->scene->name);
+        add_word(words, MOST_TEXT, name);
+        return !options_parse(2, argv, base, message, sizeof message);
+    }
+    return true;
+}
+
+/* The command line that leads to the scene, page and numbers that are shown, a
+ * word a line; "": none does.  The same memory each time. */
+EMSCRIPTEN_KEEPALIVE const char *web_address(void)
+{
+    static char words[MOST_TEXT];
+    Options now[OPTIONS_MAX_PANES], base;
+    words[0] = '\0';
+    if (!plays || run->player.lanes != run->player.given_count)
+        return words;
+    player_options(&run->player, now);
+    if (!first_options(&run->player, &now[0], words, &base))
+        words[0] = '\0';
+    for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
+        char was[64], is[64], option[64];
+        if (!row->compared || run->player.lanes > 1)
+            continue;
+        option_value(row, &base, was, sizeof was);
+        option_value(row, &now[0], is, sizeof is);
+        if (strcmp(was, is) == 0)
+            continue;
+        snprintf(option, sizeof option, "--%s", row->name);
+        add_word(words, sizeof words, option);
+        add_word(words, sizeof words, is);
+    }
+    return words;
+}
+
+/* What the picture shows, in the markup of its texts. */
+EMSCRIPTEN_KEEPALIVE const char *web_text(void)
+{
+    static char text[MOST_TEXT];
+    const Show *show = &run->player.show;
+    snprintf(text, sizeof text, "%s. %s. %s. %s. %s. %s",
+             show->topic ? show->topic : "", show->sentence, show->method,
+             show->time_text, show->state, show->message);
+    return text;
+}
+
+/* ---- the loop ----------------------------------------------------------- */
+
+/* One frame; without a window as many as fit into a slice of time.  Returns ms
+ * until the next one is due; below 0: the end. */
+EMSCRIPTEN_KEEPALIVE int web_frame(void)
+{
+    Player *player = &run->player;
+    double begin = clock_now();
+    Status status = STATUS_OK;
+    if (!plays)
+        return -1;
+    do
+        status = player_frame(player);
+    while (!status && !player->window && !player_ended(player) &&
+           clock_now() < begin + SLICE);
+    if (!status && !player_ended(player))
+        return player_wait(player);
+    program_end(player, status);
+    player_free(player);
+    plays = false;
+    return -1;
+}

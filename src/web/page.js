@@ -1,0 +1,419 @@
+// page.js - the page's side of the program: canvas, mouse, touch, keys, files,
+// address.  view_web.c, film_web.c and main_web.c are the other side.
+'use strict';
+
+const $ = (id) => document.getElementById(id);
+const canvas = $('canvas');
+const context = canvas.getContext('2d', { alpha: false });
+const began = performance.now();
+let Module = null;
+let FS = null;
+
+// What a test may ask for.
+const stats = { first: 0, frames: 0, busy: 0, longest: 0 };
+
+// One line to whoever looks at the page; a good one goes by itself.
+let silence = 0;
+const say = (text, fine) => {
+  $('loading').hidden = true;
+  $('said').textContent = text;
+  $('said').className = fine ? 'fine' : '';
+  clearTimeout(silence);
+  if (fine) silence = setTimeout(() => ($('said').textContent = ''), 3000);
+};
+
+// ---- what the program calls -------------------------------------------------
+
+let recorder = null;
+const filmKind = () =>
+  ['video/mp4', 'video/webm'].find(
+    (kind) => window.MediaRecorder && canvas.captureStream && MediaRecorder.isTypeSupported(kind),
+  );
+
+const Page = {
+  width: () => Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
+  height: () => Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio)),
+  title: (text) => (document.title = text),
+  show(heap, at, width, height) {
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
+    context.putImageData(new ImageData(bytes, width, height), 0, 0);
+  },
+  full(on) {
+    const done = on ? document.documentElement.requestFullscreen() : document.exitFullscreen();
+    done.catch(() => say('This browser allows no full screen here.', true));
+  },
+  films: () => Boolean(filmKind()),
+  film(name) {
+    const type = filmKind();
+    const parts = [];
+    recorder = new MediaRecorder(canvas.captureStream(60), { mimeType: type });
+    recorder.ondataavailable = (event) => parts.push(event.data);
+    recorder.onstop = () =>
+      parts.length && give(name.replace(/\w+$/, type.slice(6)), new Blob(parts, { type }));
+    recorder.drop = () => (parts.length = 0);
+    recorder.start();
+  },
+  filmEnd(keep) {
+    const film = recorder;
+    if (!keep) film.ondataavailable = null;
+    film.stop();
+  },
+};
+
+// ---- files ------------------------------------------------------------------
+
+const give = (name, blob) => {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+};
+
+// New files of the program's folder become downloads when they are whole; a
+// folder of frames a file each.
+const OUT = '/out';
+const given = new Set();
+const download = (folder = OUT) => {
+  for (const name of FS.readdir(folder)) {
+    const path = `${folder}/${name}`;
+    if (name[0] === '.' || /\.part\d*$/.test(name) || given.has(path)) continue;
+    if (FS.isDir(FS.stat(path).mode)) {
+      download(path);
+      continue;
+    }
+    given.add(path);
+    give(name, new Blob([FS.readFile(path)]));
+  }
+};
+
+// A script that is dropped on the page is played with its command line.
+addEventListener('dragover', (event) => event.preventDefault());
+addEventListener('drop', async (event) => {
+  event.preventDefault();
+  const file = event.dataTransfer.files[0];
+  if (!file) return;
+  const name = '/' + file.name.replace(/[^\w.-]/g, '_');
+  FS.writeFile(name, new Uint8Array(await file.arrayBuffer()));
+  begin([...line, '--script', name]);
+});
+
+// ---- the address ------------------------------------------------------------
+
+// #circle+--timestep+0.05&bare: the words of a command line; bare: the picture
+// alone.
+let line = [];
+let bare = false;
+let shown = '';
+const fromAddress = () => {
+  const [words, ...marks] = location.hash.slice(1).split('&');
+  bare = marks.includes('bare');
+  return words ? words.split('+').filter(Boolean).map(decodeURIComponent) : ['--lecture'];
+};
+const toAddress = (words) =>
+  '#' +
+  words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+') +
+  (bare ? '&bare' : '');
+
+// Scene, page and changed numbers stand in the address.
+const follow = () => {
+  const words = Module.ccall('web_address', 'string').split('\n').filter(Boolean);
+  if (!words.length || toAddress(words) === shown) return;
+  shown = toAddress(words);
+  history.replaceState(null, '', shown);
+};
+addEventListener('hashchange', () => {
+  if (location.hash !== shown) begin(fromAddress());
+});
+const copyLink = () => {
+  follow();
+  navigator.clipboard?.writeText(location.href).then(
+    () => say('The link to this is copied.', true),
+    () => {},
+  );
+};
+
+// What the picture shows, in words.
+const describe = () => {
+  const text = Module.ccall('web_text', 'string').replace(/[{}^_\\]/g, '');
+  if (text !== canvas.getAttribute('aria-label')) canvas.setAttribute('aria-label', text);
+};
+
+// ---- the loop ---------------------------------------------------------------
+
+// The program says for how many milliseconds nothing is due.
+let timer = 0;
+let asked = 0;
+let looked = 0;
+const frame = () => {
+  asked = 0;
+  if (document.hidden && !canvas.hidden) return;
+  const start = performance.now();
+  const wait = Module._web_frame();
+  const took = performance.now() - start;
+  stats.frames++;
+  stats.busy += took;
+  stats.longest = Math.max(stats.longest, took);
+  download();
+  if (wait < 0) return;
+  if (start - looked > 500 && !canvas.hidden) {
+    looked = start;
+    follow();
+    describe();
+  }
+  if (canvas.hidden) timer = setTimeout(frame, 0);
+  else if (wait <= 20) asked = requestAnimationFrame(frame);
+  else timer = setTimeout(wake, wait);
+};
+const wake = () => {
+  clearTimeout(timer);
+  if (!asked && !document.hidden) asked = requestAnimationFrame(frame);
+};
+document.addEventListener('visibilitychange', () => {
+  clearTimeout(timer);
+  wake();
+});
+
+const begin = (words) => {
+  $('said').textContent = $('summary').textContent = '';
+  const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  const still = calm && !words.some((word) => /^--(paused|steps|script|headless)/.test(word));
+  const code = Module.ccall('web_begin', 'number', ['string'], [
+    [...words, ...(still ? ['--paused'] : [])].join('\n'),
+  ]);
+  download();
+  if (code >= 0) return;
+  line = words;
+  canvas.hidden = words.includes('--headless');
+  document.body.classList.toggle('bare', bare);
+  if (bare) key('H', false);
+  looked = 0;
+  clearTimeout(timer);
+  canvas.hidden ? frame() : wake();
+  canvas.focus();
+};
+
+// ---- keys -------------------------------------------------------------------
+
+const NAMES = { ArrowLeft: 'Left', ArrowRight: 'Right', ArrowUp: 'Up', ArrowDown: 'Down' };
+Object.assign(NAMES, { Enter: 'Return', ' ': 'Space' });
+for (const name of ['PageDown', 'PageUp', 'Home', 'End', 'Escape', 'Backspace', 'Delete'])
+  NAMES[name] = name;
+
+const key = (name, repeats) => {
+  Module.ccall('web_key', null, ['string', 'number'], [name, repeats ? 1 : 0]);
+  wake();
+};
+
+// The letter on a keyboard that types none of ours.
+const letterOf = (event) =>
+  /^[a-z]$/i.test(event.key)
+    ? event.key.toUpperCase()
+    : event.key.length === 1 && event.key > '\x7f' && /^Key[A-Z]$/.test(event.code)
+      ? event.code[3]
+      : '';
+
+let tabHeld = false;
+let tabAlone = false;
+canvas.addEventListener('keydown', (event) => {
+  if (event.altKey || event.metaKey || event.isComposing) return;
+  if (event.key === 'Tab') {
+    tabHeld = tabAlone = true;
+    event.preventDefault();
+    return;
+  }
+  const sign = event.key.length === 1 && !event.ctrlKey;
+  const plain = letterOf(event) || NAMES[event.key] || (/^F\d+$/.test(event.key) ? event.key : '');
+  if (!plain && !sign) return;
+  const held =
+    (event.ctrlKey ? 'Ctrl+' : '') + (event.shiftKey ? 'Shift+' : '') + (tabHeld ? 'Tab+' : '');
+  tabAlone = false;
+  event.preventDefault();
+  key(plain ? held + plain : event.key, event.repeat);
+  if (held + plain === 'Y') copyLink();
+});
+canvas.addEventListener('keyup', (event) => {
+  if (event.key !== 'Tab') return;
+  if (tabAlone) key(event.shiftKey ? 'Shift+Tab' : 'Tab', false);
+  tabHeld = tabAlone = false;
+});
+canvas.addEventListener('blur', () => (tabHeld = tabAlone = false));
+
+// ---- mouse, pen and fingers -------------------------------------------------
+
+// Inputs, as in view.h.
+const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
+const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
+const LONG_TOUCH = 500; // ms
+const STILL = 8; // points that a finger may move and still touch one place
+
+const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
+  const box = canvas.getBoundingClientRect();
+  const scale = canvas.width / box.width;
+  const [x, y] = [(at.clientX - box.left) * scale, (at.clientY - box.top) * scale];
+  Module._web_mouse(kind, x, y, button, clicks, amount);
+  wake();
+};
+
+let last = { timeStamp: -1e9, clicks: 0 };
+const near = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) < STILL;
+const press = (event, button) => {
+  const again = event.timeStamp - last.timeStamp < 500 && button === last.button;
+  const { timeStamp, clientX, clientY } = event;
+  const clicks = again && near(event, last) ? last.clicks + 1 : 1;
+  last = { timeStamp, clientX, clientY, button, clicks };
+  tell(MOVE, event);
+  tell(PRESS, event, button, clicks);
+};
+
+// One finger is the left button once it moves or is lifted, and where it rests
+// the right one; two move and zoom the picture.
+const fingers = new Map();
+let touch = null; // {first, pressed: LEFT, MIDDLE or 0, timer}
+const between = () => {
+  const [a, b] = [...fingers.values()];
+  return {
+    clientX: (a.clientX + b.clientX) / 2,
+    clientY: (a.clientY + b.clientY) / 2,
+    wide: Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)),
+  };
+};
+const touchDown = (event) => {
+  fingers.set(event.pointerId, event);
+  clearTimeout(touch?.timer);
+  if (fingers.size === 1) {
+    touch = { first: event, pressed: 0 };
+    touch.timer = setTimeout(() => {
+      press(event, RIGHT);
+      tell(RELEASE, event, RIGHT);
+      touch = null;
+    }, LONG_TOUCH);
+  } else if (fingers.size === 2 && touch) {
+    if (touch.pressed) tell(RELEASE, event, touch.pressed);
+    touch.pressed = MIDDLE;
+    touch.at = between();
+    press({ timeStamp: event.timeStamp, ...touch.at }, MIDDLE);
+  }
+};
+const touchMove = (event) => {
+  if (!fingers.has(event.pointerId)) return;
+  fingers.set(event.pointerId, event);
+  if (!touch) return;
+  if (touch.pressed === MIDDLE && fingers.size === 2) {
+    const now = between();
+    tell(MOVE, now);
+    tell(WHEEL, now, 0, 1, Math.log(now.wide / touch.at.wide) / Math.log(1.15));
+    touch.at = now;
+    return;
+  }
+  if (!touch.pressed && !near(event, touch.first)) {
+    clearTimeout(touch.timer);
+    touch.pressed = LEFT;
+    press(touch.first, LEFT);
+  }
+  if (touch.pressed === LEFT) tell(MOVE, event);
+};
+const touchUp = (event) => {
+  fingers.delete(event.pointerId);
+  if (!touch) return;
+  clearTimeout(touch.timer);
+  if (!touch.pressed && event.type === 'pointerup') {
+    press(touch.first, LEFT);
+    touch.pressed = LEFT;
+  }
+  if (touch.pressed) tell(RELEASE, event, touch.pressed);
+  tell(LEAVE, event);
+  touch = null;
+};
+
+const BUTTONS = [LEFT, MIDDLE, RIGHT];
+const isTouch = (event) => event.pointerType === 'touch';
+canvas.addEventListener('pointerdown', (event) => {
+  canvas.focus();
+  canvas.setPointerCapture(event.pointerId);
+  event.preventDefault();
+  if (isTouch(event)) touchDown(event);
+  else press(event, BUTTONS[event.button] || 0);
+});
+canvas.addEventListener('pointermove', (event) => {
+  if (isTouch(event)) touchMove(event);
+  else tell(MOVE, event);
+});
+for (const kind of ['pointerup', 'pointercancel'])
+  canvas.addEventListener(kind, (event) => {
+    if (isTouch(event)) touchUp(event);
+    else tell(RELEASE, event, BUTTONS[event.button] || 0);
+  });
+canvas.addEventListener('pointerleave', (event) => {
+  if (!isTouch(event)) tell(LEAVE, event);
+});
+canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+canvas.addEventListener(
+  'wheel',
+  (event) => {
+    const lines = event.deltaMode ? event.deltaY : event.deltaY / 100;
+    tell(WHEEL, event, 0, 1, -lines);
+    event.preventDefault();
+  },
+  { passive: false },
+);
+
+// ---- the beginning ----------------------------------------------------------
+
+const unpack = async (id) => {
+  const letters = atob($(id).textContent);
+  const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+};
+
+$('licences').onclick = async () => {
+  $('text').textContent = new TextDecoder().decode(await unpack('packed-licences'));
+  $('notice').showModal();
+};
+
+// A function that returns a vector: (func (result v128) i32.const 0 i8x16.splat)
+const VECTOR = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0];
+VECTOR.push(10, 8, 1, 6, 0, 65, 0, 253, 15, 11);
+
+const failed = (error) =>
+  say(/memory/i.test(error) ? 'elasto: there is not enough memory for this; reload the page.'
+      : `elasto: ${error.message || error}; reload the page.`);
+addEventListener('error', (event) => failed(event.error || event.message));
+addEventListener('unhandledrejection', (event) => failed(event.reason));
+
+// The end of the page has arrived.
+const start = async () => {
+  if (!window.WebAssembly || !WebAssembly.validate(new Uint8Array(VECTOR)) ||
+      !window.DecompressionStream) {
+    say('elasto needs a browser with WebAssembly SIMD: Chrome 91, Firefox 113, Safari 16.4 or newer.');
+    return;
+  }
+  const script = document.createElement('script');
+  script.textContent = $('module').textContent;
+  document.body.append(script);
+  Module = await createElasto({
+    wasmBinary: await unpack('packed-program'),
+    print: (text) => ($('summary').textContent += text + '\n'),
+    printErr: (text) => say(text),
+  });
+  FS = Module.FS;
+  FS.mkdir(OUT);
+  FS.chdir(OUT);
+  $('loading').hidden = true;
+  begin(fromAddress());
+  stats.first = performance.now() - began;
+  new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
+};
+
+// While the page arrives over a network.
+const SIZE = 1.2e6; // letters, about
+const watch = setInterval(() => {
+  const text = $('packed-program')?.textContent || '';
+  $('progress').value = text.length / SIZE;
+  if (document.readyState !== 'loading') clearInterval(watch);
+}, 100);

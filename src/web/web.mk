@@ -1,0 +1,57 @@
+# make web: build/elasto.html, the whole program as one file that a browser
+# opens, also from disk and without a network.  Debian 12 has what it needs; the
+# libraries' sources stay in build/web.
+
+W := build/web
+WEB_NEEDS = /usr/bin/emcc:emscripten /usr/bin/pyftsubset:fonttools \
+            /usr/bin/xz:xz-utils /usr/bin/bzip2:bzip2 $(FONTS):fonts-dejavu-core
+EMCC = NODE_PATH=/usr/share/nodejs emcc -O2 -msimd128 -mbulk-memory
+WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
+             -ffp-contract=off -Wall -Wextra
+
+# In a page other sources are window and film: the same headers answered.
+WEB_SOURCES = $(filter-out src/play/view.c src/play/event_wait.c \
+              src/play/film.c,$(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c
+WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/listing_text.o
+WEB_LIBRARIES = $(patsubst %,$(W)/libraries/lib%.a,suitesparse freetype \
+                libpng1.6 zlib)
+
+web: build/elasto.html
+
+$(W)/tools:
+	@mkdir -p $(@D); $(call need,$(WEB_NEEDS)); touch $@
+
+$(W)/libraries/done: src/web/libraries.sh | $(W)/tools
+	$(call shown,BUILD)
+	$(Q)NODE_PATH=/usr/share/nodejs sh $< $(@D) && touch $@
+
+$(W)/fonts/done: src/web/fonts.sh | $(W)/tools
+	$(call shown,CUT)
+	$(Q)sh $< $(@D) && touch $@
+
+$(W)/%.o: src/%.c $(W)/libraries/done src/web/web.mk
+	$(call shown,EMCC)
+	$(Q)$(EMCC) $(WEB_CFLAGS) -MMD -MP -c $< -o $@
+
+$(W)/listing_text.o: $(B)/listing_text.c $(W)/libraries/done
+	$(Q)$(EMCC) $(WEB_CFLAGS) -c $< -o $@
+
+# What it says on its way: CHOLMOD's calls for complex matrices, which nobody
+# makes, find no functions of their kind.
+$(W)/elasto.js: $(WEB_OBJECTS) $(W)/fonts/done src/web/web.mk
+	$(call shown,LINK)
+	$(Q)$(EMCC) $(WEB_LDFLAGS) $(WEB_OBJECTS) $(WEB_LIBRARIES) -o $@ --no-entry \
+	  -s ENVIRONMENT=web -s MODULARIZE=1 -s EXPORT_NAME=createElasto \
+	  -s EXPORTED_RUNTIME_METHODS=ccall,FS \
+	  -s FORCE_FILESYSTEM=1 -s ALLOW_MEMORY_GROWTH=1 \
+	  -s INITIAL_MEMORY=33554432 -s MAXIMUM_MEMORY=2147483648 \
+	  -s TOTAL_STACK=4194304 -s SUPPORT_LONGJMP=emscripten \
+	  --embed-file $(W)/fonts@/usr/share/fonts/truetype/dejavu \
+	  --exclude-file '*/done' 2>$@.log || { cat $@.log; exit 1; }
+
+build/elasto.html: src/web/pack.py src/web/page.html src/web/page.js \
+                   $(W)/elasto.js
+	$(call shown,PACK)
+	$(Q)python3 $^ $(W)/elasto.wasm $(W)/libraries $@
+
+-include $(wildcard $(W)/*/*.d)

@@ -1,0 +1,115 @@
+// browser.js - Chromium by the DevTools protocol through a pipe: tabs with real
+// mouse, keys and touch.  Host names lead nowhere; whatever a tab asks for or
+// complains of is kept.
+'use strict';
+const { spawn } = require('child_process');
+const fs = require('fs');
+const os = require('os');
+const path = require('path');
+
+const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+
+const launch = async (...more) => {
+  const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-web-'));
+  const chromium = spawn(
+    process.env.CHROMIUM || 'chromium',
+    [
+      '--headless=new', '--no-sandbox', '--disable-gpu', '--remote-debugging-pipe',
+      '--host-resolver-rules=MAP * ~NOTFOUND', '--disable-dev-shm-usage',
+      `--user-data-dir=${profile}`, '--no-first-run', ...more, 'about:blank',
+    ],
+    { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] },
+  );
+  const waiting = new Map();
+  const listeners = [];
+  let number = 0;
+  let rest = '';
+  chromium.stdio[4].on('data', (data) => {
+    const parts = (rest + data).split('\0');
+    rest = parts.pop();
+    for (const message of parts.map((part) => JSON.parse(part))) {
+      const { done, fail } = waiting.get(message.id) || {};
+      waiting.delete(message.id);
+      if (!done) listeners.forEach((listener) => listener(message));
+      else if (message.error) fail(new Error(message.error.message));
+      else done(message.result);
+    }
+  });
+  const send = (method, params = {}, sessionId) =>
+    new Promise((done, fail) => {
+      waiting.set(++number, { done, fail });
+      chromium.stdio[3].write(JSON.stringify({ id: number, method, params, sessionId }) + '\0');
+    });
+
+  // A tab of this size; its complaints go into `trouble`.
+  const open = async (url, { width = 1280, height = 800, ratio = 1, before = '' } = {}) => {
+    const { targetId } = await send('Target.createTarget', { url: 'about:blank' });
+    const { sessionId } = await send('Target.attachToTarget', { targetId, flatten: true });
+    const tab = { trouble: [], url };
+    const ask = (method, params) => send(method, params, sessionId);
+    listeners.push(({ method, params, sessionId: from }) => {
+      if (from !== sessionId) return;
+      if (method === 'Network.requestWillBeSent' && !/^(file|data|blob):/.test(params.request.url))
+        tab.trouble.push('request ' + params.request.url);
+      if (method === 'Runtime.consoleAPICalled' && params.type !== 'log')
+        tab.trouble.push(params.args.map((arg) => arg.value).join(' '));
+      if (method === 'Runtime.exceptionThrown')
+        tab.trouble.push(params.exceptionDetails.exception?.description || 'exception');
+      if (method === 'Log.entryAdded') tab.trouble.push(params.entry.text);
+    });
+    for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await ask(domain + '.enable');
+    await ask('Emulation.setDeviceMetricsOverride', {
+      width, height, deviceScaleFactor: ratio, mobile: false,
+    });
+    await ask('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
+    await ask('Emulation.setFocusEmulationEnabled', { enabled: true });
+    if (before) await ask('Page.addScriptToEvaluateOnNewDocument', { source: before });
+    await ask('Page.navigate', { url });
+    tab.ask = ask;
+    tab.run = async (expression) => {
+      const answer = await ask('Runtime.evaluate', {
+        expression, awaitPromise: true, returnByValue: true,
+      });
+      if (answer.exceptionDetails) throw new Error(answer.exceptionDetails.exception.description);
+      return answer.result.value;
+    };
+    tab.until = async (expression, ms = 60000) => {
+      for (const end = Date.now() + ms; Date.now() < end; await sleep(20))
+        if (await tab.run(expression)) return;
+      throw new Error(`${url}: waited in vain for ${expression}`);
+    };
+    tab.mouse = (type, x, y, more = {}) =>
+      ask('Input.dispatchMouseEvent', {
+        type, x, y, button: type === 'mouseMoved' ? 'none' : 'left', clickCount: 1, ...more,
+      });
+    tab.touch = (type, ...points) =>
+      ask('Input.dispatchTouchEvent', {
+        type, touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+      });
+    tab.key = async (name, modifiers = 0) => {
+      const text = name.length === 1 && !(modifiers & 2) ? name : undefined;
+      const code = /^[a-z]$/i.test(name) ? 'Key' + name.toUpperCase() : name;
+      const key = { key: name === 'Space' ? ' ' : name, code, modifiers };
+      await ask('Input.dispatchKeyEvent', { type: 'keyDown', text, ...key });
+      await ask('Input.dispatchKeyEvent', { type: 'keyUp', ...key });
+    };
+    tab.downloads = (folder) =>
+      send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+    tab.picture = async (file) => {
+      const { data } = await ask('Page.captureScreenshot');
+      fs.writeFileSync(file, Buffer.from(data, 'base64'));
+    };
+    tab.close = () => send('Target.closeTarget', { targetId });
+    await tab.until('typeof stats !== "undefined" && (stats.first > 0 || $("said").textContent)');
+    return tab;
+  };
+  const close = async () => {
+    await Promise.race([send('Browser.close').catch(() => {}), sleep(2000)]);
+    chromium.kill();
+    await sleep(200);
+    fs.rmSync(profile, { recursive: true, force: true });
+  };
+  return { open, close };
+};
+
+module.exports = { launch, sleep };
