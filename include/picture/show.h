@@ -256,8 +256,8 @@ typedef enum LectureColumn {
 void show_lecture(LectureColumn column, const struct LecturePage *left,
                   Show *show);
 
-/* Fills topic, sentence, method, state and time_text in plain words, as far as
- * they are empty, from the active pane and its trace. */
+/* Fills topic, sentence, method and state in plain words, as far as they are
+ * empty, from the active pane and its trace. */
 void show_describe(Show *show);
 
 /* Takes what histories and trails of this scene's picture keep of the state

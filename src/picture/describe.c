@@ -9,14 +9,14 @@
 #include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
-/* Formats into a text of SHOW_TEXT bytes that is still empty. */
-static void say(char *text, size_t size, const char *format, ...)
+/* Formats into a text [SHOW_TEXT] that is still empty. */
+static void say(char *text, const char *format, ...)
 {
     va_list arguments;
     if (text[0] != '\0')
         return;
     va_start(arguments, format);
-    vsnprintf(text, size, format, arguments);
+    vsnprintf(text, SHOW_TEXT, format, arguments);
     va_end(arguments);
 }
 
@@ -54,114 +54,73 @@ static const char *ordinal(int number)
     return teen || number % 10 > 3 ? "th" : ends[number % 10];
 }
 
-/* The end of the loop; both numbers as text. */
-static void describe_test(char *s, const Trace *trace)
+/* Line by line. */
+static void describe_line(const Simulation *simulation, const Trace *trace,
+                          char *s)
 {
-    char residual[48], tolerance[48];
+    char alpha[32], h[48], residual[48], tolerance[48];
+    int shown = trace->trials > 1 ? trace->trials : 1;
+    int time = trace->iteration + 1;
+    alpha_text(alpha, sizeof alpha, trace_alpha(trace, shown));
+    plot_number(h, sizeof h, trace->h);
     plot_number(residual, sizeof residual, trace->residual);
     plot_number(tolerance, sizeof tolerance, trace->tolerance);
-    if (trace->passed)
-        say(s, SHOW_TEXT,
+    if (trace->line == LINE_START)
+        say(s, "line 1: the iterate begins where the step does");
+    if (trace->line == LINE_DO)
+        say(s, "line 2: the loop begins for the %d%s time", time,
+            ordinal(time));
+    if (trace->line == LINE_PROJECT &&
+        simulation->options.filter == FILTER_NONE)
+        say(s, "line 3: the Hessian stays as it is");
+    if (trace->line == LINE_PROJECT && simulation_projects_springs(simulation))
+        say(s,
+            "line 3: the blocks of %d of %d springs had a negative "
+            "eigenvalue and were projected",
+            trace->projected, simulation->system.springs);
+    if (trace->line == LINE_PROJECT)
+        say(s,
+            "line 3: %d blocks of springs, contacts and cells had a "
+            "negative eigenvalue and were projected",
+            trace->projected);
+    if (trace->line == LINE_SOLVE)
+        say(s,
+            "line 4: the direction points %s; \u2016{p}\u2016_{\u221e} is "
+            "the largest |{p}_{x}| + |{p}_{y}| of a node",
+            trace->slope > 0 ? "uphill" : "downhill");
+    if (trace->line == LINE_SEARCH)
+        say(s, "line 5: {alpha} = %s %s", alpha,
+            trace->accepted ? "is taken" : "is refused: E would rise");
+    if (trace->line == LINE_UPDATE)
+        say(s, "line 6: the square moves by {alpha} {p}");
+    if (trace->line == LINE_TEST && trace->passed)
+        say(s,
             "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
             "%s is below, and {p} is not needed",
             tolerance, trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
-    else
-        say(s, SHOW_TEXT, "line 7: the residual is %s m/s, %s %s", residual,
+    if (trace->line == LINE_TEST)
+        say(s, "line 7: the residual is %s m/s, %s %s", residual,
             trace->residual > trace->tolerance ? "above" : "not above",
             tolerance);
+    if (trace->line == LINE_END)
+        say(s, "line 8: the step of %s s is done", h);
 }
 
-/* Line by line. */
-static void describe_line(Show *show, const Simulation *simulation,
-                          const Trace *trace)
+static void describe_method(const Show *show, const Simulation *simulation,
+                            char *s)
 {
-    char *s = show->sentence, number[48];
-    const Options *options = &simulation->options;
-    switch (trace->line) {
-    case LINE_START:
-        say(s, SHOW_TEXT, "line 1: the iterate begins where the step does");
-        break;
-    case LINE_DO:
-        say(s, SHOW_TEXT, "line 2: the loop begins for the %d%s time",
-            trace->iteration + 1, ordinal(trace->iteration + 1));
-        break;
-    case LINE_PROJECT:
-        if (options->filter == FILTER_NONE)
-            say(s, SHOW_TEXT, "line 3: the Hessian stays as it is");
-        else if (simulation_projects_springs(simulation))
-            say(s, SHOW_TEXT,
-                "line 3: the blocks of %d of %d springs had a negative "
-                "eigenvalue and were projected",
-                trace->projected, simulation->system.springs);
-        else
-            say(s, SHOW_TEXT,
-                "line 3: %d blocks of springs, contacts and cells had a "
-                "negative eigenvalue and were projected",
-                trace->projected);
-        break;
-    case LINE_SOLVE:
-        say(s, SHOW_TEXT,
-            "line 4: the direction points %s; \u2016{p}\u2016_{\u221e} is the "
-            "largest |{p}_{x}| + |{p}_{y}| of a node",
-            trace->slope > 0 ? "uphill" : "downhill");
-        break;
-    case LINE_SEARCH:
-        alpha_text(number, sizeof number,
-                   ldexp(trace->first > 0 ? trace->first : 1,
-                         1 - (trace->trials > 1 ? trace->trials : 1)));
-        say(s, SHOW_TEXT, "line 5: {alpha} = %s %s", number,
-            trace->accepted ? "is taken" : "is refused: E would rise");
-        break;
-    case LINE_UPDATE:
-        say(s, SHOW_TEXT, "line 6: the square moves by {alpha} {p}");
-        break;
-    case LINE_TEST:
-        describe_test(s, trace);
-        break;
-    case LINE_END:
-        plot_number(number, sizeof number, trace->h);
-        say(s, SHOW_TEXT, "line 8: the step of %s s is done", number);
-        break;
-    default:
-        break;
-    }
-}
-
-static void describe_method(Show *show, const Simulation *simulation)
-{
-    const IntegratorMethod *method = simulation->run[0].method;
+    const Scene *scene = simulation->scene;
+    const TimeIntegrator *run = simulation->run;
     if (show->panes > 1)
-        say(show->method, sizeof show->method, "%d side by side", show->panes);
-    else if (simulation->scene->picture == PICTURE_RACE)
-        say(show->method, sizeof show->method, "%d methods", RACE_METHODS);
-    else if (simulation->scene->turn &&
-             simulation->scene->picture != PICTURE_ENVELOPE)
-        say(show->method, sizeof show->method, "Newton's method");
-    else if (simulation->runs > 1 &&
-             simulation->run[0].method != simulation->run[1].method)
-        say(show->method, sizeof show->method, "%d integrators",
-            simulation->runs);
+        say(s, "%d side by side", show->panes);
+    else if (scene->picture == PICTURE_RACE)
+        say(s, "%d methods", RACE_METHODS);
+    else if (scene->turn && scene->picture != PICTURE_ENVELOPE)
+        say(s, "Newton's method");
+    else if (simulation->runs > 1 && run[0].method != run[1].method)
+        say(s, "%d integrators", simulation->runs);
     else
-        say(show->method, sizeof show->method, "%s", method->label);
-}
-
-static void describe_time(Show *show, const Simulation *simulation)
-{
-    char number[48];
-    if (simulation->scene->turn) {
-        say(show->time_text, SHOW_TEXT, "%s %ld", simulation->scene->turn,
-            simulation->steps);
-        return;
-    }
-    plot_number(number, sizeof number, simulation_time(simulation));
-    if (simulation->run[0].newton && show->bars > 0 && show->step >= 1 &&
-        show->step <= show->bars)
-        say(show->time_text, SHOW_TEXT, "step %ld   t = %s s   %d update%s",
-            show->step, number, show->bar[show->step - 1].updates,
-            show->bar[show->step - 1].updates == 1 ? "" : "s");
-    else
-        say(show->time_text, SHOW_TEXT, "step %ld   t = %s s",
-            simulation->steps, number);
+        say(s, "%s", run->method->label);
 }
 
 /* What the scene shows, where its method does not do something else. */
@@ -196,24 +155,25 @@ void show_describe(Show *show)
 {
     const Pane *pane = &show->pane[show->active];
     const Simulation *simulation = pane->simulation;
-    if (!show->topic)
-        show->topic = simulation->scene->title ? simulation->scene->title
-                                               : simulation->scene->name;
+    const Scene *scene = simulation->scene;
+    const Trace *trace = pane->trace;
+    char *sentence = show->sentence;
     const char *end = end_words(simulation);
+    bool whole = !trace || !trace->line || trace->given_up;
+    if (!show->topic)
+        show->topic = scene->title ? scene->title : scene->name;
     if (end)
-        say(show->sentence, SHOW_TEXT, "%s", end);
-    bool whole = !pane->trace || !pane->trace->line || pane->trace->given_up;
+        say(sentence, "%s", end);
     if (whole && pane->trouble && pane->trouble != STATUS_INTERRUPTED)
-        say(show->sentence, SHOW_TEXT, "%s",
-            trouble_words(simulation, pane->trouble));
-    else if (pane->trace && pane->trace->line)
-        describe_line(show, simulation, pane->trace);
+        say(sentence, "%s", trouble_words(simulation, pane->trouble));
+    else if (trace && trace->line)
+        describe_line(simulation, trace, sentence);
     if (!show->lecture) /* its pages have words of their own */
-        say(show->sentence, SHOW_TEXT, "%s", scene_sentence(simulation));
-    describe_method(show, simulation);
-    describe_time(show, simulation);
-    say(show->state, sizeof show->state, "%s",
-        simulation->done ? "at its end"
-        : show->paused   ? "paused"
-                         : "running");
+        say(sentence, "%s", scene_sentence(simulation));
+    describe_method(show, simulation, show->method);
+    if (!show->state[0])
+        snprintf(show->state, sizeof show->state, "%s",
+                 simulation->done ? "at its end"
+                 : show->paused   ? "paused"
+                                  : "running");
 }
