@@ -41,7 +41,7 @@ typedef struct MultigridStep {
     bool minimum;                /* a saddle is no end */
 } MultigridStep;
 
-/* What one iteration did. */
+/* What one iteration did; or, after multigrid_start, where it begins. */
 typedef struct MultigridRecord {
     double residual; /* m/s, of p where it began: known up to what conjugate
                         gradients leave */
@@ -49,6 +49,10 @@ typedef struct MultigridRecord {
     double alpha;    /* along p */
     double change;   /* of E, J s^2, by all it did */
     int trials;      /* points along p that were looked at */
+    double after;    /* m/s, residual at the iterate that it led to: of an exact
+                        p, up to a remainder that decided the test; or an upper
+                        bound */
+    bool decided;    /* which of both */
 } MultigridRecord;
 
 /* Done since the object was made. */
@@ -83,10 +87,6 @@ Status multigrid_leave(Multigrid *multigrid);
 
 /* u [2n] m, out: the present iterate; pinned nodes are not written. */
 void multigrid_displacement(const Multigrid *multigrid, double *u);
-
-/* m/s, of the present iterate: where the test was decided, as it was; else an
- * upper bound. */
-double multigrid_residual(const Multigrid *multigrid);
 
 const MultigridRecord *multigrid_record(const Multigrid *multigrid);
 const MultigridCounters *multigrid_counters(const Multigrid *multigrid);

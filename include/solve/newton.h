@@ -35,7 +35,8 @@ typedef enum ResidualKind {
 typedef struct NewtonRecord {
     long step;         /* time step, from 1 */
     int iteration;     /* in this minimisation, from 0; -1: see above */
-    double residual;   /* max over nodes |p_x| + |p_y|, over h: m/s */
+    double residual;   /* m/s, max over nodes |p_x| + |p_y|, over h: of the p
+                          that this iteration follows; with -1, at the end */
     ResidualKind kind; /* of it */
     double alpha;      /* step length along p; 0: none was found */
     int trials;        /* energies the line search looked at */

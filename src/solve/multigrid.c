@@ -50,7 +50,6 @@ struct Multigrid {
     double bound;         /* m/s, of the residual */
     double last_bound;    /* m/s, an iteration before */
     double test_below;    /* m/s, half the bound when it said no */
-    double residual;      /* m/s */
     bool known;           /* the grid has the system's numbers */
     bool directed;        /* p is a direction at x */
     bool stalls;          /* tiles relax in each iteration */
@@ -119,7 +118,7 @@ static bool decide_test(Multigrid *mg)
         double largest;
         last = now;
         now = grid_remainder(grid, mg->g, mg->p, mg->rest, &largest);
-        mg->residual = residual_of(mg, largest);
+        mg->record.after = residual_of(mg, largest);
         if (v_decides(grid, largest, now, length))
             return true;
         v_solve(&mg->cycle, 1, mg->rest, now, end, true, mg->p);
@@ -245,9 +244,9 @@ static bool leaves_saddle(Multigrid *mg)
 static void evaluate(Multigrid *mg)
 {
     mg->square = grid_gradient(&mg->grid, mg->g, mg->moment);
-    mg->bound = mg->residual =
+    mg->bound = mg->record.after =
         residual_of(mg, sqrt(2 / mg->grid.lightest * mg->square));
-    mg->directed = mg->cycle.set_up = false;
+    mg->directed = mg->record.decided = mg->cycle.set_up = false;
     mg->counters.gradients++;
 }
 
@@ -267,9 +266,10 @@ static Status multigrid_test(Multigrid *mg)
             evaluate(mg);
         }
         mg->directed = decide_test(mg);
+        mg->record.decided = true;
         mg->counters.certificates++;
         mg->test_below = mg->bound / 2;
-        if (!mg->directed || !(mg->residual <= tolerance))
+        if (!mg->directed || !(mg->record.after <= tolerance))
             return STATUS_RUNNING;
     }
     if (!leaves_saddle(mg))
@@ -316,12 +316,13 @@ Status multigrid_leave(Multigrid *mg)
 Status multigrid_iterate(Multigrid *mg)
 {
     const double bound = mg->bound;
+    double residual = mg->record.after;
     if (!mg->directed) {
         VEnd end = {ENOUGH, 0, MAX_CYCLES};
-        mg->residual = residual_of(
+        residual = residual_of(
             mg, v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p));
     }
-    mg->record = (MultigridRecord){.residual = mg->residual};
+    mg->record = (MultigridRecord){.residual = residual};
     Status status = search_step(mg);
     if (!status) {
         mg->stalls = mg->stalls || (mg->iterations >= DIRECTIONS &&
@@ -344,11 +345,6 @@ Status multigrid_iterate(Multigrid *mg)
 void multigrid_displacement(const Multigrid *mg, double *u)
 {
     grid_displacement(&mg->grid, &mg->step, u);
-}
-
-double multigrid_residual(const Multigrid *mg)
-{
-    return mg->residual;
 }
 
 const MultigridRecord *multigrid_record(const Multigrid *mg)

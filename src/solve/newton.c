@@ -1,6 +1,5 @@
 #include "solve/newton_parts.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,26 +122,18 @@ Status newton_iterate(Newton *newton)
     return newton->status = newton_tell(newton, &done);
 }
 
-/* Moves the centre of mass to where u_tilde has it.  Multigrid has done so
- * before its test: what its rounding leaves stays, for nodes would move by
- * their own, and E could rise. */
+/* Moves the centre of mass to where u_tilde has it. */
 static void move_centre(Newton *newton)
 {
     const System *system = newton->system;
     const double *x_n = newton->at.E.x_n, *u_tilde = newton->u_tilde;
     double *u = newton->at.u, *x = newton->at.x;
-    double mass = 0, missing[2] = {0, 0}, size = 0;
+    double mass = 0, missing[2] = {0, 0};
     for (int i = 0; i < system->nodes; i++) {
         mass += system->m[i];
-        for (int c = 0; c < 2; c++) {
-            double to = u_tilde[2 * i + c], from = u[2 * i + c];
-            missing[c] += system->m[i] * (to - from);
-            size += system->m[i] * (fabs(to) + fabs(from));
-        }
+        for (int c = 0; c < 2; c++)
+            missing[c] += system->m[i] * (u_tilde[2 * i + c] - u[2 * i + c]);
     }
-    double most = fmax(fabs(missing[0]), fabs(missing[1]));
-    if (newton->working == SOLVER_MULTIGRID && most <= DBL_EPSILON * size)
-        return;
     double by[2] = {missing[0] / mass, missing[1] / mass};
     newton->sum -= 0.5 * (by[0] * missing[0] + by[1] * missing[1]);
     for (int i = 0; i < system->nodes; i++)
@@ -157,13 +148,16 @@ static void move_centre(Newton *newton)
  * nodes alike, lowers E, and conserves linear momentum to rounding.  The second
  * move removes the rounding errors of the first, which is long where springs
  * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
- * make the centre's way from x_n instead. */
+ * make the centre's way from x_n instead.  Where multigrid solved for its
+ * test, it had moved it before that. */
 static void finish(Newton *newton)
 {
     Status before = newton->status;
     if (before && !status_is_unconverged(before))
         return;
-    if (system_is_free(newton->system)) {
+    bool moved = !before && newton->working == SOLVER_MULTIGRID &&
+                 newton->kind == RESIDUAL_ESTIMATE;
+    if (system_is_free(newton->system) && !moved) {
         move_centre(newton);
         move_centre(newton);
         if (before != STATUS_DIVERGED && rounding_sees_rise(newton)) {

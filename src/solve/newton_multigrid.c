@@ -78,18 +78,18 @@ static void count(Newton *newton, const MultigridCounters *before)
     counters->cycles += now->cycles - before->cycles;
     counters->local += now->local - before->local;
     counters->saddles += now->saddles - before->saddles;
-    newton->kind = now->certificates > before->certificates ? RESIDUAL_ESTIMATE
-                                                            : RESIDUAL_BOUND;
 }
 
 /* u and x from multigrid; the residual as far as it is known. */
 static void fetch(Newton *newton)
 {
+    const MultigridRecord *end = multigrid_record(newton->multigrid);
     Iterate *at = &newton->at;
     multigrid_displacement(newton->multigrid, at->u);
     for (int i = 0; i < 2 * newton->system->nodes; i++)
         at->x[i] = at->E.x_n[i] + at->u[i];
-    newton->residual = multigrid_residual(newton->multigrid);
+    newton->residual = end->after;
+    newton->kind = end->decided ? RESIDUAL_ESTIMATE : RESIDUAL_BOUND;
 }
 
 /* Newton goes on from the iterate that multigrid has reached. */
@@ -145,8 +145,7 @@ Status newton_multigrid_start(Newton *newton)
     newton->first_change = 0;
     /* A gradient that vanishes may be that of a maximum: Newton looks. */
     if (status == STATUS_OK && !settings->minimum &&
-        multigrid_counters(newton->multigrid)->certificates ==
-            before.certificates)
+        newton->kind == RESIDUAL_BOUND)
         return direction_first(newton);
     status = status == STATUS_OK ? end_here(newton) : status;
     return status == STATUS_NOT_A_MINIMUM ? take_back(newton) : status;
