@@ -130,10 +130,12 @@ TEST(residuals_are_what_they_are_called)
     static const char *const lines[] = {
         "--segments 3 --tolerance 0.1", "--segments 3 --tolerance 1e-5",
         "--segments 3 --stretch 1.0001 --tolerance 1e-3",
+        "--segments 3 --tolerance 1e-3 --stretch 0.6",
+        "--segments 2 --tolerance 3 --stretch 2",
         "--segments 4 --solver multigrid --tolerance 1e-3",
         "--segments 4 --solver multigrid --stretch 1.001"};
     int seen[2][3] = {{0}};
-    for (int line = 0; line < 5; line++) {
+    for (int line = 0; line < 7; line++) {
         Simulation *simulation = simulate("%s", lines[line]);
         TimeIntegrator *run = &simulation->run[0];
         const Newton *newton = run->newton;
