@@ -27,7 +27,8 @@ objects = $(patsubst %.c,$(B)/%.o,$(patsubst src/%,%,$(wildcard $(1))))
 OBJECTS := $(filter-out %_web.o,$(call objects,$(ROOMS:%=src/%/*.c))) \
            $(B)/listing_text.o
 SUITES  := $(patsubst %.c,$(B)/%,$(wildcard tests/unit/test_*.c))
-STRESS  := $(filter-out %/stress.o,$(call objects,tests/stress/*.c))
+STRESS  := $(filter-out %/stress.o,$(call objects,tests/stress/*.c \
+             tests/unit/oracle.c))
 LIBRARY := $(B)/libelasto.a
 
 COMPILE = $(CC) -std=c11 -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) \

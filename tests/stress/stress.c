@@ -1,10 +1,9 @@
 /* build/stress: every named case, many random scenes and the envelope, within
  * minutes; ends with a table and the number of promises broken.
  *
- *   --random N   random scenes (100000)       --seed S  (1)
- *   --squares N  random squares of the command line (10000)
- *   --case N     only that one; shrunk and printed if it fails
- *   --quick      no slow case and no envelope
+ *   --seed S     other random scenes (1)
+ *   --line LINE  only this one, ten steps; made smaller if it fails
+ *   --quick      a hundredth of the random scenes, no slow case, no envelope
  *   --envelope CSV PNG   only the envelope, into these files
  */
 #include "stress.h"
@@ -18,27 +17,22 @@
 /* Longer than any case may take, s. */
 enum { CASE_LIMIT = 240 };
 
-/* What runs now, for the line that is printed if it never ends. */
-static char present[160];
-
 static void on_alarm(int number)
 {
+    static const char words[] = " does not end\n";
     (void)number;
-    ssize_t written = write(STDERR_FILENO, present, strlen(present));
+    ssize_t written =
+        write(STDERR_FILENO, stress_present, strlen(stress_present));
+    written += write(STDERR_FILENO, words, sizeof words - 1);
     _exit(written < 0 ? 2 : 1);
 }
 
 static void begin_case(const char *what)
 {
-    snprintf(present, sizeof present, "%s does not end\n", what);
+    snprintf(stress_present, sizeof stress_present, "%s", what);
     alarm(CASE_LIMIT);
-}
-
-/* On a terminal one line that moves. */
-static void progress(const char *what, long done, long total)
-{
     if (isatty(STDERR_FILENO))
-        fprintf(stderr, "\r%-24s %ld / %ld  \r", what, done, total);
+        fprintf(stderr, "\r%-40s\r", what);
 }
 
 static void print_row(const char *name, const Tally *tally)
@@ -69,7 +63,6 @@ static void run_cases(bool quick, Tally *sum)
         if (quick && row->slow)
             continue;
         begin_case(row->name);
-        progress(row->name, 0, 1);
         if (!row->run(&tally, reason)) {
             tally.wrong += tally.wrong == 0;
             printf("%s: %s\n", row->name, reason);
@@ -79,54 +72,61 @@ static void run_cases(bool quick, Tally *sum)
     }
 }
 
-static void run_random(const char *name, uint64_t seed, long first, long count,
-                       Tally *sum)
+/* Kinds of random scenes, how many, how many steps each, and the share of all
+ * steps that must converge. */
+static const struct {
+    const char *name, *kinds;
+    long count;
+    int steps;
+    double share;
+} families[] = {{"squares, shaken", "s", 20000, 2, 0.5},
+                {"contact", "cccctbww", 20000, 10, 0.999},
+                {"springs that flow", "f", 20000, 2, 0.5}};
+
+static void run_random(uint64_t seed, bool quick, Tally *sum)
 {
-    Tally tally = {0};
-    for (long i = first; i < first + count; i++) {
-        Wild wild;
-        char reason[512] = "", line[80];
-        snprintf(line, sizeof line, "build/stress --seed %llu --case %ld",
-                 (unsigned long long)seed, i);
-        begin_case(line);
-        wild_create(seed, i, &wild);
-        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
-            printf("%s: %s\n", line, reason);
-        if (i % 1000 == 0)
-            progress(name, i - first, count);
+    for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
+        char reason[512];
+        Tally tally = {0};
+        long count = families[i].count / (quick ? 100 : 1);
+        begin_case(families[i].name);
+        if (!stress_scenes(families[i].kinds, seed, count, families[i].steps,
+                           &tally, reason))
+            printf("%s: %s\n", stress_present, reason);
+        double good = (double)tally.steps[VERDICT_CONVERGED];
+        double all = good + (double)tally.steps[VERDICT_REPORTED];
+        if (!(good >= families[i].share * all)) {
+            printf("only %g of %g steps converged\n", good, all);
+            tally.wrong++;
+        }
+        print_row(families[i].name, &tally);
+        add_tally(&tally, sum);
     }
-    print_row(name, &tally);
-    add_tally(&tally, sum);
 }
 
-static bool still_wrong(const Wild *wild, void *user)
+static bool is_wrong(const char *line)
 {
     Tally tally = {0};
-    (void)user;
     char reason[512];
-    return wild_run(wild, &tally, reason) == VERDICT_WRONG;
+    return stress_run(line, 10, &tally, reason) == VERDICT_WRONG;
 }
 
-/* One random scene again; if it fails, as small as it gets. */
-static int run_one(uint64_t seed, long number)
+/* One line; if it fails, as small as it gets. */
+static int run_one(const char *given)
 {
-    Wild wild;
     Tally tally = {0};
-    char reason[512] = "";
-    begin_case("this case");
-    wild_create(seed, number, &wild);
-    Verdict verdict = wild_run(&wild, &tally, reason);
-    wild_print(&wild);
-    if (verdict != VERDICT_WRONG) {
-        printf("%s\n", verdict == VERDICT_CONVERGED ? "converged" : "reported");
-        return 0;
+    char line[STRESS_LINE], reason[512] = "";
+    snprintf(line, sizeof line, "%s", given);
+    begin_case(line);
+    Verdict verdict = stress_run(line, 10, &tally, reason);
+    if (verdict == VERDICT_WRONG) {
+        stress_shrink(line, is_wrong);
+        stress_run(line, 10, &tally, reason);
+        printf("WRONG: %s: %s\n", line, reason);
+        return 1;
     }
-    printf("WRONG: %s\nshrunk:\n", reason);
-    wild_shrink(&wild, still_wrong, NULL);
-    wild_print(&wild);
-    wild_run(&wild, &tally, reason);
-    printf("WRONG: %s\n", reason);
-    return 1;
+    puts(verdict == VERDICT_CONVERGED ? "converged" : "reported");
+    return 0;
 }
 
 static void run_envelope(const char *csv, const char *png, Tally *sum)
@@ -136,7 +136,6 @@ static void run_envelope(const char *csv, const char *png, Tally *sum)
     for (int i = 0; i < SOLVER_COUNT * ENVELOPE_STRETCH; i++) {
         int solver = i / ENVELOPE_STRETCH, s = i % ENVELOPE_STRETCH;
         begin_case("a panel of the envelope");
-        progress("envelope", i, SOLVER_COUNT * ENVELOPE_STRETCH);
         for (int k = 0; k < ENVELOPE_K; k++)
             for (int h = 0; h < ENVELOPE_H; h++) {
                 char reason[600] = "";
@@ -174,35 +173,27 @@ static void print_sum(const Tally *sum)
 int main(int argc, char **argv)
 {
     uint64_t seed = 1;
-    long random = 100000, squares = 10000, number = -1;
     bool quick = false;
     const char *csv = NULL, *png = NULL;
+    signal(SIGALRM, on_alarm);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0)
             quick = true;
         else if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc)
-            stress_contact_seed = seed = strtoull(argv[++i], NULL, 10);
-        else if (strcmp(argv[i], "--case") == 0 && i + 1 < argc)
-            number = strtol(argv[++i], NULL, 10);
-        else if (strcmp(argv[i], "--random") == 0 && i + 1 < argc)
-            random = strtol(argv[++i], NULL, 10);
-        else if (strcmp(argv[i], "--squares") == 0 && i + 1 < argc)
-            squares = strtol(argv[++i], NULL, 10);
+            seed = strtoull(argv[++i], NULL, 10);
+        else if (strcmp(argv[i], "--line") == 0 && i + 1 < argc)
+            return run_one(argv[i + 1]);
         else if (strcmp(argv[i], "--envelope") == 0 && i + 2 < argc)
             csv = argv[i + 1], png = argv[i + 2], i += 2;
         else
             return fprintf(stderr, "stress: what is '%s'?\n", argv[i]), 2;
     }
-    signal(SIGALRM, on_alarm);
-    if (number >= 0)
-        return run_one(seed, number);
     Tally sum = {0};
     printf("%-22s %7s %9s %8s %5s %9s %7s\n", "", "cases", "converged",
            "reported", "wrong", "resolved", "blurred");
     if (!csv) {
         run_cases(quick, &sum);
-        run_random("random scenes", seed, 0, random, &sum);
-        run_random("random squares", seed, WILD_SQUARES, squares, &sum);
+        run_random(seed, quick, &sum);
     }
     if (!quick)
         run_envelope(csv, png, &sum);

@@ -11,16 +11,21 @@
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
-/* E at x_n + u, which is not rounded, without the w P(x_n) that it starts
- * with; J s^2. */
+/* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
 long double wide_energy(const IncrementalPotential *E, const double *u);
 
 /* P(x) and sum m |v|^2/2, J. */
 long double wide_potential(const System *system, const double *x);
 long double wide_kinetic(const System *system, const double *v);
 
-/* Gradient [2n] and Hessian [2n 2n] of E, 0 and 1 for pinned nodes; negative
- * eigenvalues of each spring as the filter says. */
+/* What rounding of coordinates, and of the slope on the way by `way`, can make
+ * of E there. */
+long double wide_noise(const IncrementalPotential *E, const double *u,
+                       const double *way);
+
+/* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0
+ * and 1 for pinned nodes; negative eigenvalues of each spring as the filter
+ * says. */
 void wide_derivatives(const IncrementalPotential *E, const double *u,
                       Filter filter, Wide *g, Wide *H);
 
@@ -31,10 +36,6 @@ bool wide_factor(int n, Wide *H, int *negative);
 /* b = (L D L^T)^-1 b */
 void wide_solve(int n, const Wide *H, Wide *b);
 
-/* What rounding to doubles can do to the gradient: [2n] kg m, out. */
-void rounding_of_gradient(const IncrementalPotential *E, const double *u,
-                          long double *noise);
-
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
 typedef enum Verdict {
@@ -44,15 +45,18 @@ typedef enum Verdict {
     VERDICTS
 } Verdict;
 
-/* Watches one run. */
+/* Watches one run: nothing is behind a wall or turned, E is raised by no update
+ * and by no step; of springs alone also residuals and momentum. */
 typedef struct Watch {
     TimeIntegrator *run;
     bool residuals;       /* solve again where a step says it converged */
+    bool springs;         /* there is nothing else */
     double *x, *v;        /* [2n] before the step */
     double *x_n;          /* [2n] where the present minimisation started */
     double *u;            /* [2n] m, last iterate of the minimisation */
-    long double *noise;   /* [2n] workspace */
+    double *way;          /* [2n] workspace */
     Wide *g, *H;          /* [2n], [2n 2n] workspace */
+    long double start;    /* E at u = 0 */
     long double energy;   /* E at u */
     long double through;  /* kg m/s, momenta that passed through */
     long double earlier;  /* the largest of all steps */
@@ -63,7 +67,6 @@ typedef struct Watch {
     long steps[VERDICTS]; /* how often each verdict */
     long judged;          /* residuals computed again */
     long blurred;         /* of them: rounding is larger than the tolerance */
-    double worst;         /* residual over tolerance, where it is not */
 } Watch;
 
 /* The run must stay where it is; its Newton's observer becomes the watch.
@@ -71,52 +74,51 @@ typedef struct Watch {
 bool watch_create(TimeIntegrator *run, Watch *watch);
 void watch_free(Watch *watch);
 
+/* After a change of the system: the run made anew, with its x, v and h, its
+ * tolerance times `finer`. */
+Status watch_restart(TimeIntegrator *run, double finer);
+
 /* One step, judged. */
 Verdict watch_step(Watch *watch);
 
-/* The first broken promise is remembered. */
-void watch_blame(Watch *watch, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* ---- random scenes (stress_random.c) ----------------------------------- */
-
-enum { WILD_NODES = 16, WILD_SPRINGS = 48 };
-
-/* Everything a few steps depend on, as plain numbers. */
-typedef struct Wild {
-    int nodes, springs, steps, max_iterations;
-    int e[2 * WILD_SPRINGS];
-    double m[WILD_NODES], x[2 * WILD_NODES], v[2 * WILD_NODES];
-    double l2[WILD_SPRINGS], k[WILD_SPRINGS];
-    unsigned char pinned[WILD_NODES];
-    double h, tolerance, omega2;
-    int method; /* row of integrator_methods */
-    Solver solver;
-    Filter filter;
-} Wild;
-
-/* The random scene with this number.  From WILD_SQUARES on they are squares as
- * the command line makes them, over all it allows that matters: h to 1e6 s, k
- * to 1e15 J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34. */
-enum { WILD_SQUARES = 1000000000 };
-void wild_create(uint64_t seed, long number, Wild *wild);
-
-/* Its steps, judged; reason [512] out where one was WRONG; tally in/out. */
 typedef struct Tally {
     long cases, wrong, steps[VERDICTS], judged, blurred;
     long statuses[STATUS_COUNT];
-    double worst;
 } Tally;
 
-Verdict wild_run(const Wild *wild, Tally *tally, char *reason);
+/* Adds what a watch saw. */
+void tally_add(const Watch *watch, Tally *tally);
 
-/* Makes a scene that fails smaller and rounder while it still fails. */
-void wild_shrink(Wild *wild, bool (*fails)(const Wild *, void *), void *user);
+/* ---- random scenes (stress_scenes.c) ----------------------------------- */
 
-/* The scene in numbers that can be read back exactly. */
-void wild_print(const Wild *wild);
+enum { STRESS_LINE = 512 };
 
-/* ---- the list of cases (stress_cases.c, stress_exact_cases.c) ---------- */
+/* The random scene with this number, as a command line; kinds are letters, of
+ * which the scenes have one after the other:
+ *   s  squares over all that the command line allows: h to 1e6 s, k to 1e15
+ *      J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34; with the word
+ *      "shaken N" at the end no squares any more
+ *   f  springs that flow, half of them without hardening, h to 1e4 s
+ *   c, t, b, w  contact, friction, cells, flow, fracture, damping and what
+ *      moves: scenes that fall and are pressed, tear, bend; a square among
+ *      walls */
+void stress_line(const char *kinds, uint64_t seed, long number,
+                 char line[STRESS_LINE]);
+
+/* So many steps of it, judged; reason [512] out where one was WRONG; tally
+ * in/out. */
+Verdict stress_run(const char *line, int steps, Tally *tally, char *reason);
+
+/* So many of them; the first that is WRONG ends them, shrunk, in
+ * stress_present, which always holds the line that runs. */
+extern char stress_present[STRESS_LINE];
+bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
+                   Tally *tally, char *reason);
+
+/* Options go, numbers become round, while it still fails. */
+void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *));
+
+/* ---- the list of cases (stress_cases.c, stress_answers.c) -------------- */
 
 typedef struct StressCase {
     const char *name;
@@ -126,20 +128,7 @@ typedef struct StressCase {
     bool (*run)(Tally *tally, char *reason);
 } StressCase;
 
-/* Random scenes of contact and what goes with it: 20 000, or some; other ones
- * with another seed. */
-extern uint64_t stress_contact_seed;
-bool stress_contact(Tally *tally, char *reason);
-bool stress_contact_small(Tally *tally, char *reason);
-
-/* Random squares of springs that flow; `judged` counts updates. */
-bool stress_flow(Tally *tally, char *reason);
-bool stress_flow_small(Tally *tally, char *reason);
-
 extern const StressCase stress_cases[]; /* ends with a NULL name */
-
-/* Adds what a watch saw. */
-void tally_add(const Watch *watch, Tally *tally);
 
 /* ---- the envelope (stress_envelope.c) ---------------------------------- */
 

@@ -1,8 +1,9 @@
-/* The energy of a step once more, in more digits than the solver has: plain
- * sums over springs, averages along the step by Gauss's two points, which are
- * exact for the polynomials that occur, and a dense L D L^T.
+/* The energy of a step once more, in more digits than the solver has: averages
+ * along the step by Gauss's two points, which are exact for the polynomials
+ * that occur, plain sums over springs, and a dense L D L^T.
  */
 #include "model/pull_energy.h"
+#include "oracle.h"
 #include "stress.h"
 
 #include <float.h>
@@ -20,58 +21,58 @@ static Wide wide_difference(const IncrementalPotential *E, const double *u,
     return (Wide)E->x_n[i] - E->x_n[j] + t * ((Wide)u[i] - u[j]);
 }
 
-/* P(x_n + t u) - P(x_n), J, without subtracting large energies. */
-static long double potential_on_way(const IncrementalPotential *E,
-                                    const double *u, long double t)
+/* E at x_n + u, not rounded, and its slope along `way`; averaged E takes the
+ * forces at Gauss's points. */
+static Jet energy(const IncrementalPotential *E, const double *u,
+                  const double *way, Random *jitter)
 {
     const System *system = E->system;
-    long double sum = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        long double more = -(long double)system->l2[s], change = 0;
-        for (int c = 0; c < 2; c++) {
-            long double d = (long double)E->x_n[i + c] - E->x_n[j + c];
-            long double du = t * ((long double)u[i + c] - u[j + c]);
-            more += d * d;
-            change += du * (2 * d + du);
-        }
-        sum += system->k[s] / (2 * (long double)system->l2[s]) * change *
-               (2 * more + change);
+    Place place = place_at(system, E->x_n, u, NULL);
+    Spot spot = {
+        .at = &place, .h = sqrtl(E->weight), .p = way, .jitter = jitter};
+    Jet sum = {0};
+    place.averaged = true; /* at x_n + t u */
+    for (int a = 0; a < (E->averaged ? 2 : 1); a++) {
+        spot.t = E->averaged ? gauss[a] : 1;
+        place.w = E->averaged ? E->weight / 2 : E->weight;
+        Jet part = oracle_energy(&spot, NULL);
+        sum.f += part.f / spot.t;
+        sum.p += part.p / spot.t;
     }
-    for (int i = 0; i < 2 * system->nodes && central_omega2(system) > 0; i++)
-        sum += 0.5L * central_omega2(system) * system->m[i / 2] * t * u[i] *
-               (2 * (long double)E->x_n[i] + t * u[i]);
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        Real away = (Real)u[i] - E->u_tilde[i];
+        sum.f += system->m[i / 2] * away * away / 2;
+    }
     return sum;
 }
 
 long double wide_energy(const IncrementalPotential *E, const double *u)
 {
-    const System *system = E->system;
-    long double sum = 0;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        long double away = (long double)u[i] - E->u_tilde[i];
-        sum += 0.5L * system->m[i / 2] * away * away;
+    return energy(E, u, NULL, NULL).f;
+}
+
+long double wide_noise(const IncrementalPotential *E, const double *u,
+                       const double *way)
+{
+    Random jitter = {1};
+    Jet exact = energy(E, u, way, NULL);
+    Real sum = LDBL_EPSILON * fabsl(exact.f);
+    for (int round = 0; round < 3; round++) {
+        Jet rounded = energy(E, u, way, &jitter);
+        sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
-    if (!E->averaged)
-        return sum + E->weight * potential_on_way(E, u, 1);
-    for (int a = 0; a < 2; a++)
-        sum += 0.5L * E->weight * potential_on_way(E, u, gauss[a]) / gauss[a];
+    for (int i = 0; i < 2 * E->system->nodes; i++)
+        sum += DBL_EPSILON * E->system->m[i / 2] *
+               (fabsl(u[i]) + fabsl(E->u_tilde[i])) * fabs(way[i]);
     return sum;
 }
 
 long double wide_potential(const System *system, const double *x)
 {
-    long double sum = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        long double dx = (long double)x[i] - x[j];
-        long double dy = (long double)x[i + 1] - x[j + 1];
-        long double more = dx * dx + dy * dy - system->l2[s];
-        sum += system->k[s] / (2 * (long double)system->l2[s]) * more * more;
-    }
-    for (int i = 0; i < 2 * system->nodes && central_omega2(system) > 0; i++)
-        sum += 0.5L * central_omega2(system) * system->m[i / 2] * x[i] * x[i];
-    return sum;
+    Place place = place_at(system, x, NULL, x);
+    Spot spot = {.at = &place};
+    place.w = 1;
+    return oracle_energy(&spot, NULL).f;
 }
 
 long double wide_kinetic(const System *system, const double *v)
@@ -214,35 +215,4 @@ void wide_solve(int n, const Wide *H, Wide *b)
     for (int r = n - 1; r >= 0; r--)
         for (int c = r + 1; c < n; c++)
             b[r] -= H[n * c + r] * b[c];
-}
-
-/* Each product and sum in doubles is wrong by DBL_EPSILON of its terms, and
- * x_n + u by that of x, which the stiffness of the spring makes a force. */
-void rounding_of_gradient(const IncrementalPotential *E, const double *u,
-                          long double *noise)
-{
-    const System *system = E->system;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        long double x = fabsl(E->x_n[i]) + fabsl(u[i]);
-        noise[i] = DBL_EPSILON * system->m[i / 2] *
-                   (fabsl(u[i]) + fabsl(E->u_tilde[i]) +
-                    E->weight * central_omega2(system) * x);
-    }
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        long double d2 = 0, x = 0;
-        for (int c = 0; c < 2; c++) {
-            long double d = (long double)E->x_n[i + c] - E->x_n[j + c];
-            long double du = (long double)u[i + c] - u[j + c];
-            d2 += d * d + (d + du) * (d + du);
-            x += fabsl(E->x_n[i + c] + u[i + c]) +
-                 fabsl(E->x_n[j + c] + u[j + c]);
-        }
-        long double k = 2 * E->weight * system->k[s];
-        long double stiff = k * (3 * d2 / system->l2[s] + 1);
-        for (int c = 0; c < 2; c++) {
-            noise[i + c] += DBL_EPSILON * stiff * (sqrtl(d2) + x);
-            noise[j + c] += DBL_EPSILON * stiff * (sqrtl(d2) + x);
-        }
-    }
 }

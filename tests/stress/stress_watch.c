@@ -1,4 +1,6 @@
 /* Every step and every Newton iteration looked at from outside. */
+#include "model/mass_spring_energy.h"
+#include "model/pull_energy.h"
 #include "stress.h"
 
 #include <float.h>
@@ -16,7 +18,11 @@ static const long double HUGE_ENERGY = 1e280L;
 /* Larger systems are not solved again: that costs n^3 in wide numbers. */
 enum { LARGEST_JUDGED = 80 };
 
-void watch_blame(Watch *watch, const char *format, ...)
+/* The first broken promise is remembered. */
+static void blame(Watch *watch, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void blame(Watch *watch, const char *format, ...)
 {
     va_list arguments;
     if (watch->wrong)
@@ -55,25 +61,34 @@ static double residual_of_direction(const Watch *watch, const Wide *p)
     return (double)(largest / watch->run->newton->settings.h);
 }
 
-/* What rounding of the gradient can make of the residual: |H^-1| noise, over h.
- * watch->H holds the factor.  Rounding of the solver's own factor is not
- * forgiven: where it matters the solver has to know it. */
-static double residual_noise(const Watch *watch)
+/* What rounding of the gradient, where x_n + u has an ulp more or less, can
+ * make of the residual.  watch->H holds the factor.  Rounding of the solver's
+ * own factor is not forgiven: where it matters the solver has to know it. blur
+ * of each number of the gradient besides, kg m */
+static double residual_noise(const Watch *watch, const double *u, Wide blur)
 {
+    IncrementalPotential E = watch_potential(watch);
     int n = watch_size(watch);
-    long double sum[LARGEST_JUDGED] = {0}, largest = 0;
-    Wide column[LARGEST_JUDGED];
-    for (int j = 0; j < n; j++) {
-        long double noise = watch->noise[j];
+    Wide g[LARGEST_JUDGED], moved[LARGEST_JUDGED];
+    double x_n[LARGEST_JUDGED], most = 0;
+    Random random = {1};
+    wide_derivatives(&E, u, FILTER_NONE, g, NULL);
+    E.x_n = x_n;
+    for (int round = 0; round < 3; round++) {
         for (int i = 0; i < n; i++)
-            column[i] = i == j;
-        wide_solve(n, watch->H, column);
+            x_n[i] = watch->x_n[i] + 2 * DBL_EPSILON *
+                                         random_uniform(&random, -1, 1) *
+                                         (fabs(watch->x_n[i]) + fabs(u[i]));
+        wide_derivatives(&E, u, FILTER_NONE, moved, NULL);
         for (int i = 0; i < n; i++)
-            sum[i] += ROUNDINGS * noise * fabsl((long double)column[i]);
+            moved[i] = (random_below(&random, 2) ? 1 : -1) *
+                       (ROUNDINGS * (moved[i] - g[i]) + blur +
+                        ROUNDINGS * DBL_EPSILON * E.system->m[i / 2] *
+                            (fabs(u[i]) + fabs(E.u_tilde[i])));
+        wide_solve(n, watch->H, moved);
+        most = fmax(most, residual_of_direction(watch, moved));
     }
-    for (int i = 0; i < n; i += 2)
-        largest = fmaxl(largest, sum[i] + sum[i + 1]);
-    return (double)(largest / watch->run->newton->settings.h);
+    return most;
 }
 
 /* Residual at u with the Hessian of this filter, and what rounding may add
@@ -83,23 +98,20 @@ static double judged_residual(Watch *watch, const double *u, Filter filter,
 {
     IncrementalPotential E = watch_potential(watch);
     int n = watch_size(watch), negative;
-    long double largest = 0;
+    Wide largest = 0;
     wide_derivatives(&E, u, filter, watch->g, watch->H);
     for (int i = 0; i < n; i++)
-        largest = fmaxl(largest, fabsl((long double)watch->g[i]));
+        largest = fmaxl((long double)largest, fabsl((long double)watch->g[i]));
     *noise = INFINITY;
     if (!wide_factor(n, watch->H, &negative))
         return INFINITY;
     wide_solve(n, watch->H, watch->g);
     double residual = residual_of_direction(watch, watch->g);
-    *noise = 0;
-    if (residual <= limit)
-        return residual;
-    rounding_of_gradient(&E, u, watch->noise);
-    if (watch->run->newton->settings.filter == FILTER_NONE)
-        for (int i = 0; i < n; i++) /* as cholesky.h says of INDEFINITE */
-            watch->noise[i] += 1e-8L * largest / ROUNDINGS;
-    *noise = residual_noise(watch);
+    /* 1e-8: as cholesky.h says of INDEFINITE */
+    bool indefinite = watch->run->newton->settings.filter == FILTER_NONE;
+    *noise = residual <= limit
+                 ? 0
+                 : residual_noise(watch, u, indefinite ? largest * 1e-8L : 0);
     return residual;
 }
 
@@ -111,43 +123,21 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
     const NewtonSettings *settings = &watch->run->newton->settings;
     bool either = settings->filter == FILTER_ON_DEMAND;
     double limit = factor * settings->tolerance, noise;
-    if (!watch->residuals || watch_size(watch) > LARGEST_JUDGED)
+    if (!watch->residuals || !watch->springs ||
+        watch_size(watch) > LARGEST_JUDGED)
         return;
     double residual = judged_residual(
         watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
     watch->judged++;
     if (!(residual <= limit + noise) && either)
         residual = judged_residual(watch, u, FILTER_NONE, limit, &noise);
-    if (residual <= limit)
-        watch->worst = fmax(watch->worst, residual / limit);
-    else if (!(residual <= limit + noise))
-        watch_blame(watch,
-                    "converged, but the residual is %g m/s, tolerance %g, "
-                    "rounding %g",
-                    residual, limit, noise);
+    if (!(residual <= limit) && !(residual <= limit + noise))
+        blame(
+            watch,
+            "converged, but the residual is %g m/s, tolerance %g, rounding %g",
+            residual, limit, noise);
     if (noise > 1e-6 * limit)
         watch->blurred++;
-}
-
-/* What x_n + u, rounded, can make of the energy there. */
-static long double energy_noise(const IncrementalPotential *E, const double *u)
-{
-    const System *system = E->system;
-    long double sum = 0;
-    for (int s = 0; s < system->springs; s++) {
-        long double d2 = 0, x = 0, l2 = system->l2[s];
-        for (int c = 0; c < 2; c++) {
-            int i = 2 * system->e[2 * s] + c, j = 2 * system->e[2 * s + 1] + c;
-            long double xi = (long double)E->x_n[i] + u[i];
-            long double xj = (long double)E->x_n[j] + u[j];
-            d2 += (xi - xj) * (xi - xj);
-            x += DBL_EPSILON * (fabsl(xi) + fabsl(xj));
-        }
-        long double k = 2 * E->weight * system->k[s];
-        sum += k *
-               (fabsl(d2 / l2 - 1) * sqrtl(d2) * x + (3 * d2 / l2 + 1) * x * x);
-    }
-    return sum;
 }
 
 /* How much higher than at `from` the energy at `to` may seem. */
@@ -155,15 +145,11 @@ static long double allowed_rise(Watch *watch, const double *from,
                                 const double *to, long double energy)
 {
     IncrementalPotential E = watch_potential(watch);
-    int n = watch_size(watch);
-    long double sum = DBL_EPSILON * energy + energy_noise(&E, to);
-    rounding_of_gradient(&E, from, watch->noise);
-    for (int i = 0; i < n; i++)
-        sum += watch->noise[i] * fabsl((long double)to[i] - from[i]);
-    rounding_of_gradient(&E, to, watch->noise);
-    for (int i = 0; i < n; i++)
-        sum += watch->noise[i] * fabsl((long double)to[i] - from[i]);
-    return ROUNDINGS * sum;
+    for (int i = 0; i < watch_size(watch); i++)
+        watch->way[i] = to[i] - from[i];
+    return ROUNDINGS *
+           (DBL_EPSILON * energy + wide_noise(&E, from, watch->way) +
+            wide_noise(&E, to, watch->way));
 }
 
 /* The first record of a minimisation: it starts at u = 0. */
@@ -174,20 +160,26 @@ static void watch_begin(Watch *watch)
     memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
     memset(watch->u, 0, (size_t)n * sizeof *watch->u);
     IncrementalPotential E = watch_potential(watch);
-    watch->energy = wide_energy(&E, watch->u);
+    watch->start = watch->energy = wide_energy(&E, watch->u);
     watch->updates = 0;
 }
 
-/* E at the present iterate must not be above that at the last one. */
+/* E at the present iterate must not be above that at the last one; where walls
+ * are moved, minimisations do not start at u = 0, and are not judged. */
 static void watch_descent(Watch *watch, const double *u, const char *where)
 {
+    if (watch->run->moves)
+        return;
     IncrementalPotential E = watch_potential(watch);
     long double energy = wide_energy(&E, u);
-    long double scale = fabsl(energy) + fabsl(watch->energy);
+    long double scale =
+        fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
+    if (!isfinite(energy))
+        blame(watch, "E is %Lg %s", energy, where);
     if (!(energy <= watch->energy) &&
         !(energy - watch->energy <= allowed_rise(watch, watch->u, u, scale)))
-        watch_blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy,
-                    energy, where);
+        blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy, energy,
+              where);
     watch->energy = energy;
 }
 
@@ -208,8 +200,8 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
 {
     IncrementalPotential E = watch_potential(watch);
     long double scale = 0;
-    if (record->status != STATUS_LINE_SEARCH_LIMIT &&
-        record->status != STATUS_NOT_DESCENT)
+    if (!watch->springs || (record->status != STATUS_LINE_SEARCH_LIMIT &&
+                            record->status != STATUS_NOT_DESCENT))
         return;
     for (int i = 0; i < watch_size(watch); i++) {
         long double away = (long double)watch->u[i] - E.u_tilde[i];
@@ -217,8 +209,17 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
     }
     scale += E.weight * wide_potential(E.system, watch->run->newton->at.x);
     if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
-        watch_blame(watch, "%s, but the slope %g is lost in E = %Lg",
-                    status_name(record->status), record->slope, scale);
+        blame(watch, "%s, but the slope %g is lost in E = %Lg",
+              status_name(record->status), record->slope, scale);
+}
+
+/* No node is behind a wall, and with cells on none is turned. */
+static void check_walls(Watch *watch, const double *x)
+{
+    double gap = smallest_gap(watch->run->system, x);
+    double J = smallest_cell(watch->run->system, x);
+    if (!(gap > 0) || !(J > 0))
+        blame(watch, "the smallest gap is %g, the smallest cell %g", gap, J);
 }
 
 /* Called after every Newton iteration. */
@@ -231,17 +232,18 @@ static bool watch_record(void *user, const NewtonRecord *record)
     if (record->iteration == 0)
         watch_begin(watch);
     if (record->iteration != watch->updates)
-        watch_blame(watch, "record %d after %d updates", record->iteration,
-                    watch->updates);
+        blame(watch, "record %d after %d updates", record->iteration,
+              watch->updates);
     watch->updates++;
     if (watch->updates > newton->settings.max_iterations)
-        watch_blame(watch, "%d iterations, more than allowed", watch->updates);
+        blame(watch, "%d iterations, more than allowed", watch->updates);
     for (int i = 0; i < watch_size(watch); i++)
         if (!isfinite(newton->at.u[i]) || !isfinite(newton->at.x[i]))
-            watch_blame(watch, "iterate %d is not finite", watch->updates);
+            blame(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->at.u, "in an iteration");
     check_excuse(watch, record);
+    check_walls(watch, newton->at.x);
     memcpy(watch->u, newton->at.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
     watch_momentum(watch, newton->at.u);
@@ -252,13 +254,18 @@ static bool watch_record(void *user, const NewtonRecord *record)
 
 bool watch_create(TimeIntegrator *run, Watch *watch)
 {
-    *watch = (Watch){.run = run, .residuals = true};
+    *watch = (Watch){.run = run, .residuals = true, .springs = true};
     size_t n = (size_t)watch_size(watch);
-    double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u};
+    double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u,
+                          &watch->way};
     bool good = true;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 5; i++)
         good = (*vectors[i] = calloc(n, sizeof(double))) && good;
-    watch->noise = calloc(n, sizeof *watch->noise);
+    for (int i = 0; i < run->system->terms; i++) {
+        const TermKind *kind = run->system->term[i].kind;
+        if (kind != &mass_spring_energy && kind != &central_field)
+            watch->springs = false;
+    }
     if (n <= LARGEST_JUDGED) {
         watch->g = malloc(n * sizeof *watch->g);
         watch->H = malloc(2 * n * n * sizeof *watch->H);
@@ -268,7 +275,7 @@ bool watch_create(TimeIntegrator *run, Watch *watch)
         run->newton->settings.observer = watch_record;
         run->newton->settings.user = watch;
     }
-    return good && watch->noise;
+    return good;
 }
 
 void watch_free(Watch *watch)
@@ -277,10 +284,24 @@ void watch_free(Watch *watch)
     free(watch->v);
     free(watch->x_n);
     free(watch->u);
-    free(watch->noise);
+    free(watch->way);
     free(watch->g);
     free(watch->H);
     *watch = (Watch){0};
+}
+
+Status watch_restart(TimeIntegrator *run, double finer)
+{
+    TimeIntegrator old = *run;
+    NewtonSettings settings = {.h = old.h, .tolerance = 1};
+    if (old.newton)
+        settings = old.newton->settings;
+    settings.h = old.h;
+    settings.tolerance *= finer;
+    Status status = time_integrator_create(old.method, old.system, &settings,
+                                           old.x, old.v, run);
+    time_integrator_free(&old);
+    return status;
 }
 
 /* Whether squares of what this step handles may overflow. */
@@ -306,11 +327,11 @@ static void check_failure(Watch *watch, Status status)
     size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
     if (memcmp(watch->run->x, watch->x, bytes) != 0 ||
         memcmp(watch->run->v, watch->v, bytes) != 0)
-        watch_blame(watch, "%s, but the state moved", status_name(status));
+        blame(watch, "%s, but the state moved", status_name(status));
     if (status != STATUS_NOT_FINITE)
-        watch_blame(watch, "fails with %s", status_name(status));
+        blame(watch, "fails with %s", status_name(status));
     else if (!overflow_is_near(watch))
-        watch_blame(watch, "not_finite, but nothing is near overflow");
+        blame(watch, "not_finite, but nothing is near overflow");
 }
 
 /* sum m v, of absolute values if `size`. */
@@ -358,7 +379,7 @@ static void check_momentum(Watch *watch)
         long double size = momentum(system, run->v, c, true) +
                            momentum(system, watch->v, c, true) + through;
         if (!(fabsl(change) <= 4 * ROUNDINGS * DBL_EPSILON * size))
-            watch_blame(watch, "momentum changes by %Lg of %Lg", change, size);
+            blame(watch, "momentum changes by %Lg of %Lg", change, size);
     }
 }
 
@@ -387,8 +408,8 @@ static void check_dissipation(Watch *watch)
                                     h2 * (after + before)) /
                        h2;
     if (!(after - before <= rise))
-        watch_blame(watch, "kinetic and elastic energy rise from %Lg to %Lg",
-                    before, after);
+        blame(watch, "kinetic and elastic energy rise from %Lg to %Lg", before,
+              after);
 }
 
 /* What the last minimisation left, after the centre of mass was moved: E is
@@ -407,7 +428,7 @@ static void check_last_minimisation(Watch *watch, Status status)
         memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x);
         memset(watch->u, 0, (size_t)n * sizeof *watch->u);
         IncrementalPotential E = watch_potential(watch);
-        watch->energy = wide_energy(&E, watch->u);
+        watch->start = watch->energy = wide_energy(&E, watch->u);
         if (!status && watch->run->system->springs > 0 && !centred)
             judge_convergence(watch, watch->u, 1);
     }
@@ -424,16 +445,27 @@ static void check_state(Watch *watch, Status status)
     const TimeIntegrator *run = watch->run;
     for (int i = 0; i < watch_size(watch); i++) {
         if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
-            watch_blame(watch, "the state is not finite");
+            blame(watch, "the state is not finite");
         if (run->system->pinned && run->system->pinned[i / 2] &&
-            run->x[i] != watch->x[i])
-            watch_blame(watch, "a pinned node moved");
+            !run->system->pin_v && run->x[i] != watch->x[i])
+            blame(watch, "a pinned node moved");
     }
+    check_walls(watch, run->x);
+    if (!watch->springs) /* what flows and breaks as a step ends changes E */
+        return;
     if (run->newton)
         check_last_minimisation(watch, status);
     check_momentum(watch);
     if (run->newton)
         check_dissipation(watch);
+}
+
+void tally_add(const Watch *watch, Tally *tally)
+{
+    for (int i = 0; i < VERDICTS; i++)
+        tally->steps[i] += watch->steps[i];
+    tally->judged += watch->judged;
+    tally->blurred += watch->blurred;
 }
 
 Verdict watch_step(Watch *watch)
@@ -447,7 +479,7 @@ Verdict watch_step(Watch *watch)
     watch->updates = 0;
     Status status = watch->status = time_integrator_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
-        watch_blame(watch, "status %d has no name", (int)status);
+        blame(watch, "status %d has no name", (int)status);
     else if (status == STATUS_OK || status_is_unconverged(status))
         check_state(watch, status);
     else

@@ -199,20 +199,4 @@ TEST(work_is_limited_by_the_size)
     CHECK(smallest_gap(run->system, run->x) > 0);
 }
 
-/* Squares of the command line with h to 1e6, k to 1e15, density from 1e-9. */
-TEST(squares_keep_the_promise)
-{
-    Tally tally = {0};
-    for (long i = 0; i < 150; i++) {
-        Wild wild;
-        char reason[512] = "";
-        wild_create(7, WILD_SQUARES + i, &wild);
-        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
-            print_error("build/stress --seed 7 --case %ld: %s\n",
-                        WILD_SQUARES + i, reason);
-    }
-    CHECK(tally.wrong == 0 && tally.judged > 300);
-    CHECK(tally.steps[VERDICT_CONVERGED] > tally.steps[VERDICT_REPORTED]);
-}
-
 TESTS(NULL, NULL)

@@ -7,6 +7,7 @@
 #include "stress_large.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 TEST(named_cases_keep_the_promise)
@@ -24,38 +25,24 @@ TEST(named_cases_keep_the_promise)
     }
 }
 
+/* Of each kind some; and they are scenes that can be solved, not excuses. */
 TEST(random_scenes_keep_the_promise)
 {
-    Tally tally = {0};
-    const long count = tests_are_long() ? 1000 : 250;
-    for (long i = 0; i < count; i++) {
-        Wild wild;
-        char reason[512] = "";
-        wild_create(1, i, &wild);
-        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
-            print_error("build/stress --seed 1 --case %ld: %s\n", i, reason);
-    }
-    CHECK(tally.cases == count && tally.wrong == 0);
-    /* and they are scenes that can be solved, not excuses */
-    CHECK(tally.steps[VERDICT_CONVERGED] > 10 * tally.steps[VERDICT_REPORTED]);
-    CHECK(tally.judged > 2 * count && tally.blurred * 20 < tally.judged);
-}
-
-/* Where plane search, Newton and moves of the centre of mass once raised E by
- * what rounding had hidden. */
-TEST(scenes_that_failed_once_do_not_fail)
-{
-    const long once[] = {833, 11919, 17537, 19600, 20087, 10030, 36362, 3826};
-    for (int i = 0; i < 8; i++) {
-        Wild wild;
+    static const char *const kinds[] = {"s", "cccctbww", "f"};
+    for (int i = 0; i < 3; i++) {
         Tally tally = {0};
         char reason[512] = "";
-        wild_create(1, once[i], &wild);
-        wild.filter = i < 7 ? FILTER_CLAMP : FILTER_NONE;
-        if (wild_run(&wild, &tally, reason) == VERDICT_WRONG)
-            print_error("build/stress --seed 1 --case %ld: %s\n", once[i],
+        const long count = tests_are_long() ? 1000 : 120;
+        bool good =
+            stress_scenes(kinds[i], 1, count, i == 1 ? 10 : 2, &tally, reason);
+        if (!good)
+            print_error("build/stress --line '%s': %s\n", stress_present,
                         reason);
-        CHECK(tally.wrong == 0);
+        CHECK(good);
+        CHECK(tally.steps[VERDICT_CONVERGED] >
+              2 * tally.steps[VERDICT_REPORTED]);
+        CHECK(i > 0 ||
+              (tally.judged > 2 * count && tally.blurred * 10 < tally.judged));
     }
 }
 
@@ -135,33 +122,6 @@ TEST(products_are_those_of_the_matrix)
             CHECK_NEAR(y[i], i / 2 == 1 ? 0 : sum, 1e-12L * (1 + size));
         }
         system_free(&system);
-    }
-}
-
-/* One light node that moves along the diagonal: its |p_x| + |p_y| is all that
- * the bound allows. */
-TEST(light_nodes_are_not_overlooked)
-{
-    Wild wild = {.nodes = 2,
-                 .springs = 1,
-                 .steps = 1,
-                 .max_iterations = 10,
-                 .e = {0, 1},
-                 .m = {1, 1e6},
-                 .x = {0, 0, 1, 0},
-                 .v = {1, 1},
-                 .l2 = {1},
-                 .k = {1e-6},
-                 .h = 0.01,
-                 .tolerance = 1.9};
-    for (int solver = 0; solver < SOLVER_COUNT; solver++) {
-        Tally tally = {0};
-        char reason[512] = "";
-        wild.solver = (Solver)solver;
-        Verdict verdict = wild_run(&wild, &tally, reason);
-        if (verdict != VERDICT_CONVERGED)
-            print_error("%s\n", reason);
-        CHECK(verdict == VERDICT_CONVERGED);
     }
 }
 
@@ -401,32 +361,23 @@ TEST(too_many_iterations_are_noticed)
     watch_free(&watch);
 }
 
-/* Fails where a heavy node has a stiff spring. */
-static bool heavy_and_stiff(const Wild *wild, void *user)
+static bool is_stiff(const char *line)
 {
-    ++*(int *)user;
-    for (int s = 0; s < wild->springs; s++)
-        if (wild->k[s] > 7 && wild->m[wild->e[2 * s]] > 3)
-            return true;
-    return false;
+    const char *k = strstr(line, "--stiffness ");
+    return k && strtod(k + 12, NULL) > 1e3;
 }
 
 TEST(failures_shrink)
 {
-    int shrunk = 0, calls = 0;
+    int shrunk = 0;
     for (long i = 0; i < 50; i++) {
-        Wild wild;
-        wild_create(5, i, &wild);
-        if (!heavy_and_stiff(&wild, &calls))
+        char line[STRESS_LINE];
+        stress_line("s", 5, i, line);
+        if (!is_stiff(line))
             continue;
-        wild_shrink(&wild, heavy_and_stiff, &calls);
-        CHECK(heavy_and_stiff(&wild, &calls));
-        CHECK(wild.springs == 1 && wild.nodes == 2 && wild.steps == 1);
-        CHECK(wild.method == 0 && wild.solver == SOLVER_NEWTON);
-        CHECK(wild.filter == FILTER_CLAMP);
-        CHECK(wild.h == 1 && wild.l2[0] == 1 && wild.tolerance == 1);
-        for (int c = 0; c < 4; c++)
-            CHECK(wild.x[c] == 0 && wild.v[c] == 0);
+        stress_shrink(line, is_stiff);
+        CHECK(strncmp(line, "square --stiffness ", 19) == 0);
+        CHECK(strlen(line) == 19 + 5); /* one digit */
         shrunk++;
     }
     CHECK(shrunk > 5);

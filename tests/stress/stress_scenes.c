@@ -1,0 +1,272 @@
+/* stress_scenes.c - random scenes, each a command line that can be run again,
+ * and how one that fails is made smaller.
+ */
+#include "stress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Seconds that one scene may take before it counts as one that never ends. */
+enum { SCENE_LIMIT = 120 };
+
+/* What a kind of scene may have: a part of the command line in which (a b c)
+ * is one of these words, [a b] a number between, <a b> one between by powers
+ * of ten. */
+static const struct Draw {
+    const char *kinds; /* letters of stress.h */
+    int one_in;        /* so often */
+    const char *part;
+} draws[] = {
+    {"sfw", 1, "square"},
+    {"c", 1, "(drop slope squeeze dent)"},
+    {"t", 1, "tear"},
+    {"s", 1, " --segments (1 2 3)"},
+    {"f", 1, " --segments (1 2 3 4)"},
+    {"ctw", 1, " --segments (1 2 3 4 5 6)"},
+    {"b", 1, "bend --segments 16"},
+    {"s", 1, " --stiffness <1e-3 1e15>"},
+    {"f", 2, " --stiffness <1e2 1e9>"},
+    {"ctbw", 1, " --stiffness <1e3 1e8>"},
+    {"s", 1, " --density <1e-9 1e6>"},
+    {"f", 1, " --density <1e-9 1e6>"},
+    {"s", 2, " --side <1e-3 1e3>"},
+    {"s", 1, " --timestep <1e-6 1e6>"},
+    {"f", 1, " --timestep <1e-4 1e4>"},
+    {"ctbw", 1, " --timestep <3e-4 1>"},
+    {"s", 1, " --stretch <0.01 30>"},
+    {"s", 8, " --stretch (-1 0 1)"},
+    {"f", 1, " --stretch <0.01 10>"},
+    {"f", 6, " --stretch 0"},
+    {"w", 1, " --stretch [0.6 1.5]"},
+    {"s", 2, " --tolerance <1e-9 1e3>"},
+    {"f", 3, " --tolerance <1e-8 1e-2>"},
+    {"ctbw", 1, " --tolerance <1e-8 1e-2>"},
+    {"s", 4, " --pin (0 1,2 left top-corners)"},
+    {"s", 2, " --filter (clamp none abs on-demand)"},
+    {"ctbw", 4, " --filter clamp"},
+    {"s", 1, " --solver (newton multigrid)"},
+    {"s", 2,
+     " --integrator (forward-euler symplectic-euler verlet bdf2 midpoint "
+     "sdirk2 avf avf4)"},
+    {"sw", 2, " --turn [0 360]"},
+    {"s", 4, " --velocity [-9 9],<0.01 1e3>"},
+    {"cw", 1, " --velocity [-30 30],-<0.1 100>"},
+    {"w", 1, " --gravity 9.81 --slip-speed <1e-4 1> --cells on"},
+    {"w", 1, " --ground [-0.3 0.3],1,0,-1.6 --ground 1,[-0.3 0.3],-1.6,0"},
+    {"w", 1, " --ball [-0.5 0.5],-1.8,0.6"},
+    {"cbw", 1, " --friction [0 1.5]"},
+    {"ctb", 3, " --cells (on on off)"},
+    {"f", 1, " --yield <1e-4 0.5>"},
+    {"f", 2, " --hardening <1e-6 2>"}, /* else 0 */
+    {"ctbw", 3, " --yield <0.01 0.5> --hardening [0 2]"},
+    {"f", 8, " --tear <0.03 3>"},
+    {"ctbw", 3, " --tear <0.03 1>"},
+    {"f", 4, " --damping <1e-5 10>"},
+    {"ctbw", 3, " --damping <1e-5 10>"},
+    {"cbw", 3, " --barrier <1e-4 0.004>,<1e3 1e8>"},
+    {"s", 2, " shaken [1 1e6]"}};
+
+/* One of the words up to ')'. */
+static size_t draw_word(Random *random, const char *words, char *text)
+{
+    size_t size = strcspn(words, ")");
+    int count = 1;
+    for (size_t i = 0; i < size; i++)
+        count += words[i] == ' ';
+    int chosen = random_below(random, count);
+    for (; chosen > 0; chosen--)
+        words += strcspn(words, " ") + 1;
+    size_t length = strcspn(words, " )");
+    memcpy(text, words, length);
+    return length;
+}
+
+/* Appends this part to a line. */
+static void draw_part(Random *random, const char *part, char *line)
+{
+    char *end = line + strlen(line);
+    for (; *part; part++) {
+        char *rest, bracket = *part;
+        if (bracket == '(') {
+            end += draw_word(random, part + 1, end);
+            part = strchr(part, ')');
+        } else if (bracket == '[' || bracket == '<') {
+            double low = strtod(part + 1, &rest), high = strtod(rest, &rest);
+            end +=
+                sprintf(end, "%.3g",
+                        bracket == '[' ? random_uniform(random, low, high)
+                                       : random_logarithmic(random, low, high));
+            part = rest;
+        } else {
+            *end++ = bracket;
+        }
+        *end = '\0';
+    }
+}
+
+void stress_line(const char *kinds, uint64_t seed, long number,
+                 char line[STRESS_LINE])
+{
+    Random random = {seed * 1000003 + (uint64_t)number};
+    char kind = kinds[number % (long)strlen(kinds)];
+    line[0] = '\0';
+    for (size_t i = 0; i < sizeof draws / sizeof *draws; i++)
+        if (strchr(draws[i].kinds, kind) &&
+            random_below(&random, draws[i].one_in) == 0)
+            draw_part(&random, draws[i].part, line);
+}
+
+/* Masses, springs, positions and velocities of no square: each over some
+ * powers of ten, springs that hardly are, nodes on a line or in one point, or
+ * far away. */
+static void shake(uint64_t seed, TimeIntegrator *run)
+{
+    Random random = {seed * 0x9e3779b97f4a7c15u};
+    System *system = run->system;
+    double size = hypot(run->x[0], run->x[1]) + 1e-3;
+    double m_spread = random_below(&random, 2) ? 1 : 1e6;
+    double k_spread = random_below(&random, 2) ? 1 : 1e9;
+    double near = random_below(&random, 2) ? 1.5 : 30;
+    double away = random_below(&random, 8)
+                      ? 0
+                      : size * random_logarithmic(&random, 1, 1e7);
+    double speed = size / run->h * random_logarithmic(&random, 1e-6, 1);
+    int shape = random_below(&random, 6), missing = random_below(&random, 4);
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        bool pinned = system->pinned && system->pinned[i / 2];
+        if (shape == 1)
+            run->x[i] = size * random_uniform(&random, -1, 1);
+        if (shape == 2 && i % 2)
+            run->x[i] = 0;
+        if (shape == 3 && random_below(&random, 3) == 0)
+            run->x[i] = run->x[i % 2];
+        run->x[i] += away;
+        run->v[i] += pinned ? 0 : speed * random_uniform(&random, -1, 1);
+        if (i % 2)
+            system->m[i / 2] *= random_logarithmic(&random, 1, m_spread);
+    }
+    for (int s = 0; s < system->springs; s++) {
+        system->l2[s] *= random_logarithmic(&random, 1 / near, near);
+        system->k[s] *= random_logarithmic(&random, 1, k_spread);
+        if (missing == 1 && random_below(&random, 2))
+            system->k[s] *= 1e-30;
+    }
+}
+
+/* Every run of it, some steps each. */
+static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
+                         Tally *tally, char *reason)
+{
+    Verdict worst = VERDICT_CONVERGED;
+    for (int r = 0; r < simulation->runs; r++) {
+        TimeIntegrator *run = &simulation->run[r];
+        Watch watch;
+        if (shaken > 0)
+            shake(shaken, run);
+        if ((shaken > 0 && watch_restart(run, 1)) || !watch_create(run, &watch))
+            return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
+        for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {
+            Verdict verdict = watch_step(&watch);
+            tally->statuses[watch.status]++;
+            worst = verdict > worst ? verdict : worst;
+            if (verdict == VERDICT_WRONG)
+                memcpy(reason, watch.reason, sizeof watch.reason);
+            if (watch.status && !status_is_unconverged(watch.status))
+                break;
+        }
+        tally_add(&watch, tally);
+        watch_free(&watch);
+    }
+    return worst;
+}
+
+Verdict stress_run(const char *line, int steps, Tally *tally, char *reason)
+{
+    char known[STRESS_LINE];
+    Simulation simulation;
+    snprintf(known, sizeof known, "%s", line);
+    char *word = strstr(known, " shaken ");
+    uint64_t shaken = word ? (uint64_t)strtod(word + 8, NULL) : 0;
+    if (word)
+        *word = '\0';
+    simulation_from_line(known, NULL, NULL, &simulation);
+    Verdict verdict = run_steps(&simulation, shaken, steps, tally, reason);
+    simulation_free(&simulation);
+    tally->cases++;
+    tally->wrong += verdict == VERDICT_WRONG;
+    return verdict;
+}
+
+/* Behind the option that begins at this space, and its value. */
+static char *behind(const char *option)
+{
+    for (int word = 0; word < 2 && *option; word++)
+        option += 1 + strcspn(option + 1, " ");
+    return (char *)option;
+}
+
+/* What is left of a line without this option, or with its number rounded to
+ * one digit. */
+static void simplify(const char *line, const char *option, bool rounded,
+                     char shorter[STRESS_LINE])
+{
+    const char *value = option + 1 + strcspn(option + 1, " ");
+    const char *end = behind(option);
+    char *rest;
+    double number = strtod(value, &rest);
+    if (!rounded)
+        snprintf(shorter, STRESS_LINE, "%.*s%s", (int)(option - line), line,
+                 end);
+    else if (rest == end && rest != value)
+        snprintf(shorter, STRESS_LINE, "%.*s %.0e%s", (int)(value - line), line,
+                 number, end);
+}
+
+void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *))
+{
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int pass = 0; pass < 2; pass++)
+            for (char *at = strchr(line, ' '); at && *at && !changed;
+                 at = behind(at)) {
+                char shorter[STRESS_LINE];
+                memcpy(shorter, line, STRESS_LINE);
+                simplify(line, at, pass == 1, shorter);
+                changed = strcmp(shorter, line) != 0 && fails(shorter);
+                if (changed)
+                    memcpy(line, shorter, STRESS_LINE);
+            }
+    }
+}
+
+char stress_present[STRESS_LINE];
+
+static int present_steps; /* of the scenes of the present kinds */
+
+static bool is_wrong(const char *line)
+{
+    Tally tally = {0};
+    char reason[512];
+    return stress_run(line, present_steps, &tally, reason) == VERDICT_WRONG;
+}
+
+bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
+                   Tally *tally, char *reason)
+{
+    for (long i = 0; i < count; i++) {
+        stress_line(kinds, seed, i, stress_present);
+        alarm(SCENE_LIMIT);
+        if (stress_run(stress_present, steps, tally, reason) != VERDICT_WRONG)
+            continue;
+        alarm(0);
+        present_steps = steps;
+        stress_shrink(stress_present, is_wrong);
+        stress_run(stress_present, steps, &(Tally){0}, reason);
+        return false;
+    }
+    alarm(0);
+    return true;
+}
