@@ -31,8 +31,9 @@ enum {
 
 /* What is to be placed. */
 typedef struct LayoutWish {
-    bool bare; /* the stage alone */
-    int panes; /* 1 ... LAYOUT_PANES pictures side by side */
+    bool bare;     /* the stage alone */
+    double letter; /* pixels that an em has at least; 0: 9 */
+    int panes;     /* 1 ... LAYOUT_PANES pictures side by side */
     int cards;
     double least[LAYOUT_CARDS];  /* ems, the height a card needs */
     double weight[LAYOUT_CARDS]; /* share of the height that is left, > 0 */

@@ -86,8 +86,8 @@ typedef struct Pane {
     const History *history;  /* energies (or radii) over time */
     const Trail *trail;      /* of node 0 of each run */
     const Trace *trace;
-    const char *label;   /* over the pane where there are several */
-    Status trouble;      /* how the shown step ended */
+    const char *label; /* over the pane where there are several */
+    Status trouble;    /* how the shown step ended */
 } Pane;
 
 /* What the mouse is over, or holds. */
@@ -202,8 +202,9 @@ typedef struct Show {
     Pick hover; /* what the mouse is over */
     Hit over;   /* and which part of the window */
     Hand hand;
-    bool strain; /* springs coloured by strain */
-    bool bare;   /* the picture of the slide and nothing else */
+    bool strain;   /* springs coloured by strain */
+    bool bare;     /* the picture of the slide and nothing else */
+    double letter; /* pixels that an em has at least; 0: the usual ones */
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;

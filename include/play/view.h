@@ -65,6 +65,9 @@ void view_free(View *view);
 
 void view_set_title(View *view, const char *title);
 
+/* Pixels that a letter needs there, so that it can be read. */
+double view_letter(const View *view);
+
 /* The paper, in the size that the view has now; NULL: not enough memory. */
 Paper *view_paper(View *view);
 

@@ -262,7 +262,7 @@ Layout layout_create(int width, int height, const LayoutWish *wish)
 {
     Layout layout = {.width = width, .height = height};
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
-    layout.em = fmax(size, EM_LEAST);
+    layout.em = fmax(size, wish->letter > 0 ? wish->letter : EM_LEAST);
     layout.stage = place_zones(wish, &layout);
     double wide = width / layout.em, high = height / layout.em;
     bool low = wish->page && high < 50; /* a page needs all of the width */

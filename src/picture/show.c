@@ -48,6 +48,7 @@ Layout show_layout(const Show *show, int width, int height)
     const Picture *picture =
         picture_of(show->pane[show->active].simulation->scene);
     LayoutWish wish = {.bare = show->bare,
+                       .letter = show->letter,
                        .panes = show->panes,
                        .closed = show->closed,
                        .hidden = show->hidden,

@@ -387,6 +387,7 @@ void player_fill(Player *player)
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
+    show->letter = player->view ? view_letter(player->view) : 0;
     if (player->help)
         fill_help(show);
     explain_number(player, show);

@@ -253,6 +253,17 @@ bool view_is_full(const View *view)
                             SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
+double view_letter(const View *view)
+{
+    const double points = 9;
+    int width = 0, height, wide, high;
+    if (view->window)
+        SDL_GetWindowSize(view->window, &width, &height);
+    if (width < 1 || SDL_GetRendererOutputSize(view->renderer, &wide, &high))
+        return points;
+    return points * wide / width;
+}
+
 /* value, limited to 1 ... high. */
 static int limit_size(int value, int high)
 {

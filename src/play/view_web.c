@@ -27,6 +27,7 @@ static int first_input, input_count;
 /* clang-format off */
 EM_JS(int, page_width, (void), { return Page.width(); });
 EM_JS(int, page_height, (void), { return Page.height(); });
+EM_JS(double, page_letter, (void), { return 9.5 * devicePixelRatio; });
 EM_JS(void, page_title, (const char *title), {
     Page.title(UTF8ToString(title));
 });
@@ -112,6 +113,11 @@ void view_set_title(View *view, const char *title)
 {
     if (view->window)
         page_title(title);
+}
+
+double view_letter(const View *view)
+{
+    return view->window ? page_letter() : 0;
 }
 
 Paper *view_paper(View *view)
