@@ -78,9 +78,6 @@ typedef struct Options {
     const char *film;      /* file for a film of all drawn steps, or NULL */
     const char *script;    /* file of commands, or NULL */
     const char *handout;   /* file for the pages as one HTML file, or NULL */
-    double aspect;         /* rows over columns; 0: a square.  Scenes set it */
-    double cell_stiffness; /* and these: k_c over k; */
-    bool moving_pins;      /* whether pins are moved */
     int panes;             /* side by side, 1: no lists of values */
 } Options;
 
@@ -170,24 +167,22 @@ double option_paced(const OptionRow *row, const Options *options, double paces);
 
 /* ---- what reads and writes it ------------------------------------------- */
 
-/* argv into options, whose texts point into argv.
+/* argv into options, whose texts point into argv.  Where values of scene and
+ * method are lists, "--timestep 0.004,0.04 --filter clamp,none" are four panes:
+ * options->panes says so, and each has options of its own.
+ *   pane     whose options, from 0
  *   options  out
  *   message  [size] out, one line without newline after INVALID_INPUT: the
  *            option, its value and its range stand in it, whole if 512 bytes
  *            are there
  * Returns OK or INVALID_INPUT.  Prints nothing. */
-Status options_parse(int argc, char **argv, Options *options, char *message,
-                     size_t size);
+Status options_parse(int argc, char **argv, int pane, Options *options,
+                     char *message, size_t size);
 
-/* The same where options of scene and method may be lists: "--timestep
- * 0.004,0.04 --filter clamp,none" are four panes, options->panes says so, and
- * this fills the options of pane 0, 1, ... */
-Status options_parse_pane(int argc, char **argv, int pane, Options *options,
-                          char *message, size_t size);
-
-/* "2 panes: --gravity 0,9.81": what the lists of a line that was read
- * make, in one line.  text [size] out */
-void options_panes(int argc, char **argv, char *text, size_t size);
+/* The same of one line, "drop --segments 8", that has no texts: no files, no
+ * pins. */
+Status options_of_line(const char *line, Options *options, char *message,
+                       size_t size);
 
 /* One option, by its name without dashes, of options that have a scene already:
  * what this scene cannot make use of is refused, as above. */

@@ -8,8 +8,13 @@
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
 
+#include <stdbool.h>
+
 #include "model/contact.h"
-#include "scenes/simulation.h"
+
+struct NewtonSettings;
+struct Options;
+struct Simulation;
 
 /* How the picture layer shows a scene. */
 typedef enum PictureKind {
@@ -64,21 +69,26 @@ typedef struct Scene {
                      methods that take energy out */
     const char *turn; /* what one step is; NULL: a step in time */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
-    /* Changes the default options, before the command line is applied; NULL:
-     * the slides' numbers are right. */
-    void (*defaults)(Options *options);
+    /* Its own numbers where the slides' are not right, as on the command line;
+     * NULL: there are none.  pin: as --pin. */
+    const char *line, *pin;
+    /* What the command line has no words for: rows over columns, 0: a square;
+     * k_c over k, 0: one half; whether pins are moved. */
+    double aspect, cell_stiffness;
+    bool moving_pins;
     /* Fills simulation->system, mesh and the start. */
-    Status (*create)(Simulation *simulation, const NewtonSettings *settings);
+    Status (*create)(struct Simulation *simulation,
+                     const struct NewtonSettings *settings);
     /* The obstacle that comes with the scene beside those of the options, as it
      * begins, o a ball's centre too; own_name is what messages call it.  NULL:
      * there is none. */
-    Obstacle (*own)(const Options *options);
+    Obstacle (*own)(const struct Options *options);
     const char *own_name;
     /* One step; NULL: a step in time of every run. */
-    Status (*step)(Simulation *simulation);
+    Status (*step)(struct Simulation *simulation);
     /* The next direction again, after filter or line search changed; NULL:
      * the next step takes notice by itself. */
-    void (*aim)(Simulation *simulation);
+    void (*aim)(struct Simulation *simulation);
     /* The points that can be dragged, a letter each: x, the mass or the
      * iterate; v, the tip of its velocity; t, x_tilde.  NULL: none. */
     const char *grips;
@@ -91,17 +101,18 @@ extern const Scene scenes[];
 
 /* The points that can be dragged, m: at out; the parts that can be switched.
  * Both return how many. */
-int exhibit_handles(const Simulation *simulation,
+int exhibit_handles(const struct Simulation *simulation,
                     double at[SCENE_MAX_HANDLES][2]);
-int exhibit_switches(const Simulation *simulation,
+int exhibit_switches(const struct Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES]);
 
 /* Moves one of the points, and all that hangs on it, to (x, y), which may be no
  * place for it; switches a part.  The number is below how many there are. */
-void exhibit_drag(Simulation *simulation, int handle, double x, double y);
-void exhibit_flip(Simulation *simulation, int number);
+void exhibit_drag(struct Simulation *simulation, int handle, double x,
+                  double y);
+void exhibit_flip(struct Simulation *simulation, int number);
 
-/* The row with this name, or NULL. */
-const Scene *scene_find(const char *name);
+/* The row with this name, or with this number from 1; NULL: there is none. */
+const Scene *scene_find(const char *text);
 
 #endif

@@ -42,12 +42,9 @@
 #define ELASTO_SMALL_SCENES_H
 
 #include "scenes/scene.h"
+#include "scenes/simulation.h"
 
 /* ---- one mass, one spring ------------------------------------------------ */
-
-void circle_defaults(Options *options);
-void mass_defaults(Options *options);
-void spring_defaults(Options *options);
 
 /* Run 0 forward, 1 symplectic, 2 backward Euler; with --integrator that one. */
 Status create_circle(Simulation *simulation, const NewtonSettings *settings);
@@ -91,11 +88,6 @@ typedef struct SpringFacts {
 void spring_facts(const double d[2], double l2, double k, SpringFacts *facts);
 
 /* ---- descents: a minimum that Newton looks for, update by update --------- */
-
-void overshoot_defaults(Options *options);
-void tangent_defaults(Options *options);
-void landscape_defaults(Options *options);
-void dial_defaults(Options *options);
 
 /* Of one unknown: node 0 is the point (x, E(x)).  Of two: node 0 is free, nodes
  * 1 and 2 are pinned. */
@@ -160,7 +152,6 @@ enum { RACE_METHODS = 6, RACE_STEP_SIZES = 7 };
 enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
 
 /* Stretch 1.1, where the motion is no chaos. */
-void race_defaults(Options *options);
 Status create_race(Simulation *simulation, const NewtonSettings *settings);
 
 /* One run more; done after RACE_METHODS x RACE_STEP_SIZES of them.  The methods

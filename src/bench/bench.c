@@ -71,7 +71,7 @@ Options slides_options(int segments)
 {
     char program[] = "elasto", message[128], *arguments[] = {program, NULL};
     Options options;
-    options_parse(1, arguments, &options, message, sizeof message);
+    options_parse(1, arguments, 0, &options, message, sizeof message);
     options.segments = segments;
     return options;
 }

@@ -32,7 +32,7 @@ Status player_scene_options(Player *player, const char *name,
     char *arguments[] = {program, word, NULL};
     const Options *given = &player->given[0];
     snprintf(word, sizeof word, "%s", name);
-    if (options_parse(2, arguments, options, player->message,
+    if (options_parse(2, arguments, 0, options, player->message,
                       sizeof player->message))
         return STATUS_INVALID_INPUT;
     *count = 1;

@@ -121,7 +121,7 @@ static bool fits_in_memory(const Options *options, char *message, size_t size)
              "--segments %d needs about %.1f GB of memory and there are %.1f: "
              "from 1 to %d",
              (int)options->segments, 1e-9 * needed, 1e-9 * there,
-         (int)smaller.segments);
+             (int)smaller.segments);
     return false;
 }
 
@@ -198,7 +198,7 @@ static bool read_line(int argc, char **argv, Options *options, char *message,
                       size_t size)
 {
     for (int i = 0; i < options[0].panes; i++)
-        if (options_parse_pane(argc, argv, i, &options[i], message, size))
+        if (options_parse(argc, argv, i, &options[i], message, size))
             return false;
     if (options->help || options->version || options->list)
         return true;
@@ -231,9 +231,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     Status status = player_create(options, options->panes, line, stop, player);
     if (status)
         return program_end(player, status);
-    if (options->panes > 1 && !options->quiet) {
-        options_panes(argc, argv, message, sizeof message);
-        fprintf(stderr, "%s\n", message);
-    }
+    if (options->panes > 1 && !options->quiet)
+        fprintf(stderr, "%d panes: %s\n", options->panes, line);
     return PROGRAM_PLAYS;
 }

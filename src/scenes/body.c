@@ -19,10 +19,10 @@
 
 SquareMesh body_shape(const Options *options)
 {
-    double rows = round(options->segments * options->aspect);
-    if (!(options->aspect > 0))
-        rows = options->segments;
-    return square_mesh_shape(options->segments, rows < 1 ? 1 : (int)rows,
+    double aspect = options->scene->aspect;
+    double rows =
+        aspect > 0 ? round(options->segments * aspect) : options->segments;
+    return square_mesh_shape((int)options->segments, (int)fmax(rows, 1),
                              options->side);
 }
 
@@ -43,8 +43,13 @@ static Status take_order(SquareMesh *mesh, System *system)
     return STATUS_OK;
 }
 
-Status body_create(const Options *options, int more, SquareMesh *mesh,
-                   System *system)
+/* Mesh, masses, springs and rest lengths (slide simulator.py): the mass of all
+ * cells shared out evenly over the nodes; l2 = |d|^2 in the rest positions.
+ * Gravity and pins.
+ *   more  nodes that are not in the mesh, the last ones, with the mass of the
+ *         others and without springs */
+static Status create_system(const Options *options, int more, SquareMesh *mesh,
+                            System *system)
 {
     const SquareMesh shape = body_shape(options);
     Status status =
@@ -87,34 +92,8 @@ static void place_node(const Options *options, const double rest[2],
     x[1] = s * x0 + c * x1 + options->at[1];
 }
 
-Status body_start(const Options *options, const SquareMesh *mesh,
-                  System *system, const NewtonSettings *settings,
-                  const double *more, TimeIntegrator *run)
-{
-    size_t size = 2 * (size_t)system->nodes;
-    double *x = malloc(size * sizeof *x), *v = calloc(size, sizeof *v);
-    Status status = x && v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; !status && i < mesh->nodes; i++) {
-        place_node(options, mesh->x + 2 * i, x + 2 * i);
-        for (int axis = 0; axis < 2; axis++)
-            if (!system->pinned || !system->pinned[i])
-                v[2 * i + axis] = options->velocity[axis];
-    }
-    for (int i = mesh->nodes; !status && i < system->nodes; i++, more += 4) {
-        memcpy(x + 2 * i, more, 2 * sizeof *x);
-        memcpy(v + 2 * i, more + 2, 2 * sizeof *v);
-    }
-    if (!status)
-        status = time_integrator_create(options_integrator(options)
-                                            ? options_integrator(options)
-                                            : &integrator_methods[0],
-                                        system, settings, x, v, run);
-    free(x);
-    free(v);
-    return status;
-}
-
-/* The obstacles of the options, normals made units; returns how many. */
+/* The obstacles of the options, normals made units, and after them the scene's
+ * own; returns how many. */
 static int list_obstacles(const Options *options,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
@@ -125,17 +104,18 @@ static int list_obstacles(const Options *options,
         list[count++] =
             (Obstacle){.kind = OBSTACLE_WALL,
                        .n = {ground[0] / length, ground[1] / length},
-                       .o = {ground[2], ground[3]},
-                       .friction = options->friction,
-                       .node = -1};
+                       .o = {ground[2], ground[3]}};
     }
     for (int i = 0; i < options->balls; i++) {
         const double *ball = options->ball[i];
-        list[count++] = (Obstacle){.kind = OBSTACLE_BALL,
-                                   .o = {ball[0], ball[1]},
-                                   .radius = ball[2],
-                                   .friction = options->friction,
-                                   .node = -1};
+        list[count++] = (Obstacle){
+            .kind = OBSTACLE_BALL, .o = {ball[0], ball[1]}, .radius = ball[2]};
+    }
+    if (options->scene->own)
+        list[count++] = options->scene->own(options);
+    for (int i = 0; i < count; i++) {
+        list[i].friction = options->friction;
+        list[i].node = -1;
     }
     return count;
 }
@@ -153,40 +133,83 @@ static Barrier barrier_of(const Options *options)
     return (Barrier){d_hat, 0.5 * area * d_hat * kappa};
 }
 
-static Status add_obstacles(const Options *options, int more,
-                            const Obstacle *obstacle, System *system)
+/* Contact and friction. */
+static Status add_obstacles(const Options *options, const SquareMesh *mesh,
+                            System *system)
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
     Barrier barrier = barrier_of(options);
     int count = list_obstacles(options, list);
-    if (count + more > CONTACT_MAX_OBSTACLES)
-        return STATUS_TOO_LARGE;
-    for (int i = 0; i < more; i++)
-        list[count++] = obstacle[i];
     if (count == 0)
         return STATUS_OK;
+    if (system->nodes > mesh->nodes)
+        list[count - 1].node = mesh->nodes;
     Status status = contact_add(system, &barrier, count, list);
-    bool rough = false;
-    for (int i = 0; i < count; i++)
-        rough = rough || list[i].friction > 0;
-    return status || !rough ? status
-                            : friction_add(system, options->slip_speed);
+    return status || !(options->friction > 0)
+               ? status
+               : friction_add(system, options->slip_speed);
 }
 
-Status body_add_terms(const Options *options, const SquareMesh *mesh, int more,
-                      const Obstacle *obstacle, System *system)
+static Status add_terms(const Options *options, const SquareMesh *mesh,
+                        System *system)
 {
-    Status status = add_obstacles(options, more, obstacle, system);
+    double part = options->scene->cell_stiffness;
+    Status status = add_obstacles(options, mesh, system);
     if (!status && options->yield > 0)
         status = plasticity_set(system, options->yield, options->hardening);
     if (!status && options->cells)
         status = cells_add(system, mesh,
-                           options->cell_stiffness * options->stiffness);
+                           (part > 0 ? part : 0.5) * options->stiffness);
     if (!status && options->damping > 0)
         status = damping_add(system, options->damping);
     if (!status && options->tear > 0)
         status = fracture_add(system, options->tear, TEAR_SCATTER);
     return status;
+}
+
+/* The run from where the options put the body, and where the scene's ball is,
+ * which is the last node. */
+static Status start_run(const Options *options, const NewtonSettings *settings,
+                        const SquareMesh *mesh, System *system,
+                        TimeIntegrator *run)
+{
+    size_t size = 2 * (size_t)system->nodes;
+    double *x = malloc(size * sizeof *x), *v = calloc(size, sizeof *v);
+    Status status = x && v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; !status && i < mesh->nodes; i++) {
+        place_node(options, mesh->x + 2 * i, x + 2 * i);
+        for (int axis = 0; axis < 2; axis++)
+            if (!system->pinned || !system->pinned[i])
+                v[2 * i + axis] = options->velocity[axis];
+    }
+    if (!status && system->nodes > mesh->nodes)
+        memcpy(x + 2 * mesh->nodes, options->scene->own(options).o,
+               2 * sizeof *x);
+    if (!status)
+        status = time_integrator_create(
+            &integrator_methods[(int)fmax(options->integrator, 0)], system,
+            settings, x, v, run);
+    free(x);
+    free(v);
+    return status;
+}
+
+Status body_create(const Options *options, const NewtonSettings *settings,
+                   SquareMesh *mesh, System *system, TimeIntegrator *run)
+{
+    const Scene *scene = options->scene;
+    bool ball = scene->own && scene->own(options).kind == OBSTACLE_BALL;
+    Status status = create_system(options, ball, mesh, system);
+    if (!status)
+        status = add_terms(options, mesh, system);
+    return status ? status : start_run(options, settings, mesh, system, run);
+}
+
+Status create_square(Simulation *simulation, const NewtonSettings *settings)
+{
+    simulation->runs = 1;
+    return body_create(&simulation->options, settings, &simulation->mesh,
+                       &simulation->system, &simulation->run[0]);
 }
 
 const char *body_needs_end_of_step(const Options *options)
@@ -199,18 +222,18 @@ const char *body_needs_end_of_step(const Options *options)
         return "plastic springs";
     if (options->damping > 0)
         return "damping";
-    return options->moving_pins ? "moving pins" : NULL;
+    return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
-/* "--ground 2", for messages */
+/* "--ground 0,1,0,-1", "the ceiling": obstacle i, for messages. */
 static void name_obstacle(const Options *options, int i, char *text,
                           size_t size)
 {
-    bool ball = i >= options->grounds;
-    int number = ball ? i - (int)options->grounds : i;
-    const double *value =
-        ball ? options->ball[number] : options->ground[number];
-    if (ball)
+    int ball = i - (int)options->grounds;
+    const double *value = ball < 0 ? options->ground[i] : options->ball[ball];
+    if (ball >= options->balls)
+        snprintf(text, size, "%s", options->scene->own_name);
+    else if (ball >= 0)
         snprintf(text, size, "--ball %g,%g,%g", value[0], value[1], value[2]);
     else
         snprintf(text, size, "--ground %g,%g,%g,%g", value[0], value[1],
@@ -218,27 +241,26 @@ static void name_obstacle(const Options *options, int i, char *text,
 }
 
 /* A normal has a length, a ball a radius. */
-static bool obstacle_is_sound(const Options *options, int i)
+static bool obstacle_is_sound(const Obstacle *obstacle)
 {
-    if (i >= options->grounds)
-        return options->ball[i - (int)options->grounds][2] > 0;
-    const double *ground = options->ground[i];
-    return hypot(ground[0], ground[1]) > 0;
+    return obstacle->kind == OBSTACLE_BALL ? obstacle->radius > 0
+                                           : isfinite(obstacle->n[0]);
 }
 
-/* The node that begins nearest to an obstacle, of those that are not pinned,
- * and its gap; infinite where all are. */
+/* The gap of the body when it begins, m, and the node that has it; infinite
+ * where all are pinned. */
 static double nearest_node(const Options *options, const unsigned char *pinned,
                            const Obstacle *obstacle, int *node)
 {
     const SquareMesh shape = body_shape(options);
+    bool moves = options->scene->moving_pins || obstacle->motion.phases > 0;
     double nearest = INFINITY;
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2], x[2];
         square_mesh_place(&shape, i, rest);
         place_node(options, rest, x);
         double d = contact_gap(obstacle, obstacle->o, x, 0).d;
-        if (d < nearest && !(pinned && pinned[i])) {
+        if (d < nearest && (moves || !pinned || !pinned[i])) {
             nearest = d;
             *node = i;
         }
@@ -246,72 +268,36 @@ static double nearest_node(const Options *options, const unsigned char *pinned,
     return nearest;
 }
 
-/* Whether one obstacle leaves room for the body; a message if not. */
-static bool check_obstacle(const Options *options, const unsigned char *pinned,
-                           const Obstacle *obstacle, const char *name,
-                           char *message, size_t size)
+/* Whether obstacle i is one, and the body begins off it; and off a ball that is
+ * free, the last one. */
+static Status check_obstacle(const Options *options,
+                             const unsigned char *pinned, const Obstacle list[],
+                             int count, int i, char *message, size_t size)
 {
+    const Obstacle *it = &list[i], *own = &list[count - 1];
+    char name[128], who[64];
     int node = 0;
-    bool moves = options->moving_pins || obstacle->motion.phases > 0;
-    double d = nearest_node(options, moves ? NULL : pinned, obstacle, &node);
+    name_obstacle(options, i, name, sizeof name);
+    if (!obstacle_is_sound(it)) {
+        snprintf(message, size, "%s: %s", name,
+                 it->kind == OBSTACLE_WALL
+                     ? "the normal is 0,0; it must point somewhere"
+                     : "the radius must be above 0");
+        return STATUS_INVALID_INPUT;
+    }
+    double d = nearest_node(options, pinned, it, &node);
+    snprintf(who, sizeof who, "node %d", node);
+    if (d > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
+        it != own) {
+        d = contact_gap(it, it->o, own->o, own->radius).d;
+        snprintf(who, sizeof who, "%s", options->scene->own_name);
+    }
     if (d > 0)
-        return true;
+        return STATUS_OK;
     snprintf(message, size,
-             "%s: node %d would begin at a distance of %g m; it must be above "
-             "0",
-             name, node, d);
-    return false;
-}
-
-/* The scene's own obstacle: the body must not touch it, nor a ball that is free
- * what the options put in its way. */
-static bool check_own(const Options *options, const unsigned char *pinned,
-                      const Obstacle list[], int count, char *message,
-                      size_t size)
-{
-    const Scene *scene = options->scene;
-    if (!scene || !scene->own)
-        return true;
-    const Obstacle own = scene->own(options);
-    for (int i = 0; i < count && own.kind == OBSTACLE_BALL; i++) {
-        double d = contact_gap(&list[i], list[i].o, own.o, own.radius).d;
-        char name[128];
-        if (d > 0)
-            continue;
-        name_obstacle(options, i, name, sizeof name);
-        snprintf(message, size,
-                 "%s: %s would begin at a distance of %g m; it must be above "
-                 "0",
-                 name, scene->own_name, d);
-        return false;
-    }
-    return check_obstacle(options, pinned, &own, scene->own_name, message,
-                          size);
-}
-
-/* The first obstacle that the body touches. */
-static Status check_obstacles(const Options *options,
-                              const unsigned char *pinned, char *message,
-                              size_t size)
-{
-    Obstacle list[CONTACT_MAX_OBSTACLES];
-    char name[128];
-    int count = list_obstacles(options, list);
-    for (int i = 0; i < count; i++) {
-        name_obstacle(options, i, name, sizeof name);
-        if (!obstacle_is_sound(options, i)) {
-            snprintf(message, size, "%s: %s", name,
-                     i < options->grounds
-                         ? "the normal is 0,0; it must point somewhere"
-                         : "the radius must be above 0");
-            return STATUS_INVALID_INPUT;
-        }
-        if (!check_obstacle(options, pinned, &list[i], name, message, size))
-            return STATUS_INVALID_INPUT;
-    }
-    return check_own(options, pinned, list, count, message, size)
-               ? STATUS_OK
-               : STATUS_INVALID_INPUT;
+             "%s: %s would begin at a distance of %g m; it must be above 0",
+             name, who, d);
+    return STATUS_INVALID_INPUT;
 }
 
 Status body_check(const Options *options, char *message, size_t size)
@@ -323,19 +309,18 @@ Status body_check(const Options *options, char *message, size_t size)
                  options->stretch, options->stretch);
         return STATUS_INVALID_INPUT;
     }
+    Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
-    bool own = options->scene && options->scene->own;
+    int count = list_obstacles(options, list);
     unsigned char *pinned = NULL;
     Status status = STATUS_OK;
-    if (options->grounds == 0 && options->balls == 0 && !own)
-        return STATUS_OK;
-    if (options->pin) {
+    if (count > 0 && options->pin) {
         pinned = calloc((size_t)shape.nodes, 1);
         status = pinned ? pins_read(options->pin, &shape, pinned)
                         : STATUS_OUT_OF_MEMORY;
     }
-    if (!status)
-        status = check_obstacles(options, pinned, message, size);
+    for (int i = 0; i < count && !status; i++)
+        status = check_obstacle(options, pinned, list, count, i, message, size);
     free(pinned);
     return status;
 }

@@ -18,28 +18,6 @@ static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 /* x_tilde of the free node, m: where inertia alone would take it. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 
-void overshoot_defaults(Options *options)
-{
-    options->line_search = LINE_SEARCH_NONE;
-    options->tolerance = 1e-10;
-    options->start[0] = 2;
-}
-
-void tangent_defaults(Options *options)
-{
-    overshoot_defaults(options);
-    options->timestep = 0.3;
-    options->start[0] = 2.5;
-}
-
-void landscape_defaults(Options *options)
-{
-    options->timestep = 0.2;
-    options->tolerance = 1e-6;
-    options->start[0] = 0.1;
-    options->start[1] = -0.35;
-}
-
 /* ---- what is minimised --------------------------------------------------- */
 
 /* ln(e^x + e^-x) = |x| + ln(1 + e^(-2|x|)), which cannot overflow; its

@@ -13,12 +13,6 @@ static const double DIAL_BESIDE = 1e-9; /* m, from the line of the pins */
 
 enum { DIAL_UPDATES = 100, DIAL_HALVINGS = 40 };
 
-void dial_defaults(Options *options)
-{
-    landscape_defaults(options);
-    options->timestep = 0.005;
-}
-
 /* Algorithm 3 for two unknowns; it ends at the size of rounding.  On the line
  * of the pins there may be a saddle, where the gradient is 0, too: it begins
  * beside it. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scenes/square_scenes.h"
+#include "scenes/body.h"
 
 double envelope_timestep(int column)
 {

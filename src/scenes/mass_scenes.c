@@ -11,25 +11,6 @@ static const double SPRING_MASS = 1;                  /* kg */
 static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, at rest */
 
-void circle_defaults(Options *options)
-{
-    options->timestep = 0.02;
-}
-
-void mass_defaults(Options *options)
-{
-    options->timestep = 0.5;
-    options->start[0] = 1;
-}
-
-void spring_defaults(Options *options)
-{
-    options->timestep = 0.02;
-    options->start[0] = 0.6;
-    options->start[1] = 0.3;
-    options->tolerance = 1e-6; /* or a light pull would count as rest */
-}
-
 /* A mass with a = -omega2 x, from x with v. */
 static Status create_orbit(Simulation *simulation,
                            const NewtonSettings *settings, double omega2,

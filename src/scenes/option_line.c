@@ -13,7 +13,6 @@
 typedef struct Line {
     int argc, at;
     char **argv;
-    bool lists; /* may be */
     Options *options;
     Complaint why;
     const char *list[OPTIONS_MOST]; /* values to be compared, or NULL */
@@ -25,6 +24,24 @@ typedef struct Word {
     const OptionRow *row; /* NULL: no option */
     const char *text;     /* the option's value, or the word; NULL: the end */
 } Word;
+
+/* A line of our own, cut at its blanks as argv is. */
+typedef struct Words {
+    char text[512];
+    char *argv[48];
+    int argc;
+} Words;
+
+static void split_words(const char *line, Words *words)
+{
+    const int most = sizeof words->argv / sizeof *words->argv;
+    char *rest = NULL, *word;
+    snprintf(words->text, sizeof words->text, "elasto %s", line);
+    words->argc = 0;
+    for (char *text = words->text;
+         words->argc < most && (word = strtok_r(text, " ", &rest)); text = NULL)
+        words->argv[words->argc++] = word;
+}
 
 /* "did you mean --timestep?"  What an unknown word most likely means, with what
  * follows its '='; else where to look. */
@@ -41,8 +58,6 @@ static Text suggestion(const char *word, const char *see)
         look_at_name(&near, "the scene ", scene->name);
     for (int i = 0; integrator_methods[i].name; i++)
         look_at_name(&near, "--integrator ", integrator_methods[i].name);
-    if (slide_word(name.text))
-        near = (Nearest){.kind = "", .name = slide_word(name.text)};
     snprintf(hint.text, sizeof hint.text, "%s%s%s%s%.40s%s",
              near.name ? "did you mean " : "see elasto ",
              near.name ? near.kind : "", near.name ? near.name : see,
@@ -61,7 +76,6 @@ static Status find_option(const char *word, Line *line, const OptionRow **found)
     const char *name = word + 1 + is_long;
     size_t length = strcspn(name, "=");
     shown.text[strcspn(shown.text, "=")] = '\0';
-    const char *known = slide_word(shown.text + 1 + is_long);
     for (const OptionRow *row = option_rows; row->name && length > 0; row++) {
         if (is_long ? strncmp(row->name, name, length) != 0
                     : length > 1 || row->letter != tolower(name[0]))
@@ -72,9 +86,9 @@ static Status find_option(const char *word, Line *line, const OptionRow **found)
         add_name(&list, "--", row->name);
         matches++;
     }
-    if (matches == 1 && (!known || strcmp(known + 2, (*found)->name) == 0))
+    if (matches == 1)
         return STATUS_OK;
-    if (matches > 1 && !known)
+    if (matches > 1)
         return complain(&line->why, "%s can be %s: write a few letters more",
                         shown.text, list.text);
     return complain(&line->why, "no option %s; %s", shown.text,
@@ -109,26 +123,14 @@ static Status next_word(Line *line, Word *word)
 /* A scene by its name or its number in the list. */
 static Status read_scene(const char *word, Line *line)
 {
-    int count = 0, number;
-    char end;
-    while (scenes[count].name)
-        count++;
     if (line->options->scene)
         return complain(&line->why, "'%s': one scene at a time, please",
                         typed(word).text);
     line->options->scene = scene_find(word);
     if (line->options->scene)
         return STATUS_OK;
-    if (sscanf(word, "%5d%c", &number, &end) != 1)
-        return complain(&line->why, "there is no scene '%s'; %s",
-                        typed(word).text, suggestion(word, "--list").text);
-    if (number < 1 || number > count)
-        return complain(&line->why,
-                        "there is no scene '%s': from 1 to %d, or a name of "
-                        "elasto --list",
-                        typed(word).text, count);
-    line->options->scene = &scenes[number - 1];
-    return STATUS_OK;
+    return complain(&line->why, "there is no scene '%s'; %s", typed(word).text,
+                    suggestion(word, "--list").text);
 }
 
 static bool is_given(const Line *line, const char *name)
@@ -154,6 +156,16 @@ static Text list_value(const char *list, int i)
     return value;
 }
 
+/* The slides' numbers; whatever is no number begins as nothing. */
+static Options option_defaults(void)
+{
+    Options options = {.panes = 1};
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->standard != 0)
+            options.number[row->slot] = row->standard;
+    return options;
+}
+
 /* First look: words that are wrong whatever they mean; the scene; the lists. */
 static Status read_line(Line *line)
 {
@@ -167,7 +179,7 @@ static Status read_line(Line *line)
             continue;
         }
         size_t i = (size_t)(word.row - option_rows);
-        bool list = line->lists && word.row->compared;
+        bool list = word.row->compared;
         line->given[i] = true;
         line->list[i] = list && strchr(word.text, ',') ? word.text : NULL;
         if (word.row->kind == OPTION_PAGE)
@@ -180,6 +192,21 @@ static Status read_line(Line *line)
                         options->scene->name);
     if (!options->scene)
         options->scene = &scenes[0];
+    return status;
+}
+
+/* The scene's own numbers. */
+static Status begin_scene(Options *options, const Complaint *why)
+{
+    const Scene *scene = options->scene;
+    Words words;
+    Word word;
+    Status status = STATUS_OK;
+    split_words(scene->line ? scene->line : "", &words);
+    Line line = {words.argc, 1, words.argv, options, *why, {0}, {0}};
+    while (!status && !(status = next_word(&line, &word)) && word.text)
+        status = option_apply(word.row, word.text, options, why);
+    options->pin = scene->pin;
     return status;
 }
 
@@ -204,12 +231,11 @@ static Status begin_options(Line *line)
     if (options->page)
         return lecture_options(options->page, options, line->why.text,
                                line->why.size);
-    if (options->scene->defaults)
-        options->scene->defaults(options);
+    Status status = begin_scene(options, &line->why);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->times && line->given[row - option_rows])
             options->number[row->counter] = 0;
-    return STATUS_OK;
+    return status;
 }
 
 /* Which value of each list this pane has; the last list changes fastest. */
@@ -314,46 +340,22 @@ static Status check_body(Line *line)
     return body_check(options, line->why.text, line->why.size);
 }
 
-static Status parse_line(Line *line, int pane)
+Status options_parse(int argc, char **argv, int pane, Options *options,
+                     char *message, size_t size)
 {
-    Status status = read_line(line);
+    Line line = {argc, 1, argv, options, {message, size}, {0}, {0}};
+    Status status = read_line(&line);
     if (!status)
-        status = apply_line(line, pane);
-    return status ? status : check_body(line);
+        status = apply_line(&line, pane);
+    return status ? status : check_body(&line);
 }
 
-Status options_parse(int argc, char **argv, Options *options, char *message,
-                     size_t size)
+Status options_of_line(const char *line, Options *options, char *message,
+                       size_t size)
 {
-    Line line = {argc, 1, argv, false, options, {message, size}, {0}, {0}};
-    return parse_line(&line, 0);
-}
-
-Status options_parse_pane(int argc, char **argv, int pane, Options *options,
-                          char *message, size_t size)
-{
-    Line line = {argc, 1, argv, true, options, {message, size}, {0}, {0}};
-    return parse_line(&line, pane);
-}
-
-void options_panes(int argc, char **argv, char *text, size_t size)
-{
-    Options options;
-    Line line = {argc, 1, argv, true, &options, {text, size}, {0}, {0}};
-    int panes = 1;
-    const char *first = "";
-    if (read_line(&line))
-        return;
-    for (int i = 0; i < OPTIONS_MOST; i++)
-        panes *= count_values(line.list[i]);
-    size_t used = (size_t)snprintf(text, size, "%d panes:", panes);
-    for (int i = 0; i < OPTIONS_MOST && used < size; i++)
-        if (line.list[i]) {
-            used +=
-                (size_t)snprintf(text + used, size - used, "%s --%s %s", first,
-                                 option_rows[i].name, typed(line.list[i]).text);
-            first = ";";
-        }
+    Words words;
+    split_words(line, &words);
+    return options_parse(words.argc, words.argv, 0, options, message, size);
 }
 
 Status options_set(Options *options, const char *name, const char *value,

@@ -86,50 +86,12 @@ static int distance(const char *a, const char *b)
 void look_at_name(Nearest *nearest, const char *kind, const char *name)
 {
     const char *text = nearest->text;
-    int n = (int)strlen(name), t = (int)strlen(text);
-    int shorter = least(n, t), longer = n + t - shorter;
-    if (shorter == 0 || longer > LONGEST)
+    int longer = (int)fmax(strlen(name), strlen(text));
+    if (longer == 0 || longer > LONGEST)
         return;
-    const char *more = n < t ? text : name, *less = n < t ? name : text;
-    bool within = shorter >= 3 && (strncmp(more, less, (size_t)shorter) == 0 ||
-                                   strcmp(more + longer - shorter, less) == 0);
     int wrong = distance(name, text);
-    if (3 * wrong > longer && !within)
-        return;
-    wrong += 3 * wrong > longer ? LONGEST : 0;
-    if (!nearest->name || wrong < nearest->unlike)
+    if (4 * wrong <= longer && (!nearest->name || wrong < nearest->unlike))
         *nearest = (Nearest){text, kind, name, wrong};
-}
-
-const char *slide_word(const char *word)
-{
-    static const char *const rows[][2] = {
-        {"n-seg", "--segments"},
-        {"side-len", "--side"},
-        {"rho", "--density"},
-        {"k", "--stiffness"},
-        {"initial-stretch", "--stretch"},
-        {"h", "--timestep"},
-        {"dt", "--timestep"},
-        {"tol", "--tolerance"},
-        {"mu", "--friction"},
-        {"time", "--steps"}, /* no beginning of --timestep */
-        {"projection", "--filter"},
-        {"psd", "--filter clamp"},
-        {"explicit-euler", "--integrator forward-euler"},
-        {"implicit-euler", "--integrator backward-euler"},
-        {"semi-implicit-euler", "--integrator symplectic-euler"},
-        {"stability", "the scene circle"},
-        {"contact", "the scene drop"},
-        {"friction", "the scene slope"},
-        {"inelasticity", "the scene dent"},
-        {"fracture", "the scene tear"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strlen(word) == strlen(rows[i][0]) &&
-            distance(rows[i][0], word) == 0)
-            return rows[i][1];
-    return NULL;
 }
 
 /* ---- numbers ------------------------------------------------------------ */
@@ -203,14 +165,13 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
 
 bool option_read(const OptionRow *row, const char *text, double *value)
 {
-    const char *name;
-    if (row->kind != OPTION_NAME)
+    if (!row->names)
         return read_numbers(row, 1, text, value);
-    for (int i = 0; (name = row->names(i)); i++)
-        if (strcmp(name, text) == 0) {
-            *value = i;
+    for (int i = 0; i < option_names(row); i++) {
+        *value = i;
+        if (strcmp(row->names(i), text) == 0)
             return true;
-        }
+    }
     return false;
 }
 
@@ -252,29 +213,25 @@ static Status apply_numbers(const OptionRow *row, const char *text,
 
 /* ---- names, and all ----------------------------------------------------- */
 
-/* One of the row's names, or the slides' word for one; a page by its number,
- * too. */
+/* One of the row's names; a page by its number, too. */
 static Status apply_name(const OptionRow *row, const char *text,
                          Options *options, const Complaint *complaint)
 {
     Text list = {""};
     Nearest near = {.text = text};
-    const char *word = slide_word(text), *name;
-    size_t length = strlen(row->name);
+    double value;
+    bool known = option_read(row, text, &value);
     if (row->kind == OPTION_PAGE) {
         options->page = lecture_find(text[0] ? text : "1");
-        if (options->page)
-            return STATUS_OK;
+        known = options->page != NULL;
+    } else if (known) {
+        options->number[row->slot] = value;
     }
-    if (word && strncmp(word + 2, row->name, length) == 0 && word[length + 2])
-        text = word + length + 3;
-    for (int i = 0; (name = row->names(i)); i++) {
-        if (strcmp(name, text) == 0) {
-            options->number[row->slot] = i;
-            return STATUS_OK;
-        }
-        add_name(&list, "", name);
-        look_at_name(&near, "", name);
+    if (known)
+        return STATUS_OK;
+    for (int i = 0; i < option_names(row); i++) {
+        add_name(&list, "", row->names(i));
+        look_at_name(&near, "", row->names(i));
     }
     if (row->kind == OPTION_PAGE)
         snprintf(list.text, sizeof list.text,

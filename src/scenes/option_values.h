@@ -1,4 +1,5 @@
-/* option_values.h - values of options: from what is typed, and back.
+/* option_values.h - values of options, from what is typed; and what to say
+ * where it cannot be read.
  */
 #ifndef ELASTO_OPTION_VALUES_H
 #define ELASTO_OPTION_VALUES_H
@@ -31,9 +32,6 @@ void add_name(Text *list, const char *before, const char *name);
 /* How many names the values of a row have; 0: they are numbers. */
 int option_names(const OptionRow *row);
 
-/* The slides' numbers. */
-Options option_defaults(void);
-
 /* "--side: '0' is not a number from 1e-30 to 1e30, in m" */
 Status refuse_number(const OptionRow *row, int count, const char *text,
                      const Complaint *complaint);
@@ -48,16 +46,12 @@ Status option_apply(const OptionRow *row, const char *text, Options *options,
 typedef struct Nearest {
     const char *text;
     const char *kind, *name; /* "--", "segments"; name NULL: none is like it */
-    int unlike;              /* letters that are wrong; 0 at the beginning */
+    int unlike;              /* letters that are wrong */
 } Nearest;
 
-/* Looks at one more name.  At most a third of its letters are wrong, missing,
- * too many or swapped, or one of the two begins or ends with the other;
- * capitals, '_' and '-' count as what they mean. */
+/* Looks at one more name: at most a quarter of its letters are wrong,
+ * missing, too many or swapped; capitals, '_' and '-' count as what they mean.
+ */
 void look_at_name(Nearest *nearest, const char *kind, const char *name);
-
-/* "the scene drop", "--filter clamp": what the slides' word means here, or
- * NULL. */
-const char *slide_word(const char *word);
 
 #endif

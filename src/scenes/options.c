@@ -237,7 +237,7 @@ const OptionRow *option_at(int slot)
 int option_names(const OptionRow *row)
 {
     int count = 0;
-    while (row->kind == OPTION_NAME && row->names(count))
+    while (row->names && row->names(count))
         count++;
     return count;
 }
@@ -246,16 +246,6 @@ const IntegratorMethod *options_integrator(const Options *options)
 {
     int i = (int)options->integrator;
     return i < 0 ? NULL : &integrator_methods[i];
-}
-
-/* Whatever is no number begins as nothing. */
-Options option_defaults(void)
-{
-    Options options = {.cell_stiffness = 0.5, .panes = 1};
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->standard != 0)
-            options.number[row->slot] = row->standard;
-    return options;
 }
 
 /* ---- numbers as text ---------------------------------------------------- */

@@ -614,20 +614,10 @@ const LecturePage *lecture_find(const char *text)
     return NULL;
 }
 
-/* The texts of options point nowhere into the line: a page has no files. */
 Status lecture_options(const LecturePage *page, Options *options, char *message,
                        size_t size)
 {
-    enum { WORDS = 32 };
-    char words[256], program[] = "elasto", *argv[WORDS + 1] = {program};
-    char *rest = NULL;
-    int argc = 1;
-    snprintf(words, sizeof words, "%s", page->line);
-    for (char *word = strtok_r(words, " ", &rest); word && argc < WORDS;
-         word = strtok_r(NULL, " ", &rest))
-        argv[argc++] = word;
-    argv[argc] = NULL;
-    Status status = options_parse(argc, argv, options, message, size);
+    Status status = options_of_line(page->line, options, message, size);
     options->page = page;
     options->flips = page->flips;
     options->speed = page->speed;

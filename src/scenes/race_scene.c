@@ -5,19 +5,10 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "scenes/square_scenes.h"
+#include "scenes/body.h"
 
 /* Steps of the longest time step and of the reference. */
 enum { RACE_FIRST_STEPS = 8, RACE_FINER = 64 };
-
-/* Tight enough that Newton's error is below that of every time step. */
-static const double RACE_TOLERANCE = 1e-8; /* m/s */
-
-void race_defaults(Options *options)
-{
-    options->stretch = 1.1;
-    options->tolerance = RACE_TOLERANCE;
-}
 
 const IntegratorMethod *race_method(int i)
 {

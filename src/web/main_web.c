@@ -84,7 +84,7 @@ static bool first_options(const Player *player, const Options *now, char *words,
     } else {
         snprintf(name, sizeof name, "%s", now->scene->name);
         add_word(words, MOST_TEXT, name);
-        return !options_parse(2, argv, base, message, sizeof message);
+        return !options_parse(2, argv, 0, base, message, sizeof message);
     }
     return true;
 }

@@ -36,9 +36,9 @@ static inline void begin_script(const char *script, const char *line)
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         argv[argc++] = word;
     for (int i = 0; i < count; i++) {
-        CHECK_STATUS(options_parse_pane(argc, argv, i, &options[i], message,
-                                        sizeof message),
-                     STATUS_OK);
+        CHECK_STATUS(
+            options_parse(argc, argv, i, &options[i], message, sizeof message),
+            STATUS_OK);
         count = options[0].panes;
     }
     CHECK_STATUS(player_create(options, count, "elasto", &stop, &player),

@@ -197,13 +197,13 @@ TEST(pins_are_refused_in_one_line)
     char *line[] = {"elasto", "--pin", "3,25", NULL};
     char message[512];
     Options options;
-    CHECK_STATUS(options_parse(3, line, &options, message, sizeof message),
+    CHECK_STATUS(options_parse(3, line, 0, &options, message, sizeof message),
                  STATUS_INVALID_INPUT);
     assert_string_equal(message,
                         "--pin: '3,25' is no list of node numbers from 0 to "
                         "24, or of: top-corners, top, bottom, left, right");
     char *other[] = {"elasto", "landscape", "--gravity", "9.81", NULL};
-    CHECK_STATUS(options_parse(4, other, &options, message, sizeof message),
+    CHECK_STATUS(options_parse(4, other, 0, &options, message, sizeof message),
                  STATUS_INVALID_INPUT);
     assert_string_equal(
         message, "--gravity: the scene 'landscape' has no body that falls");

@@ -152,8 +152,9 @@ static void summaries_tell_what_was_done(void **unused)
                              "    2\nsimulated time      0.02 s\n"));
     run("--headless --steps 1 --gravity 0,9.81 --segments 1,2,3");
     check_code(0);
-    CHECK(strcmp(result.error, "6 panes: --segments 1,2,3; --gravity "
-                               "0,9.81\n") == 0);
+    CHECK(strcmp(result.error, "6 panes: elasto --headless --gravity 0,9.81 "
+                               "--segments "
+                               "1,2,3\n") == 0);
     run("--headless --steps 5 --quiet");
     check_code(0);
     CHECK(result.out[0] == '\0' && result.error[0] == '\0');
@@ -283,7 +284,7 @@ static double estimated_bytes(char *segments, char *integrator, char *solver)
     char message[256];
     char *line[] = {"elasto",   "--segments", segments, "--integrator",
                     integrator, "--solver",   solver};
-    CHECK_STATUS(options_parse(7, line, &options, message, sizeof message),
+    CHECK_STATUS(options_parse(7, line, 0, &options, message, sizeof message),
                  STATUS_OK);
     return simulation_bytes(&options);
 }

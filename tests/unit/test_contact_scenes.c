@@ -131,7 +131,7 @@ TEST(starts_that_make_no_sense_are_refused)
         for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
             words[count++] = word;
         Status status =
-            options_parse(count, words, &options, message, sizeof message);
+            options_parse(count, words, 0, &options, message, sizeof message);
         assert_string_equal(message, expected);
         CHECK_STATUS(status, expected[0] ? STATUS_INVALID_INPUT : STATUS_OK);
     }
@@ -150,7 +150,7 @@ TEST(other_methods_refuse_damping)
         Simulation *damped = simulate("--damping 0.1");
         snprintf(name, sizeof name, "%s", method->name);
         Status status =
-            options_parse(5, words, &options, message, sizeof message);
+            options_parse(5, words, 0, &options, message, sizeof message);
         CHECK_STATUS(status, method->at_end ? STATUS_OK : STATUS_INVALID_INPUT);
         CHECK(!status || (strstr(message, "damping") && strstr(message, name)));
         CHECK(integrator_method_refuses(method, &damped->system) == !!status);

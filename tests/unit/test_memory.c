@@ -55,8 +55,9 @@ static Status run_once(int argc, char **argv)
     char message[256];
     char *copy[8];
     memcpy(copy, argv, (size_t)argc * sizeof *copy);
-    CHECK_STATUS(options_parse(argc, copy, &options, message, sizeof message),
-                 STATUS_OK);
+    CHECK_STATUS(
+        options_parse(argc, copy, 0, &options, message, sizeof message),
+        STATUS_OK);
     allocations = 0;
     Status status = simulation_create(&options, NULL, NULL, &simulation);
     if (!status)

@@ -108,7 +108,7 @@ static Options parsed(int count, char **arguments)
 {
     Options options;
     char message[512] = "";
-    if (options_parse(count, arguments, &options, message, sizeof message))
+    if (options_parse(count, arguments, 0, &options, message, sizeof message))
         fail_msg("%s", message);
     return options;
 }

@@ -231,7 +231,7 @@ void simulation_from_line(const char *line, NewtonObserver observer, void *user,
     snprintf(copy, sizeof copy, "%s", line);
     for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
         argv[argc++] = word;
-    if (options_parse(argc, argv, &options, message, sizeof message))
+    if (options_parse(argc, argv, 0, &options, message, sizeof message))
         print_error("%s\n", message);
     CHECK(message[0] == '\0');
     CHECK_STATUS(simulation_create(&options, observer, user, simulation),
