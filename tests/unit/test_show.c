@@ -202,72 +202,75 @@ static double falling(const void *unused, double alpha)
     return 20 * alpha * alpha * alpha - 4 * alpha;
 }
 
+#define CLAMPED "unprojected --filter clamp"
+
+enum { STAGE = -1, LISTING = 1, LINE, CURVE };
+
+static const struct {
+    const char *line;
+    int steps, card;
+    Colour colour;
+    int least; /* 0: none at all */
+    PickKind hover;
+    Line at; /* the trace; no line: none */
+    int projected, trials;
+    bool accepted;
+} states[] = {
+    {"square", 0, STAGE, COLOUR_X, 1000, 0, 0, 0, 0, 0},
+    {"square", 0, STAGE, COLOUR_RULE, 500, 0, 0, 0, 0, 0},
+    {"square", 1, STAGE, COLOUR_TEXT, 0, 0, 0, 0, 0, 0},
+    {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_NODE, 0, 0, 0, 0},
+    {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_SPRING, 0, 0, 0, 0},
+    {"square", 1, STAGE, COLOUR_NOTE, 1000, PICK_NODE, 0, 0, 0, 0},
+    {"drop", 75, STAGE, COLOUR_SOLID, 1000, 0, 0, 0, 0, 0},
+    {"drop", 75, STAGE, COLOUR_FORCE, 100, 0, 0, 0, 0, 0},
+    {"drop", 0, STAGE, COLOUR_FORCE, 0, 0, 0, 0, 0, 0},
+    {"bend", 0, STAGE, COLOUR_SOLID, 500, 0, 0, 0, 0, 0},
+    {CLAMPED, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_START, 3, 0, 0},
+    {CLAMPED, 0, LISTING, COLOUR_LIT, 1000, 0, LINE_START, 3, 0, 0},
+    {CLAMPED, 0, CURVE, COLOUR_P, 50, 0, LINE_START, 3, 0, 0},
+    {CLAMPED, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_PROJECT, 0, 0, 0},
+    {CLAMPED, 0, STAGE, COLOUR_PROJECT, 500, 0, LINE_PROJECT, 3, 0, 0},
+    {CLAMPED, 0, STAGE, COLOUR_P, 0, 0, LINE_PROJECT, 3, 0, 0},
+    {CLAMPED, 0, STAGE, COLOUR_P, 500, 0, LINE_SEARCH, 3, 0, 0},
+    {CLAMPED, 0, LINE, COLOUR_WARNING, 20, 0, LINE_SEARCH, 3, 3, 0},
+    {CLAMPED, 0, LINE, COLOUR_ALPHA, 0, 0, LINE_SEARCH, 3, 3, 0},
+    {CLAMPED, 0, LINE, COLOUR_ALPHA, 20, 0, LINE_SEARCH, 3, 3, 1},
+    {CLAMPED, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_UPDATE, 3, 3, 1},
+};
+
 /* Pixels of a colour on the stage or in a card, without words: what a state
  * of a scene shows, and what it does not.  A trace lights its line, the springs
  * whose block has a negative eigenvalue, the arrows, the trials; what the mouse
  * is over is marked and told of beside it. */
 TEST(states_show_what_they_are)
 {
-    static const char clamped[] = "unprojected --filter clamp";
-    enum { STAGE = -1, LISTING = 1, LINE, CURVE };
-    static const struct {
-        const char *line;
-        int steps, card;
-        Colour colour;
-        int least; /* 0: none at all */
-        PickKind hover;
-        Line at; /* the trace; no line: none */
-        int projected, trials;
-        bool accepted;
-    } rows[] = {
-        {"square", 0, STAGE, COLOUR_X, 1000, 0, 0, 0, 0, 0},
-        {"square", 0, STAGE, COLOUR_RULE, 500, 0, 0, 0, 0, 0},
-        {"square", 1, STAGE, COLOUR_TEXT, 0, 0, 0, 0, 0, 0},
-        {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_NODE, 0, 0, 0, 0},
-        {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_SPRING, 0, 0, 0, 0},
-        {"square", 1, STAGE, COLOUR_NOTE, 1000, PICK_NODE, 0, 0, 0, 0},
-        {"drop", 75, STAGE, COLOUR_SOLID, 1000, 0, 0, 0, 0, 0},
-        {"drop", 75, STAGE, COLOUR_FORCE, 100, 0, 0, 0, 0, 0},
-        {"drop", 0, STAGE, COLOUR_FORCE, 0, 0, 0, 0, 0, 0},
-        {"bend", 0, STAGE, COLOUR_SOLID, 500, 0, 0, 0, 0, 0},
-        {clamped, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_START, 3, 0, 0},
-        {clamped, 0, LISTING, COLOUR_LIT, 1000, 0, LINE_START, 3, 0, 0},
-        {clamped, 0, CURVE, COLOUR_P, 50, 0, LINE_START, 3, 0, 0},
-        {clamped, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_PROJECT, 0, 0, 0},
-        {clamped, 0, STAGE, COLOUR_PROJECT, 500, 0, LINE_PROJECT, 3, 0, 0},
-        {clamped, 0, STAGE, COLOUR_P, 0, 0, LINE_PROJECT, 3, 0, 0},
-        {clamped, 0, STAGE, COLOUR_P, 500, 0, LINE_SEARCH, 3, 0, 0},
-        {clamped, 0, LINE, COLOUR_WARNING, 20, 0, LINE_SEARCH, 3, 3, 0},
-        {clamped, 0, LINE, COLOUR_ALPHA, 0, 0, LINE_SEARCH, 3, 3, 0},
-        {clamped, 0, LINE, COLOUR_ALPHA, 20, 0, LINE_SEARCH, 3, 3, 1},
-        {clamped, 0, STAGE, COLOUR_PROJECT, 0, 0, LINE_UPDATE, 3, 3, 1},
-    };
     static const NewtonRecord records[3] = {
         {.residual = 9}, {.residual = 1}, {.residual = 0.003}};
     static double p[2 * 128];
     for (int k = 0; k < 128; k++)
         p[2 * k] = 0.1;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        stand_up(rows[i].line, rows[i].steps);
-        const Trace trace = {.line = rows[i].at,
+    for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
+        stand_up(states[i].line, states[i].steps);
+        const Trace trace = {.line = states[i].at,
                              .tolerance = 0.01,
                              .x = simulation.run[0].x,
-                             .p = rows[i].at >= LINE_SOLVE ? p : NULL,
-                             .projected = rows[i].projected,
-                             .trials = rows[i].trials,
-                             .accepted = rows[i].accepted,
+                             .p = states[i].at >= LINE_SOLVE ? p : NULL,
+                             .projected = states[i].projected,
+                             .trials = states[i].trials,
+                             .accepted = states[i].accepted,
                              .slope = -4,
                              .residual = 2,
                              .record = records,
                              .updates = 3,
                              .difference = falling};
         show.pane[0].trace = trace.line ? &trace : NULL;
-        show.hover = (Pick){rows[i].hover, 0, 12, {0, 0}};
+        show.hover = (Pick){states[i].hover, 0, 12, {0, 0}};
         draw_without_words();
-        int card = rows[i].card;
+        int card = states[i].card;
         int count = count_colour(
-            card == STAGE ? layout.stage : layout.card[card], rows[i].colour);
-        if (rows[i].least ? count < rows[i].least : count > 0)
+            card == STAGE ? layout.stage : layout.card[card], states[i].colour);
+        if (states[i].least ? count < states[i].least : count > 0)
             fail_msg("row %zu has %d pixels", i, count);
     }
 }
