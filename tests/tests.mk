@@ -20,13 +20,13 @@ $(B)/tests/unit/test_orders: $(B)/bench/reference.o
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
   -lsuitesparseconfig
-$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line)
+$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line plot_graph)
 $(B)/tests/unit/test_explicit: LIBS += $(call wrap,cholmod_start \
   cholmod_analyze cholmod_factorize)
 
 # What the frames say, and of which states, for checks/frame_numbers.py.
 $(B)/tests/unit/texts: LIBS += $(call wrap,text_draw paper_paragraph \
-  plot_create plot_axes)
+  plot_create plot_on)
 $(B)/tests/unit/texts: $(B)/tests/unit/texts.o $(B)/tests/unit/testing.o \
                        $(LIBRARY) $(B)/flags
 	$(call shown,LINK)

@@ -9,14 +9,7 @@
 #include "picture/paper.h"
 #include "picture/show.h"
 
-/* Where a pane is drawn and how. */
-typedef struct Stage {
-    Box box;
-    Camera camera;
-    int pane;  /* index in the show */
-    bool text; /* there is room for words */
-    double em; /* pixels */
-} Stage;
+typedef struct Plot Plot; /* plot.h: where a pane is drawn, and how */
 
 /* A card in the column. */
 typedef struct Card {
@@ -46,11 +39,11 @@ typedef struct Picture {
      * NULL: always the same. */
     void (*bounds)(const Show *show, int pane, double bounds[4]);
     double around[4];
-    void (*draw)(Paper *paper, const Stage *stage, const Show *show);
+    void (*draw)(Plot *stage, const Show *show);
     /* What is under pixel (x, y); NULL: nothing but handles and places. */
-    Pick (*pick)(const Show *show, const Stage *stage, double x, double y);
+    Pick (*pick)(const Show *show, const Plot *stage, double x, double y);
     /* The small card beside what the mouse is over; may be NULL. */
-    void (*hover)(Paper *paper, const Stage *stage, const Show *show);
+    void (*hover)(Plot *stage, const Show *show);
     /* What is kept of each state for plots; may be NULL. */
     void (*sample)(const Simulation *simulation, History *history,
                    Trail *trail);

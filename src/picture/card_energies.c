@@ -51,11 +51,11 @@ static bool compares(const Show *show)
 
 /* The curve of one quantity of one pane; points far apart in time are still
  * joined. */
-static void draw_series(Paper *paper, const Plot *plot, const History *history,
-                        int series, double width, Colour colour)
+static void draw_series(const Plot *plot, const History *history, int series,
+                        double width, Colour colour)
 {
-    plot_curve(paper, plot, history->count, history->time,
-               history->value[series], width, colour);
+    plot_curve(plot, history->count, history->time, history->value[series],
+               width, colour);
 }
 
 /* Whether its series are runs side by side, each with a total of its own, not
@@ -145,10 +145,11 @@ static EnergyRange find_range(const Show *show)
 }
 
 /* A vertical line at the time that is shown, if it is not the last one. */
-static void draw_now(Paper *paper, const Plot *plot, double time)
+static void draw_now(const Plot *plot, double time)
 {
+    Paper *paper = plot->paper;
     double at[2];
-    plot_place(plot, time, plot->y.low, at);
+    plot_place(plot, (double[2]){time, plot->y.low}, at);
     if (time < plot->x.high)
         canvas_line(&paper->canvas, floor(at[0]) + 0.5, plot->box.y,
                     floor(at[0]) + 0.5, plot->box.y + plot->box.height,
@@ -311,16 +312,14 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
     Axis energy = energies_axis(show, &joule, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(paper, rest, time, energy);
-    plot.y.low *= joule;
-    plot.y.high *= joule;
-    draw_now(paper, &plot, simulation_time(simulation));
+    plot_unit(&plot, joule);
+    draw_now(&plot, simulation_time(simulation));
     for (int p = 0; compares(show) && p < show->panes; p++)
         if (show->pane[p].history)
-            draw_series(paper, &plot, show->pane[p].history, 0, 1.8,
-                        colour_of_run(p));
+            draw_series(&plot, show->pane[p].history, 0, 1.8, colour_of_run(p));
     for (int s = history->series - 1; !compares(show) && s >= 0; s--)
         if (worthy >> s & 1)
-            draw_series(paper, &plot, history, s, s == 0 ? 1.8 : 1.4,
+            draw_series(&plot, history, s, s == 0 ? 1.8 : 1.4,
                         series_colour(simulation, history, s));
 }
 
@@ -356,8 +355,7 @@ static void draw_radius(Paper *paper, Box inside, const Show *show)
         paper, inside, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){0, RADIUS_AXIS, false, false, NULL});
     for (int s = 0; s < pane->history->series; s++)
-        draw_series(paper, &plot, pane->history, s, 1.8,
-                    circle_colour(simulation, s));
+        draw_series(&plot, pane->history, s, 1.8, circle_colour(simulation, s));
 }
 
 const Card card_radius = {

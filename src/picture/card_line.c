@@ -54,16 +54,17 @@ static void fill_curves(const Trace *trace, Curves *curves)
 }
 
 /* A trial above the axis is a small arrow at its upper edge. */
-static void draw_trial(Paper *paper, const Plot *plot, double alpha,
-                       double value, bool accepted)
+static void draw_trial(const Plot *plot, double alpha, double value,
+                       bool accepted)
 {
+    Paper *paper = plot->paper;
     const double point[2] = {alpha, value};
     Colour colour = accepted ? COLOUR_ALPHA : COLOUR_WARNING;
     double at[2], unit = paper->unit;
     bool inside = value <= plot->y.high && value >= plot->y.low;
-    plot_place(plot, alpha, inside ? value : plot->y.high, at);
+    plot_place(plot, (double[2]){alpha, inside ? value : plot->y.high}, at);
     if (inside && accepted)
-        plot_disc(paper, plot, point, 5.5, colour);
+        plot_disc(plot, point, 5.5, colour);
     else if (inside)
         canvas_ring(&paper->canvas, at[0], at[1], 4 * unit, 1.6 * unit, colour);
     else
@@ -131,19 +132,16 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     Plot plot = plot_create(paper, draw_words(paper, inside, trace), x, y);
     double first = trace->first > 0 ? trace->first : 1;
     const double origin[2] = {0, 0};
-    plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.model, 1.3,
-               COLOUR_P);
-    plot_curve(paper, &plot, LINE_POINTS, curves.alpha, curves.exact, 2,
-               COLOUR_X);
-    plot_disc(paper, &plot, origin, 3.5, COLOUR_TEXT);
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
+    plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     for (int t = 0; t < trace->trials; t++) {
         double end = ldexp(first, -t), at = end;
         bool last = t == trace->trials - 1;
         if (last &&
             trace->line == LINE_SEARCH) /* it hops from the one before */
             at += trace->rest * (t > 0 ? end : -end);
-        draw_trial(paper, &plot, at, exact_value(trace, at),
-                   last && trace->accepted);
+        draw_trial(&plot, at, exact_value(trace, at), last && trace->accepted);
     }
 }
 
@@ -167,8 +165,7 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
 
 static const char *line_title(const Show *show)
 {
-    bool scalar =
-        show->pane[show->active].simulation->descent.scalar;
+    bool scalar = show->pane[show->active].simulation->descent.scalar;
     return scalar ? "f({x} + {alpha} {p}) \u2212 f({x})"
                   : "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2";
 }

@@ -20,14 +20,15 @@ static void extend_range(const NewtonRecord *records, int count, double *low,
 }
 
 /* A disc is a value, a square an estimate, a ring a bound. */
-static void draw_point(Paper *paper, const Plot *plot, const double *at,
-                       double radius, ResidualKind kind, Colour colour)
+static void draw_point(const Plot *plot, const double *at, double radius,
+                       ResidualKind kind, Colour colour)
 {
+    Paper *paper = plot->paper;
     double p[2], unit = paper->unit;
-    plot_place(plot, at[0], at[1], p);
+    plot_place(plot, at, p);
     int half = (int)fmax(2, round(0.85 * radius * unit));
     if (kind == RESIDUAL_VALUE)
-        plot_disc(paper, plot, at, radius, colour);
+        plot_disc(plot, at, radius, colour);
     else if (kind == RESIDUAL_ESTIMATE)
         canvas_rectangle(&paper->canvas, (int)round(p[0]) - half,
                          (int)round(p[1]) - half, 2 * half, 2 * half, colour);
@@ -37,8 +38,9 @@ static void draw_point(Paper *paper, const Plot *plot, const double *at,
 }
 
 /* Says so, where there are others than values. */
-static void draw_kinds(Paper *paper, const Plot *plot, const Trace *trace)
+static void draw_kinds(const Plot *plot, const Trace *trace)
 {
+    Paper *paper = plot->paper;
     bool estimate = trace->kind == RESIDUAL_ESTIMATE;
     bool bound = trace->kind == RESIDUAL_BOUND;
     double p[2];
@@ -46,7 +48,7 @@ static void draw_kinds(Paper *paper, const Plot *plot, const Trace *trace)
         estimate = estimate || trace->record[i].kind == RESIDUAL_ESTIMATE;
         bound = bound || trace->record[i].kind == RESIDUAL_BOUND;
     }
-    plot_place(plot, plot->x.high, plot->y.high, p);
+    plot_place(plot, (double[2]){plot->x.high, plot->y.high}, p);
     if (estimate || bound)
         paper_write(
             paper, FACE_REGULAR, 0.85, COLOUR_P, p[0], p[1] + 0.1 * paper->em,
@@ -55,9 +57,8 @@ static void draw_kinds(Paper *paper, const Plot *plot, const Trace *trace)
 }
 
 /* The residuals joined by lines, a point each. */
-static void draw_updates(Paper *paper, const Plot *plot,
-                         const NewtonRecord *records, int count, int begin,
-                         double radius, Colour colour)
+static void draw_updates(const Plot *plot, const NewtonRecord *records,
+                         int count, int begin, double radius, Colour colour)
 {
     double before[2] = {NAN, NAN};
     for (int i = 0; i < count; i++) {
@@ -65,8 +66,8 @@ static void draw_updates(Paper *paper, const Plot *plot,
         if (!(point[1] > 0))
             continue;
         if (isfinite(before[1]))
-            plot_line(paper, plot, before, point, 1.3, colour);
-        draw_point(paper, plot, point, radius, records[i].kind, colour);
+            plot_line(plot, before, point, 1.3, colour);
+        draw_point(plot, point, radius, records[i].kind, colour);
         before[0] = point[0];
         before[1] = point[1];
     }
@@ -74,14 +75,14 @@ static void draw_updates(Paper *paper, const Plot *plot,
 
 /* Its line; and below, where the curve does not come from, what that means in
  * metres; h 0: nothing. */
-static void draw_tolerance(Paper *paper, const Plot *plot, double tolerance,
-                           double h)
+static void draw_tolerance(const Plot *plot, double tolerance, double h)
 {
+    Paper *paper = plot->paper;
     char number[48], words[80] = "\u03b5";
     double p[2], q[2], unit = paper->unit, em = paper->em;
     plot_number(number, sizeof number, h * tolerance);
-    plot_place(plot, plot->x.low, tolerance, p);
-    plot_place(plot, plot->x.high, tolerance, q);
+    plot_place(plot, (double[2]){plot->x.low, tolerance}, p);
+    plot_place(plot, (double[2]){plot->x.high, tolerance}, q);
     canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
                   floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
                   NULL, COLOUR_TEXT);
@@ -126,24 +127,24 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     Plot plot = plot_create(paper, inside, x, y);
     if (drops) /* onto its place, from the upper edge */
         now.residual *= pow(y.high / now.residual, trace->rest);
-    draw_updates(paper, &plot, trace->record_before, trace->updates_before, 1,
-                 2.5, COLOUR_BORDER);
+    draw_updates(&plot, trace->record_before, trace->updates_before, 1, 2.5,
+                 COLOUR_BORDER);
     const Scene *scene = show->pane[show->active].simulation->scene;
-    draw_tolerance(paper, &plot, trace->tolerance,
+    draw_tolerance(&plot, trace->tolerance,
                    scene->needs & NEEDS_TIME ? trace->h : 0);
-    draw_updates(paper, &plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
-    draw_kinds(paper, &plot, trace);
+    draw_updates(&plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
+    draw_kinds(&plot, trace);
     if (counted && trace->line)
-        draw_updates(paper, &plot, &now, 1, trace->updates, 5.5, COLOUR_P);
+        draw_updates(&plot, &now, 1, trace->updates, 5.5, COLOUR_P);
     if (!pending)
         return;
     if (trace->updates > 0) {
         const double a[2] = {trace->updates,
                              trace->record[trace->updates - 1].residual};
         const double b[2] = {trace->updates + 1, trace->residual};
-        plot_line(paper, &plot, a, b, 1.3, COLOUR_P);
+        plot_line(&plot, a, b, 1.3, COLOUR_P);
     }
-    draw_updates(paper, &plot, &now, 1, trace->updates + 1,
+    draw_updates(&plot, &now, 1, trace->updates + 1,
                  trace->line && !trace->passed ? 5.5 : 3.5, COLOUR_P);
 }
 

@@ -31,21 +31,22 @@ static Colour envelope_colour(const EnvelopeCell *cell)
 }
 
 /* Pixels of a cell. */
-static Box envelope_box(const Stage *stage, int column, int row)
+static Box envelope_box(const Plot *stage, int column, int row)
 {
     double x = log10(envelope_timestep(column));
     double y = log10(envelope_stiffness(row));
     const double low[2] = {x - 0.25, y - 0.5}, high[2] = {x + 0.25, y + 0.5};
     double p[2], q[2];
-    stage_pixel(stage, low, p);
-    stage_pixel(stage, high, q);
+    plot_place(stage, low, p);
+    plot_place(stage, high, q);
     int left = (int)ceil(p[0]), top = (int)ceil(q[1]);
     return (Box){left, top, (int)ceil(q[0]) - left, (int)ceil(p[1]) - top};
 }
 
 /* Powers of ten along the lower and the left edge. */
-static void envelope_axes(Paper *paper, const Stage *stage)
+static void envelope_axes(Plot *stage)
 {
+    Paper *paper = stage->paper;
     for (int column = 0; column < ENVELOPE_COLUMNS; column += 4) {
         Box box = envelope_box(stage, column, 0);
         paper_write(paper, FACE_REGULAR, 0.92, COLOUR_FAINT,
@@ -87,11 +88,11 @@ static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
         paper_line(paper, c[i], c[(i + 1) % 4], width, colour);
 }
 
-static void envelope_draw(Paper *paper, const Stage *stage, const Show *show)
+static void envelope_draw(Plot *stage, const Show *show)
 {
+    Paper *paper = stage->paper;
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const EnvelopeMap *map = &simulation->exhibit.map;
-    Legend legend = {0, 0};
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             Box box = envelope_box(stage, column, row);
@@ -103,15 +104,14 @@ static void envelope_draw(Paper *paper, const Stage *stage, const Show *show)
                    COLOUR_TEXT);
     if (show->bare || !stage->text)
         return;
-    envelope_axes(paper, stage);
-    stage_legend(paper, stage, &legend, envelope_shades[3],
-                 "converged: darker is more updates");
-    stage_legend(paper, stage, &legend, COLOUR_UNDONE,
-                 "too loose a tolerance: nothing was done");
-    stage_legend(paper, stage, &legend, COLOUR_REFUSED, "said: not converged");
+    envelope_axes(stage);
+    plot_legend(stage, envelope_shades[3], "converged: darker is more updates");
+    plot_legend(stage, COLOUR_UNDONE,
+                "too loose a tolerance: nothing was done");
+    plot_legend(stage, COLOUR_REFUSED, "said: not converged");
 }
 
-static Pick envelope_pick(const Show *show, const Stage *stage, double x,
+static Pick envelope_pick(const Show *show, const Plot *stage, double x,
                           double y)
 {
     Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
@@ -176,17 +176,16 @@ static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
             bounds[k] = fmin(bounds[k], x[2 * i + k]);
             bounds[2 + k] = fmax(bounds[2 + k], x[2 * i + k]);
         }
-    Stage stage = {box_inset(inside, paper_pixels(paper, 0.6)),
-                   {{1, 1}, {0, 0}},
-                   0,
-                   true,
-                   paper->em};
+    Plot stage = {.paper = paper,
+                  .box = box_inset(inside, paper_pixels(paper, 0.6)),
+                  .text = true,
+                  .em = paper->em};
     stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
     for (int s = 0; s < system->springs && x; s++)
-        stage_line(paper, &stage, x + 2 * system->e[2 * s],
-                   x + 2 * system->e[2 * s + 1], 1.2, COLOUR_X);
+        plot_line(&stage, x + 2 * system->e[2 * s],
+                  x + 2 * system->e[2 * s + 1], 1.2, COLOUR_X);
     for (int i = 0; i < system->nodes && x; i++)
-        stage_disc(paper, &stage, x + 2 * i, 3 * paper->unit, COLOUR_X);
+        plot_disc(&stage, x + 2 * i, 3, COLOUR_X);
 }
 
 static const Card card_envelope_numbers = {

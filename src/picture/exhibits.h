@@ -23,14 +23,6 @@ extern const Picture curve_picture, tangent_picture;
  * with the path of the minimiser for every h. */
 extern const Picture landscape_picture, dial_picture;
 
-/* What both show of the world, m; the map of the parts of E that are on,
- * springs, pins and x_tilde. */
-#define LANDSCAPE_AROUND                                                       \
-    {                                                                          \
-        -1.87, -1.87, 1.87, 1.87                                               \
-    }
-Plot landscape_ground(Paper *paper, const Stage *stage, const Show *show);
-
 /* One spring: force, eigenvalues, energy over its length.  Error over run time,
  * a curve for each method.  Where the square converges, and the cell under the
  * mouse in small. */

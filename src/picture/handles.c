@@ -11,7 +11,7 @@ static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
 static const double SWITCH_WIDE = 13;  /* ems */
 static const double SWITCH_HIGH = 1.8;
 
-void stage_handles(Paper *paper, const Stage *stage, const Show *show)
+void stage_handles(const Plot *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     double at[SCENE_MAX_HANDLES][2];
@@ -19,12 +19,11 @@ void stage_handles(Paper *paper, const Stage *stage, const Show *show)
     for (int i = 0; i < count && !show->bare; i++) {
         bool over = show->hover.kind == PICK_HANDLE &&
                     show->hover.pane == stage->pane && show->hover.index == i;
-        stage_ring(paper, stage, at[i], (over ? 13 : 10) * paper->unit,
-                   over ? 3 : 1.8, COLOUR_HAND);
+        plot_ring(stage, at[i], (over ? 13 : 10), over ? 3 : 1.8, COLOUR_HAND);
     }
 }
 
-Box stage_switch_box(const Stage *stage, int i)
+Box stage_switch_box(const Plot *stage, int i)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDE * stage->em);
@@ -33,8 +32,9 @@ Box stage_switch_box(const Stage *stage, int i)
                  box->y + 3 * gap + i * (high + gap) + high, wide, high};
 }
 
-void stage_switches(Paper *paper, const Stage *stage, const Show *show)
+void stage_switches(const Plot *stage, const Show *show)
 {
+    Paper *paper = stage->paper;
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Switch out[SCENE_MAX_SWITCHES];
     int count = exhibit_switches(simulation, out);
@@ -53,7 +53,7 @@ void stage_switches(Paper *paper, const Stage *stage, const Show *show)
     }
 }
 
-bool handles_pick(const Show *show, const Stage *stage, double x, double y,
+bool handles_pick(const Show *show, const Plot *stage, double x, double y,
                   Pick *pick)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
@@ -70,7 +70,7 @@ bool handles_pick(const Show *show, const Stage *stage, double x, double y,
         }
     for (int i = handles - 1; i >= 0; i--) {
         double pixel[2];
-        stage_pixel(stage, at[i], pixel);
+        plot_place(stage, at[i], pixel);
         double distance = hypot(pixel[0] - x, pixel[1] - y);
         if (!(distance < best))
             continue;
@@ -82,50 +82,36 @@ bool handles_pick(const Show *show, const Stage *stage, double x, double y,
     return found;
 }
 
-/* A cross. */
-static void draw_guess_cross(Paper *paper, const double at[2], Colour colour)
-{
-    double arm = 7 * paper->unit;
-    const double corners[4][2] = {{at[0] - arm, at[1] - arm},
-                                  {at[0] + arm, at[1] + arm},
-                                  {at[0] - arm, at[1] + arm},
-                                  {at[0] + arm, at[1] - arm}};
-    paper_line(paper, corners[0], corners[1], 3, colour);
-    paper_line(paper, corners[2], corners[3], 3, colour);
-}
-
-/* Along x alone the guess is a line from top to bottom. */
-void stage_prediction(Paper *paper, const Stage *stage, const Show *show)
+/* The guess is a cross; along x alone a line from top to bottom, too. */
+void stage_prediction(const Plot *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const Prediction *guess = &simulation->prediction;
     const Box *box = &stage->box;
-    double at[2], came[2], point[2];
-    bool line = simulation_point(simulation, point) == 1;
-    char number[48];
+    Paper *paper = stage->paper;
+    double arm = 7 * paper->unit, at[2], came[2], point[2];
     if (!guess->made || show->bare)
         return;
-    stage_pixel(stage, guess->at, at);
-    stage_pixel(stage, guess->came, came);
-    if (line) {
+    plot_place(stage, guess->at, at);
+    plot_place(stage, guess->came, came);
+    if (simulation_point(simulation, point) == 1) {
         const double low[2] = {at[0], box->y + box->height};
         const double high[2] = {at[0], box->y};
         paper_line(paper, low, high, 1.5, COLOUR_HAND);
         came[1] = at[1];
     }
-    draw_guess_cross(paper, at, COLOUR_HAND);
-    if (!guess->shown) {
-        paper_write(paper, FACE_BOLD, 1, COLOUR_HAND, at[0] + paper->em,
-                    at[1] - 0.6 * paper->em, ALIGN_LEFT,
-                    "your guess; N shows the step");
-        return;
+    for (int k = -1; k <= 1; k += 2) {
+        const double from[2] = {at[0] - arm, at[1] - k * arm};
+        const double to[2] = {at[0] + arm, at[1] + k * arm};
+        paper_line(paper, from, to, 3, COLOUR_HAND);
     }
-    canvas_dashes(&paper->canvas, at[0], at[1], came[0], came[1],
-                  1.6 * paper->unit, 5 * paper->unit, 4 * paper->unit, NULL,
-                  COLOUR_HAND);
-    plot_number(number, sizeof number, guess->distance);
-    paper_write(paper, FACE_BOLD, 1, COLOUR_HAND, at[0] + paper->em,
-                at[1] - 0.6 * paper->em, ALIGN_LEFT, "%s m off", number);
+    if (guess->shown)
+        canvas_dashes(&paper->canvas, at[0], at[1], came[0], came[1],
+                      1.6 * paper->unit, 5 * paper->unit, 4 * paper->unit, NULL,
+                      COLOUR_HAND);
+    plot_text(stage, guess->at, 1, -0.6, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_HAND,
+              guess->shown ? "%s m off" : "your guess; N shows the step",
+              number_of(guess->distance).text);
 }
 
 /* ---- numbers in a card -------------------------------------------------- */

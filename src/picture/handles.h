@@ -4,24 +4,25 @@
 #ifndef ELASTO_HANDLES_H
 #define ELASTO_HANDLES_H
 
-#include "picture/marks.h"
+#include "picture/picture.h"
+#include "picture/plot.h"
 #include "scenes/scene.h"
 
 /* Open rings where the scene's handles are. */
-void stage_handles(Paper *paper, const Stage *stage, const Show *show);
+void stage_handles(const Plot *stage, const Show *show);
 
 /* The scene's switches as chips in the upper right corner. */
-void stage_switches(Paper *paper, const Stage *stage, const Show *show);
+void stage_switches(const Plot *stage, const Show *show);
 
 /* Where switch i is; pixels. */
-Box stage_switch_box(const Stage *stage, int i);
+Box stage_switch_box(const Plot *stage, int i);
 
 /* A switch or a handle under pixel (x, y): fills kind and index. */
-bool handles_pick(const Show *show, const Stage *stage, double x, double y,
+bool handles_pick(const Show *show, const Plot *stage, double x, double y,
                   Pick *pick);
 
 /* The guess, and where the step led: over any picture. */
-void stage_prediction(Paper *paper, const Stage *stage, const Show *show);
+void stage_prediction(const Plot *stage, const Show *show);
 
 /* Lines of markup in a card, one below the other, as large as fits but no
  * larger than plain text.  An empty line is half as high. */

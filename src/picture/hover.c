@@ -7,7 +7,7 @@
 #include "model/friction.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
-#include "picture/marks.h"
+#include "picture/plot.h"
 
 enum { HOVER_LINES = 8, HOVER_TEXT = 128 };
 
@@ -82,13 +82,13 @@ static void spring_law(const System *system, int s, double strain, double *tau,
 }
 
 /* What the nodes that have a place fill, pixels; cut to the stage. */
-static Box body_box(const Stage *stage, const Pane *pane)
+static Box body_box(const Plot *stage, const Pane *pane)
 {
     const Box *box = &stage->box;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
         double at[2];
-        stage_pixel(stage, pane_x(pane) + 2 * (size_t)i, at);
+        plot_place(stage, pane_x(pane) + 2 * (size_t)i, at);
         for (int k = 0; k < 2 && isfinite(at[0]) && isfinite(at[1]); k++) {
             low[k] = fmin(low[k], at[k]);
             high[k] = fmax(high[k], at[k]);
@@ -101,9 +101,9 @@ static Box body_box(const Stage *stage, const Pane *pane)
 }
 
 /* m, x, v, f, x_tilde. */
-static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
-                       int node)
+static void hover_node(Plot *stage, const Pane *pane, int node)
 {
+    Paper *paper = stage->paper;
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
     const double *x = pane_x(pane), *v = simulation->run[0].v;
@@ -123,10 +123,10 @@ static void hover_node(Paper *paper, const Stage *stage, const Pane *pane,
     add_vector(&lines, "v", v + 2 * (size_t)node, "m/s");
     add_vector(&lines, "f", force, "N");
     add_vector(&lines, "{xt}", tilde, "m");
-    stage_pixel(stage, x + 2 * (size_t)node, at);
-    Box box = stage_note(paper, stage, at[0], at[1], paper_pixels(paper, WIDTH),
-                         paper_pixels(paper, LINE * lines.count),
-                         body_box(stage, pane));
+    plot_place(stage, x + 2 * (size_t)node, at);
+    Box box = plot_note(stage, at[0], at[1], paper_pixels(paper, WIDTH),
+                        paper_pixels(paper, LINE * lines.count),
+                        body_box(stage, pane));
     draw_lines(paper, &box, &lines);
 }
 
@@ -191,9 +191,9 @@ static void draw_eigenvalues(Paper *paper, Box *box, const double before[4],
 }
 
 /* e, l2, strain, block, eigenvalues. */
-static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
-                         const Pane *pane, int s)
+static void hover_spring(Plot *stage, const Show *show, const Pane *pane, int s)
 {
+    Paper *paper = stage->paper;
     const System *system = &pane->simulation->system;
     const double *x = pane_x(pane);
     int i = system->e[2 * s], j = system->e[2 * s + 1];
@@ -225,10 +225,10 @@ static void hover_spring(Paper *paper, const Stage *stage, const Show *show,
              "its block of \u2207\u00b2P, J/m\u00b2");
     int height = paper_pixels(paper, LINE * (lines.count + 1)) +
                  paper_pixels(paper, 4 * 1.15 + 0.3 + BARS);
-    stage_pixel(stage, show->hover.point, at);
-    Box box = stage_note(paper, stage, at[0], at[1],
-                         paper_pixels(paper, 4 * CELL + 0.3), height,
-                         body_box(stage, pane));
+    plot_place(stage, show->hover.point, at);
+    Box box =
+        plot_note(stage, at[0], at[1], paper_pixels(paper, 4 * CELL + 0.3),
+                  height, body_box(stage, pane));
     draw_lines(paper, &box, &lines);
     draw_block(paper, &box, H);
     paper_write(paper, FACE_REGULAR, SMALL, COLOUR_TEXT, box.x, box.y,
@@ -244,16 +244,16 @@ static bool is_placed(const Pane *pane, int node)
     return isfinite(x[0]) && isfinite(x[1]);
 }
 
-void hover_square(Paper *paper, const Stage *stage, const Show *show)
+void hover_square(Plot *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Pick *hover = &show->hover;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes &&
         is_placed(pane, hover->index))
-        hover_node(paper, stage, pane, hover->index);
+        hover_node(stage, pane, hover->index);
     if (hover->kind == PICK_SPRING && hover->index < system->springs &&
         is_placed(pane, system->e[2 * hover->index]) &&
         is_placed(pane, system->e[2 * hover->index + 1]))
-        hover_spring(paper, stage, show, pane, hover->index);
+        hover_spring(stage, show, pane, hover->index);
 }

@@ -7,6 +7,6 @@
 
 /* Node: m, x, v, force, x_tilde.  Spring: e, l2, strain, its 4x4 block of the
  * Hessian and the eigenvalues before and after projection. */
-void hover_square(Paper *paper, const Stage *stage, const Show *show);
+void hover_square(Plot *stage, const Show *show);
 
 #endif

@@ -25,8 +25,7 @@ static Colour run_colour(const Simulation *simulation, int run, Colour alone)
 }
 
 /* Where the runs have been; with a disc for each step. */
-static void draw_trails(Paper *paper, const Stage *stage, const Pane *pane,
-                        bool steps)
+static void draw_trails(Plot *stage, const Pane *pane, bool steps)
 {
     const Trail *trail = pane->trail;
     for (int r = 0; trail && r < pane->simulation->runs; r++)
@@ -35,10 +34,10 @@ static void draw_trails(Paper *paper, const Stage *stage, const Pane *pane,
             Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
                                   : circle_colour(pane->simulation, r);
             if (steps)
-                stage_disc(paper, stage, at, 3.5 * paper->unit, colour);
+                plot_disc(stage, at, 3.5, colour);
             if (i > 0)
-                stage_line(paper, stage, trail->point[r][i - 1], at,
-                           steps ? 1.6 : 2.2, colour);
+                plot_line(stage, trail->point[r][i - 1], at, steps ? 1.6 : 2.2,
+                          colour);
         }
 }
 
@@ -68,47 +67,41 @@ static void mass_sample(const Simulation *simulation, History *history,
 /* ---- the circle ---------------------------------------------------------- */
 
 /* The exact path and its radius. */
-static void draw_exact_circle(Paper *paper, const Stage *stage)
+static void draw_exact_circle(Plot *stage)
 {
     const double middle[2] = {0, 0}, start[2] = {1, 0};
-    double at[2];
-    stage_ring(paper, stage, middle, stage->camera.scale[0], 5, COLOUR_GRID);
-    stage_line(paper, stage, middle, start, 1.2, COLOUR_GREY);
-    stage_disc(paper, stage, middle, 3.5 * paper->unit, COLOUR_GREY);
-    const double half[2] = {0.5, 0};
-    stage_pixel(stage, half, at);
+    plot_ring(stage, middle, stage->camera.scale[0] / stage->paper->unit, 5,
+              COLOUR_GRID);
+    plot_line(stage, middle, start, 1.2, COLOUR_GREY);
+    plot_disc(stage, middle, 3.5, COLOUR_GREY);
     if (stage->text)
-        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, at[0],
-                    at[1] + 0.2 * paper->em, ALIGN_CENTRE, "1 m");
+        plot_text(stage, (double[2]){0.5, 0}, 0, 0.2, 0.9, ALIGN_CENTRE,
+                  FACE_REGULAR, COLOUR_FAINT, "1 m");
 }
 
 /* Trails, and a disc where each run is now. */
-static void circle_draw(Paper *paper, const Stage *stage, const Show *show)
+static void circle_draw(Plot *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
-    Legend legend = {0, 0};
-    draw_exact_circle(paper, stage);
-    draw_trails(paper, stage, pane, false);
+    draw_exact_circle(stage);
+    draw_trails(stage, pane, false);
     for (int r = 0; r < simulation->runs; r++)
-        stage_disc(paper, stage, simulation->run[r].x, 7 * paper->unit,
-                   circle_colour(simulation, r));
+        plot_disc(stage, simulation->run[r].x, 7, circle_colour(simulation, r));
     if (show->bare || !stage->text)
         return;
-    stage_legend(paper, stage, &legend, COLOUR_GREY, "exact: |{x}| = 1 m");
+    plot_legend(stage, COLOUR_GREY, "exact: |{x}| = 1 m");
     for (int r = 0; r < simulation->runs; r++) {
-        char radius[48];
         const double *x = simulation->run[r].x;
-        plot_number(radius, sizeof radius, hypot(x[0], x[1]));
-        stage_legend(paper, stage, &legend, circle_colour(simulation, r),
-                     "%s: %s m", simulation->run[r].method->label, radius);
+        plot_legend(stage, circle_colour(simulation, r), "%s: %s m",
+                    simulation->run[r].method->label,
+                    number_of(hypot(x[0], x[1])).text);
     }
-    stage_scale(paper, stage);
+    plot_scale(stage);
 }
 
 /* The node of the nearest run. */
-static Pick circle_pick(const Show *show, const Stage *stage, double x,
-                        double y)
+static Pick circle_pick(const Show *show, const Plot *stage, double x, double y)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
@@ -116,7 +109,7 @@ static Pick circle_pick(const Show *show, const Stage *stage, double x,
     camera_world(&stage->camera, x, y, pick.point);
     for (int r = 0; r < simulation->runs; r++) {
         double at[2];
-        stage_pixel(stage, simulation->run[r].x, at);
+        plot_place(stage, simulation->run[r].x, at);
         double distance = hypot(at[0] - x, at[1] - y);
         if (distance < best) {
             best = distance;
@@ -158,8 +151,7 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
 }
 
 /* The exact path: a circle where v is across and as long as x. */
-static void draw_mass_exact(Paper *paper, const Stage *stage,
-                            const Simulation *simulation)
+static void draw_mass_exact(Plot *stage, const Simulation *simulation)
 {
     for (int i = 0; i < MASS_CORNERS; i++) {
         double s = MASS_TURN * i / MASS_CORNERS;
@@ -167,53 +159,18 @@ static void draw_mass_exact(Paper *paper, const Stage *stage,
         double a[2], b[2];
         mass_exact(simulation, s, a);
         mass_exact(simulation, t, b);
-        stage_line(paper, stage, a, b, 4, COLOUR_GRID);
+        plot_line(stage, a, b, 4, COLOUR_GRID);
     }
-}
-
-/* An arrow from a along d, and the word beside it. */
-typedef struct MassArrow {
-    const double *a, *d;
-    double width;
-    Colour colour;
-    const char *word;
-} MassArrow;
-
-/* Words keep off it. */
-static void draw_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
-                            const MassArrow *arrow)
-{
-    const double *a = arrow->a, b[2] = {a[0] + arrow->d[0], a[1] + arrow->d[1]};
-    stage_arrow(paper, stage, a, arrow->d, 1, arrow->width, arrow->colour);
-    keep_off_line(labels, stage, a, b);
-}
-
-/* Its word, unless it is short. */
-static void label_mass_arrow(Paper *paper, const Stage *stage, Labels *labels,
-                             const MassArrow *arrow)
-{
-    static const double part[] = {0.55, 0.8, 0.35, 0.7};
-    const double *a = arrow->a, *d = arrow->d;
-    double at[4][2], length = hypot(d[0], d[1]);
-    if (!(length * stage->camera.scale[0] > 2 * stage->em))
-        return;
-    for (int i = 0; i < 4; i++) {
-        const double point[2] = {a[0] + part[i] * d[0], a[1] + part[i] * d[1]};
-        stage_pixel(stage, point, at[i]);
-    }
-    labels_put(paper, labels, FACE_BOLD, 1.15, arrow->colour, at, 4,
-               0.35 * paper->em, arrow->word);
 }
 
 /* The arrows of one method in the order in which it makes them; then their
- * words, the most important ones first. */
-static void draw_mass_step(Paper *paper, const Stage *stage,
-                           const Simulation *simulation)
+ * words, unless an arrow is short, the most important ones first. */
+static void draw_mass_step(Plot *stage, const Simulation *simulation)
 {
     static const int order[] = {0, 1, 3, 2, 4};
+    static const double part[] = {0.55, 0.8, 0.35, 0.7};
     MassStep step;
-    Labels labels = {.stage = stage->box};
-    double h = simulation->run[0].h, tip[2], way[2], push[2], at[2];
+    double h = simulation->run[0].h, tip[2], way[2], push[2];
     if (!mass_next_step(simulation, 0, &step))
         return;
     bool backward = simulation->run[0].method->implicit;
@@ -222,40 +179,51 @@ static void draw_mass_step(Paper *paper, const Stage *stage,
         way[i] = step.new_x[i] - step.x[i];
         push[i] = h * (backward ? step.new_a[i] : step.a[i]);
     }
-    const MassArrow arrow[] = {
+    const struct MassArrow {
+        const double *a, *d; /* m, from a along d */
+        double width;
+        Colour colour;
+        const char *word;
+    } arrow[] = {
         {step.x, step.v, 2.6, COLOUR_VELOCITY, "v"},
         {tip, push, 2.6, COLOUR_FORCE, backward ? "h a(x\u2032)" : "h a(x)"},
         {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v\u2032"},
         {step.x, way, 4, COLOUR_X, step.by_old_v ? "h v" : "h v\u2032"},
         {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a(x\u2032)"}};
-    for (int i = 0; i < 4 + backward; i++)
-        draw_mass_arrow(paper, stage, &labels, &arrow[i]);
-    stage_ring(paper, stage, step.new_x, 9 * paper->unit, 2.4, COLOUR_X);
-    keep_off_disc(&labels, paper, stage, step.new_x, 10);
-    keep_off_disc(&labels, paper, stage, step.x, 11);
-    keep_off_disc(&labels, paper, stage, tip, 11);
+    for (int i = 0; i < 4 + backward; i++) {
+        const double *a = arrow[i].a, *d = arrow[i].d;
+        plot_arrow(stage, a, d, 1, arrow[i].width, arrow[i].colour);
+        plot_keep_line(stage, a, (double[2]){a[0] + d[0], a[1] + d[1]});
+    }
+    plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
+    plot_keep_disc(stage, step.new_x, 10);
+    plot_keep_disc(stage, step.x, 11);
+    plot_keep_disc(stage, tip, 11);
     if (!stage->text)
         return;
-    stage_pixel(stage, step.new_x, at);
-    labels_put(paper, &labels, FACE_BOLD, 1.15, COLOUR_X,
-               (const double(*)[2])at, 1, 0.9 * paper->em, "x\u2032");
-    for (int i = 0; i < 4 + backward; i++)
-        label_mass_arrow(paper, stage, &labels, &arrow[order[i]]);
+    plot_words(stage, 1, (const double(*)[2])step.new_x, 0.9, 1.15, FACE_BOLD,
+               COLOUR_X, "x\u2032");
+    for (int i = 0; i < 4 + backward; i++) {
+        const struct MassArrow *now = &arrow[order[i]];
+        double at[4][2], scale = stage->camera.scale[0];
+        for (int k = 0; k < 8; k++)
+            at[k / 2][k % 2] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
+        if (hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
+            plot_words(stage, 4, (const double(*)[2])at, 0.35, 1.15, FACE_BOLD,
+                       now->colour, now->word);
+    }
 }
 
 /* All three: the way that each goes next. */
-static void draw_mass_ways(Paper *paper, const Stage *stage,
-                           const Simulation *simulation)
+static void draw_mass_ways(Plot *stage, const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
         const double way[2] = {step.new_x[0] - step.x[0],
                                step.new_x[1] - step.x[1]};
-        stage_arrow(paper, stage, step.x, way, 1, 3,
-                    circle_colour(simulation, r));
-        stage_ring(paper, stage, step.new_x, 8 * paper->unit, 2.2,
-                   circle_colour(simulation, r));
+        plot_arrow(stage, step.x, way, 1, 3, circle_colour(simulation, r));
+        plot_ring(stage, step.new_x, 8, 2.2, circle_colour(simulation, r));
     }
 }
 
@@ -267,32 +235,30 @@ static bool mass_is_hidden(const Show *show, const Simulation *simulation)
            !guess->shown;
 }
 
-static void mass_draw(Paper *paper, const Stage *stage, const Show *show)
+static void mass_draw(Plot *stage, const Show *show)
 {
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
     const double origin[2] = {0, 0};
-    Legend legend = {0, 0};
-    draw_mass_exact(paper, stage, simulation);
+    draw_mass_exact(stage, simulation);
     for (int r = 0; r < simulation->runs; r++)
-        stage_line(paper, stage, origin, simulation->run[r].x, 1.4,
-                   COLOUR_REST);
-    stage_pin(paper, stage, origin, 5 * paper->unit);
-    draw_trails(paper, stage, pane, true);
+        plot_line(stage, origin, simulation->run[r].x, 1.4, COLOUR_REST);
+    plot_pin(stage, origin, 5);
+    draw_trails(stage, pane, true);
     if (simulation->runs > 1)
-        draw_mass_ways(paper, stage, simulation);
+        draw_mass_ways(stage, simulation);
     else if (!mass_is_hidden(show, simulation))
-        draw_mass_step(paper, stage, simulation);
+        draw_mass_step(stage, simulation);
     for (int r = 0; r < simulation->runs; r++)
-        stage_disc(paper, stage, simulation->run[r].x, 8 * paper->unit,
-                   run_colour(simulation, r, COLOUR_X));
+        plot_disc(stage, simulation->run[r].x, 8,
+                  run_colour(simulation, r, COLOUR_X));
     if (show->bare || !stage->text)
         return;
-    stage_legend(paper, stage, &legend, COLOUR_GREY, "the exact path");
+    plot_legend(stage, COLOUR_GREY, "the exact path");
     for (int r = 0; r < simulation->runs && simulation->runs > 1; r++)
-        stage_legend(paper, stage, &legend, circle_colour(simulation, r), "%s",
-                     simulation->run[r].method->label);
-    stage_scale(paper, stage);
+        plot_legend(stage, circle_colour(simulation, r), "%s",
+                    simulation->run[r].method->label);
+    plot_scale(stage);
 }
 
 /* ---- the formula with its numbers --------------------------------------- */

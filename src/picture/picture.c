@@ -8,7 +8,7 @@
 #include "picture/exhibits.h"
 #include "picture/frame.h"
 #include "picture/handles.h"
-#include "picture/marks.h"
+#include "picture/plot.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
 
@@ -87,19 +87,23 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                       int pane)
 {
     const Picture *picture = picture_of(show->pane[pane].simulation->scene);
-    Stage stage = {layout->pane[pane], show_camera(show, layout, pane), pane,
-                   !show->bare && paper->em >= LEAST_EM, paper->em};
+    Plot stage = {.paper = paper,
+                  .box = layout->pane[pane],
+                  .camera = show_camera(show, layout, pane),
+                  .pane = pane,
+                  .text = !show->bare && paper->em >= LEAST_EM,
+                  .em = paper->em};
     Box before = canvas_clip(&paper->canvas, stage.box);
-    picture->draw(paper, &stage, show);
+    picture->draw(&stage, show);
     if (!picture->own_handles)
-        stage_handles(paper, &stage, show);
-    stage_switches(paper, &stage, show);
-    stage_prediction(paper, &stage, show);
+        stage_handles(&stage, show);
+    stage_switches(&stage, show);
+    stage_prediction(&stage, show);
     if (layout->panes > 1)
         draw_label(paper, layout, show, pane);
     if (picture->hover && stage.text && show->hover.pane == pane &&
         show->hover.kind != PICK_NONE && !show->hand.on)
-        picture->hover(paper, &stage, show);
+        picture->hover(&stage, show);
     canvas_clip(&paper->canvas, before);
 }
 

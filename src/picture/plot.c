@@ -1,17 +1,14 @@
 #include "picture/plot.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "picture/colour_map.h"
 
 enum {
-    PLOT_TEXT = 512,     /* bytes of a text with numbers */
-    PLOT_INTERVALS = 4,  /* between numbers, upwards */
-    PLOT_MOST_LINES = 40 /* of any axis */
+    PLOT_INTERVALS = 4,   /* between numbers, upwards */
+    PLOT_MOST_LINES = 40, /* of any axis */
+    PLOT_POINTS = 400     /* of a graph */
 };
 
 static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
@@ -19,6 +16,8 @@ static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
 static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
 static const double BELOW_ROOM = 1.5;    /* ems, below it */
 static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
+static const double HEAD = 0.62;         /* ems, length of an arrow's head */
+static const double ARROW_LEAST = 1.5;   /* ems, the longest arrow has */
 
 double plot_round_up(double value)
 {
@@ -34,107 +33,35 @@ double plot_round_axis(double value)
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* 0 at the low end of an axis, 1 at the high one. */
-static double axis_part(const Axis *axis, double value)
+/* Where a value stands on its axis. */
+static double on_axis(const Axis *axis, double value)
 {
-    if (axis->log)
-        return log10(value / axis->low) / log10(axis->high / axis->low);
-    return (value - axis->low) / (axis->high - axis->low);
+    return axis->log ? log10(value) : value;
 }
 
-void plot_place(const Plot *plot, double x, double y, double place[2])
+void plot_place(const Plot *plot, const double *at, double pixel[2])
 {
-    double a = axis_part(&plot->x, x), b = axis_part(&plot->y, y);
-    place[0] = plot->box.x + a * plot->box.width;
-    place[1] = plot->box.y + (1 - b) * plot->box.height;
+    const double on[2] = {on_axis(&plot->x, at[0]), on_axis(&plot->y, at[1])};
+    camera_pixel(&plot->camera, on, pixel);
 }
 
-/* Three digits; a power of ten where there would be many zeros. */
-void plot_number(char *text, size_t size, double value)
+/* The axis k that the box shows from low to high. */
+static void set_camera(Plot *plot, int k, const Axis *axis)
 {
-    char plain[32];
-    double most = fabs(value);
-    const char *sign = value < 0 ? "\u2212" : "";
-    if (!isfinite(value)) {
-        snprintf(text, size, "%s%s", isnan(value) ? "" : sign,
-                 isnan(value) ? "no number" : "\u221e");
-        return;
-    }
-    snprintf(plain, sizeof plain, "%.2e", most);
-    char *power = strchr(plain, 'e');
-    if (!power || (most >= 1e-3 && most < 1e5) || most == 0) {
-        bool long_number = most >= 999.5; /* with three digits: 1000 */
-        double digit = long_number ? pow(10, floor(log10(most)) - 2) : 1;
-        if (long_number)
-            snprintf(plain, sizeof plain, "%.0f",
-                     floor(most / digit + 0.5) * digit);
-        else
-            snprintf(plain, sizeof plain, "%.3g", most);
-        snprintf(text, size, "%s%s", sign, plain);
-        return;
-    }
-    int exponent = (int)strtol(power + 1, NULL, 10);
-    snprintf(plain, sizeof plain, "%.3g", most / pow(10, exponent));
-    if (strcmp(plain, "10") == 0) {
-        strcpy(plain, "1");
-        exponent++;
-    }
-    bool one = strcmp(plain, "1") == 0;
-    snprintf(text, size, "%s%s%s10^{%s%d}", sign, one ? "" : plain,
-             one ? "" : "\u00b7", exponent < 0 ? "\u2212" : "", abs(exponent));
-}
-
-/* The part from e on of "1e-06" as markup; returns where it ends. */
-static const char *power_text(const char *power, bool one, char *text,
-                              size_t size)
-{
-    char *end;
-    long exponent = strtol(power + 1, &end, 10);
-    snprintf(text, size, "%s10^{%s%ld}", one ? "" : "\u00b7",
-             exponent < 0 ? "\u2212" : "", labs(exponent));
-    return end;
-}
-
-void plot_numbers(char *text, size_t size)
-{
-    char out[PLOT_TEXT] = "";
-    size_t used = 0;
-    const char *from = text;
-    bool word = false; /* within a word, digits are no number */
-    while (*from && used + 32 < sizeof out) {
-        bool minus = *from == '-' && !word && isdigit((unsigned char)from[1]);
-        const char *digits = from + minus;
-        size_t length = strspn(digits, "0123456789.");
-        if (word || length == 0) {
-            word = isalpha((unsigned char)*from) || (*from & 0x80) ||
-                   (word && isdigit((unsigned char)*from));
-            out[used++] = *from++;
-            continue;
-        }
-        const char *after = digits + length;
-        bool power = *after == 'e' && (after[1] == '-' || after[1] == '+') &&
-                     isdigit((unsigned char)after[2]);
-        bool one = power && length == 1 && *digits == '1';
-        if (length > 24)
-            break;
-        used += (size_t)snprintf(out + used, sizeof out - used, "%s%.*s",
-                                 minus ? "\u2212" : "", one ? 0 : (int)length,
-                                 digits);
-        if (power)
-            after = power_text(after, one, out + used, sizeof out - used);
-        used += strlen(out + used);
-        from = after;
-    }
-    out[used] = '\0';
-    snprintf(text, size, "%s", out);
+    const Box *box = &plot->box;
+    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double scale = (k ? box->height : box->width) / (high - low);
+    plot->camera.scale[k] = scale;
+    plot->camera.origin[k] =
+        k ? box->y + box->height + scale * low : box->x - scale * low;
 }
 
 /* A number of an axis; rounding must not show as 1e-17. */
-static void format_tick(char *text, size_t size, const Axis *axis, double value)
+static Number tick_number(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool nothing = !axis->log && fabs(value) < 1e-9 * span;
-    plot_number(text, size, nothing ? 0 : value);
+    return number_of(nothing ? 0 : value);
 }
 
 /* The values that carry a number on this axis; returns how many. */
@@ -162,8 +89,9 @@ static int axis_ticks(const Axis *axis, double intervals, double *ticks)
 }
 
 /* Numbers below, the label at the end of the axis. */
-static void draw_x_axis(Paper *paper, const Plot *plot)
+static void draw_x_axis(const Plot *plot)
 {
+    Paper *paper = plot->paper;
     const Box *box = &plot->box;
     double ticks[PLOT_MOST_LINES], at[2];
     double room = box->width / (TICK_ROOM * paper->em);
@@ -174,14 +102,13 @@ static void draw_x_axis(Paper *paper, const Plot *plot)
         right -= paper_width(paper, FACE_REGULAR, TICK_SIZE, plot->x.label) +
                  paper_pixels(paper, 0.5);
     for (int i = 0; i < count; i++) {
-        char number[48];
-        format_tick(number, sizeof number, &plot->x, ticks[i]);
-        plot_place(plot, ticks[i], plot->y.low, at);
-        int half = paper_width(paper, FACE_REGULAR, TICK_SIZE, number) / 2;
+        Number number = tick_number(&plot->x, ticks[i]);
+        plot_place(plot, (double[2]){ticks[i], plot->y.low}, at);
+        int half = paper_width(paper, FACE_REGULAR, TICK_SIZE, number.text) / 2;
         if (at[0] + half > right)
             continue;
         paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, at[0], y,
-                    ALIGN_CENTRE, "%s", number);
+                    ALIGN_CENTRE, "%s", number.text);
     }
     if (plot->x.label)
         paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
@@ -189,8 +116,9 @@ static void draw_x_axis(Paper *paper, const Plot *plot)
 }
 
 /* Light lines across with their numbers on the left; 0 is darker. */
-static void draw_y_axis(Paper *paper, const Plot *plot)
+static void draw_y_axis(const Plot *plot)
 {
+    Paper *paper = plot->paper;
     const Box *box = &plot->box;
     double ticks[PLOT_MOST_LINES], at[2];
     double room = box->height / (1.6 * paper->em);
@@ -198,17 +126,15 @@ static void draw_y_axis(Paper *paper, const Plot *plot)
         axis_ticks(&plot->y, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
     double x = box->x - 0.35 * paper->em;
     for (int i = 0; i < count; i++) {
-        char number[48];
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
-        format_tick(number, sizeof number, &plot->y, ticks[i]);
-        plot_place(plot, plot->x.low, ticks[i], at);
-        double row = floor(at[1]) + 0.5; /* sharp on the screen */
+        plot_place(plot, (double[2]){plot->x.low, ticks[i]}, at);
+        double row = floor(at[1] + 1e-9) + 0.5; /* sharp on the screen */
         canvas_line(&paper->canvas, box->x, row, box->x + box->width, row,
                     fmax(1, floor(paper->unit)),
                     zero ? COLOUR_BORDER : COLOUR_GRID);
         paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, x,
                     at[1] - 0.65 * TICK_SIZE * paper->em, ALIGN_RIGHT, "%s",
-                    number);
+                    tick_number(&plot->y, ticks[i]).text);
     }
     if (plot->y.label && box->height > 1.6 * TICK_SIZE * paper->em)
         paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
@@ -216,10 +142,11 @@ static void draw_y_axis(Paper *paper, const Plot *plot)
                     "%s", plot->y.label);
 }
 
-void plot_axes(Paper *paper, const Plot *plot)
+/* Numbers and lines. */
+static void draw_axes(const Plot *plot)
 {
-    draw_y_axis(paper, plot);
-    draw_x_axis(paper, plot);
+    draw_y_axis(plot);
+    draw_x_axis(plot);
 }
 
 /* Pixels left of the plot: the widest number of the axis beyond the usual
@@ -230,33 +157,92 @@ static int number_room(Paper *paper, const Axis *axis, int height)
     int most = paper_pixels(paper, NUMBER_ROOM);
     int count = axis_ticks(axis, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
     for (int i = 0; i < count; i++) {
-        char number[48];
-        format_tick(number, sizeof number, axis, ticks[i]);
-        int width = paper_width(paper, FACE_REGULAR, TICK_SIZE, number) +
+        Number number = tick_number(axis, ticks[i]);
+        int width = paper_width(paper, FACE_REGULAR, TICK_SIZE, number.text) +
                     paper_pixels(paper, 0.4);
         most = width > most ? width : most;
     }
     return most;
 }
 
+/* Its box, at least a pixel wide and high. */
+static void set_box(Plot *plot, Box box)
+{
+    plot->box = box;
+    plot->box.width = box.width < 1 ? 1 : box.width;
+    plot->box.height = box.height < 1 ? 1 : box.height;
+}
+
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y)
 {
+    Plot plot = {.paper = paper, .x = x, .y = y, .text = true, .em = paper->em};
     int left = number_room(paper, &y, outer.height);
     int below = paper_pixels(paper, BELOW_ROOM);
     int above = paper_pixels(paper, 0.5), right = paper_pixels(paper, 0.6);
-    Plot plot = {{outer.x + left, outer.y + above, outer.width - left - right,
-                  outer.height - above - below},
-                 x,
-                 y};
-    plot.box.width = plot.box.width < 1 ? 1 : plot.box.width;
-    plot.box.height = plot.box.height < 1 ? 1 : plot.box.height;
-    plot_axes(paper, &plot);
+    set_box(&plot,
+            (Box){outer.x + left, outer.y + above, outer.width - left - right,
+                  outer.height - above - below});
+    set_camera(&plot, 0, &x);
+    set_camera(&plot, 1, &y);
+    draw_axes(&plot);
     return plot;
+}
+
+void plot_unit(Plot *plot, double unit)
+{
+    plot->y.low *= unit;
+    plot->y.high *= unit;
+    set_camera(plot, 1, &plot->y);
+}
+
+const PlotRoom plot_room = {3.2, 4, 2.4, 4.2};
+
+/* What the camera sees from low to high. */
+static void set_range(Axis *axis, double low, double high)
+{
+    axis->low = axis->log ? pow(10, low) : low;
+    axis->high = axis->log ? pow(10, high) : high;
+}
+
+Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y)
+{
+    Plot plot = *stage;
+    Box box = stage->box;
+    double low[2], high[2];
+    plot.x = x;
+    plot.y = y;
+    if (stage->text) {
+        box.x += paper_pixels(stage->paper, room->left);
+        box.width -= paper_pixels(stage->paper, room->wide);
+        box.y += paper_pixels(stage->paper, room->above);
+        box.height -= paper_pixels(stage->paper, room->high);
+        if (box.width < 1 || box.height < 1)
+            box = stage->box;
+    }
+    plot.box = box;
+    camera_world(&stage->camera, box.x, box.y + box.height, low);
+    camera_world(&stage->camera, box.x + box.width, box.y, high);
+    set_range(&plot.x, low[0], high[0]);
+    if (y.high == 0)
+        set_range(&plot.y, low[1], high[1]);
+    else
+        set_camera(&plot, 1, &y);
+    if (stage->text)
+        draw_axes(&plot);
+    return plot;
+}
+
+/* ---- shapes ------------------------------------------------------------- */
+
+/* Whether it has axes: then it is cut at its box. */
+static bool has_axes(const Plot *plot)
+{
+    return plot->x.high > plot->x.low;
 }
 
 /* Cuts the part of a ... b off that is beyond low ... high in coordinate k;
  * false: nothing is left. */
-static bool cut_line(double a[2], double b[2], int k, double low, double high)
+static bool cut_axis(double a[2], double b[2], int k, double low, double high)
 {
     double *ends[2] = {a, b};
     if ((a[k] < low && b[k] < low) || (a[k] > high && b[k] > high))
@@ -273,38 +259,38 @@ static bool cut_line(double a[2], double b[2], int k, double low, double high)
     return true;
 }
 
-/* Cut in both directions; NaN draws nothing. */
-void plot_line(Paper *paper, const Plot *plot, const double *a, const double *b,
-               double width, Colour colour)
+/* The line between two pixels, as far as it is inside; NaN draws nothing. */
+static void draw_line(const Plot *plot, const double *a, const double *b,
+                      double width, Colour colour)
 {
-    double p[2], q[2];
     const Box *box = &plot->box;
-    plot_place(plot, a[0], a[1], p);
-    plot_place(plot, b[0], b[1], q);
-    if (!isfinite(p[0] + p[1]) || !isfinite(q[0] + q[1]))
+    double p[2] = {a[0], a[1]}, q[2] = {b[0], b[1]};
+    if (has_axes(plot) && (!isfinite(p[0] + p[1]) || !isfinite(q[0] + q[1]) ||
+                           !cut_axis(p, q, 0, box->x, box->x + box->width) ||
+                           !cut_axis(p, q, 1, box->y, box->y + box->height)))
         return;
-    if (cut_line(p, q, 0, box->x, box->x + box->width) &&
-        cut_line(p, q, 1, box->y, box->y + box->height))
-        paper_line(paper, p, q, width, colour);
+    paper_line(plot->paper, p, q, width, colour);
 }
 
-bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
+void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour)
 {
-    double at[2];
-    if (!(a[0] >= plot->x.low && a[0] <= plot->x.high && a[1] >= plot->y.low &&
-          a[1] <= plot->y.high))
-        return false;
-    plot_place(plot, a[0], a[1], at);
-    canvas_disc(&paper->canvas, at[0], at[1], radius * paper->unit, colour);
-    return true;
+    double p[2], q[2];
+    plot_place(plot, a, p);
+    plot_place(plot, b, q);
+    draw_line(plot, p, q, width, colour);
 }
 
-void plot_hollow(Paper *paper, const Plot *plot, const double *a, double radius,
-                 double inner, Colour colour)
+void plot_dashes(const Plot *plot, const double *a, const double *b,
+                 double width, double *phase, Colour colour)
 {
-    if (plot_disc(paper, plot, a, radius, colour))
-        plot_disc(paper, plot, a, inner, COLOUR_WHITE);
+    Paper *paper = plot->paper;
+    double p[2], q[2];
+    plot_place(plot, a, p);
+    plot_place(plot, b, q);
+    canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
+                  fmax(1, width * paper->unit), 5 * paper->unit,
+                  4 * paper->unit, phase, colour);
 }
 
 /* Moves the end of a line from p to q to the middle between two pixels of the
@@ -320,25 +306,125 @@ static void end_between_pixels(const double p[2], double q[2])
     q[k] = end;
 }
 
-void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
-                const double *y, double width, Colour colour)
+void plot_curve(const Plot *plot, int count, const double *x, const double *y,
+                double width, Colour colour)
 {
-    const Box *box = &plot->box;
     double p[2] = {NAN, NAN};
     for (int i = 0; i < count; i++) {
-        double q[2], a[2], b[2];
-        plot_place(plot, x[i], y[i], q);
-        bool joined = isfinite(p[0] + p[1]) && isfinite(q[0] + q[1]);
-        if (joined) {
+        double q[2];
+        plot_place(plot, (double[2]){x[i], y[i]}, q);
+        if (isfinite(p[0] + p[1]) && isfinite(q[0] + q[1])) {
             if (fabs(q[0] - p[0]) < 1 && fabs(q[1] - p[1]) < 1 && i + 1 < count)
                 continue; /* less than a pixel: wait for the next point */
             end_between_pixels(p, q);
-            memcpy(a, p, sizeof a);
-            memcpy(b, q, sizeof b);
-            if (cut_line(a, b, 0, box->x, box->x + box->width) &&
-                cut_line(a, b, 1, box->y, box->y + box->height))
-                paper_line(paper, a, b, width, colour);
+            draw_line(plot, p, q, width, colour);
         }
         memcpy(p, q, sizeof p);
     }
+}
+
+void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
+                const void *data, double width, Colour colour)
+{
+    double at[PLOT_POINTS + 1], value[PLOT_POINTS + 1], low = plot->x.low;
+    for (int i = 0; i <= PLOT_POINTS; i++) {
+        at[i] = low + (plot->x.high - low) * i / PLOT_POINTS;
+        value[i] = y(data, at[i]);
+    }
+    plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);
+}
+
+bool plot_disc(const Plot *plot, const double *at, double radius, Colour colour)
+{
+    double p[2];
+    if (has_axes(plot) && !(at[0] >= plot->x.low && at[0] <= plot->x.high &&
+                            at[1] >= plot->y.low && at[1] <= plot->y.high))
+        return false;
+    plot_place(plot, at, p);
+    canvas_disc(&plot->paper->canvas, p[0], p[1], radius * plot->paper->unit,
+                colour);
+    return true;
+}
+
+void plot_hollow(const Plot *plot, const double *at, double radius,
+                 double inner, Colour colour)
+{
+    if (plot_disc(plot, at, radius, colour))
+        plot_disc(plot, at, inner, COLOUR_WHITE);
+}
+
+void plot_ring(const Plot *plot, const double *at, double radius, double width,
+               Colour colour)
+{
+    double p[2], unit = plot->paper->unit;
+    plot_place(plot, at, p);
+    canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
+                fmax(1, width * unit), colour);
+}
+
+/* A dark square with a light middle. */
+void plot_pin(const Plot *plot, const double *at, double radius)
+{
+    Canvas *canvas = &plot->paper->canvas;
+    double p[2], size = fmax(radius, 3) * plot->paper->unit * 1.15;
+    plot_place(plot, at, p);
+    if (!(fabs(p[0]) < 1e6 && fabs(p[1]) < 1e6))
+        return;
+    Box box = {(int)floor(p[0] - size + 0.5), (int)floor(p[1] - size + 0.5),
+               (int)(2 * size + 0.5), (int)(2 * size + 0.5)};
+    canvas_rectangle(canvas, box.x, box.y, box.width, box.height, COLOUR_TEXT);
+    box = box_inset(box, (int)fmax(1, 0.45 * size));
+    canvas_rectangle(canvas, box.x, box.y, box.width, box.height, COLOUR_WHITE);
+}
+
+void plot_arrow(const Plot *plot, const double *a, const double *d,
+                double factor, double width, Colour colour)
+{
+    Paper *paper = plot->paper;
+    const double b[2] = {a[0] + factor * d[0], a[1] + factor * d[1]};
+    double p[2], q[2];
+    Box before = canvas_clip(&paper->canvas, plot->box);
+    plot_place(plot, a, p);
+    plot_place(plot, b, q);
+    canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
+                 fmax(1, width * paper->unit), HEAD * paper->em, colour);
+    canvas_clip(&paper->canvas, before);
+}
+
+/* The longest of d [2n], those that are not finite left out. */
+static double longest_arrow(int nodes, const double *d)
+{
+    double most = 0;
+    for (int i = 0; i < nodes; i++) {
+        double length = hypot(d[2 * i], d[2 * i + 1]);
+        if (isfinite(length) && length > most)
+            most = length;
+    }
+    return most;
+}
+
+double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
+                   const double *d, double part, double most, Colour colour)
+{
+    double scale = plot->camera.scale[0], factor = 1;
+    double length = longest_arrow(nodes, d) * scale;
+    double least = fmin(ARROW_LEAST * plot->em, 0.1 * most);
+    if (!(length > 0) || !isfinite(length))
+        return 0;
+    if (length < least)
+        factor = pow(10, ceil(log10(least / length)));
+    if (length > most)
+        factor = pow(10, -ceil(log10(length / most)));
+    for (int i = 0; i < nodes; i += stride)
+        if (hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
+            plot_arrow(plot, x + 2 * i, d + 2 * i, part * factor, 1.6, colour);
+    return factor;
+}
+
+void bounds_around(double reach, double most, double factor, double bounds[4])
+{
+    while (reach < most && reach < 1e100)
+        reach *= factor;
+    bounds[2] = bounds[3] = reach;
+    bounds[0] = bounds[1] = -reach;
 }

@@ -1,8 +1,16 @@
-/* plot.h - curves over axes with numbers, linear or logarithmic.
+/* plot.h - drawing in metres, or in the units of two axes.
+ *
+ * The stage of a pane is a plot whose axes have no numbers: both in metres, of
+ * one scale unless the picture is stretched.  So there is one line, one disc,
+ * one arrow, one word for all pictures and cards.  Points are [2] in the units
+ * of the axes; widths and radii in units of the paper, other sizes in ems.
+ * Where there are axes, lines are cut at their box and discs beyond it are
+ * left out; a stage is cut by its canvas.
  */
 #ifndef ELASTO_PLOT_H
 #define ELASTO_PLOT_H
 
+#include "picture/layout.h"
 #include "picture/paper.h"
 
 typedef struct Axis {
@@ -13,9 +21,21 @@ typedef struct Axis {
                           that of y in the upper right corner */
 } Axis;
 
+enum { PLOT_LINES = 64, PLOT_BOXES = 48 };
+
 typedef struct Plot {
-    Box box; /* the inner area, inside the numbers */
-    Axis x, y;
+    Paper *paper;  /* NULL: it only tells where things are */
+    Box box;       /* pixels; inside the numbers of the axes */
+    Camera camera; /* of the logarithm, where an axis is logarithmic */
+    Axis x, y;     /* 0 ... 0: a stage in metres */
+    int pane;      /* of a stage: index in the show */
+    bool text;     /* there is room for words */
+    double em;     /* pixels */
+    int flow[2];   /* pixels, where the next words of the legend go */
+    /* Pixels, what words keep off: lines x, y, x, y; boxes. */
+    int lines, boxes;
+    double line[PLOT_LINES][4];
+    Box taken[PLOT_BOXES];
 } Plot;
 
 /* The smallest 1, 2, 5 times a power of ten that is not below value > 0. */
@@ -25,45 +45,113 @@ double plot_round_up(double value);
  * a number. */
 double plot_round_axis(double value);
 
-/* Numbers on the left and below, light lines across. */
+/* Axes with numbers on the left and below, light lines across. */
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y);
 
-/* The same for a plot whose box is known. */
-void plot_axes(Paper *paper, const Plot *plot);
+/* Axes over a stage, drawn where there is room for words: what its camera sees
+ * of x and y, the powers of ten of a logarithmic one; where y.high is not 0,
+ * its own range.
+ *   room  ems left, left and right, above, above and below of the axes */
+typedef struct PlotRoom {
+    double left, wide, above, high;
+} PlotRoom;
+extern const PlotRoom plot_room;
+Plot plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+
+/* From now on y is in this part of the unit of its numbers: J, of kJ. */
+void plot_unit(Plot *plot, double unit);
 
 /* Where a point is drawn, pixels; not finite where it has no place. */
-void plot_place(const Plot *plot, double x, double y, double place[2]);
+void plot_place(const Plot *plot, const double *at, double pixel[2]);
 
-/* A line and a disc, as far as they are inside the axes.
- *   a, b           [2] in, in the units of the axes
- *   width, radius  units of the paper
- * The disc is left out where its centre is outside; returns whether it is
- * inside. */
-void plot_line(Paper *paper, const Plot *plot, const double *a, const double *b,
-               double width, Colour colour);
-bool plot_disc(Paper *paper, const Plot *plot, const double *a, double radius,
+/* ---- shapes ------------------------------------------------------------- */
+
+void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour);
 
-/* A ring: a disc with a white one inside. */
-void plot_hollow(Paper *paper, const Plot *plot, const double *a, double radius,
+/* phase: of the pattern, in/out, where several lines are one; NULL: begins */
+void plot_dashes(const Plot *plot, const double *a, const double *b,
+                 double width, double *phase, Colour colour);
+
+/* Joins points x, y [count] as one curve whose joints are no paler than the
+ * rest. */
+void plot_curve(const Plot *plot, int count, const double *x, const double *y,
+                double width, Colour colour);
+
+/* y(x) over the whole axis. */
+void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
+                const void *data, double width, Colour colour);
+
+/* The disc returns whether its centre is inside; hollow: one with a white disc
+ * inside. */
+bool plot_disc(const Plot *plot, const double *at, double radius,
+               Colour colour);
+void plot_hollow(const Plot *plot, const double *at, double radius,
                  double inner, Colour colour);
+void plot_ring(const Plot *plot, const double *at, double radius, double width,
+               Colour colour);
 
-/* Joins the points by lines, or as one curve whose joints are no paler than the
- * rest.  x, y [count] in. */
-static inline void plot_lines(Paper *paper, const Plot *plot, int count,
-                              const double *x, const double *y, double width,
-                              Colour colour)
-{
-    for (int i = 1; i < count; i++)
-        plot_line(paper, plot, (double[2]){x[i - 1], y[i - 1]},
-                  (double[2]){x[i], y[i]}, width, colour);
-}
+/* A node that never moves. */
+void plot_pin(const Plot *plot, const double *at, double radius);
 
-void plot_curve(Paper *paper, const Plot *plot, int count, const double *x,
-                const double *y, double width, Colour colour);
+/* From a to a + factor d. */
+void plot_arrow(const Plot *plot, const double *a, const double *d,
+                double factor, double width, Colour colour);
+
+/* Arrows of part times d [2n] at x [2n], every stride-th node.  A power of ten
+ * times as long as they are, so that the longest has between a tenth of `most`
+ * pixels and `most`, where that is not so by itself; returns that factor, 0 if
+ * there is nothing to draw. */
+double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
+                   const double *d, double part, double most, Colour colour);
+
+/* A square view around the middle, of at least so many metres, in which `most`
+ * fits; it grows by this factor, so that it does not move all the time. */
+void bounds_around(double reach, double most, double factor, double bounds[4]);
+
+/* ---- words (words.c) ---------------------------------------------------- */
+
+/* One line, made as printf does, so many ems right of and below a point. */
+void plot_text(const Plot *plot, const double *at, double right, double below,
+               double size, Align align, Face face, Colour colour,
+               const char *format, ...);
+
+/* Words in colours from the upper left corner to the right, on a second line
+ * if there is no room; the key stands behind an arrow so many ems long: what
+ * that length means. */
+void plot_legend(Plot *plot, Colour colour, const char *format, ...);
+void plot_key(Plot *plot, double length, Colour colour, const char *format,
+              ...);
+
+/* Lower left: a line as long as so many metres. */
+void plot_scale(const Plot *plot);
+
+/* A line, a disc, a box in pixels that words shall not cover; what there is no
+ * room for is left out. */
+void plot_keep_line(Plot *plot, const double *a, const double *b);
+void plot_keep_disc(Plot *plot, const double *at, double radius);
+void plot_keep_box(Plot *plot, Box box);
+
+/* Writes the words beside one of these points, `gap` ems from it, off all that
+ * is kept, on a ground of thin white, and keeps the later ones off them.
+ *   at  [points][2] in; the first ones are preferred */
+void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
+                double size, Face face, Colour colour, const char *words);
+
+/* A small card beside pixel (x, y), inside the stage, and beside the body where
+ * there is room.  Returns where its contents go.
+ *   body  what it should not cover, in; without width: nothing */
+Box plot_note(const Plot *plot, double x, double y, int width, int height,
+              Box body);
 
 /* "1e5" as people write it: 100000, 2.5e7, 0.003; in markup with a
- * superscript where it needs a power.  text [size] out. */
+ * superscript where it needs a power. */
+typedef struct Number {
+    char text[48];
+} Number;
+Number number_of(double value);
+
+/* The same into a text of this size. */
 void plot_number(char *text, size_t size, double value);
 
 /* The numbers in a text that printf made, written as people do: "1.5e-06" is

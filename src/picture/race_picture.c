@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -7,69 +6,45 @@
 #include "picture/handles.h"
 #include "scenes/small_scenes.h"
 
-/* The last point of a method; NULL: there is none. */
-static const RacePoint *race_last(const Race *race, int method)
-{
-    const RacePoint *last = NULL;
-    for (int i = method; i < race->count; i += RACE_METHODS)
-        if (race->point[i].error > 0)
-            last = &race->point[i];
-    return last;
-}
-
-/* The points of a method joined; words keep off the lines. */
-static void race_method_curve(Paper *paper, const Plot *plot, const Race *race,
-                              int method, Labels *labels)
+/* The points of a method joined, hollow where it explodes later; words keep
+ * off the lines.  Returns the last one; NULL: there is none. */
+static const RacePoint *draw_method(Plot *plot, const Race *race, int method)
 {
     Colour colour = colour_of_method(race_method(method)->name);
-    double before[2] = {NAN, NAN};
+    const RacePoint *last = NULL;
     for (int i = method; i < race->count; i += RACE_METHODS) {
         const RacePoint *point = &race->point[i];
         const double now[2] = {point->seconds, point->error};
-        double from[2], to[2];
         if (!(point->error > 0))
             continue;
-        if (isfinite(before[0])) {
-            plot_line(paper, plot, before, now, 2.2, colour);
-            plot_place(plot, before[0], before[1], from);
-            plot_place(plot, now[0], now[1], to);
-            labels_line(labels, from, to);
+        if (last) {
+            const double before[2] = {last->seconds, last->error};
+            plot_line(plot, before, now, 2.2, colour);
+            plot_keep_line(plot, before, now);
         }
-        plot_hollow(paper, plot, now, 5, point->stable ? 0 : 3, colour);
-        before[0] = now[0];
-        before[1] = now[1];
+        plot_hollow(plot, now, 5, point->stable ? 0 : 3, colour);
+        last = point;
     }
+    return last;
 }
 
 /* The names of the methods, each at its last point. */
-static void race_names(Paper *paper, const Plot *plot, const Race *race,
-                       Labels *labels)
-{
-    for (int i = 0; i < RACE_METHODS; i++) {
-        const RacePoint *last = race_last(race, i);
-        double at[2];
-        if (!last)
-            continue;
-        plot_place(plot, last->seconds, last->error, at);
-        labels_put(paper, labels, FACE_BOLD, 0.95,
-                   colour_of_method(race_method(i)->name),
-                   (const double(*)[2])at, 1, 0.6 * paper->em,
-                   race_method(i)->label);
-    }
-}
-
-static void race_draw(Paper *paper, const Stage *stage, const Show *show)
+static void race_draw(Plot *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
-    static const StageRoom room = {4, 5, 1.6, 3.6};
-    Plot plot = stage_plot(paper, stage, &room,
-                           (Axis){.log = true, .label = "run time in s"},
-                           (Axis){.log = true, .label = "error in m"});
-    Labels labels = {.stage = stage->box};
+    static const PlotRoom room = {4, 5, 1.6, 3.6};
+    const RacePoint *last[RACE_METHODS];
+    Plot plot =
+        plot_on(stage, &room, (Axis){.log = true, .label = "run time in s"},
+                (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)
-        race_method_curve(paper, &plot, &simulation->exhibit.race, i, &labels);
-    if (stage->text && !show->bare)
-        race_names(paper, &plot, &simulation->exhibit.race, &labels);
+        last[i] = draw_method(&plot, &simulation->exhibit.race, i);
+    for (int i = 0; i < RACE_METHODS && stage->text && !show->bare; i++)
+        if (last[i])
+            plot_words(
+                &plot, 1, &(const double[2]){last[i]->seconds, last[i]->error},
+                0.6, 0.95, FACE_BOLD, colour_of_method(race_method(i)->name),
+                race_method(i)->label);
 }
 
 static void race_draw_numbers(Paper *paper, Box inside, const Show *show)

@@ -7,6 +7,7 @@
 #include "picture/frame.h"
 #include "picture/handles.h"
 #include "picture/picture.h"
+#include "picture/plot.h"
 
 void show_create(const Simulation *simulation, Show *show)
 {
@@ -102,9 +103,11 @@ Pick show_pick(const Show *show, const Layout *layout, double x, double y)
     Pick none = {PICK_NONE, 0, 0, {0, 0}};
     if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
         return none;
-    Stage stage = {layout->pane[hit.index],
-                   show_camera(show, layout, hit.index), hit.index, true,
-                   layout->em};
+    Plot stage = {.box = layout->pane[hit.index],
+                  .camera = show_camera(show, layout, hit.index),
+                  .pane = hit.index,
+                  .text = true,
+                  .em = layout->em};
     const Picture *picture =
         picture_of(show->pane[hit.index].simulation->scene);
     Pick pick = {PICK_NONE, hit.index, 0, {0, 0}};

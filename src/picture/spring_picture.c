@@ -28,14 +28,15 @@ static SpringFacts facts_of(const Simulation *simulation)
 }
 
 /* A circle of this radius around the held end, in dashes. */
-static void spring_circle(Paper *paper, const Stage *stage, double radius,
-                          Colour colour, const char *word)
+static void spring_circle(Plot *stage, double radius, Colour colour,
+                          const char *word)
 {
+    Paper *paper = stage->paper;
     double phase = 0, last[2], at[2];
     for (int i = 0; i <= SPRING_CORNERS; i++) {
         double s = SPRING_TURN * i / SPRING_CORNERS;
         const double point[2] = {radius * cos(s), radius * sin(s)};
-        stage_pixel(stage, point, at);
+        plot_place(stage, point, at);
         if (i > 0)
             canvas_dashes(&paper->canvas, last[0], last[1], at[0], at[1],
                           1.4 * paper->unit, 7 * paper->unit, 5 * paper->unit,
@@ -44,15 +45,14 @@ static void spring_circle(Paper *paper, const Stage *stage, double radius,
         last[1] = at[1];
     }
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
-    stage_pixel(stage, label, at);
+    plot_place(stage, label, at);
     if (stage->text)
         paper_write(paper, FACE_REGULAR, 0.95, colour, at[0] - 0.4 * paper->em,
                     at[1] + 0.1 * paper->em, ALIGN_RIGHT, "%s", word);
 }
 
 /* A zigzag from the held end to x. */
-static void spring_coil(Paper *paper, const Stage *stage, const double *x,
-                        Colour colour)
+static void spring_coil(Plot *stage, const double *x, Colour colour)
 {
     double length = hypot(x[0], x[1]), from[2] = {0, 0};
     if (!(length > 0))
@@ -66,34 +66,33 @@ static void spring_coil(Paper *paper, const Stage *stage, const double *x,
                 : (i % 2 ? 0.06 : -0.06);
         const double to[2] = {t * x[0] + side * across[0],
                               t * x[1] + side * across[1]};
-        stage_line(paper, stage, from, to, 2.4, colour);
+        plot_line(stage, from, to, 2.4, colour);
         from[0] = to[0];
         from[1] = to[1];
     }
 }
 
 /* Shorter than at rest: projection changes its block. */
-static void spring_draw(Paper *paper, const Stage *stage, const Show *show)
+static void spring_draw(Plot *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const double *x = simulation->run[0].x, origin[2] = {0, 0};
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts facts = facts_of(simulation);
-    Legend legend = {0, 0};
     bool projects = facts.across < 0;
-    spring_circle(paper, stage, l, COLOUR_FAINT, "l");
-    spring_circle(paper, stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
-    spring_coil(paper, stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
-    stage_pin(paper, stage, origin, 6 * paper->unit);
-    stage_arrow(paper, stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
-    stage_disc(paper, stage, x, 9 * paper->unit, COLOUR_X);
+    spring_circle(stage, l, COLOUR_FAINT, "l");
+    spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
+    spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
+    plot_pin(stage, origin, 6);
+    plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
+    plot_disc(stage, x, 9, COLOUR_X);
     if (show->bare || !stage->text)
         return;
-    stage_legend(paper, stage, &legend, COLOUR_FORCE, "force");
-    stage_legend(paper, stage, &legend, COLOUR_FAINT, "rest length");
-    stage_legend(paper, stage, &legend, COLOUR_PROJECT,
-                 "shorter than l: it has an eigenvalue below 0");
-    stage_scale(paper, stage);
+    plot_legend(stage, COLOUR_FORCE, "force");
+    plot_legend(stage, COLOUR_FAINT, "rest length");
+    plot_legend(stage, COLOUR_PROJECT,
+                "shorter than l: it has an eigenvalue below 0");
+    plot_scale(stage);
 }
 
 /* ---- cards -------------------------------------------------------------- */
@@ -199,7 +198,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
             const double to[2] = {d[0],
                                   root ? facts.root_energy : facts.energy};
             if (i > 0 && (!root || simulation->exhibit.parts))
-                plot_line(paper, &plot, from[root], to, root ? 1.8 : 2.4,
+                plot_line(&plot, from[root], to, root ? 1.8 : 2.4,
                           root ? COLOUR_GHOST : COLOUR_X);
             from[root][0] = to[0];
             from[root][1] = to[1];
@@ -208,8 +207,8 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
     if (simulation->exhibit.parts)
-        plot_disc(paper, &plot, root, 5, COLOUR_GHOST);
-    plot_disc(paper, &plot, at, 6, COLOUR_TEXT);
+        plot_disc(&plot, root, 5, COLOUR_GHOST);
+    plot_disc(&plot, at, 6, COLOUR_TEXT);
 }
 
 static const Card card_spring_numbers = {

@@ -6,6 +6,7 @@
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"
 
+static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
@@ -75,7 +76,7 @@ void square_contact_forces(const SpringPen *pen, double most)
 {
     double scale = pen->stage->camera.scale[0], em = pen->paper->em;
     double factor = FORCE_ROOM * em / (plot_round_up(most) * scale);
-    double radius = fmax(pen->radius, 2 * pen->paper->unit);
+    double radius = fmax(pen->radius / pen->paper->unit, 2);
     if (!(most > 0))
         return;
     for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
@@ -83,13 +84,12 @@ void square_contact_forces(const SpringPen *pen, double most)
         const double tail[2] = {at[0] - factor * touch.force[0],
                                 at[1] - factor * touch.force[1]};
         if (hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
-            stage_arrow(pen->paper, pen->stage, tail, touch.force, factor, 1.8,
-                        COLOUR_FORCE);
-        if (touch.rough && touch.slides)
-            stage_ring(pen->paper, pen->stage, at, 1.6 * radius, 1.5,
+            plot_arrow(pen->stage, tail, touch.force, factor, 1.8,
                        COLOUR_FORCE);
+        if (touch.rough && touch.slides)
+            plot_ring(pen->stage, at, 1.6 * radius, 1.5, COLOUR_FORCE);
         else if (touch.rough)
-            stage_disc(pen->paper, pen->stage, at, 1.4 * radius, COLOUR_FORCE);
+            plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
     }
 }
 
@@ -99,11 +99,10 @@ void square_contact_legend(const SpringPen *pen, double most)
     if (!(most > 0))
         return;
     plot_number(number, sizeof number, plot_round_up(most));
-    stage_key(pen->paper, pen->stage, pen->legend, FORCE_ROOM, COLOUR_FORCE,
-              "contact force %s N", number);
+    plot_key(pen->stage, FORCE_ROOM, COLOUR_FORCE, "contact force %s N",
+             number);
     if (system_find_term(pen->system, &friction_energy))
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_FORCE,
-                     "\u25cf sticks   \u25cb slides");
+        plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
 /* Of a wall's surface, m upwards for each to the right. */
@@ -129,7 +128,7 @@ bool square_contact_words(const SpringPen *pen, char *text, size_t size)
 /* These words under the left end of that wall. */
 static void draw_words(const SpringPen *pen)
 {
-    const Stage *stage = pen->stage;
+    const Plot *stage = pen->stage;
     double em = pen->paper->em, left[2], at[2];
     char words[64];
     if (!square_contact_words(pen, words, sizeof words))
@@ -139,7 +138,7 @@ static void draw_words(const SpringPen *pen)
     camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);
     const double foot[2] = {left[0],
                             wall->o[1] + slope * (left[0] - wall->o[0])};
-    stage_pixel(stage, foot, at);
+    plot_place(stage, foot, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     if (low > 0) { /* further up along the wall */
         at[0] += low / fabs(slope);
@@ -149,12 +148,62 @@ static void draw_words(const SpringPen *pen)
                 at[1] + 1.5 * em, ALIGN_LEFT, "%s", words);
 }
 
+/* The half plane as two triangles that reach beyond the stage, or a slab. */
+static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
+                      bool thin)
+{
+    Paper *paper = stage->paper;
+    const Box *box = &stage->box;
+    const double *n = wall->n;
+    double middle[2], p[4][2];
+    camera_world(&stage->camera, box->x + 0.5 * box->width,
+                 box->y + 0.5 * box->height, middle);
+    double far = 2 * (box->width + box->height) / stage->camera.scale[0];
+    double t[2] = {n[1], -n[0]};
+    double along =
+        (middle[0] - wall->o[0]) * t[0] + (middle[1] - wall->o[1]) * t[1];
+    double foot[2] = {wall->o[0] + along * t[0], wall->o[1] + along * t[1]};
+    const double a[2] = {foot[0] - far * t[0], foot[1] - far * t[1]};
+    const double b[2] = {foot[0] + far * t[0], foot[1] + far * t[1]};
+    double deep = thin ? SLAB * paper->em / stage->camera.scale[0] : far;
+    const double c[2] = {b[0] - deep * n[0], b[1] - deep * n[1]};
+    const double d[2] = {a[0] - deep * n[0], a[1] - deep * n[1]};
+    plot_place(stage, a, p[0]);
+    plot_place(stage, b, p[1]);
+    plot_place(stage, c, p[2]);
+    plot_place(stage, d, p[3]);
+    for (int k = 0; k < 2; k++) {
+        const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
+                                   p[1 + k][1], p[2 + k][0], p[2 + k][1]};
+        canvas_triangle(&paper->canvas, corners, false, COLOUR_SOLID);
+    }
+    plot_line(stage, a, b, 1.5, COLOUR_EDGE);
+    const double a2[2] = {a[0] + reach * n[0], a[1] + reach * n[1]};
+    const double b2[2] = {b[0] + reach * n[0], b[1] + reach * n[1]};
+    if (reach * stage->camera.scale[0] > 2)
+        plot_dashes(stage, a2, b2, 1, NULL, COLOUR_GREY);
+}
+
 void square_contact_obstacles(const SpringPen *pen)
 {
+    const Plot *stage = pen->stage;
+    const Contact *contact = pen->contact;
     bool apart = pen->simulation->runs > 1;
-    if (!pen->contact)
-        return;
-    stage_obstacles(pen->paper, pen->stage, pen->contact, pen->x, apart);
-    if (apart && pen->stage->text)
+    double scale = stage->camera.scale[0] / pen->paper->unit;
+    double reach = contact ? contact->barrier.d_hat : 0;
+    for (int i = 0; contact && i < contact->obstacles; i++) {
+        const Obstacle *obstacle = &contact->obstacle[i];
+        const double *at = obstacle_point(obstacle, pen->x);
+        double radius = obstacle->radius * scale;
+        if (obstacle->kind == OBSTACLE_WALL) {
+            draw_wall(stage, obstacle, reach, apart);
+            continue;
+        }
+        plot_disc(stage, at, radius, COLOUR_SOLID);
+        plot_ring(stage, at, radius, 1.5, COLOUR_EDGE);
+        if (reach * stage->camera.scale[0] > 2)
+            plot_ring(stage, at, radius + reach * scale, 0.8, COLOUR_RULE);
+    }
+    if (contact && apart && stage->text)
         draw_words(pen);
 }

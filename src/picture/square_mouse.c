@@ -1,7 +1,7 @@
 /* square_mouse.c - what of the square is under the mouse. */
 #include <math.h>
 
-#include "picture/marks.h"
+#include "picture/plot.h"
 #include "picture/square_picture.h"
 #include "model/fracture.h"
 #include "scenes/scene.h"
@@ -33,7 +33,7 @@ static void pick_edge(const Show *show, const Simulation *simulation,
 }
 
 /* The nearest node, else the nearest spring, within reach of the mouse. */
-Pick square_pick(const Show *show, const Stage *stage, double x, double y)
+Pick square_pick(const Show *show, const Plot *stage, double x, double y)
 {
     const Pane *pane = &show->pane[stage->pane];
     const System *system = &pane->simulation->system;
@@ -44,7 +44,7 @@ Pick square_pick(const Show *show, const Stage *stage, double x, double y)
     camera_world(&stage->camera, x, y, pick.point);
     for (int i = 0; i < system->nodes; i++) {
         double p[2];
-        stage_pixel(stage, at + 2 * (size_t)i, p);
+        plot_place(stage, at + 2 * (size_t)i, p);
         double d2 = (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y);
         if (d2 < best) {
             best = d2;
@@ -57,8 +57,8 @@ Pick square_pick(const Show *show, const Stage *stage, double x, double y)
         double p[2], q[2];
         if (spring_is_broken(system, s))
             continue;
-        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s], p);
-        stage_pixel(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
+        plot_place(stage, at + 2 * (size_t)system->e[2 * s], p);
+        plot_place(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
         double d2 = distance2(p, q, x, y);
         if (d2 < best) {
             best = d2;

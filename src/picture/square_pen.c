@@ -71,9 +71,9 @@ static void set_looks(SpringPen *pen)
                      trace->projected != 0;
 }
 
-bool square_pens(Paper *paper, const Stage *stage, const Show *show,
-                 Legend *legend, SpringPen *pen)
+bool square_pens(Plot *stage, const Show *show, SpringPen *pen)
 {
+    Paper *paper = stage->paper;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
     int nodes = simulation->system.nodes;
@@ -89,8 +89,7 @@ bool square_pens(Paper *paper, const Stage *stage, const Show *show,
                              .run = r,
                              .system = simulation->run[r].system,
                              .x = r ? simulation->run[r].x : pane_x(pane),
-                             .at = at,
-                             .legend = legend};
+                             .at = at};
         camera_pixels(&stage->camera, nodes, pen[r].x, at);
         set_looks(&pen[r]);
     }
@@ -291,7 +290,8 @@ void square_pen_nodes(const SpringPen *pen)
                         pen->at[2 * (size_t)i + 1], radius, colour);
     for (int i = 0; system->pinned && i < system->nodes; i++)
         if (system->pinned[i])
-            stage_pin(pen->paper, pen->stage, pen->x + 2 * (size_t)i, radius);
+            plot_pin(pen->stage, pen->x + 2 * (size_t)i,
+                     radius / pen->paper->unit);
 }
 
 void square_outline(const SpringPen *pen, const double *x, bool dashed,
@@ -300,10 +300,9 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
     const SquareMesh *mesh = &pen->simulation->mesh;
     double unit = pen->paper->unit, width = fmax(1, 1.4 * unit), phase = 0;
     double p[2], q[2];
-    stage_pixel(pen->stage, x, p);
+    plot_place(pen->stage, x, p);
     for (int k = 1; k <= mesh->outline; k++) {
-        stage_pixel(pen->stage, x + 2 * (size_t)square_mesh_outline(mesh, k),
-                    q);
+        plot_place(pen->stage, x + 2 * (size_t)square_mesh_outline(mesh, k), q);
         if (dashed)
             canvas_dashes(&pen->paper->canvas, p[0], p[1], q[0], q[1], width,
                           6 * unit, 4 * unit, &phase, colour);
@@ -320,7 +319,7 @@ void square_ghost(const SpringPen *pen, const double *x, Colour colour)
     Colour faint = (colour & 0xffffff) | 0x50000000u;
     for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
          s++)
-        stage_line(pen->paper, pen->stage, x + 2 * (size_t)system->e[2 * s],
-                   x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
+        plot_line(pen->stage, x + 2 * (size_t)system->e[2 * s],
+                  x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
     square_outline(pen, x, true, colour);
 }

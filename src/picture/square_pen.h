@@ -6,13 +6,14 @@
 #define ELASTO_SQUARE_PEN_H
 
 #include "model/contact.h"
-#include "picture/marks.h"
+#include "picture/picture.h"
+#include "picture/plot.h"
 #include "scenes/simulation.h"
 
 /* One run of a pane, and what does not change from spring to spring. */
 typedef struct SpringPen {
     Paper *paper;
-    const Stage *stage;
+    Plot *stage;
     const Show *show;
     const Pane *pane;
     const Simulation *simulation;
@@ -29,13 +30,11 @@ typedef struct SpringPen {
     const double *ep;       /* [springs] of each; NULL: springs do not flow */
     const Contact *contact; /* NULL: there is nothing to touch */
     bool projected;         /* springs whose block was changed are lit */
-    Legend *legend;         /* where its next word goes */
 } SpringPen;
 
 /* A pen [runs] for each run of the stage's pane; false: not enough memory.  The
  * places of their nodes stand on the paper until the next call. */
-bool square_pens(Paper *paper, const Stage *stage, const Show *show,
-                 Legend *legend, SpringPen *pen);
+bool square_pens(Plot *stage, const Show *show, SpringPen *pen);
 
 /* All springs but the broken ones. */
 void square_pen_springs(const SpringPen *pen);

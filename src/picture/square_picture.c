@@ -9,7 +9,7 @@
 #include "picture/exhibits.h"
 #include "picture/hover.h"
 #include "model/fracture.h"
-#include "picture/marks.h"
+#include "picture/plot.h"
 #include "picture/square_pen.h"
 #include "scenes/scene.h"
 
@@ -117,29 +117,27 @@ static void draw_direction(const SpringPen *pen)
     double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
     double apart = ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
     char number[48];
-    double factor = stage_arrows(pen->paper, pen->stage, pen->system->nodes,
-                                 (int)fmax(apart, 1), pen->x, trace->p, grown,
-                                 0.5 * fmin(box->width, box->height), COLOUR_P);
+    double factor = plot_arrows(pen->stage, pen->system->nodes,
+                                (int)fmax(apart, 1), pen->x, trace->p, grown,
+                                0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0)
         return;
     plot_number(number, sizeof number, factor);
-    stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_P,
-                 "search direction p%s%s", factor == 1 ? "" : " \u00d7 ",
-                 factor == 1 ? "" : number);
+    plot_legend(pen->stage, COLOUR_P, "search direction p%s%s",
+                factor == 1 ? "" : " \u00d7 ", factor == 1 ? "" : number);
 }
 
 /* The start of the hand's spring, and the spring. */
 static void draw_hand(const SpringPen *pen)
 {
     const Hand *hand = &pen->show->hand;
-    const Stage *stage = pen->stage;
-    double unit = pen->paper->unit;
+    const Plot *stage = pen->stage;
     if (!hand->on || hand->pane != stage->pane)
         return;
     const double *node = pen->x + 2 * (size_t)hand->node;
-    stage_dashes(pen->paper, stage, node, hand->target, 2, COLOUR_HAND);
-    stage_ring(pen->paper, stage, node, pen->radius + 4 * unit, 2, COLOUR_HAND);
-    stage_disc(pen->paper, stage, hand->target, 4 * unit, COLOUR_HAND);
+    plot_dashes(stage, node, hand->target, 2, NULL, COLOUR_HAND);
+    plot_ring(stage, node, pen->radius / pen->paper->unit + 4, 2, COLOUR_HAND);
+    plot_disc(stage, hand->target, 4, COLOUR_HAND);
 }
 
 /* What the mouse is over. */
@@ -150,13 +148,12 @@ static void draw_hover(const SpringPen *pen)
     if (hover->pane != pen->stage->pane)
         return;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
-        stage_ring(pen->paper, pen->stage, pen->x + 2 * (size_t)hover->index,
-                   pen->radius + 4 * pen->paper->unit, 2, COLOUR_TEXT);
+        plot_ring(pen->stage, pen->x + 2 * (size_t)hover->index,
+                  pen->radius / pen->paper->unit + 4, 2, COLOUR_TEXT);
     if (hover->kind == PICK_SPRING && hover->index < system->springs)
-        stage_line(pen->paper, pen->stage,
-                   pen->x + 2 * (size_t)system->e[2 * hover->index],
-                   pen->x + 2 * (size_t)system->e[2 * hover->index + 1], 4.5,
-                   COLOUR_TEXT);
+        plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * hover->index],
+                  pen->x + 2 * (size_t)system->e[2 * hover->index + 1], 4.5,
+                  COLOUR_TEXT);
 }
 
 /* ---- all of it ---------------------------------------------------------- */
@@ -170,20 +167,17 @@ static int draw_ground(const SpringPen *pen)
     if (!has_frame(pen->simulation) && !pen->contact) {
         square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
         if (pen->stage->pane == 0)
-            stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GREY,
-                         "rest shape");
+            plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
     int folded =
         square_pen_cells(pen, pen->contact || fracture_of(pen->system));
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_GHOST, "%s",
-                     pane->ghost_label);
+        plot_legend(pen->stage, COLOUR_GHOST, "%s", pane->ghost_label);
     }
     if (trace && trace->x_tilde && trace->line) {
         square_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_X_TILDE,
-                     "{xt}, inertia alone");
+        plot_legend(pen->stage, COLOUR_X_TILDE, "{xt}, inertia alone");
     }
     return folded;
 }
@@ -196,14 +190,14 @@ static void draw_warnings(const SpringPen *pen, int folded)
         lost += !isfinite(pen->x[2 * (size_t)i]) ||
                 !isfinite(pen->x[2 * (size_t)i + 1]);
     if (lost == nodes)
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
-                     "no node has a place: beyond all numbers");
+        plot_legend(pen->stage, COLOUR_WARNING,
+                    "no node has a place: beyond all numbers");
     else if (lost > 0)
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
-                     "%d of %d nodes are beyond all numbers", lost, nodes);
+        plot_legend(pen->stage, COLOUR_WARNING,
+                    "%d of %d nodes are beyond all numbers", lost, nodes);
     if (folded > 0)
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
-                     "%d cell%s folded over", folded, folded == 1 ? "" : "s");
+        plot_legend(pen->stage, COLOUR_WARNING, "%d cell%s folded over", folded,
+                    folded == 1 ? "" : "s");
 }
 
 /* Above them. */
@@ -211,8 +205,7 @@ static void draw_signs(const SpringPen *pen)
 {
     const Trace *trace = pen->pane->trace;
     if (pen->projected)
-        stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_PROJECT,
-                     "projected spring");
+        plot_legend(pen->stage, COLOUR_PROJECT, "projected spring");
     if (trace && trace->p && trace->line >= LINE_SOLVE &&
         trace->line <= LINE_SEARCH)
         draw_direction(pen);
@@ -294,19 +287,18 @@ static void draw_tolerance(const SpringPen *pen)
     if (!simulation_is_loose(pen->simulation, &needed))
         return;
     plot_number(number, sizeof number, needed);
-    stage_legend(pen->paper, pen->stage, pen->legend, COLOUR_WARNING,
-                 "\u03b5 is loose: above %s m/s bodies may hang or freeze",
-                 number);
+    plot_legend(pen->stage, COLOUR_WARNING,
+                "\u03b5 is loose: above %s m/s bodies may hang or freeze",
+                number);
 }
 
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
-static void square_draw(Paper *paper, const Stage *stage, const Show *show)
+static void square_draw(Plot *stage, const Show *show)
 {
     SpringPen pen[SIMULATION_MAX_RUNS];
-    Legend legend = {0, 0};
     int folded = 0;
-    if (!square_pens(paper, stage, show, &legend, pen))
+    if (!square_pens(stage, show, pen))
         return;
     const System *system = pen->system;
     int runs = pen->simulation->runs;
@@ -334,7 +326,7 @@ static void square_draw(Paper *paper, const Stage *stage, const Show *show)
     if (show->numbers && system->nodes <= NUMBERED)
         draw_numbers(pen);
     draw_tolerance(pen);
-    stage_scale(paper, stage);
+    plot_scale(stage);
     if (pen->range > 0)
         draw_colour_bar(pen);
 }

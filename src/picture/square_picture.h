@@ -13,7 +13,7 @@
 extern const Picture square_picture;
 
 /* The node, spring or edge of the paused square under a pixel. */
-Pick square_pick(const Show *show, const Stage *stage, double x, double y);
+Pick square_pick(const Show *show, const Plot *stage, double x, double y);
 
 /* A range for the colours: half the strain of the start, at least 5 %. */
 double square_picture_strain_range(const Simulation *simulation);

@@ -11,7 +11,6 @@
 #include "test.h"
 
 #include "picture/colour_map.h"
-#include "picture/labels.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
 #include "scenes/options.h"
@@ -319,22 +318,22 @@ TEST(axes_name_their_values)
         bool up = rows[r].upright;
         assert_int_equal(paper_create(SIZE, SIZE, &paper), 0);
         assert_int_equal(paper_create(SIZE, SIZE, &one), 0);
-        const Plot plot = {{100, 100, 500, 500},
-                           up ? plain : rows[r].axis,
-                           up ? rows[r].axis : plain};
+        const Plot plot =
+            plot_create(&paper, (Box){50, 50, 600, 600},
+                        up ? plain : rows[r].axis, up ? rows[r].axis : plain);
+        const Box box = plot.box;
         int wide = paper_pixels(&paper, 1), lines = 0;
-        plot_axes(&paper, &plot);
+        int left = box.x - 5, low = box.y + box.height + 1;
         for (; !isnan(rows[r].value[count]); count++) {
-            char number[48];
             double place[2], value = rows[r].value[count];
-            plot_number(number, sizeof number, value);
             canvas_clear(&one.canvas, COLOUR_WHITE);
             paper_write(&one, FACE_REGULAR, 0.82, COLOUR_FAINT, 99, 99,
-                        ALIGN_LEFT, "%s", number);
-            plot_place(&plot, up ? 0 : value, up ? value : 0, place);
+                        ALIGN_LEFT, "%s", number_of(value).text);
+            plot_place(&plot, (double[2]){up ? 0.5 : value, up ? value : 0.5},
+                       place);
             int x = (int)place[0], y = (int)place[1];
-            Box there = up ? (Box){0, y - wide, 95, 2 * wide}
-                           : (Box){x - 2 * wide, 601, 4 * wide, 99};
+            Box there = up ? (Box){0, y - wide, left, 2 * wide}
+                           : (Box){x - 2 * wide, low, 4 * wide, SIZE - low};
             CHECK_NEAR(ink_in(&paper.canvas, there), ink(&one.canvas), 1e-9);
             sum += ink(&one.canvas);
             Colour line = paper.canvas.pixels[SIZE * y + 350];
@@ -343,7 +342,8 @@ TEST(axes_name_their_values)
         for (int y = 0; y < SIZE; y++)
             lines += paper.canvas.pixels[SIZE * y + 350] != COLOUR_WHITE;
         CHECK(!up || lines == count);
-        Box margin = up ? (Box){0, 0, 95, 600 + wide} : (Box){0, 601, SIZE, 99};
+        Box margin = up ? (Box){0, 0, left, low + wide}
+                        : (Box){0, low, SIZE, SIZE - low};
         CHECK_NEAR(ink_in(&paper.canvas, margin), sum, 1e-9);
         paper_free(&paper);
         paper_free(&one);
@@ -372,14 +372,8 @@ TEST(numbers_are_read)
                 {-INFINITY, "\u2212\u221e"},
                 {-NAN, "no number"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char text[48];
-        plot_number(text, sizeof text, rows[i].value);
-        assert_string_equal(text, rows[i].text);
+        assert_string_equal(number_of(rows[i].value).text, rows[i].text);
     }
-    char text[8];
-    plot_number(text, sizeof text, INFINITY); /* cut, but ended */
-    plot_number(text, sizeof text, 1.2345e-300);
-    CHECK(strlen(text) < sizeof text);
 }
 
 /* As printf writes them, then as people do. */
@@ -405,33 +399,47 @@ TEST(printed_numbers_become_markup)
     CHECK(strlen(small) < sizeof small);
 }
 
+/* A plot of 400 times 300 pixels whose unit is one, y up. */
+static Plot bare_plot(Paper *paper)
+{
+    assert_int_equal(paper_create(400, 300, paper), 0);
+    return (Plot){.paper = paper,
+                  .box = {0, 0, 400, 300},
+                  .camera = {{1, 1}, {0, 300}},
+                  .em = paper->em};
+}
+
+static void put_words(Plot *plot, const double at[2], const char *words)
+{
+    plot_words(plot, 1, (const double(*)[2])at, 1.5, 1, FACE_REGULAR,
+               COLOUR_TEXT, words);
+}
+
 /* Where words were put: the boxes after those that were there. */
 TEST(words_keep_off_lines_and_words)
 {
-    const double middle[1][2] = {{200, 150}}, far[1][2] = {{INFINITY, 0}};
-    const double up[2] = {200, 20}, right[2] = {390, 150};
-    Labels labels = {.stage = {0, 0, 400, 300}};
+    const double middle[2] = {200, 150}, far[2] = {INFINITY, 0};
+    const double up[2] = {200, 280}, right[2] = {390, 150};
     Paper paper;
-    assert_int_equal(paper_create(400, 300, &paper), 0);
-    labels_line(&labels, middle[0], up);
-    labels_line(&labels, middle[0], right);
-    labels_line(&labels, far[0], right); /* left out */
-    CHECK(labels.lines == 2);
-    labels_disc(&labels, middle[0], 8);
-    labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, far, 1, 10, "no");
-    CHECK(labels.boxes == 1); /* nothing can be beside it */
+    Plot plot = bare_plot(&paper);
+    plot_keep_line(&plot, middle, up);
+    plot_keep_line(&plot, middle, right);
+    plot_keep_line(&plot, far, right); /* left out */
+    CHECK(plot.lines == 2);
+    plot_keep_disc(&plot, middle, 8);
+    put_words(&plot, far, "no");
+    CHECK(plot.boxes == 1); /* nothing can be beside it */
     for (int i = 0; i < 4; i++)
-        labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, middle, 1, 20,
-                   "words");
-    CHECK(labels.boxes == 5);
-    for (int i = 1; i < labels.boxes; i++) {
-        Box a = labels.box[i];
+        put_words(&plot, middle, "words");
+    CHECK(plot.boxes == 5);
+    for (int i = 1; i < plot.boxes; i++) {
+        Box a = plot.taken[i];
         bool over = a.x < 200 && a.x + a.width > 200 && a.y < 150;
         bool beside = a.y < 150 && a.y + a.height > 150 && a.x + a.width > 200;
         CHECK(!over && !beside);
         CHECK(a.x >= 0 && a.x + a.width <= 400);
         for (int j = 0; j < i; j++) {
-            Box b = labels.box[j];
+            Box b = plot.taken[j];
             CHECK(a.x >= b.x + b.width || b.x >= a.x + a.width ||
                   a.y >= b.y + b.height || b.y >= a.y + a.height);
         }
@@ -443,33 +451,30 @@ TEST(words_keep_off_lines_and_words)
  * corner of something else costs less, a line that ends before them nothing. */
 TEST(words_stand_to_the_right)
 {
-    const double middle[1][2] = {{200, 150}};
-    const double far[2] = {390, 150}, near[2] = {330, 150};
-    Paper paper;
+    const double middle[2] = {200, 150}, far[2] = {390, 150};
+    const double near[2] = {330, 150};
     Box place = {0};
-    assert_int_equal(paper_create(400, 300, &paper), 0);
     for (int round = 0; round < 3; round++) {
-        Labels labels = {.stage = {0, 0, 400, 300}};
+        Paper paper;
+        Plot plot = bare_plot(&paper);
         if (round == 1)
-            labels_line(&labels, far, near);
+            plot_keep_line(&plot, far, near);
         if (round == 2)
-            labels_box(&labels, (Box){place.x + place.width - 2,
-                                      place.y + place.height - 2, 20, 20});
-        labels_put(&paper, &labels, FACE_REGULAR, 1, 0xff000000u, middle, 1, 20,
-                   "words");
-        Box at = labels.box[labels.boxes - 1];
+            plot_keep_box(&plot, (Box){place.x + place.width - 2,
+                                       place.y + place.height - 2, 20, 20});
+        put_words(&plot, middle, "words");
+        Box at = plot.taken[plot.boxes - 1];
         if (round == 0)
             place = at;
         CHECK(at.x == place.x && at.y == place.y);
+        plot_keep_disc(&plot, middle, 8);
+        Box disc = plot.taken[plot.boxes - 1];
+        CHECK(disc.x == 192 && disc.y == 142);
+        CHECK(disc.width == 16 && disc.height == 16);
+        paper_free(&paper);
     }
     CHECK(place.x >= 219 && place.x + place.width < near[0]);
     CHECK(place.width * place.height > 500); /* 4 pixels are little of it */
-    Labels labels = {.stage = {0, 0, 400, 300}};
-    labels_disc(&labels, middle[0], 8);
-    Box disc = labels.box[0];
-    CHECK(disc.x == 192 && disc.y == 142);
-    CHECK(disc.width == 16 && disc.height == 16);
-    paper_free(&paper);
 }
 
 /* Where there is nothing to rub on, there is no coefficient to change. */

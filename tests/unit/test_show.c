@@ -10,7 +10,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/picture.h"
-#include "picture/marks.h"
+#include "picture/plot.h"
 #include "picture/square_pen.h"
 #include "picture/square_picture.h"
 #include "scenes/scene.h"
@@ -556,7 +556,7 @@ TEST(contacts_slide_or_hold)
     stand_up("slope", 60);
     for (int r = 0; r < 3; r++) {
         const TimeIntegrator *run = &simulation.run[r];
-        Stage stage = {.box = {0, 0, 600, 600}, .em = 10};
+        Plot stage = {.paper = &paper, .box = {0, 0, 600, 600}, .em = 10};
         const double bounds[4] = {run->x[0] - 2, run->x[1] - 2, run->x[0] + 2,
                                   run->x[1] + 2};
         stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
@@ -572,7 +572,7 @@ TEST(contacts_slide_or_hold)
         for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
             double at[2];
             CHECK(touch.rough && touch.slides == (r < 2));
-            stage_pixel(&stage, run->x + 2 * touch.node, at);
+            plot_place(&stage, run->x + 2 * touch.node, at);
             lowest = fmax(lowest, at[1]);
         }
         char words[64], expected[64];
@@ -626,17 +626,35 @@ static struct Stroke {
 } plotted[4000];
 static int lines;
 
-void __real_plot_line(Paper *to, const Plot *plot, const double *a,
-                      const double *b, double width, Colour colour);
-void __wrap_plot_line(Paper *to, const Plot *plot, const double *a,
-                      const double *b, double width, Colour colour);
+void __real_plot_line(const Plot *plot, const double *a, const double *b,
+                      double width, Colour colour);
+void __wrap_plot_line(const Plot *plot, const double *a, const double *b,
+                      double width, Colour colour);
 
-void __wrap_plot_line(Paper *to, const Plot *plot, const double *a,
-                      const double *b, double width, Colour colour)
+void __wrap_plot_line(const Plot *plot, const double *a, const double *b,
+                      double width, Colour colour)
 {
     if (lines < 4000)
         plotted[lines++] = (struct Stroke){{a[0], a[1]}, {b[0], b[1]}, colour};
-    __real_plot_line(to, plot, a, b, width, colour);
+    __real_plot_line(plot, a, b, width, colour);
+}
+
+/* A graph as 300 lines. */
+void __real_plot_graph(const Plot *plot, double (*y)(const void *, double),
+                       const void *data, double width, Colour colour);
+void __wrap_plot_graph(const Plot *plot, double (*y)(const void *, double),
+                       const void *data, double width, Colour colour);
+
+void __wrap_plot_graph(const Plot *plot, double (*y)(const void *, double),
+                       const void *data, double width, Colour colour)
+{
+    double pace = (plot->x.high - plot->x.low) / 300;
+    for (int i = 0; i < 300 && lines < 4000; i++) {
+        double x = plot->x.low + i * pace;
+        plotted[lines++] = (struct Stroke){
+            {x, y(data, x)}, {x + pace, y(data, x + pace)}, colour};
+    }
+    __real_plot_graph(plot, y, data, width, colour);
 }
 
 /* The place of a text in the frame that is drawn now; fails where it is not. */
@@ -969,12 +987,11 @@ TEST(notes_stand_beside_the_body)
                                  {20, 20, 360, 200},
                                  {20, 180, 360, 200},
                                  {0, 0, 400, 400}};
-    Stage stage = {.box = {0, 0, 400, 400}, .em = 10};
+    Plot stage = {.paper = &paper, .box = {0, 0, 400, 400}, .em = 10};
     stand_up("square", 0);
     for (int i = 0; i < 5; i++) {
         Box body = bodies[i];
-        Box note = stage_note(&paper, &stage, body.x + 20, body.y + 20, 100,
-                              100, body);
+        Box note = plot_note(&stage, body.x + 20, body.y + 20, 100, 100, body);
         CHECK(boxes_meet(note, body) == (i == 4));
         CHECK(note.x > 0 && note.y > 0 && note.x + note.width < 400 &&
               note.y + note.height < 400);

@@ -80,8 +80,8 @@ static Plot keep_plot(Plot plot, int first)
 
 Plot __real_plot_create(Paper *paper, Box outer, Axis x, Axis y);
 Plot __wrap_plot_create(Paper *paper, Box outer, Axis x, Axis y);
-void __real_plot_axes(Paper *paper, const Plot *plot);
-void __wrap_plot_axes(Paper *paper, const Plot *plot);
+Plot __real_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+Plot __wrap_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
 
 Plot __wrap_plot_create(Paper *paper, Box outer, Axis x, Axis y)
 {
@@ -89,11 +89,12 @@ Plot __wrap_plot_create(Paper *paper, Box outer, Axis x, Axis y)
     return keep_plot(__real_plot_create(paper, outer, x, y), first);
 }
 
-void __wrap_plot_axes(Paper *paper, const Plot *plot)
+/* Where there is no room for words, axes have no numbers. */
+Plot __wrap_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y)
 {
     int first = count;
-    __real_plot_axes(paper, plot);
-    keep_plot(*plot, first);
+    Plot plot = __real_plot_on(stage, room, x, y);
+    return plot.text ? keep_plot(plot, first) : plot;
 }
 
 /* ---- JSON --------------------------------------------------------------- */

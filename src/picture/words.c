@@ -1,0 +1,345 @@
+/* Words of a plot: legend, scale, labels that keep off what is drawn, notes,
+ * and numbers as people write them. */
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+
+enum { WORDS_TEXT = 512 }; /* bytes of a text with numbers */
+
+static const double HEAD = 0.62;        /* ems, length of an arrow's head */
+static const double LEGEND_SIZE = 0.92; /* ems */
+static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
+static const double FARTHEST = 1e6;     /* pixels */
+static const double LINE_HEIGHT = 1.3;  /* ems of the words */
+/* What a place costs: for the whole of it on other words, for the part of its
+ * width that lines cross, outside of the stage, and for each place that would
+ * have been preferred. */
+static const double COST_WORDS = 10, COST_LINE = 4, COST_OUTSIDE = 30,
+                    COST_LATER = 0.08;
+
+/* ---- numbers ------------------------------------------------------------ */
+
+/* Three digits; a power of ten where there would be many zeros. */
+Number number_of(double value)
+{
+    Number out;
+    size_t size = sizeof out.text;
+    double most = fabs(value);
+    const char *sign = value < 0 ? "\u2212" : "";
+    if (!isfinite(value)) {
+        snprintf(out.text, size, "%s%s", sign,
+                 isnan(value) ? "no number" : "\u221e");
+    } else if (most >= 999.5 && most < 1e5) { /* with three digits: 1000 */
+        double digit = pow(10, floor(log10(most)) - 2);
+        snprintf(out.text, size, "%s%.0f", sign,
+                 floor(most / digit + 0.5) * digit);
+    } else if (most == 0 || (most >= 1e-3 && most < 1e5)) {
+        snprintf(out.text, size, "%s%.3g", sign, most);
+    } else {
+        char plain[16];
+        snprintf(plain, sizeof plain, "%.2e", most);
+        char *power = strchr(plain, 'e');
+        int exponent = (int)strtol(power + 1, NULL, 10);
+        *power = '\0';
+        double part = strtod(plain, NULL);
+        snprintf(plain, sizeof plain, "%g\u00b7", part);
+        snprintf(out.text, size, "%s%s10^{%s%d}", sign, part == 1 ? "" : plain,
+                 exponent < 0 ? "\u2212" : "", abs(exponent));
+    }
+    return out;
+}
+
+void plot_number(char *text, size_t size, double value)
+{
+    snprintf(text, size, "%s", number_of(value).text);
+}
+
+/* The part from e on of "1e-06" as markup; returns where it ends. */
+static const char *power_text(const char *power, bool one, char *text,
+                              size_t size)
+{
+    char *end;
+    long exponent = strtol(power + 1, &end, 10);
+    snprintf(text, size, "%s10^{%s%ld}", one ? "" : "\u00b7",
+             exponent < 0 ? "\u2212" : "", labs(exponent));
+    return end;
+}
+
+void plot_numbers(char *text, size_t size)
+{
+    char out[WORDS_TEXT] = "";
+    size_t used = 0;
+    const char *from = text;
+    bool word = false; /* within a word, digits are no number */
+    while (*from && used + 32 < sizeof out) {
+        bool minus = *from == '-' && !word && isdigit((unsigned char)from[1]);
+        const char *digits = from + minus;
+        size_t length = strspn(digits, "0123456789.");
+        if (word || length == 0) {
+            word = isalpha((unsigned char)*from) || (*from & 0x80) ||
+                   (word && isdigit((unsigned char)*from));
+            out[used++] = *from++;
+            continue;
+        }
+        const char *after = digits + length;
+        bool power = *after == 'e' && (after[1] == '-' || after[1] == '+') &&
+                     isdigit((unsigned char)after[2]);
+        bool one = power && length == 1 && *digits == '1';
+        if (length > 24)
+            break;
+        used += (size_t)snprintf(out + used, sizeof out - used, "%s%.*s",
+                                 minus ? "\u2212" : "", one ? 0 : (int)length,
+                                 digits);
+        if (power)
+            after = power_text(after, one, out + used, sizeof out - used);
+        used += strlen(out + used);
+        from = after;
+    }
+    out[used] = '\0';
+    snprintf(text, size, "%s", out);
+}
+
+/* ---- beside a point, in a row, at the edges ----------------------------- */
+
+void plot_text(const Plot *plot, const double *at, double right, double below,
+               double size, Align align, Face face, Colour colour,
+               const char *format, ...)
+{
+    Paper *paper = plot->paper;
+    char words[WORDS_TEXT];
+    double p[2];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    plot_place(plot, at, p);
+    paper_write(paper, face, size, colour, p[0] + right * paper->em,
+                p[1] + below * paper->em, align, "%s", words);
+}
+
+/* 1, 2 or 5 times a power of ten metres. */
+void plot_scale(const Plot *plot)
+{
+    Paper *paper = plot->paper;
+    const Box *box = &plot->box;
+    double scale = plot->camera.scale[0];
+    double metres = plot_round_up(SCALE_PART * box->width / scale / 2.5);
+    double length = metres * scale, x = box->x + paper->em;
+    double y = floor(box->y + box->height - 0.9 * paper->em) + 0.5;
+    const char *name = "m";
+    double shown = metres;
+    if (!(length > 4) || !isfinite(length) || length > 0.6 * box->width)
+        return;
+    if (metres >= 1000) {
+        name = "km";
+        shown = metres / 1000;
+    } else if (metres < 0.01) {
+        name = "mm";
+        shown = metres * 1000;
+    }
+    canvas_rectangle(&paper->canvas, (int)(x - 0.4 * paper->em),
+                     (int)(y - 1.4 * paper->em),
+                     (int)(length + 0.8 * paper->em), paper_pixels(paper, 1.8),
+                     COLOUR_PANEL);
+    canvas_line(&paper->canvas, x, y, x + length, y, fmax(1, 1.5 * paper->unit),
+                COLOUR_GREY);
+    for (int k = 0; k < 2; k++)
+        canvas_line(&paper->canvas, x + k * length, y - 0.25 * paper->em,
+                    x + k * length, y + 0.25 * paper->em,
+                    fmax(1, 1.5 * paper->unit), COLOUR_GREY);
+    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * length,
+                y - 1.4 * paper->em, ALIGN_CENTRE, "%s %s",
+                number_of(shown).text, name);
+}
+
+/* The next words of the legend after `before` pixels for a sign. */
+static void legend_words(Plot *plot, int before, Colour colour,
+                         const char *format, va_list arguments)
+{
+    Paper *paper = plot->paper;
+    char words[128];
+    vsnprintf(words, sizeof words, format, arguments);
+    int width = before + paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
+    int margin = paper_pixels(paper, 0.9);
+    if (plot->flow[0] > 0 &&
+        plot->flow[0] + width > plot->box.width - 2 * margin) {
+        plot->flow[0] = 0;
+        plot->flow[1] += paper_pixels(paper, 1.35);
+    }
+    double x = plot->box.x + margin + plot->flow[0];
+    double y = plot->box.y + 0.6 * paper->em + plot->flow[1];
+    int air = paper_pixels(paper, 0.3); /* the picture may reach up to here */
+    canvas_rectangle(&paper->canvas, (int)x - air, (int)y, width + 2 * air,
+                     paper_pixels(paper, 1.25), COLOUR_PANEL);
+    if (before > 0) {
+        double middle = y + 0.65 * LEGEND_SIZE * paper->em;
+        double length = before - 0.6 * paper->em;
+        canvas_arrow(&paper->canvas, x, middle, x + length, middle,
+                     fmax(1, 1.8 * paper->unit), HEAD * paper->em, colour);
+    }
+    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour, x + before, y,
+                ALIGN_LEFT, "%s", words);
+    plot->flow[0] += width + paper_pixels(paper, 1.6);
+}
+
+void plot_legend(Plot *plot, Colour colour, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    legend_words(plot, 0, colour, format, arguments);
+    va_end(arguments);
+}
+
+void plot_key(Plot *plot, double length, Colour colour, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    legend_words(plot, paper_pixels(plot->paper, length + 0.6), colour, format,
+                 arguments);
+    va_end(arguments);
+}
+
+Box plot_note(const Plot *plot, double x, double y, int width, int height,
+              Box body)
+{
+    Paper *paper = plot->paper;
+    const Box *box = &plot->box;
+    int margin = paper_pixels(paper, 0.7), apart = paper_pixels(paper, 1.1);
+    int right = box->x + box->width, low = box->y + box->height;
+    Box note = {(int)x + apart, (int)y + apart, width + 2 * margin,
+                height + 2 * margin};
+    if (note.x + note.width > right)
+        note.x = (int)x - apart - note.width;
+    if (body.width > 0) { /* right of it, left, below, above */
+        int beyond = body.x + body.width + apart, under = body.y + body.height;
+        if (beyond + note.width <= right)
+            note.x = beyond;
+        else if (body.x - apart - note.width >= box->x)
+            note.x = body.x - apart - note.width;
+        else if (under + apart + note.height <= low)
+            note.y = under + apart;
+        else if (body.y - apart - note.height >= box->y)
+            note.y = body.y - apart - note.height;
+    }
+    if (note.y + note.height > low)
+        note.y = low - note.height;
+    note.x = note.x < box->x ? box->x : note.x;
+    note.y = note.y < box->y ? box->y : note.y;
+    canvas_card(&paper->canvas, note, 0.4 * paper->em, COLOUR_NOTE,
+                COLOUR_GREY);
+    return box_inset(note, margin);
+}
+
+/* ---- off what is drawn -------------------------------------------------- */
+
+/* Whether a place can be counted in pixels. */
+static bool is_near(const double at[2])
+{
+    return fabs(at[0]) < FARTHEST && fabs(at[1]) < FARTHEST;
+}
+
+void plot_keep_line(Plot *plot, const double *a, const double *b)
+{
+    double *line = plot->line[plot->lines % PLOT_LINES];
+    if (plot->lines == PLOT_LINES)
+        return;
+    plot_place(plot, a, line);
+    plot_place(plot, b, line + 2);
+    plot->lines += is_near(line) && is_near(line + 2);
+}
+
+void plot_keep_box(Plot *plot, Box box)
+{
+    if (plot->boxes < PLOT_BOXES)
+        plot->taken[plot->boxes++] = box;
+}
+
+void plot_keep_disc(Plot *plot, const double *at, double radius)
+{
+    double p[2], r = radius * plot->paper->unit;
+    int size = (int)ceil(2 * r);
+    plot_place(plot, at, p);
+    if (is_near(p))
+        plot_keep_box(plot, (Box){(int)floor(p[0] - r), (int)floor(p[1] - r),
+                                  size, size});
+}
+
+/* The area that two boxes share. */
+static double shared_area(Box a, Box b)
+{
+    double wide = fmin(a.x + a.width, b.x + b.width) - fmax(a.x, b.x);
+    double high = fmin(a.y + a.height, b.y + b.height) - fmax(a.y, b.y);
+    return fmax(wide, 0) * fmax(high, 0);
+}
+
+/* The length of a line inside a box (Liang and Barsky 1984). */
+static double length_inside(Box box, const double line[4])
+{
+    double from = 0, to = 1;
+    const double low[2] = {box.x, box.y};
+    const double high[2] = {box.x + box.width, box.y + box.height};
+    for (int k = 0; k < 2; k++) {
+        double d = line[2 + k] - line[k];
+        if (d == 0) {
+            if (line[k] < low[k] || line[k] > high[k])
+                return 0;
+            continue;
+        }
+        double p = (low[k] - line[k]) / d, q = (high[k] - line[k]) / d;
+        from = fmax(from, fmin(p, q));
+        to = fmin(to, fmax(p, q));
+    }
+    return fmax(to - from, 0) * hypot(line[2] - line[0], line[3] - line[1]);
+}
+
+static double place_cost(const Plot *plot, Box place)
+{
+    double area = (double)place.width * place.height, cost = 0;
+    for (int i = 0; i < plot->boxes; i++)
+        cost += COST_WORDS * shared_area(place, plot->taken[i]) / area;
+    for (int i = 0; i < plot->lines; i++)
+        cost += COST_LINE * length_inside(place, plot->line[i]) / place.width;
+    return cost + COST_OUTSIDE * (1 - shared_area(place, plot->box) / area);
+}
+
+void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
+                double size, Face face, Colour colour, const char *words)
+{
+    Paper *paper = plot->paper;
+    /* right, left, below, above, then the corners */
+    static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                   {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    int wide = paper_width(paper, face, size, words);
+    int high = (int)ceil(LINE_HEIGHT * size * paper->em);
+    Box best = {0, 0, wide, high};
+    double least = INFINITY;
+    for (int i = 0; i < 8 * points; i++) {
+        const int *to = side[i % 8];
+        double p[2];
+        plot_place(plot, at[i / 8], p);
+        if (!is_near(p))
+            continue;
+        double apart = (i % 8 < 4 ? gap : 0.7 * gap) * paper->em;
+        Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
+                     (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
+                     wide, high};
+        double cost = place_cost(plot, place) + COST_LATER * i;
+        if (cost < least) {
+            least = cost;
+            best = place;
+        }
+    }
+    if (wide < 1 || !isfinite(least))
+        return;
+    canvas_rectangle(&paper->canvas, best.x - 1, best.y + high / 8, wide + 2,
+                     high - high / 4, COLOUR_PANEL);
+    paper_write(paper, face, size, colour, best.x, best.y, ALIGN_LEFT, "%s",
+                words);
+    plot_keep_box(plot, best);
+}
