@@ -13,16 +13,13 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 	$(call shown,LINK)
 	$(Q)$(LINK)
 
-# These need more than the demo has; make allocations fail; read what is drawn;
-# count CHOLMOD's calls.
+# These need more than the demo has; make allocations fail; read what is drawn.
 wrap = $(1:%=-Wl,--wrap=%)
-$(B)/tests/unit/test_orders: $(B)/bench/reference.o
+$(B)/tests/unit/test_integrators: $(B)/bench/reference.o
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
   -lsuitesparseconfig
 $(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line plot_graph)
-$(B)/tests/unit/test_explicit: LIBS += $(call wrap,cholmod_start \
-  cholmod_analyze cholmod_factorize)
 
 # What the frames say, and of which states, for checks/frame_numbers.py.
 $(B)/tests/unit/texts: LIBS += $(call wrap,text_draw paper_paragraph \
