@@ -279,8 +279,7 @@ static void make_all_tiny(Problem *problem, int trial)
         *entry(problem, i, i) = 1e-310;
 }
 
-/* What each kind says of each matrix, with panels of one to eight columns; and
- * the next one is solved again.  The
+/* What each kind says of each matrix; and the next one is solved again.  The
  * condition number is below 100, so 1e-13 leaves room for rounding and for
  * nothing else; refinement stops at a residual of 1e-15.  L D L^T steps over a
  * zero pivot, and the solution tells.  What is dropped lies behind the last
