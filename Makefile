@@ -155,22 +155,21 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 
 # ---- the lecture's listings -------------------------------------------------
 # The text of these sources is compiled into the program as a table of lines.
-LISTED = src/lecture.c src/scenes/descent.c src/scenes/mass_scenes.c \
-         src/scenes/dial_scene.c src/scenes/race_scene.c \
-         src/scenes/envelope_scene.c src/model/contact.c \
-         src/model/friction.c src/model/plasticity.c src/model/fracture.c
+PAGES = src/scenes/pages.txt
+LISTED = $(sort $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
 LISTED_TEXT = static const char *const text_$$n[] = {
 LISTED_ROW = {\"$$file\", sizeof text_$$n / sizeof *text_$$n, text_$$n},
 
-$(B)/listing_text.c: $(LISTED) Makefile
+$(B)/listing_text.c: $(LISTED) $(PAGES) src/scenes/pages.awk Makefile
 	$(call shown,WRITE)
-	$(Q){ echo '#include <stddef.h>'; echo '#include "scenes/listing.h"'; \
+	$(Q){ echo '#include "scenes/listing.h"'; echo '#include "scenes/pages.h"'; \
 	  n=0; for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_TEXT)"; \
 	  sed 's/[\\"]/\\&/g; s/.*/"&",/' $$file; echo '};'; done; \
 	  echo 'const Listing listings[] = {'; n=0; \
 	  for file in $(LISTED); do n=$$((n + 1)); echo "$(LISTED_ROW)"; done; \
-	  echo '{NULL, 0, NULL}};'; } >$@
+	  echo '{NULL, 0, NULL}};'; awk -f src/scenes/pages.awk $(PAGES); \
+	  } >$@.new && mv $@.new $@
 
 $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
 	$(call shown,CC)

@@ -1,8 +1,8 @@
 /* pages.h - the lecture, a page a row of a table, in the slides' order.
  *
- * A page is a scene with settings and what there is to say about it.  To add
- * one: a row in pages.c, and its claim's test in tests/unit/test_pages.c, which
- * reminds of it.
+ * A page is a scene with settings and what there is to say about it.  The
+ * table is made of src/scenes/pages.txt.  To add one: write it there, and its
+ * claim's test in tests/unit/test_pages.c, which reminds of it.
  */
 #ifndef ELASTO_PAGES_H
 #define ELASTO_PAGES_H

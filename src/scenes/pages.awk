@@ -1,0 +1,95 @@
+# pages.awk - pages.txt, which says how it is written, as rows of the table of
+# pages.h.
+
+function fail(line, why)
+{
+    print FILENAME ":" line ": " why > "/dev/stderr"
+    failed = 1
+    exit 1
+}
+
+function quoted(text)
+{
+    gsub(/[\\"]/, "\\\\&", text)
+    gsub(/~/, "\302\240", text)
+    return "\"" text "\""
+}
+
+# The lines of one word, put together in text, as fields of the row.
+function put_word(    part)
+{
+    if (word in texts)
+        print "." texts[word] " = " quoted(text) ","
+    else if (word in numbers && text ~ /^[0-9.]+$/)
+        print "." word " = " text ","
+    else if (word in switches && text == "")
+        print "." word " = true,"
+    else if (word == "film" && split(text, part, " ") <= 2)
+        print ".film = " part[1] ", .every = " (part[2] + 0) ","
+    else if (word == "code" && split(text, part, " ") >= 3)
+        print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
+              ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) ","
+    else if (word != "")
+        fail(begins, "'" word " " text "' is nothing that a page has")
+    had[word] = 1
+    word = ""
+}
+
+function end_page(    i)
+{
+    put_word()
+    for (i in needed)
+        if (page && !(needed[i] in had))
+            fail(page, "the page has no " needed[i])
+    if (page)
+        print "},"
+    split("", had)
+}
+
+BEGIN {
+    split("text run cards look try code claim", needed)
+    texts["text"] = "text"
+    texts["run"] = "line"
+    texts["open"] = "open"
+    texts["cards"] = "cards"
+    texts["look"] = "look"
+    texts["try"] = "touch"
+    texts["claim"] = "claim"
+    numbers["lines"] numbers["speed"] numbers["flips"]
+    switches["plays"] switches["numbers"] switches["predict"]
+    print "const LecturePage lecture_pages[] = {"
+}
+
+/^#/ || /^$/ { next }
+
+/^  / {
+    if (word == "")
+        fail(NR, "nothing goes on here")
+    text = text " " substr($0, 3)
+    next
+}
+
+/^== [a-z0-9]+: ./ {
+    end_page()
+    page = NR
+    colon = index($0, ":")
+    print "{.name = " quoted(substr($0, 4, colon - 4)) ","
+    print ".topic = " quoted(substr($0, colon + 2)) ","
+    next
+}
+
+{
+    if (!page)
+        fail(NR, "no page has begun")
+    put_word()
+    begins = NR
+    word = $1
+    text = substr($0, length(word) + 2)
+}
+
+END {
+    if (!failed)
+        end_page()
+    if (!failed)
+        print "{.name = NULL}};"
+}
