@@ -40,12 +40,6 @@ enum { CELL_ENTRIES = 21 };
 
 /* ---- the term -------------------------------------------------------- */
 
-/* A triangle that is, or may come, below J_hat along the present direction. */
-typedef struct LiveCorner {
-    int triangle;
-    double J1, J2;
-} LiveCorner;
-
 /* The term's data. */
 typedef struct Cells {
     int triangles;
@@ -53,8 +47,6 @@ typedef struct Cells {
     int *spring; /* [3 triangles] its sides; it breaks with any of them */
     double area; /* m^2, A0 of all */
     double c;    /* J, A0 k_c */
-    int live;
-    LiveCorner *corner; /* [triangles] room */
 } Cells;
 
 /* sum of W over the triangles whose springs are whole; data: Cells. */

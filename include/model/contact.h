@@ -87,8 +87,6 @@ typedef struct Contact {
     int obstacles;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
     int ball; /* the obstacle whose centre is a node, at most one; -1 */
-    int live; /* pairs that the present direction may bring within */
-    ContactPair *pair; /* d_hat, [nodes obstacles] room */
 } Contact;
 
 /* sum of W over all pairs of nodes and obstacles; data: Contact. */
@@ -115,12 +113,17 @@ double contact_node_radius(const Contact *contact, int node);
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
-/* For terms that act on pairs (contact and friction): the functions entries and
- * pattern, and how a pair's block [[H, -H], [-H, H]], or H alone for an
- * obstacle that is no node, is added (TermKind's hessian). */
+/* For terms that act on pairs (contact and friction): the next pair within
+ * d_hat at x after *pair, which starts at {-1, 0}, and its gap; the functions
+ * entries and pattern; and how the block [[H, -H], [-H, H]] of node e[0] and
+ * the free ball e[1], or H alone where that is -1, is added (TermKind's
+ * hessian).
+ */
+bool contact_next(const Contact *contact, const System *system, const double *x,
+                  ContactPair *pair, Gap *gap);
 long long contact_entries(const Place *at);
 void contact_pattern(const Place *at, Triplets *triplets);
-void contact_add_block(const Contact *contact, ContactPair pair,
+void contact_add_block(const Contact *contact, const int e[2],
                        const double H[3], const int *slot, const double *q,
                        double *out);
 

@@ -36,7 +36,4 @@ Fracture *fracture_of(const System *system);
 /* The strain at which spring s breaks. */
 double fracture_strength(const Fracture *fracture, int s);
 
-/* Whether spring s is broken, or was cut before the start. */
-bool spring_is_broken(const System *system, int s);
-
 #endif

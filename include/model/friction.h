@@ -28,7 +28,7 @@ double friction_remainder(double y, double t, double e);
 
 /* One contact in this step. */
 typedef struct Slide {
-    ContactPair pair;
+    int e[2];      /* the node, and the free ball or -1 */
     double t[2];   /* unit tangent at x_n */
     double weight; /* mu lambda, N */
     double carry;  /* h t.v_wall, m: how far the obstacle goes along t */

@@ -62,6 +62,18 @@ long long mass_spring_entries(const Place *at);
 void mass_spring_pattern(const Place *at, Triplets *triplets);
 void mass_spring_bounds(const Place *at, double *stiffest, double *force);
 
+/* g += factor d at node e[0] and minus that at node e[1]; e[1] < 0: there is
+ * none. */
+static inline void spring_add_force(const int e[2], double factor,
+                                    const double d[2], double *g)
+{
+    for (int c = 0; c < 2; c++) {
+        g[2 * e[0] + c] += factor * d[c];
+        if (e[1] >= 0)
+            g[2 * e[1] + c] -= factor * d[c];
+    }
+}
+
 /* The block [[H, -H], [-H, H]] of the nodes e[0] and e[1], number `spring` of
  * such blocks: added to a matrix through its slots, or, where q is given,
  * out += block q (TermKind's hessian). */

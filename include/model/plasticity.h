@@ -39,20 +39,12 @@ double spring_law_flow(SpringLaw law, double e);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* A spring that may flow along the present direction. */
-typedef struct LiveSpring {
-    int spring;
-    double B, C; /* its strain becomes E + alpha B + alpha^2 C */
-} LiveSpring;
-
 /* The term's data. */
 typedef struct Plasticity {
     double yield;     /* Y > 0 */
     double hardening; /* H >= 0 */
     double *ep;       /* [springs] plastic strain */
     double *kappa;    /* [springs] sum of its changes' sizes */
-    int live;
-    LiveSpring *spring; /* [springs] room */
 } Plasticity;
 
 /* sum of W over the springs, in the place of mass_spring_energy; data:

@@ -48,6 +48,12 @@ struct System {
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
+/* Whether spring s is broken, or was cut before the start. */
+static inline bool spring_is_broken(const System *system, int s)
+{
+    return system->k[s] == 0;
+}
+
 /* After numbers were changed; with `pattern` also pins, or which nodes a term
  * is about. */
 void system_changed(System *system, bool pattern);
@@ -58,8 +64,8 @@ Status system_create_pins(System *system);
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);
 
-/* Appends a term, which from now on owns data if its kind has a free function;
- * after a failure data is freed.  Returns OK, TOO_LARGE (the list is full). */
+/* Appends a term, which from now on owns data, one piece of malloc or NULL;
+ * after a failure it is freed.  Returns OK, TOO_LARGE (the list is full). */
 Status system_add_term(System *system, const TermKind *kind, void *data);
 
 /* The same at this place of the list, 0 ... terms: sums and steps' ends keep
@@ -67,8 +73,9 @@ Status system_add_term(System *system, const TermKind *kind, void *data);
 Status system_insert_term(System *system, int place, const TermKind *kind,
                           void *data);
 
-/* The first term of this kind, or NULL. */
+/* The first term of this kind, and its data, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);
+void *system_data(const System *system, const TermKind *kind);
 
 /* Takes it out of the list and frees its data; nothing where there is none. */
 void system_remove_term(System *system, const TermKind *kind);

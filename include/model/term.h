@@ -77,13 +77,12 @@ struct TermKind {
     /* What w P(x + alpha p) is along a line, without its terms of degree 0 and
      * 1: the slope of all terms together is g.p.
      *   along      adds the exact coefficients of alpha^2, alpha^3, alpha^4 to
-     *              q [3].  A term that is no polynomial adds here the part of
-     *              it that is one, and may note (behind its data pointer) what
-     *              is live for 0 < alpha <= reach.
+     *              q [3]: of a term that is no polynomial, of the part that is
+     *              one.  NULL: no part is.
      *   remainder  the rest, where there is one: w [P(x + alpha p) - P(x)
      *              - alpha grad P.p] without cancellation, minus what along
      *              gave; asked once for each trial.  NULL: a polynomial. */
-    void (*along)(const Place *at, const double *p, double reach, double q[3]);
+    void (*along)(const Place *at, const double *p, double q[3]);
     double (*remainder)(const Place *at, const double *p, double alpha);
 
     /* The largest alpha that p may be followed, > 0 (contact, cells); NULL:
@@ -117,8 +116,6 @@ struct TermKind {
      * up everywhere. */
     void (*concave)(const Place *at, double *sum);
 
-    void (*free)(void *data); /* NULL: the term does not own its data */
-
     bool diagonal;    /* quadratic, and each coordinate stands alone */
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
@@ -127,7 +124,7 @@ struct TermKind {
 
 struct Term {
     const TermKind *kind;
-    void *data; /* the kind's own arrays */
+    void *data; /* the kind's own numbers and arrays, in one piece of malloc */
 };
 
 /* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal

@@ -78,8 +78,8 @@ typedef struct Along {
     bool rough; /* a term has a remainder, or does not allow every place */
 } Along;
 
-/* For alpha in 0 ... reach; at->u, x, g, p in. */
-Along incremental_potential_along(const Iterate *at, double reach);
+/* at->u, x, g, p in. */
+Along incremental_potential_along(const Iterate *at);
 
 /* The difference at alpha, as line_search_backtrack calls it. */
 double along_difference(const void *along, double alpha);

@@ -57,11 +57,10 @@ static void gradient(const Place *at, double *g)
         double k = at->w * a.k;
         double along_d = k * (2 * a.s + a.B + 2 * a.C / 3);
         double along_delta = k * (a.s + 2 * a.B / 3 + 0.5 * a.C);
-        for (int c = 0; c < 2; c++) {
-            double f = along_d * a.d[c] + along_delta * a.delta[c];
-            g[2 * a.e[0] + c] += f;
-            g[2 * a.e[1] + c] -= f;
-        }
+        double f[2];
+        for (int c = 0; c < 2; c++)
+            f[c] = along_d * a.d[c] + along_delta * a.delta[c];
+        spring_add_force(a.e, 1, f, g);
     }
 }
 
@@ -92,9 +91,8 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 
 /* Along p: B + alpha b, C + alpha c1 + alpha^2 c2 with b = 2 d.q/l2,
  * c1 = 2 delta.q/l2, c2 = |q|^2/l2, q = p_i - p_j, put into Phi. */
-static void along(const Place *at, const double *p, double reach, double q[3])
+static void along(const Place *at, const double *p, double q[3])
 {
-    (void)reach;
     for (int i = 0; i < at->system->springs; i++) {
         AverageSpring a = average_spring(at, i);
         const double *pi = p + 2 * a.e[0], *pj = p + 2 * a.e[1];

@@ -312,32 +312,16 @@ static double reach(const Place *at, const double *p)
     return smallest;
 }
 
-/* Notes the triangles that may be below J_hat on the way. */
-static void along(const Place *at, const double *p, double reach, double q[3])
-{
-    Cells *cells = at->term->data;
-    double J1, J2;
-    (void)q;
-    cells->live = 0;
-    for (int t = 0; t < cells->triangles; t++) {
-        Corner corner = corner_at(cells, at->x, t);
-        motion(cells, &corner, p, t, &J1, &J2);
-        double lowest = corner.J - reach * fabs(J1) - reach * reach * fabs(J2);
-        if (lowest < CELL_J_HAT && is_whole(cells, at->system, t))
-            cells->corner[cells->live++] = (LiveCorner){t, J1, J2};
-    }
-}
-
 static double remainder_along(const Place *at, const double *p, double alpha)
 {
     const Cells *cells = at->term->data;
-    double sum = 0;
-    (void)p;
-    for (int k = 0; k < cells->live; k++) {
-        const LiveCorner *live = &cells->corner[k];
-        Corner corner = corner_at(cells, at->x, live->triangle);
-        sum +=
-            cell_remainder(&corner, alpha * live->J1, alpha * alpha * live->J2);
+    double sum = 0, J1, J2;
+    for (int t = 0; t < cells->triangles; t++) {
+        Corner corner = corner_at(cells, at->x, t);
+        motion(cells, &corner, p, t, &J1, &J2);
+        double rest = cell_remainder(&corner, alpha * J1, alpha * alpha * J2);
+        if (rest != 0 && is_whole(cells, at->system, t))
+            sum += rest;
     }
     return at->w * sum;
 }
@@ -378,15 +362,6 @@ static void concave(const Place *at, double *sum)
     }
 }
 
-static void free_cells(void *data)
-{
-    Cells *cells = data;
-    free(cells->node);
-    free(cells->spring);
-    free(cells->corner);
-    free(cells);
-}
-
 const TermKind cell_energy = {
     .energy = "contact",
     .valid = valid,
@@ -395,33 +370,26 @@ const TermKind cell_energy = {
     .entries = entries,
     .pattern = pattern,
     .hessian = hessian,
-    .along = along,
     .remainder = remainder_along,
     .reach = reach,
     .allowed = allowed,
     .bounds = bounds,
     .concave = concave,
-    .free = free_cells,
     .internal = true,
     .end_of_step = true,
 };
 
 Status cells_add(System *system, const SquareMesh *shape, double stiffness)
 {
-    size_t triangles = 4 * (size_t)shape->cells;
-    Cells *cells = calloc(1, sizeof *cells);
+    size_t numbers = 3 * 4 * (size_t)shape->cells;
+    Cells *cells = calloc(1, sizeof *cells + 2 * numbers * sizeof(int));
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
-    cells->triangles = (int)triangles;
+    cells->triangles = 4 * shape->cells;
     cells->area = 0.5 * shape->spacing * shape->spacing;
     cells->c = cells->area * stiffness;
-    cells->node = calloc(3 * triangles, sizeof *cells->node);
-    cells->spring = calloc(3 * triangles, sizeof *cells->spring);
-    cells->corner = calloc(triangles, sizeof *cells->corner);
-    if (!cells->node || !cells->spring || !cells->corner) {
-        free_cells(cells);
-        return STATUS_OUT_OF_MEMORY;
-    }
+    cells->node = (int *)(cells + 1);
+    cells->spring = cells->node + numbers;
     for (int t = 0; t < cells->triangles; t++)
         square_mesh_triangle(shape, t, cells->node + 3 * t,
                              cells->spring + 3 * t);

@@ -105,8 +105,7 @@ static double contact_remainder(const Barrier *barrier, const Gap *gap,
 
 Contact *contact_of(const System *system)
 {
-    Term *term = system_find_term(system, &contact_energy);
-    return term ? term->data : NULL;
+    return system_data(system, &contact_energy);
 }
 
 static bool is_pinned(const System *system, int i)
@@ -139,7 +138,7 @@ Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                        contact_node_radius(contact, node));
 }
 
-/* The next pair after *pair, which starts at {-1, 0}: node by node. */
+/* Node by node. */
 static bool next_pair(const Contact *contact, const System *system,
                       ContactPair *pair)
 {
@@ -154,12 +153,11 @@ static bool next_pair(const Contact *contact, const System *system,
     return true;
 }
 
-/* The next pair within d_hat at x, and its gap. */
-static bool next_touching(const Contact *contact, const Place *at,
-                          ContactPair *pair, Gap *gap)
+bool contact_next(const Contact *contact, const System *system, const double *x,
+                  ContactPair *pair, Gap *gap)
 {
-    while (next_pair(contact, at->system, pair)) {
-        *gap = contact_pair_gap(contact, at->x, pair->node, pair->obstacle);
+    while (next_pair(contact, system, pair)) {
+        *gap = contact_pair_gap(contact, x, pair->node, pair->obstacle);
         if (gap->d < contact->barrier.d_hat)
             return true;
     }
@@ -190,7 +188,8 @@ static double value(const Place *at)
     const Contact *contact = at->term->data;
     double sum = 0;
     Gap gap;
-    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);)
+    for (ContactPair pair = {-1, 0};
+         contact_next(contact, at->system, at->x, &pair, &gap);)
         sum += contact_value(&contact->barrier, &gap);
     return sum;
 }
@@ -200,14 +199,11 @@ static void gradient(const Place *at, double *g)
 {
     const Contact *contact = at->term->data;
     Gap gap;
-    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
-        double force = at->w * contact_force(&contact->barrier, &gap);
-        int ball = contact->obstacle[pair.obstacle].node;
-        for (int c = 0; c < 2; c++) {
-            g[2 * pair.node + c] -= force * gap.n[c];
-            if (ball >= 0)
-                g[2 * ball + c] += force * gap.n[c];
-        }
+    for (ContactPair pair = {-1, 0};
+         contact_next(contact, at->system, at->x, &pair, &gap);) {
+        const int e[2] = {pair.node, contact->obstacle[pair.obstacle].node};
+        spring_add_force(e, -at->w * contact_force(&contact->barrier, &gap),
+                         gap.n, g);
     }
 }
 
@@ -243,19 +239,18 @@ void contact_pattern(const Place *at, Triplets *triplets)
     }
 }
 
-void contact_add_block(const Contact *contact, ContactPair pair,
+void contact_add_block(const Contact *contact, const int e[2],
                        const double H[3], const int *slot, const double *q,
                        double *out)
 {
-    int i = 2 * pair.node, ball = contact->obstacle[pair.obstacle].node;
-    if (ball >= 0) {
-        int both[2] = {pair.node, ball};
-        mass_spring_add(H, both, pair.node, slot, q, out);
+    int i = 2 * e[0];
+    if (e[1] >= 0) {
+        mass_spring_add(H, e, e[0], slot, q, out);
     } else if (q) {
         out[i] += H[0] * q[i] + H[1] * q[i + 1];
         out[i + 1] += H[1] * q[i] + H[2] * q[i + 1];
     } else {
-        slot += entries_of_a_node(contact) * pair.node;
+        slot += entries_of_a_node(contact) * e[0];
         for (int t = 0; t < DIAGONAL_ENTRIES; t++)
             out[slot[t]] += H[t];
     }
@@ -267,25 +262,26 @@ static int hessian(const Place *at, Filter filter, const int *slot,
     const Contact *contact = at->term->data;
     int projected = 0;
     Gap gap;
-    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+    for (ContactPair pair = {-1, 0};
+         contact_next(contact, at->system, at->x, &pair, &gap);) {
+        const int e[2] = {pair.node, contact->obstacle[pair.obstacle].node};
         double H[3];
         projected += contact_hessian(&contact->barrier, &gap, filter, H);
         for (int t = 0; t < 3; t++)
             H[t] *= at->w;
-        contact_add_block(contact, pair, H, slot, q, out);
+        contact_add_block(contact, e, H, slot, q, out);
     }
     return projected;
 }
 
-/* P = scale times p of the node minus p of the free ball; returns |P|. */
-static double pair_motion(const Contact *contact, ContactPair pair,
-                          const double *p, double scale, double P[2])
+/* P = scale times p of the node minus p of the free ball. */
+static void pair_motion(const Contact *contact, ContactPair pair,
+                        const double *p, double scale, double P[2])
 {
     int ball = contact->obstacle[pair.obstacle].node;
     for (int c = 0; c < 2; c++)
         P[c] =
             scale * (p[2 * pair.node + c] - (ball < 0 ? 0 : p[2 * ball + c]));
-    return math_hypot(P[0], P[1]);
 }
 
 static double reach(const Place *at, const double *p)
@@ -301,28 +297,12 @@ static double reach(const Place *at, const double *p)
     return smallest;
 }
 
-/* Notes the pairs that may be within d_hat on the way. */
-static void along(const Place *at, const double *p, double reach, double q[3])
-{
-    Contact *contact = at->term->data;
-    (void)q;
-    contact->live = 0;
-    for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
-        double P[2];
-        Gap gap = contact_pair_gap(contact, at->x, pair.node, pair.obstacle);
-        if (gap.d - pair_motion(contact, pair, p, reach, P) <
-            contact->barrier.d_hat)
-            contact->pair[contact->live++] = pair;
-    }
-}
-
 static double remainder_along(const Place *at, const double *p, double alpha)
 {
     const Contact *contact = at->term->data;
     double sum = 0;
-    for (int k = 0; k < contact->live; k++) {
+    for (ContactPair pair = {-1, 0}; next_pair(contact, at->system, &pair);) {
         double P[2];
-        ContactPair pair = contact->pair[k];
         Gap gap = contact_pair_gap(contact, at->x, pair.node, pair.obstacle);
         pair_motion(contact, pair, p, alpha, P);
         sum += contact_remainder(&contact->barrier, &gap, P);
@@ -353,20 +333,14 @@ static void concave(const Place *at, double *sum)
 {
     const Contact *contact = at->term->data;
     Gap gap;
-    for (ContactPair pair = {-1, 0}; next_touching(contact, at, &pair, &gap);) {
+    for (ContactPair pair = {-1, 0};
+         contact_next(contact, at->system, at->x, &pair, &gap);) {
         double down = at->w * contact_force(&contact->barrier, &gap) / gap.r;
         int ball = contact->obstacle[pair.obstacle].node;
         sum[pair.node] += ball < 0 ? down : 2 * down;
         if (ball >= 0)
             sum[ball] += 2 * down;
     }
-}
-
-static void free_contact(void *data)
-{
-    Contact *contact = data;
-    free(contact->pair);
-    free(contact);
 }
 
 const TermKind contact_energy = {
@@ -377,13 +351,11 @@ const TermKind contact_energy = {
     .entries = contact_entries,
     .pattern = contact_pattern,
     .hessian = hessian,
-    .along = along,
     .remainder = remainder_along,
     .reach = reach,
     .allowed = allowed,
     .bounds = bounds,
     .concave = concave,
-    .free = free_contact,
     .end_of_step = true,
 };
 
@@ -407,12 +379,8 @@ Status contact_add(System *system, const Barrier *barrier, int obstacles,
             status = STATUS_INVALID_INPUT;
         contact->ball = k;
     }
-    contact->pair = calloc((size_t)system->nodes * (size_t)(obstacles + 1),
-                           sizeof *contact->pair);
-    if (!contact->pair)
-        status = STATUS_OUT_OF_MEMORY;
     if (!status)
         return system_add_term(system, &contact_energy, contact);
-    free_contact(contact);
+    free(contact);
     return status;
 }

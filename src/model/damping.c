@@ -7,8 +7,7 @@
 
 Damping *damping_of(const System *system)
 {
-    Term *term = system_find_term(system, &damping);
-    return term ? term->data : NULL;
+    return system_data(system, &damping);
 }
 
 static bool valid(const Place *at)
@@ -71,19 +70,12 @@ static void bounds(const Place *at, double *stiffest, double *force)
     mass_spring_bounds(&damped, stiffest, force);
 }
 
-static void free_damping(void *data)
-{
-    free(((Damping *)data)->E_n);
-    free(data);
-}
-
 const TermKind damping = {
     .loss = "damping",
     .valid = valid,
     .begin = begin,
     .end = end,
     .bounds = bounds,
-    .free = free_damping,
     .internal = true,
     .end_of_step = true,
 };
@@ -91,17 +83,13 @@ const TermKind damping = {
 Status damping_add(System *system, double eta)
 {
     size_t springs = (size_t)system->springs;
-    Damping *data = calloc(1, sizeof *data);
-    double *arrays = calloc(3 * springs + 1, sizeof *arrays);
-    if (!data || !arrays) {
-        free(arrays);
-        free(data);
+    Damping *data = calloc(1, sizeof *data + 3 * springs * sizeof(double));
+    if (!data)
         return STATUS_OUT_OF_MEMORY;
-    }
-    *data = (Damping){.eta = eta,
-                      .E_n = arrays,
-                      .k = arrays + springs,
-                      .l2 = arrays + 2 * springs};
+    data->eta = eta;
+    data->E_n = (double *)(data + 1);
+    data->k = data->E_n + springs;
+    data->l2 = data->k + springs;
     for (size_t s = 0; s < springs; s++) {
         data->k[s] = system->k[s];
         data->l2[s] = system->l2[s];

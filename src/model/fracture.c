@@ -9,13 +9,7 @@
 
 Fracture *fracture_of(const System *system)
 {
-    Term *term = system_find_term(system, &fracture);
-    return term ? term->data : NULL;
-}
-
-bool spring_is_broken(const System *system, int s)
-{
-    return system->k[s] == 0;
+    return system_data(system, &fracture);
 }
 
 /* A number from -1 to 1 for each spring: SplitMix64 (Steele et al. 2014). */
@@ -108,38 +102,26 @@ static bool valid(const Place *at)
            fracture->scatter >= 0 && fracture->scatter < 1;
 }
 
-static void free_fracture(void *data)
-{
-    Fracture *fracture = data;
-    free(fracture->candidate);
-    free(fracture->load);
-    free(fracture->taken);
-    free(fracture);
-}
-
 const TermKind fracture = {
     .loss = "fracture",
     .valid = valid,
     .end = end,
-    .free = free_fracture,
     .internal = true,
 };
 
 Status fracture_add(System *system, double strength, double scatter)
 {
-    size_t springs = (size_t)system->springs + 1;
-    Fracture *data = calloc(1, sizeof *data);
+    size_t springs = (size_t)system->springs;
+    Fracture *data =
+        calloc(1, sizeof *data + springs * (sizeof(double) + sizeof(int)) +
+                      (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = strength;
     data->scatter = scatter;
-    data->candidate = calloc(springs, sizeof *data->candidate);
-    data->load = calloc(springs, sizeof *data->load);
-    data->taken = calloc((size_t)system->nodes, sizeof *data->taken);
-    if (!data->candidate || !data->load || !data->taken) {
-        free_fracture(data);
-        return STATUS_OUT_OF_MEMORY;
-    }
+    data->load = (double *)(data + 1);
+    data->candidate = (int *)(data->load + springs);
+    data->taken = (unsigned char *)(data->candidate + springs);
     system->breaks = true;
     return system_add_term(system, &fracture, data);
 }

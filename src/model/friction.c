@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/mass_spring_energy.h"
+
 double friction_value(double y, double e)
 {
     double a = fabs(y);
@@ -62,13 +64,12 @@ double friction_remainder(double y, double t, double e)
 /* ---- the term -------------------------------------------------------- */
 
 /* t.(u_i - u_b), of displacements u [2n]. */
-static double slid(const Contact *contact, const Slide *slide, const double *u)
+static double slid(const Slide *slide, const double *u)
 {
-    int ball = contact->obstacle[slide->pair.obstacle].node;
+    const double *own = u + 2 * slide->e[0], *ball = u + 2 * slide->e[1];
     double sum = 0;
     for (int c = 0; c < 2; c++)
-        sum += slide->t[c] *
-               (u[2 * slide->pair.node + c] - (ball < 0 ? 0 : u[2 * ball + c]));
+        sum += slide->t[c] * (own[c] - (slide->e[1] < 0 ? 0 : ball[c]));
     return sum;
 }
 
@@ -78,26 +79,23 @@ static bool begin(Term *term, System *system, const double *x_n,
 {
     Friction *friction = term->data;
     const Contact *contact = contact_of(system);
+    Gap gap;
     (void)v_n;
     friction->e = friction->slip_speed * h;
     friction->slides = 0;
-    for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int i = 0; i < system->nodes; i++) {
-            const Obstacle *obstacle = &contact->obstacle[k];
-            if (!(obstacle->friction > 0) ||
-                !contact_has_pair(contact, system, i, k))
-                continue;
-            Gap gap = contact_pair_gap(contact, x_n, i, k);
-            if (!(gap.d < contact->barrier.d_hat))
-                continue;
-            double t[2] = {-gap.n[1], gap.n[0]};
-            friction->slide[friction->slides++] = (Slide){
-                .pair = {i, k},
-                .t = {t[0], t[1]},
-                .weight =
-                    obstacle->friction * contact_force(&contact->barrier, &gap),
-                .carry = h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
-        }
+    for (ContactPair pair = {-1, 0};
+         contact_next(contact, system, x_n, &pair, &gap);) {
+        const Obstacle *obstacle = &contact->obstacle[pair.obstacle];
+        double t[2] = {-gap.n[1], gap.n[0]};
+        if (!(obstacle->friction > 0))
+            continue;
+        friction->slide[friction->slides++] = (Slide){
+            .e = {pair.node, obstacle->node},
+            .t = {t[0], t[1]},
+            .weight =
+                obstacle->friction * contact_force(&contact->barrier, &gap),
+            .carry = h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
+    }
     return false;
 }
 
@@ -106,11 +104,10 @@ static bool end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
     Friction *friction = term->data;
-    const Contact *contact = contact_of(system);
     (void)x;
     for (int s = 0; s < friction->slides; s++) {
         Slide *slide = &friction->slide[s];
-        slide->y = h * slid(contact, slide, v) - slide->carry;
+        slide->y = h * slid(slide, v) - slide->carry;
         system_lose(system, term->kind,
                     slide->weight * friction_slope(slide->y, friction->e) *
                         slide->y);
@@ -118,9 +115,9 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     return false;
 }
 
-static double way(const Contact *contact, const Slide *slide, const Place *at)
+static double way(const Slide *slide, const Place *at)
 {
-    return slid(contact, slide, at->u) - slide->carry;
+    return slid(slide, at->u) - slide->carry;
 }
 
 static bool valid(const Place *at)
@@ -134,12 +131,10 @@ static bool valid(const Place *at)
 static double value(const Place *at)
 {
     const Friction *friction = at->term->data;
-    const Contact *contact = contact_of(at->system);
     double sum = 0;
     for (int s = 0; at->u && s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
-        sum += slide->weight *
-               friction_value(way(contact, slide, at), friction->e);
+        sum += slide->weight * friction_value(way(slide, at), friction->e);
     }
     return sum;
 }
@@ -147,17 +142,11 @@ static double value(const Place *at)
 static void gradient(const Place *at, double *g)
 {
     const Friction *friction = at->term->data;
-    const Contact *contact = contact_of(at->system);
     for (int s = 0; s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
-        int ball = contact->obstacle[slide->pair.obstacle].node;
-        double force = at->w * slide->weight *
-                       friction_slope(way(contact, slide, at), friction->e);
-        for (int c = 0; c < 2; c++) {
-            g[2 * slide->pair.node + c] += force * slide->t[c];
-            if (ball >= 0)
-                g[2 * ball + c] -= force * slide->t[c];
-        }
+        double force =
+            at->w * slide->weight * friction_slope(way(slide, at), friction->e);
+        spring_add_force(slide->e, force, slide->t, g);
     }
 }
 
@@ -172,10 +161,10 @@ static int hessian(const Place *at, Filter filter, const int *slot,
         const Slide *slide = &friction->slide[s];
         const double *t = slide->t;
         double bend = at->w * slide->weight *
-                      friction_curvature(way(contact, slide, at), friction->e);
+                      friction_curvature(way(slide, at), friction->e);
         double H[3] = {bend * t[0] * t[0], bend * t[0] * t[1],
                        bend * t[1] * t[1]};
-        contact_add_block(contact, slide->pair, H, slot, q, out);
+        contact_add_block(contact, slide->e, H, slot, q, out);
     }
     return 0;
 }
@@ -183,22 +172,14 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 static double remainder_along(const Place *at, const double *p, double alpha)
 {
     const Friction *friction = at->term->data;
-    const Contact *contact = contact_of(at->system);
     double sum = 0;
     for (int s = 0; s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
-        sum += slide->weight *
-               friction_remainder(way(contact, slide, at),
-                                  alpha * slid(contact, slide, p), friction->e);
+        sum += slide->weight * friction_remainder(way(slide, at),
+                                                  alpha * slid(slide, p),
+                                                  friction->e);
     }
     return at->w * sum;
-}
-
-static void free_friction(void *data)
-{
-    Friction *friction = data;
-    free(friction->slide);
-    free(friction);
 }
 
 const TermKind friction_energy = {
@@ -212,19 +193,16 @@ const TermKind friction_energy = {
     .remainder = remainder_along,
     .begin = begin,
     .end = end,
-    .free = free_friction,
     .end_of_step = true,
 };
 
 double friction_work_of_obstacles(const System *system, const double *u)
 {
-    const Term *term = system_find_term(system, &friction_energy);
-    const Friction *friction = term ? term->data : NULL;
-    const Contact *contact = contact_of(system);
+    const Friction *friction = system_data(system, &friction_energy);
     double sum = 0;
     for (int s = 0; friction && s < friction->slides; s++) {
         const Slide *slide = &friction->slide[s];
-        double y = slid(contact, slide, u) - slide->carry;
+        double y = slid(slide, u) - slide->carry;
         sum -= slide->weight * friction_slope(y, friction->e) * slide->carry;
     }
     return sum;
@@ -236,14 +214,11 @@ Status friction_add(System *system, double slip_speed)
     const Contact *contact = contact_of(system);
     int place = obstacles ? (int)(obstacles - system->term) + 1 : system->terms;
     size_t room =
-        (size_t)system->nodes * (size_t)(contact ? contact->obstacles + 1 : 1);
-    Friction *friction = calloc(1, sizeof *friction);
-    Slide *slide = calloc(room, sizeof *slide);
-    if (!friction || !slide) {
-        free(slide);
-        free(friction);
+        (size_t)system->nodes * (size_t)(contact ? contact->obstacles : 0);
+    Friction *friction = calloc(1, sizeof *friction + room * sizeof(Slide));
+    if (!friction)
         return STATUS_OUT_OF_MEMORY;
-    }
-    *friction = (Friction){.slip_speed = slip_speed, .slide = slide};
+    friction->slip_speed = slip_speed;
+    friction->slide = (Slide *)(friction + 1);
     return system_insert_term(system, place, &friction_energy, friction);
 }

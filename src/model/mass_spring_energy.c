@@ -18,16 +18,10 @@ static double value(const Place *at)
 static void gradient(const Place *at, double *g)
 {
     const System *system = at->system;
-    double w = at->w;
     for (int i = 0; i < system->springs; i++) {
         const int *e = system->e + 2 * i;
         double d[2], s = spring_strain(e, at->l2[i], at->x, d);
-        double factor = w * 2 * at->k[i] * s;
-        double *gi = g + 2 * e[0], *gj = g + 2 * e[1];
-        gi[0] += factor * d[0];
-        gi[1] += factor * d[1];
-        gj[0] -= factor * d[0];
-        gj[1] -= factor * d[1];
+        spring_add_force(e, at->w * 2 * at->k[i] * s, d, g);
     }
 }
 
@@ -49,11 +43,10 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 /* With q = p_i - p_j, B = 2 d.q/l2 and C = |q|^2/l2 a spring's strain along
  * the direction is s + alpha B + alpha^2 C, so its energy
  * l2 k/2 (s + alpha B + alpha^2 C)^2 has the coefficients below. */
-static void along(const Place *at, const double *p, double reach, double q[3])
+static void along(const Place *at, const double *p, double q[3])
 {
     const System *system = at->system;
     const double *x = at->x, *l2 = at->l2, w = at->w;
-    (void)reach;
     for (int s = 0; s < system->springs; s++) {
         int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
         double d0 = x[i] - x[j], d1 = x[i + 1] - x[j + 1];

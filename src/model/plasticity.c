@@ -6,10 +6,22 @@
 #include "model/damping.h"
 #include "model/mass_spring_energy.h"
 
+/* fmin and fmax without a call of the library: they are asked for each spring.
+ */
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* (|e| - Y)_+ */
 static double beyond(SpringLaw law, double e)
 {
-    return fmax(fabs(e) - law.yield, 0);
+    return larger(fabs(e) - law.yield, 0);
 }
 
 /* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
@@ -17,7 +29,7 @@ static double beyond(SpringLaw law, double e)
 double spring_law_value(SpringLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
-    double within = fmin(fabs(e), law.yield);
+    double within = smaller(fabs(e), law.yield);
     double sum =
         within * (fabs(e) - 0.5 * within) + 0.5 * (1 - law.flow) * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
@@ -25,7 +37,7 @@ double spring_law_value(SpringLaw law, double e)
 
 double spring_law_slope(SpringLaw law, double e)
 {
-    double within = fmin(fabs(e), law.yield);
+    double within = smaller(fabs(e), law.yield);
     double tau = copysign(within + (1 - law.flow) * beyond(law, e), e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;
 }
@@ -46,8 +58,8 @@ double spring_law_flow(SpringLaw law, double e)
 double spring_law_remainder(SpringLaw law, double e, double t)
 {
     double start = copysign(1, t) * e, way = fabs(t);
-    double from = fmax(-law.yield - start, 0);
-    double to = fmin(law.yield - start, way);
+    double from = larger(-law.yield - start, 0);
+    double to = smaller(law.yield - start, way);
     double within = from > 0 && to < way ? 2 * law.yield : to - from;
     double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
     return 0.5 * (1 - law.flow + law.theta) * t * t + law.flow * elastic;
@@ -77,47 +89,51 @@ static bool spring_law_hessian(SpringLaw law, const double d[2], double l2,
 
 Plasticity *plasticity_of(const System *system)
 {
-    Term *term = system_find_term(system, &plastic_energy);
-    return term ? term->data : NULL;
+    return system_data(system, &plastic_energy);
 }
 
-static SpringLaw law_of(const Plasticity *plasticity, const Damping *damping,
-                        int s)
-{
-    return (SpringLaw){.yield = plasticity->yield +
-                                plasticity->hardening * plasticity->kappa[s],
-                       .flow = 1 / (1 + plasticity->hardening),
-                       .theta = damping ? damping->theta : 0,
-                       .e_n =
-                           damping ? damping->E_n[s] - plasticity->ep[s] : 0};
-}
+/* One spring, as all functions need it. */
+typedef struct FlowSpring {
+    const int *e;
+    double k, l2;
+    double d[2], strain; /* m, x_i - x_j; its elastic strain, E - ep */
+    SpringLaw law;
+} FlowSpring;
 
-/* d = x_i - x_j; returns e = |d|^2/l2 - 1 - ep */
-static double strain_at(const Plasticity *plasticity, const System *system,
-                        const double *x, int s, double d[2])
+static inline FlowSpring flow_spring(const Place *at, int s)
 {
-    return spring_strain(system->e + 2 * s, system->l2[s], x, d) -
-           plasticity->ep[s];
+    const Plasticity *data = at->term->data;
+    const Damping *damping = at->damping;
+    FlowSpring spring = {
+        .e = at->system->e + 2 * s,
+        .k = at->system->k[s],
+        .l2 = at->system->l2[s],
+        .law = {.yield = data->yield + data->hardening * data->kappa[s],
+                .flow = 1 / (1 + data->hardening),
+                .theta = damping ? damping->theta : 0,
+                .e_n = damping ? damping->E_n[s] - data->ep[s] : 0}};
+    spring.strain =
+        spring_strain(spring.e, spring.l2, at->x, spring.d) - data->ep[s];
+    return spring;
 }
 
 static bool valid(const Place *at)
 {
-    const Plasticity *plasticity = at->term->data;
-    return isfinite(plasticity->yield) && plasticity->yield > 0 &&
-           isfinite(plasticity->hardening) && plasticity->hardening >= 0;
+    const Plasticity *data = at->term->data;
+    return isfinite(data->yield) && data->yield > 0 &&
+           isfinite(data->hardening) && data->hardening >= 0;
 }
 
 static double value(const Place *at)
 {
-    const Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
+    const Plasticity *data = at->term->data;
     double sum = 0;
-    for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double kappa = plasticity->kappa[s];
-        sum += system->k[s] * system->l2[s] *
-               (spring_law_value(law_of(plasticity, at->damping, s), e) +
-                0.5 * plasticity->hardening * kappa * kappa);
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        double kappa = data->kappa[s];
+        sum += spring.k * spring.l2 *
+               (spring_law_value(spring.law, spring.strain) +
+                0.5 * data->hardening * kappa * kappa);
     }
     return sum;
 }
@@ -125,77 +141,61 @@ static double value(const Place *at)
 /* 2 k tau d */
 static void gradient(const Place *at, double *g)
 {
-    const Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
-    for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double factor = at->w * 2 * system->k[s] *
-                        spring_law_slope(law_of(plasticity, at->damping, s), e);
-        for (int c = 0; c < 2; c++) {
-            g[2 * system->e[2 * s] + c] += factor * d[c];
-            g[2 * system->e[2 * s + 1] + c] -= factor * d[c];
-        }
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        spring_add_force(spring.e,
+                         at->w * 2 * spring.k *
+                             spring_law_slope(spring.law, spring.strain),
+                         spring.d, g);
     }
 }
 
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
-    const Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
     int projected = 0;
-    for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, at->x, s, d), H[3];
-        projected += spring_law_hessian(law_of(plasticity, at->damping, s), d,
-                                        system->l2[s], at->w * system->k[s], e,
-                                        filter, H);
-        mass_spring_add(H, system->e + 2 * s, s, slot, q, out);
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        double H[3];
+        projected +=
+            spring_law_hessian(spring.law, spring.d, spring.l2,
+                               at->w * spring.k, spring.strain, filter, H);
+        mass_spring_add(H, spring.e, s, slot, q, out);
     }
     return projected;
 }
 
-/* With D = alpha B + alpha^2 C the remainder of k l2 V is
- * k l2 (tau alpha^2 C + R_V(e, D)).  Springs that stay elastic all the way have
- * R_V = (1 + theta) D^2/2, a polynomial; the others are noted. */
-static void along(const Place *at, const double *p, double reach, double q[3])
+/* Along p its strain changes by D = alpha B + alpha^2 C, and k l2 V, but for
+ * its slope, by k l2 (tau alpha^2 C + R_V(e, D)): the first is a polynomial. */
+static inline void strain_along(const FlowSpring *spring, const double *p,
+                                double *B, double *C)
 {
-    Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
-    plasticity->live = 0;
-    for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        const double *pi = p + 2 * system->e[2 * s];
-        const double *pj = p + 2 * system->e[2 * s + 1];
-        double P[2] = {pi[0] - pj[0], pi[1] - pj[1]};
-        double B = 2 * (d[0] * P[0] + d[1] * P[1]) / system->l2[s];
-        double C = (P[0] * P[0] + P[1] * P[1]) / system->l2[s];
-        double stiffness = at->w * system->k[s] * system->l2[s];
-        SpringLaw law = law_of(plasticity, at->damping, s);
-        q[0] += stiffness * spring_law_slope(law, e) * C;
-        if (fabs(e) + reach * fabs(B) + reach * reach * C < law.yield) {
-            stiffness *= 1 + law.theta;
-            q[0] += stiffness * 0.5 * B * B;
-            q[1] += stiffness * B * C;
-            q[2] += stiffness * 0.5 * C * C;
-        } else {
-            plasticity->spring[plasticity->live++] = (LiveSpring){s, B, C};
-        }
+    const double *pi = p + 2 * spring->e[0], *pj = p + 2 * spring->e[1];
+    double P[2] = {pi[0] - pj[0], pi[1] - pj[1]};
+    *B = 2 * (spring->d[0] * P[0] + spring->d[1] * P[1]) / spring->l2;
+    *C = (P[0] * P[0] + P[1] * P[1]) / spring->l2;
+}
+
+static void along(const Place *at, const double *p, double q[3])
+{
+    double B, C;
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        strain_along(&spring, p, &B, &C);
+        q[0] += at->w * spring.k * spring.l2 *
+                spring_law_slope(spring.law, spring.strain) * C;
     }
 }
 
 static double remainder_along(const Place *at, const double *p, double alpha)
 {
-    const Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
-    double sum = 0;
-    (void)p;
-    for (int k = 0; k < plasticity->live; k++) {
-        const LiveSpring *live = &plasticity->spring[k];
-        int s = live->spring;
-        double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        sum += system->k[s] * system->l2[s] *
-               spring_law_remainder(law_of(plasticity, at->damping, s), e,
-                                    alpha * (live->B + alpha * live->C));
+    double sum = 0, B, C;
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        strain_along(&spring, p, &B, &C);
+        sum += spring.k * spring.l2 *
+               spring_law_remainder(spring.law, spring.strain,
+                                    alpha * (B + alpha * C));
     }
     return at->w * sum;
 }
@@ -204,19 +204,21 @@ static double remainder_along(const Place *at, const double *p, double alpha)
 static bool end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
-    Plasticity *plasticity = term->data;
+    Plasticity *data = term->data;
+    Place at = place_at(system, x, NULL, x);
     bool changed = false;
     (void)v;
     (void)h;
+    at.term = term;
     for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, x, s, d);
-        double gamma = spring_law_flow(law_of(plasticity, NULL, s), e);
-        if (!(gamma > 0) || !(system->k[s] > 0))
+        FlowSpring spring = flow_spring(&at, s);
+        double gamma = spring_law_flow(spring.law, spring.strain);
+        if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
-        plasticity->ep[s] += copysign(gamma, e);
-        plasticity->kappa[s] += gamma;
+        data->ep[s] += copysign(gamma, spring.strain);
+        data->kappa[s] += gamma;
         system_lose(system, term->kind,
-                    system->k[s] * system->l2[s] * plasticity->yield * gamma);
+                    spring.k * spring.l2 * data->yield * gamma);
         changed = true;
     }
     return changed;
@@ -225,24 +227,13 @@ static bool end(Term *term, System *system, const double *x, const double *v,
 /* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
 static void concave(const Place *at, double *sum)
 {
-    const Plasticity *plasticity = at->term->data;
-    const System *system = at->system;
-    for (int s = 0; s < system->springs; s++) {
-        double d[2], e = strain_at(plasticity, system, at->x, s, d);
-        double tau = spring_law_slope(law_of(plasticity, at->damping, s), e);
-        double c = 4 * at->w * system->k[s] * fmax(-tau, 0);
-        sum[system->e[2 * s]] += c;
-        sum[system->e[2 * s + 1]] += c;
+    for (int s = 0; s < at->system->springs; s++) {
+        FlowSpring spring = flow_spring(at, s);
+        double tau = spring_law_slope(spring.law, spring.strain);
+        double c = 4 * at->w * spring.k * fmax(-tau, 0);
+        sum[spring.e[0]] += c;
+        sum[spring.e[1]] += c;
     }
-}
-
-static void free_plasticity(void *data)
-{
-    Plasticity *plasticity = data;
-    free(plasticity->ep);
-    free(plasticity->kappa);
-    free(plasticity->spring);
-    free(plasticity);
 }
 
 const TermKind plastic_energy = {
@@ -259,29 +250,23 @@ const TermKind plastic_energy = {
     .end = end,
     .bounds = mass_spring_bounds,
     .concave = concave,
-    .free = free_plasticity,
     .internal = true,
     .end_of_step = true,
 };
 
 Status plasticity_set(System *system, double yield, double hardening)
 {
-    size_t springs = (size_t)system->springs + 1;
-    Plasticity *plasticity = calloc(1, sizeof *plasticity);
-    if (!plasticity)
+    size_t springs = (size_t)system->springs;
+    Plasticity *data = calloc(1, sizeof *data + 2 * springs * sizeof(double));
+    if (!data)
         return STATUS_OUT_OF_MEMORY;
-    plasticity->yield = yield;
-    plasticity->hardening = hardening;
-    plasticity->ep = calloc(springs, sizeof(double));
-    plasticity->kappa = calloc(springs, sizeof(double));
-    plasticity->spring = calloc(springs, sizeof *plasticity->spring);
+    data->yield = yield;
+    data->hardening = hardening;
+    data->ep = (double *)(data + 1);
+    data->kappa = data->ep + springs;
     Term *elastic = system_find_term(system, &mass_spring_energy);
-    if (!plasticity->ep || !plasticity->kappa || !plasticity->spring) {
-        free_plasticity(plasticity);
-        return STATUS_OUT_OF_MEMORY;
-    }
     if (!elastic)
-        return system_add_term(system, &plastic_energy, plasticity);
-    *elastic = (Term){.kind = &plastic_energy, .data = plasticity};
+        return system_add_term(system, &plastic_energy, data);
+    *elastic = (Term){.kind = &plastic_energy, .data = data};
     return STATUS_OK;
 }

@@ -72,10 +72,9 @@ static int hessian(const Place *at, Filter filter, const int *slot,
     return 0;
 }
 
-static void along(const Place *at, const double *p, double reach, double q[3])
+static void along(const Place *at, const double *p, double q[3])
 {
     double part = at->averaged ? 0.25 * at->w : 0.5 * at->w;
-    (void)reach;
     for (int i = 0; i < 2 * at->system->nodes; i++)
         q[0] += stiffness(at, part, i) * p[i] * p[i];
 }
@@ -91,7 +90,7 @@ static void bounds(const Place *at, double *stiffest, double *force)
 #define PULL                                                                   \
     .valid = valid, .value = value, .gradient = gradient, .entries = entries,  \
     .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
-    .free = free, .diagonal = true
+    .diagonal = true
 
 const TermKind central_field = {PULL, .energy = "elastic",
                                 .averaged = &central_field};
@@ -120,6 +119,5 @@ Status central_field_set(System *system, double omega2)
 
 Pull *hand_energy_of(const System *system)
 {
-    const Term *term = system_find_term(system, &hand_energy);
-    return term ? term->data : NULL;
+    return system_data(system, &hand_energy);
 }

@@ -37,12 +37,6 @@ Status system_create_pins(System *system)
     return system->pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
-static void free_data(const TermKind *kind, void *data)
-{
-    if (kind->free)
-        kind->free(data);
-}
-
 void system_free(System *system)
 {
     if (!system)
@@ -53,7 +47,7 @@ void system_free(System *system)
     free(system->pin_v);
     free(system->order);
     for (int t = 0; t < system->terms; t++)
-        free_data(system->term[t].kind, system->term[t].data);
+        free(system->term[t].data);
     *system = (System){0};
 }
 
@@ -61,7 +55,7 @@ Status system_insert_term(System *system, int place, const TermKind *kind,
                           void *data)
 {
     if (system->terms == SYSTEM_MAX_TERMS) {
-        free_data(kind, data);
+        free(data);
         return STATUS_TOO_LARGE;
     }
     for (int t = system->terms++; t > place; t--)
@@ -84,12 +78,18 @@ Term *system_find_term(const System *system, const TermKind *kind)
     return NULL;
 }
 
+void *system_data(const System *system, const TermKind *kind)
+{
+    const Term *term = system_find_term(system, kind);
+    return term ? term->data : NULL;
+}
+
 void system_remove_term(System *system, const TermKind *kind)
 {
     Term *term = system_find_term(system, kind);
     if (!term)
         return;
-    free_data(kind, term->data);
+    free(term->data);
     Term *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];

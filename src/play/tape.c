@@ -134,7 +134,7 @@ static void keep_line(Tape *tape, TapeRound *round, const Iterate *at)
 {
     round->first = incremental_potential_reach(at);
     double pace = round->first / TAPE_PARTS;
-    Along along = incremental_potential_along(at, (TAPE_VALUES - 1) * pace);
+    Along along = incremental_potential_along(at);
     round->along = along.smooth;
     round->slope = along.smooth.q[0];
     if (along.rough == 0 || !round->x)

@@ -131,7 +131,7 @@ void incremental_potential_product(const Iterate *at, Filter filter,
 }
 
 /* The inertia energy is quadratic; g.p is the slope of all terms. */
-Along incremental_potential_along(const Iterate *at, double reach)
+Along incremental_potential_along(const Iterate *at)
 {
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
@@ -144,7 +144,7 @@ Along incremental_potential_along(const Iterate *at, double reach)
     }
     for (const TermKind *kind; (kind = next_energy(&place));) {
         if (kind->along)
-            kind->along(&place, at->p, reach, q + 1);
+            kind->along(&place, at->p, q + 1);
         along.rough = along.rough || kind->remainder || kind->allowed;
     }
     return along;

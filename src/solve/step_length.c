@@ -25,7 +25,7 @@ Status step_length(Newton *newton)
     NewtonRecord *record = &newton->record;
     double start = clock_now();
     record->alpha = incremental_potential_reach(&newton->at);
-    Along along = incremental_potential_along(&newton->at, record->alpha);
+    Along along = incremental_potential_along(&newton->at);
     Status status = STATUS_OK;
     record->slope = along.smooth.q[0];
     record->trials = 0;

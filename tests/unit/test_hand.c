@@ -108,8 +108,8 @@ TEST(derivatives_are_those_of_the_formula)
         /* Along u from x_n: gradient at x_n times alpha, and this. */
         double q[3] = {0}, half[3] = {0};
         begin.x = x;
-        hand_energy.along(&begin, u, 1, q);
-        hand_energy.averaged->along(&way, u, 1, half);
+        hand_energy.along(&begin, u, q);
+        hand_energy.averaged->along(&way, u, half);
         double slope =
             start * u[i] + hand.k * (x[i + 1] - hand.target[1]) * u[i + 1];
         CHECK_NEAR(slope + q[0], gained, 1e-12 * hand.k);

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/plasticity.h"
@@ -497,9 +498,7 @@ static bool right_of_the_wall(const Place *at)
 TEST(steps_into_a_wall_are_halved)
 {
     TermKind wall = central_field; /* of no strength */
-    Pull nothing = {.node = -1};
     wall.allowed = right_of_the_wall;
-    wall.free = NULL;
     wall.diagonal = false; /* else no line would be searched */
     for (int search = 0; search < LINE_SEARCH_COUNT; search++) {
         System system;
@@ -511,7 +510,9 @@ TEST(steps_into_a_wall_are_halved)
                                          .max_iterations = 100};
         CHECK_STATUS(system_create(1, 0, &system), STATUS_OK);
         system.m[0] = 1;
-        CHECK_STATUS(system_add_term(&system, &wall, &nothing), STATUS_OK);
+        Pull *nothing = calloc(1, sizeof *nothing);
+        nothing->node = -1;
+        CHECK_STATUS(system_add_term(&system, &wall, nothing), STATUS_OK);
         CHECK_STATUS(newton_create(&system, &settings, &newton), STATUS_OK);
         newton.u_tilde[0] = -1;
         CHECK_STATUS(newton_start(&newton, x, NULL, 1), STATUS_RUNNING);

@@ -306,7 +306,7 @@ static void line(Case *c, const TermKind *kind, Random *random)
     Jet end = exact(c, kind, alpha, &noise[1]);
     kind->gradient(&c->at, g);
     if (kind->along)
-        kind->along(&c->at, c->p, most, q);
+        kind->along(&c->at, c->p, q);
     double got = alpha * (alpha * (q[0] + alpha * (q[1] + alpha * q[2])));
     if (kind->remainder)
         got += kind->remainder(&c->at, c->p, alpha);
@@ -451,7 +451,7 @@ static void whole_step(Case *c, Random *random)
         near("E", incremental_potential_value(&E, c->u, c->x), part.f,
              noise.f + 1e-13L * spot.size.f);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
-    const Along along = incremental_potential_along(&iterate, 1e-3);
+    const Along along = incremental_potential_along(&iterate);
     spot.alpha = 1e-3L;
     Real change = oracle_step(&spot, u_tilde).f - part.f;
     near("E along p", along_difference(&along, 1e-3), change,
