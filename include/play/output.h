@@ -1,12 +1,10 @@
 /* output.h - files that appear under their name only when they are whole.
  *
- * What a name stands for decides what happens:
- *   "-", or whatever standard output is    standard output
- *   a regular file, or nothing yet         NAME.part beside it takes its place,
- *                                          with the old permissions, at the end
- *   a symbolic link to a file              the same where it leads; it stays
- *   a pipe, a character device             is written as it comes
- *   a folder, a block device, a socket     is refused
+ *   "-", /dev/stdout               standard output
+ *   a file, or nothing yet          NAME.part beside it takes its place, with the
+ *                                   old permissions, at the end
+ *   a symbolic link to a file       the same where it leads; it stays
+ *   a pipe, a terminal, a device    is written as it comes
  * A run that writes NAME.part holds a lock on it: a second one is refused.
  * What a run that failed or was killed left there is written over by the next.
  */

@@ -50,16 +50,7 @@ static const FilmKind *kind_of(const char *name)
 
 bool film_is_possible(void)
 {
-    char file[4096];
-    const char *path = getenv("PATH");
-    while (path && *path) {
-        int length = (int)strcspn(path, ":");
-        snprintf(file, sizeof file, "%.*s/ffmpeg", length, path);
-        if (access(file, X_OK) == 0)
-            return true;
-        path += length + (path[length] == ':');
-    }
-    return false;
+    return system("command -v ffmpeg >/dev/null 2>&1") == 0;
 }
 
 Status film_open(const char *name, Film *film, char *message, size_t size)

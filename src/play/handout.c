@@ -21,9 +21,7 @@ enum {
     STILL_WIDTH = 1120, /* pixels of the pictures */
     STILL_HEIGHT = 700,
     FILM_WIDTH = 736, /* and of the films */
-    FILM_HEIGHT = 460,
-    TRIPLE = 3, /* bytes that become four letters */
-    ROW = 57    /* bytes of a line of 76 letters, a multiple of TRIPLE */
+    FILM_HEIGHT = 460
 };
 
 static const char handout_head[] =
@@ -38,7 +36,7 @@ static const char handout_head[] =
     "img { width: 100%; height: auto; border: 1px solid #cfcfcf; }\n"
     "nav { columns: 2; font-size: .9em; } nav a { display: block; }\n"
     "a { color: #0044b0; text-decoration: none; }\n"
-    "b.look { color: #0000ff; } b.try { color: #2e7d32; }\n"
+    "b { color: #0000ff; }\n"
     "pre { font: 13px/1.35 \"DejaVu Sans Mono\", monospace; background: "
     "#f6f6f6;\n"
     "  padding: .8em; overflow-x: auto; }\n"
@@ -58,19 +56,12 @@ static const char handout_head[] =
 static void write_escaped(FILE *file, const char *text)
 {
     for (; *text; text++)
-        switch (*text) {
-        case '&':
+        if (*text == '&')
             fputs("&amp;", file);
-            break;
-        case '<':
+        else if (*text == '<')
             fputs("&lt;", file);
-            break;
-        case '>':
-            fputs("&gt;", file);
-            break;
-        default:
+        else
             fputc(*text, file);
-        }
 }
 
 /* The function with the lines at work marked. */
@@ -95,44 +86,33 @@ static void write_code(FILE *file, const LecturePage *page)
 }
 
 /* <p>, a head in bold if there is one, and the text. */
-static void write_paragraph(FILE *file, const char *class, const char *head,
-                            const char *text)
+static void write_paragraph(FILE *file, const char *head, const char *text)
 {
-    fputs("<p>", file);
-    if (head)
-        fprintf(file, "<b class=\"%s\">%s</b> ", class, head);
+    fprintf(file, *head ? "<p><b>%s</b> " : "<p>%s", head);
     write_escaped(file, text);
     fputs("</p>\n", file);
 }
 
 /* ---- pictures ----------------------------------------------------------- */
 
-/* Four letters for each three bytes (RFC 4648); '=' where bytes lack. */
-static void write_triple(FILE *file, const unsigned char *byte, size_t count)
+/* A file in base 64 (RFC 4648): four letters for each three bytes, '=' where
+ * bytes lack. */
+static Status write_base64(FILE *file, const char *name)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                   "abcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned bits = (unsigned)byte[0] << 16 |
-                    (count > 1 ? (unsigned)byte[1] << 8 : 0) |
-                    (count > 2 ? byte[2] : 0U);
-    fputc(letters[bits >> 18 & 63], file);
-    fputc(letters[bits >> 12 & 63], file);
-    fputc(count > 1 ? letters[bits >> 6 & 63] : '=', file);
-    fputc(count > 2 ? letters[bits & 63] : '=', file);
-}
-
-/* A file in base 64. */
-static Status write_base64(FILE *file, const char *name)
-{
-    unsigned char row[ROW];
-    size_t count;
     FILE *picture = fopen(name, "rb");
     if (!picture)
         return STATUS_FILE_FAILED;
-    while ((count = fread(row, 1, sizeof row, picture)) > 0) {
-        for (size_t i = 0; i < count; i += TRIPLE)
-            write_triple(file, row + i, count - i);
-        fputc('\n', file);
+    for (size_t count = 3, row = 0; count == 3; row++) {
+        unsigned char byte[3] = {0};
+        count = fread(byte, 1, 3, picture);
+        unsigned bits =
+            (unsigned)byte[0] << 16 | (unsigned)byte[1] << 8 | byte[2];
+        for (size_t i = 0; i < 4 && count > 0; i++)
+            fputc(i <= count ? letters[bits >> (18 - 6 * i) & 63] : '=', file);
+        if (row % 19 == 18) /* 76 letters a line */
+            fputc('\n', file);
     }
     Status status = ferror(picture) ? STATUS_FILE_FAILED : STATUS_OK;
     fclose(picture);
@@ -192,23 +172,6 @@ static Status play_page(const LecturePage *page,
     return status ? status : finished;
 }
 
-static Status write_picture(FILE *file, const LecturePage *page,
-                            const volatile sig_atomic_t *stop, Player *player,
-                            const char *name, char *message, size_t size)
-{
-    Status status = play_page(page, stop, player, name, message, size);
-    if (status)
-        return status;
-    fputs("<img alt=\"", file);
-    write_escaped(file, page->topic);
-    fputs("\" src=\"data:image/png;base64,\n", file);
-    status = write_base64(file, name);
-    fputs("\">\n", file);
-    return status;
-}
-
-/* ---- pages -------------------------------------------------------------- */
-
 static Status write_page(FILE *file, int number,
                          const volatile sig_atomic_t *stop, Player *player,
                          const char *name, char *message, size_t size)
@@ -217,21 +180,24 @@ static Status write_page(FILE *file, int number,
     fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name, number);
     write_escaped(file, page->topic);
     fputs("</h2>\n", file);
-    write_paragraph(file, NULL, NULL, page->text);
-    Status status =
-        write_picture(file, page, stop, player, name, message, size);
+    write_paragraph(file, "", page->text);
+    Status status = play_page(page, stop, player, name, message, size);
     if (status)
         return status;
+    fputs("<img alt=\"", file);
+    write_escaped(file, page->topic);
+    fputs("\" src=\"data:image/png;base64,\n", file);
+    status = write_base64(file, name);
     fprintf(file,
-            "<p class=\"small\"><code>elasto --lecture %s</code> or <code>"
-            "elasto %s</code></p>\n",
+            "\n\">\n<p class=\"small\"><code>elasto --lecture %s</code> or "
+            "<code>elasto %s</code></p>\n",
             page->name, page->line);
-    write_paragraph(file, "look", "Look:", page->look);
-    write_paragraph(file, "try", "Try:", page->touch);
-    write_paragraph(file, "claim", "Tested:", page->claim);
+    write_paragraph(file, "Look:", page->look);
+    write_paragraph(file, "Try:", page->touch);
+    write_paragraph(file, "Tested:", page->claim);
     write_code(file, page);
     fputs("</section>\n", file);
-    return STATUS_OK;
+    return status;
 }
 
 static void write_contents(FILE *file)

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #include "scenes/one_line.h"
@@ -126,32 +125,16 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     return status;
 }
 
-/* What a file may be called: other endings promise other formats.  An ending
- * begins with a letter, behind something. */
-static bool is_called(const char *name, const char *const ends[])
+/* Whether a name ends in one of these, or in nothing that begins with a letter:
+ * other endings promise other formats. */
+static bool is_called(const char *name, const char *ends)
 {
-    const char *slash = strrchr(name, '/'), *base = slash ? slash + 1 : name;
-    const char *end = strrchr(base, '.');
-    bool called = !end || end == base || !isalpha((unsigned char)end[1]);
-    for (int i = 0; !called && ends[i]; i++)
-        called = strcasecmp(end, ends[i]) == 0;
-    return called;
-}
-
-/* What is wrong with the ending of an output's name, or NULL. */
-static const char *wrong_ending(const char *option, const char *name)
-{
-    static const char *const table[] = {".csv", ".txt", ".dat", ".log", NULL};
-    static const char *const page[] = {".html", ".htm", NULL};
-    if (strcmp(option, "handout") == 0)
-        return is_called(name, page) ? NULL
-                                     : "it is a page in HTML, whose name ends "
-                                       "in .html, .htm or has no ending";
-    bool is_table = strcmp(option, "states") == 0 || strcmp(option, "log") == 0;
-    return !is_table || is_called(name, table)
-               ? NULL
-               : "it is a table in CSV, whose name ends in .csv, .txt, .dat, "
-                 ".log or has no ending";
+    const char *slash = strrchr(name, '/');
+    const char *end = strrchr(slash ? slash + 1 : name, '.');
+    if (!end || !isalpha((unsigned char)end[1]))
+        return true;
+    const char *found = strcasestr(ends, end);
+    return found && !isalnum((unsigned char)found[strlen(end)]);
 }
 
 /* A name, and the file beside it in which it begins. */
@@ -162,33 +145,45 @@ static bool are_same(const char *one, const char *other)
     return output_is_same(one, other) || output_is_same(part, other);
 }
 
-/* Every two names. */
+/* One name, then every two. */
 Status recording_check(const Options *options, char *message, size_t size)
 {
-    const char *const file[][2] = {
-        {"states", options->states}, {"log", options->log},
-        {"film", options->film},     {"frames", options->frames},
-        {"script", options->script}, {"handout", options->handout},
+    static const char table[] = ".csv, .txt, .dat, .log";
+    const struct {
+        const char *option, *name, *ends; /* NULL: any */
+    } file[] = {
+        {"states", options->states, table},
+        {"log", options->log, table},
+        {"film", options->film, NULL},
+        {"frames", options->frames, NULL},
+        {"script", options->script, NULL},
+        {"handout", options->handout, ".html, .htm"},
     };
     enum { FILES = sizeof file / sizeof *file };
     char shown[64], other[64];
     for (int i = 0; i < FILES; i++) {
-        one_line(file[i][1], shown, sizeof shown);
-        const char *wrong =
-            file[i][1] ? wrong_ending(file[i][0], file[i][1]) : NULL;
-        if (wrong) {
-            snprintf(message, size, "--%s '%s': %s", file[i][0], shown, wrong);
+        if (!file[i].name)
+            continue;
+        one_line(file[i].name, shown, sizeof shown);
+        if (file[i].ends && !is_called(file[i].name, file[i].ends)) {
+            snprintf(message, size,
+                     "--%s '%s': it is %s, whose name ends in %s or has no "
+                     "ending",
+                     file[i].option, shown,
+                     file[i].ends == table ? "a table in CSV"
+                                           : "a page in HTML",
+                     file[i].ends);
             return STATUS_INVALID_INPUT;
         }
         for (int k = 0; k < FILES; k++) {
-            if (k == i || !file[i][1] || !file[k][1] ||
-                !are_same(file[i][1], file[k][1]))
+            if (k == i || !file[k].name ||
+                !are_same(file[i].name, file[k].name))
                 continue;
-            one_line(file[k][1], other, sizeof other);
+            one_line(file[k].name, other, sizeof other);
             snprintf(message, size,
                      "--%s '%s' and --%s '%s' are one file: each needs a name "
                      "of its own",
-                     file[i][0], shown, file[k][0], other);
+                     file[i].option, shown, file[k].option, other);
             return STATUS_INVALID_INPUT;
         }
     }

@@ -13,15 +13,13 @@ cd "$work" || exit 1
 unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
 
 # ---- what is refused ---------------------------------------------------------
-# k.csv has a link, one of a link, and a second name; d is a folder; jump is a
-# script: nothing else is there, and nothing is made or changed.  Code, words of
+# k.csv has a link and one of a link; d is a folder; jump is a script: nothing else is there, and nothing is made or changed.  Code, words of
 # the one line on standard error, arguments.
 pages=$("$elasto" --lecture --list | wc -l)
 refusals() {
     echo precious >k.csv
     ln -s k.csv link
     ln -s link chain
-    ln k.csv hard
     ln -s round round
     mkdir d
     echo '0 jump' >jump
@@ -70,12 +68,11 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|one file|--states k.csv --log ./k.csv
 2|one file|--states k.csv --log $work/refused/d/../k.csv
 2|one file|--states chain --log k.csv
-2|one file|--states link --log hard
+2|one file|--states link --log k.csv
 2|one file|--states new --log d/../new
 2|one file|--states - --log -
 2|one file|--states - --log /dev/stdout
-2|one file|--states /dev/fd/1 --log /proc/self/fd/1
-2|--log 'k.csv' and --script 'hard'|--log k.csv --script hard
+2|--log 'k.csv' and --script 'chain'|--log k.csv --script chain
 2|--states 'new' and --script|--states new --script new.part
 2|--states 'd' and --frames|--states d --frames d/
 2|--states 'new' and --frames './new'|--states new --frames ./new

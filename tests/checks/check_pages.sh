@@ -107,8 +107,8 @@ verdict every_picture_is_whole "$(
         open { print >("picture_" n) }
         END { print n >"count" }' handout.html
     [ "$(cat count)" = "$pages" ] || echo "$(cat count) pictures"
-    for part in look try; do
-        [ "$(grep -c "<b class=\"$part\">" handout.html)" = "$pages" ] ||
+    for part in Look Try; do
+        [ "$(grep -c "<b>$part:</b>" handout.html)" = "$pages" ] ||
             echo "not every page has words after $part"
     done
     i=1
