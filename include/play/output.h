@@ -1,8 +1,8 @@
 /* output.h - files that appear under their name only when they are whole.
  *
  *   "-", /dev/stdout               standard output
- *   a file, or nothing yet          NAME.part beside it takes its place, with the
- *                                   old permissions, at the end
+ *   a file, or nothing yet          NAME.part beside it takes its place at the
+ *                                   end, with the old permissions
  *   a symbolic link to a file       the same where it leads; it stays
  *   a pipe, a terminal, a device    is written as it comes
  * A run that writes NAME.part holds a lock on it: a second one is refused.

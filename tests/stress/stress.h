@@ -115,6 +115,9 @@ extern char stress_present[STRESS_LINE];
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
                    Tally *tally, char *reason);
 
+/* Processor time that is left until SIGPROF; 0: as much as it takes. */
+void stress_limit(long seconds);
+
 /* Options go, numbers become round, while it still fails. */
 void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *));
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 /* Seconds that one scene may take before it counts as one that never ends. */
 enum { SCENE_LIMIT = 120 };
@@ -244,6 +244,12 @@ void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *))
 
 char stress_present[STRESS_LINE];
 
+void stress_limit(long seconds)
+{
+    const struct itimerval limit = {.it_value = {.tv_sec = seconds}};
+    setitimer(ITIMER_PROF, &limit, NULL);
+}
+
 static int present_steps; /* of the scenes of the present kinds */
 
 static bool is_wrong(const char *line)
@@ -258,15 +264,15 @@ bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
 {
     for (long i = 0; i < count; i++) {
         stress_line(kinds, seed, i, stress_present);
-        alarm(SCENE_LIMIT);
+        stress_limit(SCENE_LIMIT);
         if (stress_run(stress_present, steps, tally, reason) != VERDICT_WRONG)
             continue;
-        alarm(0);
+        stress_limit(0);
         present_steps = steps;
         stress_shrink(stress_present, is_wrong);
         stress_run(stress_present, steps, &(Tally){0}, reason);
         return false;
     }
-    alarm(0);
+    stress_limit(0);
     return true;
 }
