@@ -45,6 +45,10 @@ void canvas_free(Canvas *canvas);
  * Returns the clip of before, for the end. */
 Box canvas_clip(Canvas *canvas, Box box);
 
+/* Shortens the line x, y, x, y to the box and a margin around it (Liang and
+ * Barsky 1984); false: nothing of it is there. */
+bool box_cut(const Box *box, double margin, double line[4]);
+
 /* Sets every pixel, whatever the clip is. */
 void canvas_clear(Canvas *canvas, Colour colour);
 

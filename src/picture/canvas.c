@@ -1,3 +1,5 @@
+/* Shapes by coverage; lines in fixed point, for springs are most of a frame's
+ * time. */
 #include "picture/canvas.h"
 
 #include <math.h>
@@ -5,9 +7,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/blend.h"
+/* Numbers of 16 bits before and 16 bits after the binary point. */
+enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
-/* Allocates a white picture. */
+/* below + (above - below) amount / 256, red and blue in one multiplication;
+ * borrowed bits fall out of the mask. */
+static inline uint32_t mix(uint32_t below, uint32_t above, uint32_t amount)
+{
+    uint32_t red_blue = below & 0xff00ff, green = below & 0x00ff00;
+    red_blue += ((above & 0xff00ff) - red_blue) * amount >> 8;
+    green += ((above & 0x00ff00) - green) * amount >> 8;
+    return 0xff000000u | (red_blue & 0xff00ff) | (green & 0x00ff00);
+}
+
+/* Alpha of the colour as 0 ... 256. */
+static inline uint32_t opacity(Colour colour)
+{
+    uint32_t alpha = colour >> 24;
+    return alpha + (alpha >> 7);
+}
+
 Colour canvas_mix(Colour one, Colour other, double part)
 {
     return mix(one, other, (uint32_t)(256 * part));
@@ -30,7 +49,6 @@ Status canvas_create(int width, int height, Canvas *canvas)
     return STATUS_OK;
 }
 
-/* Frees the pixels. */
 void canvas_free(Canvas *canvas)
 {
     if (!canvas)
@@ -113,21 +131,180 @@ static void mix_span(uint32_t *row, int left, int right, Colour colour,
             row[i] = mix(row[i], colour, amount);
 }
 
-/* Mixes the colour into every pixel of the rectangle. */
 void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
                       Colour colour)
 {
-    if (width <= 0 || height <= 0)
+    Box box = touched(canvas, x, y, (double)x + width, (double)y + height);
+    for (int j = box.y; j < box.y + box.height; j++)
+        mix_span(canvas_row(canvas, j), box.x, box.x + box.width, colour,
+                 opacity(colour));
+}
+
+/* ---- lines -------------------------------------------------------------- */
+
+/* A line with its long direction as the first axis: a is along, b across.
+ * Pixel (i, j) in these axes is first[i * along + j * across]. */
+typedef struct LineFrame {
+    uint32_t *first;
+    ptrdiff_t along, across; /* distances in pixels[] */
+    int begin, end;          /* clip along */
+    int low, high;           /* clip across, fixed point */
+    Colour colour;
+    uint32_t full; /* opacity, 0 ... 256 */
+} LineFrame;
+
+/* One side of the Liang-Barsky clip: keeps the part of t in [t0, t1] where
+ * p t <= q; false if nothing remains. */
+static bool clip_side(double p, double q, double *t0, double *t1)
+{
+    if (p == 0)
+        return q >= 0;
+    double t = q / p;
+    if (p < 0 && t > *t0)
+        *t0 = t;
+    if (p > 0 && t < *t1)
+        *t1 = t;
+    return *t0 <= *t1;
+}
+
+bool box_cut(const Box *box, double margin, double line[4])
+{
+    double left = box->x - margin, right = box->x + box->width + margin;
+    double top = box->y - margin, bottom = box->y + box->height + margin;
+    if (line[0] >= left && line[2] >= left && line[0] <= right &&
+        line[2] <= right && line[1] >= top && line[3] >= top &&
+        line[1] <= bottom && line[3] <= bottom)
+        return true; /* also far faster where nothing is to be cut */
+    double dx = line[2] - line[0], dy = line[3] - line[1];
+    double t0 = 0, t1 = 1;
+    if (!isfinite(dx) || !isfinite(dy) ||
+        !clip_side(-dx, line[0] - left, &t0, &t1) ||
+        !clip_side(dx, right - line[0], &t0, &t1) ||
+        !clip_side(-dy, line[1] - top, &t0, &t1) ||
+        !clip_side(dy, bottom - line[1], &t0, &t1))
+        return false;
+    line[2] = line[0] + t1 * dx;
+    line[3] = line[1] + t1 * dy;
+    line[0] += t0 * dx;
+    line[1] += t0 * dy;
+    return true;
+}
+
+static inline void blend(uint32_t *pixel, const LineFrame *frame,
+                         uint32_t amount)
+{
+    *pixel = mix(*pixel, frame->colour, amount);
+}
+
+/* Adds the pixels between low and high > low (fixed point) of one column. */
+static inline void line_column(const LineFrame *frame, uint32_t *column,
+                               int low, int high, uint32_t amount)
+{
+    int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
+    uint32_t *p = column + row * frame->across;
+    if (row == last) {
+        blend(p, frame, (uint32_t)(high - low) * amount >> FIXED_BITS);
         return;
+    }
+    uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
+    blend(p, frame, part * amount >> FIXED_BITS);
+    for (p += frame->across; ++row < last; p += frame->across)
+        blend(p, frame, amount);
+    part = (uint32_t)(high - last * FIXED_ONE);
+    blend(p, frame, part * amount >> FIXED_BITS);
+}
+
+/* The same, as far as the clip goes. */
+static void line_column_clipped(const LineFrame *frame, uint32_t *column,
+                                int low, int high, uint32_t amount)
+{
+    low = low < frame->low ? frame->low : low;
+    high = high > frame->high ? frame->high : high;
+    if (low < high)
+        line_column(frame, column, low, high, amount);
+}
+
+/* From a0 to a1 > a0, |slope| <= 1, b = b0 at a0, in the axes of the frame; in
+ * fixed point, for most lines are a few pixels long. */
+static void line_columns(const LineFrame *frame, double a0, double a1,
+                         double b0, double slope, double width)
+{
+    int from = (int)(a0 * FIXED_ONE), to = (int)(a1 * FIXED_ONE);
+    int begin = from >> FIXED_BITS, end = (to + FIXED_ONE - 1) >> FIXED_BITS;
+    begin = begin < frame->begin ? frame->begin : begin;
+    end = end > frame->end ? frame->end : end;
+    int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
+    int step = (int)(slope * FIXED_ONE), b_end = b + (end - begin) * step;
+    int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
+    uint32_t *column = frame->first + begin * frame->along;
+    bool inside = (b < b_end ? b : b_end) - reach - FIXED_ONE >= frame->low &&
+                  (b > b_end ? b : b_end) + reach + FIXED_ONE <= frame->high;
+    for (int i = begin; i < end; i++, b += step, column += frame->along) {
+        uint32_t amount = frame->full;
+        if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
+            int left = i * FIXED_ONE, right = left + FIXED_ONE;
+            left = left < from ? from : left;
+            right = right > to ? to : right;
+            amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
+        }
+        if (inside)
+            line_column(frame, column, b - reach, b + reach, amount);
+        else
+            line_column_clipped(frame, column, b - reach, b + reach, amount);
+    }
+}
+
+/* Columns or rows, whichever the line crosses more of; from left to right or
+ * downwards. */
+void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
+                 double width, Colour colour)
+{
+    double line[4] = {x0, y0, x1, y1};
     const Box *clip = &canvas->clip;
-    int left = x, right = x > canvas->width - width ? canvas->width : x + width;
-    int top = y,
-        bottom = y > canvas->height - height ? canvas->height : y + height;
-    clip_range(&left, &right, clip->x, clip->x + clip->width);
-    clip_range(&top, &bottom, clip->y, clip->y + clip->height);
-    uint32_t amount = opacity(colour);
-    for (int j = top; j < bottom; j++)
-        mix_span(canvas_row(canvas, j), left, right, colour, amount);
+    if (!(width > 0) || width > CANVAS_MAX_WIDTH ||
+        !box_cut(clip, width + 1, line))
+        return;
+    const double d[2] = {line[2] - line[0], line[3] - line[1]};
+    const int from[2] = {clip->x, clip->y};
+    const int to[2] = {clip->x + clip->width, clip->y + clip->height};
+    int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, back = d[k] > 0 ? 0 : 2;
+    const LineFrame frame = {.first = canvas->pixels,
+                             .along = k ? canvas->width : 1,
+                             .across = k ? 1 : canvas->width,
+                             .begin = from[k],
+                             .end = to[k],
+                             .low = from[1 - k] * FIXED_ONE,
+                             .high = to[1 - k] * FIXED_ONE,
+                             .colour = colour,
+                             .full = opacity(colour)};
+    if (d[k] != 0)
+        line_columns(&frame, line[back + k], line[2 - back + k],
+                     line[back + 1 - k], d[1 - k] / d[k], width);
+}
+
+void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
+                   double width, double on, double off, double *phase,
+                   Colour colour)
+{
+    double line[4] = {x0, y0, x1, y1}, length = hypot(x1 - x0, y1 - y0);
+    double begin = phase ? *phase : 0, period = on + off;
+    if (!(length > 0) || !(period > 0) || !isfinite(length))
+        return;
+    if (phase)
+        *phase = fmod(begin + length, period);
+    if (!box_cut(&canvas->clip, width + 1, line))
+        return;
+    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+    double from = (line[0] - x0) * ux + (line[1] - y0) * uy;
+    double to = (line[2] - x0) * ux + (line[3] - y0) * uy;
+    for (double k = floor((begin + from) / period); k * period - begin < to;
+         k++) {
+        double a = fmax(k * period - begin, from);
+        double b = fmin(k * period - begin + on, to);
+        if (b > a)
+            canvas_line(canvas, x0 + a * ux, y0 + a * uy, x0 + b * ux,
+                        y0 + b * uy, width, colour);
+    }
 }
 
 void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
@@ -306,64 +483,40 @@ void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
     }
 }
 
-/* Coverage of a pixel whose centre is at squared distance d2: 0 ... 1. */
-static double disc_coverage(double d2, double radius)
-{
-    double inner = radius - 0.5, outer = radius + 0.5;
-    if (d2 >= outer * outer)
-        return 0;
-    if (inner > 0 && d2 <= inner * inner)
-        return 1;
-    return limit_part(outer - sqrt(d2));
-}
-
-/* Pixels by their distance from the centre. */
-void canvas_disc(Canvas *canvas, double x, double y, double radius,
-                 Colour colour)
-{
-    double reach = radius + 1;
-    if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
-        !(radius < 1e6))
-        return;
-    Box box = touched(canvas, x - reach, y - reach, x + reach, y + reach);
-    uint32_t full = opacity(colour);
-    for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = canvas_row(canvas, j);
-        double dy = j + 0.5 - y;
-        for (int i = box.x; i < box.x + box.width; i++) {
-            double dx = i + 0.5 - x;
-            double part = disc_coverage(dx * dx + dy * dy, radius);
-            if (part > 0)
-                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
-        }
-    }
-}
-
+/* By the distance from the centre to its two edges; a disc has but one. */
 void canvas_ring(Canvas *canvas, double x, double y, double radius,
                  double width, Colour colour)
 {
-    double reach = radius + 0.5 * width + 1;
-    double near = fmax(radius - 0.5 * width - 0.5, 0);
-    double near2 = near > 0 ? near * near : -1, far2 = reach * reach;
+    double far = radius + 0.5 * width, near = radius - 0.5 * width;
+    double reach = far + 1, out2 = (far + 0.5) * (far + 0.5);
+    double in2 = near > 0.5 ? (near - 0.5) * (near - 0.5) : -1;
+    double solid2 = near <= 0 && far > 0.5 ? (far - 0.5) * (far - 0.5) : -1;
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
     Box box = touched(canvas, x - reach, y - reach, x + reach, y + reach);
     uint32_t full = opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
-        double dy = j + 0.5 - y;
         uint32_t *row = canvas_row(canvas, j);
+        double dy = j + 0.5 - y;
         for (int i = box.x; i < box.x + box.width; i++) {
-            double dx = i + 0.5 - x;
-            double d2 = dx * dx + dy * dy;
-            if (d2 <= near2 || d2 >= far2)
+            double dx = i + 0.5 - x, d2 = dx * dx + dy * dy, part = 1;
+            if (d2 <= in2 || d2 >= out2)
                 continue;
-            double d = sqrt(d2) - radius;
-            double part = fmin(fmax(0.5 * width + 0.5 - fabs(d), 0), 1);
-            if (part > 0)
-                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+            if (d2 > solid2) {
+                double d = sqrt(d2);
+                part = limit_part(far + 0.5 - d);
+                part = near > 0 ? fmin(part, limit_part(d - near + 0.5)) : part;
+            }
+            row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }
+}
+
+void canvas_disc(Canvas *canvas, double x, double y, double radius,
+                 Colour colour)
+{
+    canvas_ring(canvas, x, y, 0.5 * radius, radius, colour);
 }
 
 /* Row by row. */

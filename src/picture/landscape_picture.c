@@ -27,38 +27,42 @@ static double level_factor(const Simulation *simulation)
     return elastic && h > 1 ? h * h : 1;
 }
 
-/* How much of a pixel the next contour covers: it is as far from it as E is
- * from the level, over the slope.
- *   value, slope  over the factor; slope a pixel */
-static double contour_part(double value, double slope, double width)
+/* How far the next contour is; value over the factor. */
+static double contour_distance(double value)
 {
     double nearest = INFINITY;
-    for (int k = 0; k < MAP_LEVELS; k++)
-        nearest = fmin(nearest, fabs(value - map_levels[k]));
-    return fmin(fmax(0.5 + 0.5 * width - nearest / slope, 0), 1);
+    for (int k = 0; k < MAP_LEVELS; k++) {
+        double distance = fabs(value - map_levels[k]);
+        nearest = distance < nearest ? distance : nearest;
+    }
+    return nearest;
 }
 
 /* Where E is not convex, and contours of the parts that are switched on: two by
- * two pixels at a time, in which E is taken as a plane. */
+ * two pixels at a time, in which E is a plane.  A contour is as many pixels
+ * away as E is from its level over the slope. */
 static void draw_ground(const Plot *plot, const Simulation *simulation)
 {
-    Paper *paper = plot->paper;
+    Canvas *canvas = &plot->paper->canvas;
     double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
-    double width = fmax(1, 0.6 * paper->unit);
+    double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
     for (int j = 0; j < plot->box.height; j += 2)
         for (int i = 0; i < plot->box.width; i += 2) {
-            double x = plot->x.low + (i + 1) * metre;
-            double y = plot->y.high - (j + 1) * metre;
-            Local E = descent_at(simulation, FILTER_NONE, x, y);
+            Local E = descent_at(simulation, FILTER_NONE,
+                                 plot->x.low + (i + 1) * metre,
+                                 plot->y.high - (j + 1) * metre);
             double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
-            if (descent_bends_down(simulation, x, y))
-                canvas_rectangle(&paper->canvas, i, j, 2, 2, COLOUR_SHADE);
+            double slope = sqrt(right * right + up * up);
+            if (!(E.H[0] > 0 && E.H[0] * E.H[2] > E.H[1] * E.H[1]))
+                canvas_rectangle(canvas, i, j, 2, 2, COLOUR_SHADE);
+            if (contour_distance(E.value / e) > (reach + 1) * slope)
+                continue;
             for (int k = 0; k < 4; k++) {
                 double value =
                     E.value / e + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-                double part = contour_part(value, hypot(right, up), width);
-                Colour alpha = (Colour)(255 * part) << 24;
-                canvas_rectangle(&paper->canvas, i + k % 2, j + k / 2, 1, 1,
+                double part = reach - contour_distance(value) / slope;
+                Colour alpha = (Colour)(255 * fmin(fmax(part, 0), 1)) << 24;
+                canvas_rectangle(canvas, i + k % 2, j + k / 2, 1, 1,
                                  alpha | (COLOUR_GREY & 0xffffff));
             }
         }

@@ -240,36 +240,13 @@ static bool has_axes(const Plot *plot)
     return plot->x.high > plot->x.low;
 }
 
-/* Cuts the part of a ... b off that is beyond low ... high in coordinate k;
- * false: nothing is left. */
-static bool cut_axis(double a[2], double b[2], int k, double low, double high)
-{
-    double *ends[2] = {a, b};
-    if ((a[k] < low && b[k] < low) || (a[k] > high && b[k] > high))
-        return false;
-    for (int i = 0; i < 2; i++) {
-        double *end = ends[i], *other = ends[1 - i];
-        double limit = fmin(fmax(end[k], low), high);
-        if (end[k] == limit)
-            continue;
-        double t = (limit - end[k]) / (other[k] - end[k]);
-        end[1 - k] += t * (other[1 - k] - end[1 - k]);
-        end[k] = limit;
-    }
-    return true;
-}
-
 /* The line between two pixels, as far as it is inside; NaN draws nothing. */
 static void draw_line(const Plot *plot, const double *a, const double *b,
                       double width, Colour colour)
 {
-    const Box *box = &plot->box;
-    double p[2] = {a[0], a[1]}, q[2] = {b[0], b[1]};
-    if (has_axes(plot) && (!isfinite(p[0] + p[1]) || !isfinite(q[0] + q[1]) ||
-                           !cut_axis(p, q, 0, box->x, box->x + box->width) ||
-                           !cut_axis(p, q, 1, box->y, box->y + box->height)))
-        return;
-    paper_line(plot->paper, p, q, width, colour);
+    double line[4] = {a[0], a[1], b[0], b[1]};
+    if (!has_axes(plot) || box_cut(&plot->box, 0, line))
+        paper_line(plot->paper, line, line + 2, width, colour);
 }
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,

@@ -278,24 +278,12 @@ static double shared_area(Box a, Box b)
     return fmax(wide, 0) * fmax(high, 0);
 }
 
-/* The length of a line inside a box (Liang and Barsky 1984). */
+/* The length of a line inside a box. */
 static double length_inside(Box box, const double line[4])
 {
-    double from = 0, to = 1;
-    const double low[2] = {box.x, box.y};
-    const double high[2] = {box.x + box.width, box.y + box.height};
-    for (int k = 0; k < 2; k++) {
-        double d = line[2 + k] - line[k];
-        if (d == 0) {
-            if (line[k] < low[k] || line[k] > high[k])
-                return 0;
-            continue;
-        }
-        double p = (low[k] - line[k]) / d, q = (high[k] - line[k]) / d;
-        from = fmax(from, fmin(p, q));
-        to = fmin(to, fmax(p, q));
-    }
-    return fmax(to - from, 0) * hypot(line[2] - line[0], line[3] - line[1]);
+    double part[4] = {line[0], line[1], line[2], line[3]};
+    bool inside = box_cut(&box, 0, part);
+    return inside ? hypot(part[2] - part[0], part[3] - part[1]) : 0;
 }
 
 static double place_cost(const Plot *plot, Box place)
