@@ -65,12 +65,11 @@ static const Range ranges[] = {
     {"speed", "0.015625", "1024", ""},
 };
 
-/* One option of a square that has all there is, by its name.  message [512] */
+/* One option of a square that has all there is.  message [512] */
 static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
     *options = parse_good("square --ground 0,1,0,-1 --yield 1");
-    message[0] = '\0';
     return options_set(options, name, value, message, 512);
 }
 
@@ -83,9 +82,7 @@ static void check_refused(const char *option, const char *value,
     CHECK_STATUS(set_option(&options, option, value, message),
                  STATUS_INVALID_INPUT);
     if (strncmp(message, shown, strlen(shown)) != 0 || !strstr(message, range))
-        print_error("--%s %s: %s\n", option, value, message);
-    CHECK(strncmp(message, shown, strlen(shown)) == 0);
-    CHECK(strstr(message, range) != NULL && !strchr(message, '\n'));
+        fail_msg("--%s %s: %s", option, value, message);
 }
 
 /* Borders are read, the numbers next to them are not; nor is what is no whole
@@ -93,8 +90,8 @@ static void check_refused(const char *option, const char *value,
 TEST(numbers_have_ranges)
 {
     static const char *const bad[] = {
-        "nan", "NAN",   "inf", "-infinity", "0x10", "",    "1e999",
-        "4x",  "1.4.1", "-",   "e5",        "+-1",  "ten", " 1"};
+        "nan", "NAN",   "inf", "-infinity", "0x10", "",   "1e999",
+        "4x",  "1.4.1", "-",   "e5",        "+-1",  "ten"};
     size_t count = 0;
     for (const OptionRow *row = option_rows; row->name; row++)
         count += row->high > row->low && !row->count;
@@ -109,80 +106,67 @@ TEST(numbers_have_ranges)
                               : !(row->standard >= row->low));
         for (int end = 0; end < 2; end++) {
             const char *text = end ? it->high : it->low;
-            double border = strtod(text, NULL);
+            double border = strtod(text, NULL), up = end ? 1 : -1;
             CHECK_STATUS(set_option(&options, it->option, text, message),
                          STATUS_OK);
-            bool whole = row->kind != OPTION_NUMBER;
+            CHECK(options.number[row->slot] == border);
             snprintf(beyond, sizeof beyond, "%.17g",
-                     whole ? border + (end ? 1 : -1)
-                           : nextafter(border, end ? INFINITY : -INFINITY));
+                     row->kind == OPTION_WHOLE
+                         ? border + up
+                         : nextafter(border, up * INFINITY));
             check_refused(it->option, beyond, range);
         }
         for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
             check_refused(it->option, bad[k], range);
     }
     check_refused("segments", "4.5", "a whole number from 1 to 4096");
-    check_refused("segments", "4294967300", "a whole number");
     check_refused("at", "1", "X,Y, each from -1e30 to 1e30, in m");
     check_refused("at", "1,2,3", "X,Y, each");
     check_refused("ground", "0,1,0", "NX,NY,OX,OY, each from -1e9 to 1e9");
     check_refused("barrier", "0,1", "DHAT,KAPPA, each from 1e-12 to 1e18");
     check_refused("size", "1200", "WxH, each from 16 to 8192");
-    check_refused("size", "15x16", "WxH");
     check_refused("size", "16x8193", "WxH");
 }
 
 /* What is read stands in the option's own field. */
 TEST(values_are_read)
 {
-    Options o = parse_good(
-        "--segments=16 --side 2.5 --density 1e-3 --stiffness 3E7 "
-        "--stretch=-.5 --turn 30 --at 1,-2 --velocity .5,0 --gravity 9.81 "
-        "--ground 0,1,0,-9 --ball 0,-9,1 --ball 3,-8,.5 --barrier 0.1,1e5 "
-        "--friction 0.25 --slip-speed 0.1 --yield .5 --hardening 2");
-    CHECK(o.segments == 16 && o.side == 2.5 && o.density == 1e-3);
-    CHECK(o.stiffness == 3e7 && o.stretch == -0.5 && o.turn == 30);
-    CHECK(o.at[0] == 1 && o.at[1] == -2 && o.velocity[0] == 0.5);
-    CHECK(o.gravity == 9.81 && o.grounds == 1 && o.ground[0][3] == -9);
-    CHECK(o.balls == 2 && o.ball[0][1] == -9 && o.ball[1][2] == 0.5);
-    CHECK(o.barrier[0] == 0.1 && o.barrier[1] == 1e5 && o.friction == 0.25);
-    CHECK(o.slip_speed == 0.1 && o.yield == 0.5 && o.hardening == 2);
-    o = parse_good("--tear 0.3 --damping 1e-3 --timestep 1 --tolerance 1e-9 "
-                   "--steps 123456789012 --speed 0.25 --size 640x480 --pin top "
+    Options o =
+        parse_good("--at 1,-2 --velocity .5,0 --ground 0,1,0,-9 --ball 0,-9,1 "
+                   "--ball 3,-8,.5 --barrier 0.1,1e5 --size 640x480 --pin top "
                    "--frames a/b --states - --log -x --film f.gif --script s");
-    CHECK(o.tear == 0.3 && o.damping == 1e-3 && o.timestep == 1);
-    CHECK(o.tolerance == 1e-9 && o.steps == 123456789012 && o.speed == 0.25);
+    CHECK(o.at[0] == 1 && o.at[1] == -2 && o.velocity[0] == 0.5);
+    CHECK(o.grounds == 1 && o.ground[0][1] == 1 && o.ground[0][3] == -9);
+    CHECK(o.balls == 2 && o.ball[0][1] == -9 && o.ball[1][2] == 0.5);
+    CHECK(o.barrier[0] == 0.1 && o.barrier[1] == 1e5);
     CHECK(o.size[0] == 640 && o.size[1] == 480);
-    assert_string_equal(o.pin, "top");
-    assert_string_equal(o.frames, "a/b");
-    assert_string_equal(o.states, "-");
-    assert_string_equal(o.log, "-x");
-    assert_string_equal(o.film, "f.gif");
-    assert_string_equal(o.script, "s");
+    const char *const texts[][2] = {{o.pin, "top"},    {o.frames, "a/b"},
+                                    {o.states, "-"},   {o.log, "-x"},
+                                    {o.film, "f.gif"}, {o.script, "s"}};
+    for (int i = 0; i < 6; i++)
+        assert_string_equal(texts[i][0], texts[i][1]);
     o = parse_good("--minimum --paused --fullscreen --headless --quiet --help "
                    "--version --list");
     CHECK(o.minimum && o.paused && o.fullscreen && o.headless && o.quiet);
     CHECK(o.help && o.version && o.list);
     o = parse_good(""); /* of the integrators: the scene's choice */
-    CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1 &&
-          !o.minimum);
+    CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1);
     CHECK(!o.frames && !o.states && !o.log && !o.page && o.panes == 1);
     CHECK(!o.headless && !o.quiet && !o.help && !o.version && !o.list);
-    assert_string_equal(parse_good("--lecture").page->name, "solid");
+    CHECK(!o.minimum && !options_integrator(&o));
     CHECK(parse_good("-h -V").help && parse_good("-V").version);
-    assert_string_equal(parse_good("--handout h.html").handout, "h.html");
+    assert_string_equal(parse_good("--lecture").page->name, "solid");
     assert_string_equal(parse_good("--lecture 2").page->name, "mesh");
+    assert_string_equal(parse_good("--handout h.html").handout, "h.html");
     CHECK(parse_good("--side 2 --side 3").side == 3); /* the last one counts */
     CHECK(parse_good("--seg 3 --quie").segments == 3);
-    CHECK(parse_good("--segments 1e2").segments == 100);
     o = parse_good("overshoot --start 3");
     CHECK(o.start[0] == 3 && o.start[1] == 0);
-    o = parse_good("overshoot --start 3,4 --line-search none");
-    CHECK(o.start[0] == 3 && o.start[1] == 4);
-    CHECK(parse_good("circle --timestep 0.1 --integrator bdf2").timestep ==
-          0.1);
-    CHECK(parse_good("landscape --start 1,1 --filter none").start[1] == 1);
-    CHECK(parse_good("dial --timestep 3").timestep == 3);
+    CHECK(parse_good("landscape --start 1,2").start[1] == 2);
+    /* the scene stands anywhere */
+    CHECK(parse_good("--segments 3 hang --side 2").scene == scene_find("hang"));
+    CHECK(parse_good("--segments 3 7").scene == scene_find("hang"));
+    CHECK(parse_good("--segments 3 7").segments == 3);
 }
 
 /* Each name of each option. */
@@ -252,19 +236,6 @@ TEST(slots_are_held_against_their_rows)
                                     sizeof message),
                  STATUS_INVALID_INPUT);
     CHECK(strstr(message, "has no square") != NULL);
-}
-
-TEST(scenes_stand_anywhere)
-{
-    for (int i = 0; scenes[i].name; i++) {
-        char number[16];
-        snprintf(number, sizeof number, "%d", i + 1);
-        CHECK(parse_good(scenes[i].name).scene == &scenes[i]);
-        CHECK(parse_good(number).scene == &scenes[i]);
-    }
-    CHECK(parse_good("--segments 3 square --side 2").segments == 3);
-    CHECK(parse_good("--segments 3 square --side 2").side == 2);
-    CHECK(scene_find("") == NULL);
 }
 
 /* The line, and what its message must name: option, value, range; or what may
@@ -354,42 +325,39 @@ TEST(numbers_are_worked_out)
         {"timestep", "1/60", "0.016666666666666666"},
         {"timestep", "0,02", "0.02"},
         {"timestep", "7ms", "0.007"},
-        {"timestep", "1/8 s", "0.125"},
+        {"timestep", "1/8s", "0.125"},
         {"timestep", "4e3us", "0.004"},
-        {"timestep", "2 sec", "2"},
+        {"timestep", "2sec", "2"},
         {"tolerance", "5mm/s", "0.005"},
-        {"side", "20 cm", "0.2"},
+        {"side", "20cm", "0.2"},
         {"side", "2km", "2000"},
-        {"stiffness", "2e5 J/m^2", "200000"},
-        {"gravity", "9.81 m/s^2", "9.81"},
+        {"stiffness", "2e5J/m^2", "200000"},
         {"stretch", "140%", "1.4"},
         {"segments", "4.0", "4"},
         {"timestep", "-3", NULL},
-        {"timestep", "4 m", NULL},
+        {"timestep", "4m", NULL},
         {"timestep", "1/0", NULL},
         {"timestep", "1/2/3", NULL},
         {"timestep", "1,000.5", NULL},
         {"timestep", "5%", NULL},
         {"segments", "1/2", NULL},
-        {"segments", "4 s", NULL},
+        {"segments", "4s", NULL},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char value[64], again[64], message[512];
-        Options typed, meant;
+        char value[64], message[512];
+        Options typed;
         const OptionRow *row = option_find(rows[i][0]);
         double number = NAN;
-        bool known = option_read(row, rows[i][1], &number);
-        CHECK(known == (rows[i][2] != NULL));
-        option_write(row, number, value, sizeof value);
-        CHECK(!known || strcmp(value, rows[i][2]) == 0);
         Status status = set_option(&typed, row->name, rows[i][1], message);
+        CHECK(option_read(row, rows[i][1], &number) == (rows[i][2] != NULL));
         CHECK_STATUS(status, rows[i][2] ? STATUS_OK : STATUS_INVALID_INPUT);
-        if (status)
-            continue;
-        CHECK_STATUS(set_option(&meant, row->name, value, again), STATUS_OK);
-        CHECK(typed.number[row->slot] == meant.number[row->slot]);
+        option_write(row, number, value, sizeof value);
+        CHECK(status || typed.number[row->slot] == number);
+        CHECK(status || strcmp(value, rows[i][2]) == 0);
     }
     double value;
+    CHECK(option_read(option_find("gravity"), "9.81 m/s^2", &value));
+    CHECK(value == 9.81);
     CHECK(option_read(option_find("filter"), "abs", &value));
     CHECK(value == FILTER_ABS);
     CHECK(parse_good("--at 10cm,5mm").at[1] == 0.005);
@@ -440,14 +408,14 @@ TEST(the_row_has_its_places_and_paces)
     assert_string_equal(names, "tolerance line-search ");
     options = parse_good(""); /* nothing to rub on, no damping */
     CHECK(options_row(&options, found) == (int)count - 3);
-    option_unit(option_find("stiffness"), text, sizeof text);
-    assert_string_equal(text, "J/m\u00b2");
-    option_unit(option_find("gravity"), text, sizeof text);
-    assert_string_equal(text, "m/s\u00b2");
-    option_unit(option_find("turn"), text, sizeof text);
-    assert_string_equal(text, "\u00b0");
-    option_unit(option_find("filter"), text, sizeof text);
-    assert_string_equal(text, "");
+    static const char *const units[][2] = {{"stiffness", "J/m\u00b2"},
+                                           {"gravity", "m/s\u00b2"},
+                                           {"turn", "\u00b0"},
+                                           {"filter", ""}};
+    for (int i = 0; i < 4; i++) {
+        option_unit(option_find(units[i][0]), text, sizeof text);
+        assert_string_equal(text, units[i][1]);
+    }
     for (const OptionRow *row = option_rows; row->name; row++)
         CHECK(!row->compared || row->label); /* of a pane */
 }
@@ -477,99 +445,103 @@ TEST(long_values_are_cut)
     CHECK(strlen(message) == 19 && message[20] == 'y');
 }
 
-/* A word of a random line: often one that is right. */
-static void random_word(unsigned seed, char *word, size_t size)
-{
-    static const char *const pieces[] = {
-        "--segments", "--side", "--st",  "--timestep", "--integrator",
-        "--filter",   "--lo",   "-h",    "--dt",       "circle",
-        "3",          "-1",     "1e3",   "1e-300",     "inf",
-        "0x1",        "1,2",    "",      "=",          "--",
-        ",",          "none",   "clamp", "verlet,avf", "\n",
-        "\303\274",   "%s%n",   "1/60",  "\302\233",   "top-left"};
-    static const char *const good[] = {
-        "--segments=8", "--side=2",        "--integrator=bdf2", "--steps=1e3",
-        "--quiet",      "--timestep=1/60", "--filter=none",     "--stif=1e3",
-        "--log=x",      "--stretch=-.5",   "--headless",        "-h"};
-    const size_t count = sizeof pieces / sizeof *pieces;
-    size_t one = (seed >> 12) % count, other = (seed >> 7) % count;
-    if (seed >> 30) /* three of four */
-        snprintf(word, size, "%s", good[one % (sizeof good / sizeof *good)]);
-    else
-        snprintf(word, size, "%s%s%s", pieces[one], seed & 512 ? "=" : "",
-                 seed & 1024 ? pieces[other] : "");
-}
-
-/* Whatever is typed is either understood, or answered by one short line. */
+/* Whatever is typed is either understood, or answered by one short line: lines
+ * of pieces, some of them after a '='. */
 TEST(random_lines_end_well)
 {
-    unsigned seed = 1;
+    static const char *const pieces[] = {"--segments=8",
+                                         "--side=2",
+                                         "--st",
+                                         "--timestep=1/60",
+                                         "--filter",
+                                         "--lo",
+                                         "-h",
+                                         "--integrator=bdf2",
+                                         "--steps=1e3",
+                                         "--quiet",
+                                         "3",
+                                         "--filter=none",
+                                         "-1",
+                                         "1e3",
+                                         "inf",
+                                         "--stif=1e3",
+                                         "1,2",
+                                         "--stretch=-.5",
+                                         "",
+                                         "verlet,avf",
+                                         "none",
+                                         "\n",
+                                         "=",
+                                         "--",
+                                         "\303\274",
+                                         "%s%n",
+                                         "circle",
+                                         "\302\233"};
+    Random random = {1};
     int understood = 0, refused = 0;
     for (int line = 0; line < 50000; line++) {
-        char words[6][80], *argv[8] = {"elasto"}, message[512];
-        seed = seed * 1664525u + 1013904223u;
-        int argc = 1 + (int)(seed >> 20) % 6;
+        char words[5][80], *argv[7] = {"elasto"}, message[512] = "";
+        int argc = 1 + random_below(&random, 6);
         Options options;
         for (int i = 1; i < argc; i++) {
-            seed = seed * 1664525u + 1013904223u;
-            random_word(seed, words[i - 1], sizeof words[0]);
+            const int most = sizeof pieces / sizeof *pieces;
+            const char *piece = pieces[random_below(&random, most)];
+            bool two = random_below(&random, 8) == 0;
+            snprintf(words[i - 1], sizeof words[0], "%s%s%s", piece,
+                     two ? "=" : "",
+                     two ? pieces[random_below(&random, most)] : "");
             argv[i] = words[i - 1];
         }
-        argv[argc] = NULL;
-        message[0] = '\0';
         Status status = options_parse(argc, argv, line % 5, &options, message,
                                       sizeof message);
+        understood += status == STATUS_OK;
+        refused += status == STATUS_INVALID_INPUT;
         if (status == STATUS_OK) {
-            understood++;
             CHECK(options.scene && options.panes >= 1);
             CHECK(options.timestep >= 1e-30 && options.timestep <= 1e30);
             CHECK(options.segments >= 1 && options.segments <= 4096);
-            continue;
+        } else {
+            CHECK(message[0] && strlen(message) < 500);
+            CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
         }
-        refused++;
-        CHECK_STATUS(status, STATUS_INVALID_INPUT);
-        CHECK(message[0] && strlen(message) < 500);
-        CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
     }
     print_message("%d understood, %d refused\n", understood, refused);
     CHECK(understood > 1000 && refused > 1000);
+    CHECK(understood + refused == 50000);
 }
 
 /* What a message may show of a text. */
 TEST(texts_become_one_line)
 {
-    char line[12];
-    one_line("a\nb\tc\177\033", line, sizeof line);
-    assert_string_equal(line, "a?b?c??");
-    one_line("0123456789012", line, sizeof line);
-    assert_string_equal(line, "0123...9012");
-    one_line("01234567890", line, sizeof line);
-    assert_string_equal(line, "01234567890");
-    one_line("012\303\274456789\303\274\303\274", line, sizeof line);
-    assert_string_equal(line, "012...\303\274\303\274"); /* whole letters */
-    one_line("0123456789\303\274abc", line, sizeof line);
-    assert_string_equal(line, "0123...abc"); /* no half of one */
-    /* controls above ASCII, and as single bytes; what turns writing around;
-     * bytes that are no text: in the wrong place, too long, cut off */
+    static const char *const rows[][2] = {
+        {"a\nb\tc\177\033", "a?b?c??"},
+        {"0123456789012", "0123...9012"},
+        {"01234567890", "01234567890"},
+        /* whole letters, and no half of one */
+        {"012\303\274456789\303\274\303\274", "012...\303\274\303\274"},
+        {"0123456789\303\274abc", "0123...abc"},
+        /* bytes that are no text: in the wrong place, too long, cut off */
+        {"\303\050", "?("},
+        {"\300\233a\342\200", "??a??"},
+        {"\302\240\342\200\247\342\201\252",
+         "\302\240\342\200\247\342\201\252"},
+        {NULL, ""}};
+    /* controls above ASCII, and as single bytes; what turns writing around */
     static const char *const hidden[] = {
         "\302\200",     "\302\205",     "\302\237",     "\200",
         "\233",         "\237",         "\330\234",     "\342\200\216",
         "\342\200\217", "\342\200\252", "\342\200\256", "\342\201\246",
         "\342\201\251", "\377",         "\342\200\250"};
-    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++) {
-        char text[12];
-        snprintf(text, sizeof text, "a%sb", hidden[i]);
-        one_line(text, text, sizeof text);
-        assert_string_equal(text, "a?b");
+    char line[12];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        one_line(rows[i][0], line, sizeof line);
+        assert_string_equal(line, rows[i][1]);
     }
-    one_line("\303\050", line, sizeof line);
-    assert_string_equal(line, "?(");
-    one_line("\300\233a\342\200", line, sizeof line);
-    assert_string_equal(line, "??a??");
-    one_line("\302\240\342\200\247\342\201\252", line, sizeof line);
-    assert_string_equal(line, "\302\240\342\200\247\342\201\252");
-    one_line(NULL, line, sizeof line);
-    assert_string_equal(line, "");
+    for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++) {
+        snprintf(line, sizeof line, "a%sb", hidden[i]);
+        one_line(line, line, sizeof line);
+        assert_string_equal(line, "a?b");
+    }
 }
 
 /* Options of pane 0, 1, ... of a line with lists. */
