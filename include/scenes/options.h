@@ -73,12 +73,12 @@ typedef struct Options {
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
     const char *frames;             /* folder for PNG frames, or NULL */
-    const char *states;    /* file for states, "-" for stdout, or NULL */
-    const char *log;       /* file for the Newton log, or NULL */
-    const char *film;      /* file for a film of all drawn steps, or NULL */
-    const char *script;    /* file of commands, or NULL */
-    const char *handout;   /* file for the pages as one HTML file, or NULL */
-    int panes;             /* side by side, 1: no lists of values */
+    const char *states;  /* file for states, "-" for stdout, or NULL */
+    const char *log;     /* file for the Newton log, or NULL */
+    const char *film;    /* file for a film of all drawn steps, or NULL */
+    const char *script;  /* file of commands, or NULL */
+    const char *handout; /* file for the pages as one HTML file, or NULL */
+    int panes;           /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */
@@ -120,10 +120,9 @@ typedef struct OptionRow {
     unsigned needs; /* of enum SceneNeeds, one of them; 0: nothing */
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
-    bool compared; /* a list of values is side by side */
-    bool live;     /* it may change from one step to the next */
-    /* In the window: */
-    const char *label; /* in the markup of text.h; all that are compared */
+    bool live;         /* it may change from one step to the next */
+    const char *label; /* in the window, in the markup of text.h; of all whose
+                          lists of values are side by side; or NULL */
     int place;         /* in the row of numbers, from 1; 0: not there */
     int letters;       /* the longest value has */
     double pace;       /* what one pace adds; 0: by factors, or names */
@@ -134,6 +133,9 @@ enum { OPTIONS_MOST = 64 }; /* rows */
 
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
+
+/* How many names the values of a row have; 0: they are numbers. */
+int option_names(const OptionRow *row);
 
 /* The row whose number, or one of whose numbers, is in this slot, or NULL. */
 const OptionRow *option_at(int slot);

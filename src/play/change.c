@@ -163,7 +163,7 @@ static Status set_default(Player *player, const Command *command)
     const Options *now = &player->lane[0].track.options;
     Options options[OPTIONS_MAX_PANES];
     int count;
-    if (!row || !row->compared)
+    if (!row || !row->label)
         return player_refuse(player, "there is no such number");
     Status status =
         now->page

@@ -95,7 +95,7 @@ bool player_compares(const Player *player, const char *option)
 {
     const OptionRow *row = option_find(option);
     char first[COMMAND_TEXT_SIZE], other[COMMAND_TEXT_SIZE];
-    if (!row || !row->compared)
+    if (!row || !row->label)
         return false;
     option_value(row, &player->lane[0].track.settings.options, first,
                  sizeof first);

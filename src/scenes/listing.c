@@ -27,24 +27,19 @@ static bool names_function(const char *line, const char *function)
     return false;
 }
 
-/* The line after the closing brace of what begins here; 0: a declaration. */
+/* The line after the closing brace of what begins here; 0: a declaration, for
+ * it ends before a brace. */
 static int find_end(const Listing *listing, int from)
 {
     bool body = false;
     for (int i = from; i < listing->lines; i++) {
         const char *line = listing->line[i];
-        size_t length = strlen(line);
-        body = body || line[0] == '{';
-        if (line[0] == '}' ||
-            (i == from && strstr(line, "{ ") && line[length - 1] == '}'))
+        char last = line[0] ? line[strlen(line) - 1] : ' ';
+        if (line[0] == '}' || (!body && last == '}'))
             return i + 1;
-        if (length > 0 && line[length - 1] == ';' && line[0] != ' ')
-            return 0; /* on one line, or ... */
-        if (!body && i > from && length > 1 &&
-            strcmp(line + length - 2, ");") == 0 &&
-            listing->line[from][0] != '}' && line[0] == ' ' &&
-            listing->line[i + 1 < listing->lines ? i + 1 : i][0] == '\0')
-            return 0; /* ... on several */
+        if (!body && last == ';')
+            return 0;
+        body = body || line[0] == '{';
     }
     return 0;
 }

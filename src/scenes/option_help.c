@@ -1,10 +1,41 @@
+#include "scenes/option_help.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/option_values.h"
+#include "scenes/one_line.h"
+#include "scenes/options.h"
 #include "scenes/scene.h"
 
 enum { HELP_SIZE = 8192, HELP_COLUMNS = 80, HELP_INDENT = 21 };
+
+Text typed(const char *word)
+{
+    Text shown;
+    one_line(word, shown.text, 64);
+    return shown;
+}
+
+Text number_text(double number)
+{
+    Text shown;
+    snprintf(shown.text, sizeof shown.text, fabs(number) >= 1e5 ? "%.0e" : "%g",
+             number);
+    char *plus = strstr(shown.text, "e+");
+    if (plus) {
+        char *digits = plus + 2 + strspn(plus + 2, "0");
+        memmove(plus + 1, digits, strlen(digits) + 1);
+    }
+    return shown;
+}
+
+void add_name(Text *list, const char *before, const char *name)
+{
+    size_t used = strlen(list->text);
+    snprintf(list->text + used, sizeof list->text - used, "%s%s%s",
+             used > 0 ? ", " : "", before, name);
+}
 
 /* A text under construction. */
 typedef struct Help {

@@ -12,7 +12,6 @@
 #include <string.h>
 
 #include "model/square_mesh.h"
-#include "scenes/option_values.h"
 #include "scenes/pages.h"
 #include "scenes/pins.h"
 #include "scenes/scene.h"
@@ -103,7 +102,7 @@ static const char *nothing_flows(const Options *options)
  * where, its longest value, what a pace adds. */
 #define NEEDS(what)           .needs = NEEDS_##what
 #define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
-#define LIST(text)            .compared = true, .label = text
+#define LIST(text)            .label = text
 #define LIVE                  .live = true
 #define IDLE(why)             .idle = why
 #define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds

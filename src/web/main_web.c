@@ -103,7 +103,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         words[0] = '\0';
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
         char was[64], is[64], option[64];
-        if (!row->compared || run->player.lanes > 1)
+        if (!row->label || run->player.lanes > 1)
             continue;
         option_value(row, &base, was, sizeof was);
         option_value(row, &now[0], is, sizeof is);

@@ -1,0 +1,216 @@
+/* trial_scenes.c - many runs of one square: the race, the envelope. */
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "scenes/body.h"
+#include "scenes/small_scenes.h"
+
+/* The last status that is not OK of so many steps with these options, or the
+ * failure that ended them; x, v: the start, run out, free it in any case. */
+static Status trial_run(const Options *options, const IntegratorMethod *method,
+                        System *system, const TimeIntegrator *from, long steps,
+                        TimeIntegrator *run)
+{
+    const NewtonSettings settings = {.h = options->timestep,
+                                     .tolerance = options->tolerance,
+                                     .solver = options->solver,
+                                     .filter = options->filter,
+                                     .search = options->line_search,
+                                     .max_iterations = 10000};
+    Status worst = time_integrator_create(method, system, &settings, from->x,
+                                          from->v, run);
+    bool goes_on = worst == STATUS_OK;
+    for (long i = 0; i < steps && goes_on; i++) {
+        Status status = time_integrator_step(run);
+        if (status)
+            worst = status;
+        goes_on = !status || status_is_unconverged(status);
+    }
+    return worst;
+}
+
+/* ---- run time against error ---------------------------------------------- */
+
+/* Steps of the longest time step and of the reference. */
+enum { RACE_FIRST_STEPS = 8, RACE_FINER = 64 };
+
+const IntegratorMethod *race_method(int i)
+{
+    static const char *const names[RACE_METHODS] = {
+        "forward-euler",  "symplectic-euler", "verlet",
+        "backward-euler", "midpoint",         "avf4"};
+    return integrator_method(names[i]);
+}
+
+/* From the start to RACE_TIME in this many steps; how well they converge, the
+ * error will tell. */
+static Status run_to_end(Simulation *simulation, const IntegratorMethod *method,
+                         long steps, TimeIntegrator *run)
+{
+    Options options = simulation->options;
+    options.timestep = RACE_TIME / (double)steps;
+    Status status = trial_run(&options, method, &simulation->system,
+                              &simulation->run[0], steps, run);
+    return status_is_unconverged(status) ? STATUS_OK : status;
+}
+
+/* Run 1 is the reference: it stands at its end. */
+Status create_race(Simulation *simulation, const NewtonSettings *settings)
+{
+    long finest = (long)RACE_FIRST_STEPS << (RACE_STEP_SIZES - 1);
+    Status status = create_square(simulation, settings);
+    if (status)
+        return status;
+    status = run_to_end(simulation, integrator_method("verlet"),
+                        RACE_FINER * finest, &simulation->run[1]);
+    if (status == STATUS_NOT_FINITE) { /* nothing to compare with */
+        simulation->done = true;
+        simulation->status = status;
+        return STATUS_OK;
+    }
+    return status;
+}
+
+/* m, of the node that is farthest from where it belongs */
+static double largest_error(int nodes, const double *x, const double *exact)
+{
+    double largest = 0;
+    for (int i = 0; i < 2 * nodes; i += 2)
+        largest =
+            fmax(largest, hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
+    return largest;
+}
+
+/* J */
+static double energy_of(const TimeIntegrator *run)
+{
+    return system_potential(run->system, run->x) +
+           system_kinetic(run->system, run->v);
+}
+
+/* Whether an explicit run can go on; implicit ones always do, and forward Euler
+ * adds energy with any time step. */
+static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
+{
+    if (strcmp(run->method->name, "forward-euler") == 0)
+        return false;
+    for (int i = 0; i < RACE_LONGER && !run->method->implicit; i++)
+        if (time_integrator_step(run))
+            return false;
+    return run->method->implicit ||
+           energy_of(run) <= RACE_ENERGY * energy_of(&simulation->run[0]);
+}
+
+Status step_race(Simulation *simulation)
+{
+    Race *race = &simulation->exhibit.race;
+    const IntegratorMethod *method = race_method(race->count % RACE_METHODS);
+    long steps = (long)RACE_FIRST_STEPS << (race->count / RACE_METHODS);
+    TimeIntegrator run = {0};
+    double start = clock_now();
+    Status status = run_to_end(simulation, method, steps, &run);
+    RacePoint *point = &race->point[race->count];
+    *point = (RacePoint){.method = method,
+                         .h = RACE_TIME / (double)steps,
+                         .steps = steps,
+                         .error = NAN,
+                         .seconds = clock_now() - start,
+                         .updates =
+                             run.newton ? run.newton->counters.iterations : 0};
+    if (!status) {
+        point->error = largest_error(simulation->system.nodes, run.x,
+                                     simulation->run[1].x);
+        point->stable = is_stable(simulation, &run);
+    }
+    time_integrator_free(&run);
+    if (status && status != STATUS_NOT_FINITE)
+        return status;
+    race->count++;
+    simulation->done = race->count == RACE_METHODS * RACE_STEP_SIZES;
+    return STATUS_OK;
+}
+
+const RacePoint *race_quickest(const Race *race, double error, bool implicit)
+{
+    const RacePoint *best = NULL;
+    for (int i = 0; i < race->count; i++) {
+        const RacePoint *point = &race->point[i];
+        if (point->method->implicit == implicit && point->error <= error &&
+            point->stable && (!best || point->seconds < best->seconds))
+            best = point;
+    }
+    return best;
+}
+
+/* ---- how far the solver can be trusted ----------------------------------- */
+
+double envelope_timestep(int column)
+{
+    return pow(10, 0.5 * column - 9);
+}
+
+double envelope_stiffness(int row)
+{
+    return pow(10, row - 6);
+}
+
+/* The column or row whose logarithm is nearest. */
+static int nearest(double value, double first, double per_ten, int count)
+{
+    double place = round((log10(value) - first) * per_ten);
+    return (int)fmin(fmax(place, 0), count - 1);
+}
+
+Status envelope_visit(Simulation *simulation, int column, int row)
+{
+    EnvelopeMap *map = &simulation->exhibit.map;
+    TimeIntegrator *run = &simulation->run[0];
+    Options options = simulation->options;
+    options.timestep = envelope_timestep(column);
+    for (int s = 0; s < simulation->system.springs; s++)
+        simulation->system.k[s] = envelope_stiffness(row);
+    time_integrator_free(run);
+    Status worst =
+        trial_run(&options, &integrator_methods[0], &simulation->system,
+                  &simulation->run[1], ENVELOPE_STEPS, run);
+    if (worst == STATUS_OUT_OF_MEMORY)
+        return worst;
+    int updates = (int)run->newton->counters.iterations;
+    map->cell[row][column] = (EnvelopeCell){
+        .known = true,
+        .worst = worst,
+        .updates = updates,
+        .undone = !worst && updates == 0 && !simulation_rests(simulation)};
+    map->column = column;
+    map->row = row;
+    return STATUS_OK;
+}
+
+/* Run 1 is the start of all of them. */
+Status create_envelope(Simulation *simulation, const NewtonSettings *settings)
+{
+    const Options *options = &simulation->options;
+    Status status = create_square(simulation, settings);
+    simulation->run[1] = simulation->run[0];
+    simulation->run[0] = (TimeIntegrator){0};
+    if (status)
+        return status;
+    return envelope_visit(simulation,
+                          nearest(options->timestep, -9, 2, ENVELOPE_COLUMNS),
+                          nearest(options->stiffness, -6, 1, ENVELOPE_ROWS));
+}
+
+/* The cell that was shown before is shown again after it. */
+Status step_envelope(Simulation *simulation)
+{
+    const EnvelopeMap *map = &simulation->exhibit.map;
+    int row = (int)simulation->steps, shown[2] = {map->column, map->row};
+    Status status = STATUS_OK;
+    for (int column = 0; column < ENVELOPE_COLUMNS && !status; column++)
+        status = envelope_visit(simulation, column, row);
+    if (!status)
+        status = envelope_visit(simulation, shown[0], shown[1]);
+    simulation->done = row + 1 >= ENVELOPE_ROWS;
+    return status;
+}
