@@ -21,7 +21,7 @@ import numpy as np
 from slide_formulas import (GIVEN, LONG, Record, Step, blocks, force, friction,
                             line_energy, log_two_cosh, potential, scalar_newton,
                             square, strains, touching)
-from page_words import PLAYED, RUNS, WORDS, Is, flies
+from page_words import CLAIMS, WORDS, Is, flies
 
 NUMBER = (r"(1/\d+|[-+]?(?:10\^\{-?\d+\}|\d+(?:\.\d+)?"
           r"(?:·10\^\{-?\d+\}|e[-+]?\d+)?|∞))")
@@ -876,6 +876,9 @@ def look(f, rules):
         if item is not None:
             check(text, [text.split(" ")[0]], [item])
             continue
+        if text == TOLD_CLAIMS.get(f.page):
+            check(text, [], [re.findall(NUMBER, text) == CLAIMS[f.page].split()])
+            continue
         for expression, function, page in rules:
             if page not in (None, f.page):
                 continue
@@ -897,22 +900,16 @@ def look(f, rules):
             left.append((f.name, text))
     return numbers, len(texts), wrong, left
 
-def idle_cells():
-    """Where h^2 k is beyond all digits of the masses the program goes on."""
-    cells = sum(idle(c, r) for c in range(25) for r in range(22))
-    return [Is(lambda n: n <= cells < 1.06 * n, str(cells)), 550]
-
 def all_rules():
     yield from ((compiled(pattern), function, None) for pattern, function in RULES)
     for page, rows in WORDS.items():
         for pattern, items in rows:
-            items = items or idle_cells
             yield (compiled(pattern, False), lambda f, *_, i=items: [
                 *(i() if callable(i) else i)], page)
 
 # ---- what is played
 
-PAGES, SCENES = [], []  # the program tells them
+PAGES, SCENES, TOLD_CLAIMS = [], [], {}  # the program tells them
 # What is changed and dragged for the third state of each.
 TOUCHED = {
     "forward": "handle 0 0.5 -0.8", "symplectic": "handle 1 1.2 0.4",
@@ -1004,8 +1001,8 @@ MORE = {
     "trust ahead": "envelope; cell 200; frame; cell 430; frame; cell 520; frame",
 }
 
-def read(program, lines, books=True):
-    """Plays; yields frames with the states so far; books: with a ledger."""
+def read(program, lines):
+    """Plays; yields frames with the states so far."""
     lines = "".join(line + "\n" for line in lines)
     answer = subprocess.run([program], input=lines, text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -1018,6 +1015,7 @@ def read(program, lines, books=True):
             TOLD.clear()
         if "pages" in raw:
             PAGES[:], SCENES[:] = raw["pages"], raw["scenes"]
+            TOLD_CLAIMS.update(zip(PAGES, map(plain, raw["claims"])))
         elif "begin" in raw:
             states, last = {}, {}
         elif "state" in raw:
@@ -1029,9 +1027,7 @@ def read(program, lines, books=True):
                             if name in old})
             state = State(raw)
             old, at = last.get(lane, last.get(0)), (lane, raw["state"])
-            if not books:
-                pass
-            elif old is None or state.scene != old.scene:
+            if old is None or state.scene != old.scene:
                 states, last = {}, {}
                 state.first()
             elif state.step == old.step + 1:
@@ -1053,10 +1049,6 @@ def read(program, lines, books=True):
 def main():
     program, long = sys.argv[1], len(sys.argv) > 2
     list(read(program, []))
-    for name, line in RUNS.items() if long else ():
-        lines = ["begin " + line, "run 301", "frame x"]
-        for _, states in read(program, lines, name in ("dent", "tear")):
-            PLAYED[name] = [states[0, n] for n in range(302)]
     rules, wrong, left, sums = list(all_rules()), [], [], np.zeros(3, int)
     for raw, states in read(program, plan(long)):
         numbers, texts, bad, unexplained = look(Frame(raw, states), rules)

@@ -293,15 +293,9 @@ def force(b, x, n=None):
 def acceleration(b, x):
     return np.where(b.pinned[:, None], 0, force(b, x) / b.m[:, None])
 
-def explicit(b, x, v, h, method):
-    if method == "forward-euler":
-        return x + h * v, v + h * acceleration(b, x)
-    if method == "symplectic-euler":
-        v = v + h * acceleration(b, x)
-        return x + h * v, v
-    v = v + h / 2 * acceleration(b, x)
-    x = x + h * v
-    return x, v + h / 2 * acceleration(b, x)
+def symplectic_euler(b, x, v, h):
+    v = v + h * acceleration(b, x)
+    return x + h * v, v
 
 def scalar_newton(f, x, tolerance, search=False, most=60):
     """Algorithm 1 in one variable; f gives value, slope, curvature."""

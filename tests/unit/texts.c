@@ -310,6 +310,11 @@ static void put_lists(void)
     printf("{\"pages\":[");
     for (const LecturePage *page = lecture_pages; page->name; page++)
         printf("%s\"%s\"", page > lecture_pages ? "," : "", page->name);
+    printf("],\"claims\":[");
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        printf("%s", page > lecture_pages ? "," : "");
+        put_words(page->claim);
+    }
     printf("],\"scenes\":[");
     for (const Scene *scene = scenes; scene->name; scene++)
         printf("%s\"%s\"", scene > scenes ? "," : "", scene->name);
