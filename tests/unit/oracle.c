@@ -247,7 +247,7 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
     return sum;
 }
 
-/* ---- of a minimisation --------------------------------------------------- */
+/* ---- of a minimisation ------------------------------------------------- */
 
 static Jet step_jet(const IncrementalPotential *E, const double *u,
                     const double *x, const double *p, const double *q)

@@ -14,8 +14,7 @@
 #include "model/pull_energy.h"
 #include "solve/cholesky.h"
 
-/* ---- triplets --------------------------------------------------------------
- */
+/* ---- triplets ---------------------------------------------------------- */
 
 enum { SMALL = 9, TRIPLETS = 60 };
 
@@ -143,8 +142,7 @@ TEST(the_hessian_is_assembled)
     }
 }
 
-/* ---- factorisations --------------------------------------------------------
- */
+/* ---- factorisations ---------------------------------------------------- */
 
 enum { GRID = 7, SIZE = GRID * GRID, ENTRIES = 3 * SIZE };
 
@@ -331,8 +329,7 @@ TEST(matrices_are_solved_or_named)
     }
 }
 
-/* ---- CHOLMOD's calls of BLAS: every entry is one sum, in one order ----------
- */
+/* ---- CHOLMOD's calls of BLAS: every entry is one sum, in one order ----- */
 
 void dgemm_(const char *, const char *, const int *, const int *, const int *,
             const double *, const double *, const int *, const double *,

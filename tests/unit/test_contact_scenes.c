@@ -259,7 +259,7 @@ TEST(arrows_are_the_forces)
     }
 }
 
-/* ---- the ledger while hands are on -------------------------------------- */
+/* ---- the ledger while hands are on ------------------------------------- */
 
 /* What one does to a run between two steps. */
 static Status meddle(Simulation *scene, int deed)

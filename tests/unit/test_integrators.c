@@ -34,8 +34,7 @@ static Simulation *go(const Way *way, const char *line)
                     solver_name(way->solver));
 }
 
-/* ---- orders ----------------------------------------------------------------
- */
+/* ---- orders ------------------------------------------------------------ */
 
 /* Nine nodes for 0.064 s, in which they move by a tenth; not alike along x and
  * y, and with velocities of some m/s. */
@@ -81,8 +80,7 @@ TEST(orders_are_as_in_the_table)
     reference_free(&exact);
 }
 
-/* ---- what is conserved ------------------------------------------------------
- */
+/* ---- what is conserved ------------------------------------------------- */
 
 /* Linear and angular momentum, and the sizes of what they are sums of. */
 typedef struct Momentum {
@@ -190,8 +188,7 @@ TEST(average_vector_field_keeps_energy)
     }
 }
 
-/* ---- the table --------------------------------------------------------------
- */
+/* ---- the table --------------------------------------------------------- */
 
 /* Every method stands under its name; what needs no minimisation has no Newton
  * object, no Hessian, and nothing counted, and without springs not even

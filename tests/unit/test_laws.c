@@ -10,80 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/barrier.h"
-#include "model/cells.h"
 #include "model/contact.h"
 #include "model/damping.h"
 #include "model/fracture.h"
 #include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 
 static const double G = 9.81;
-
-/* ---- remainders, to their last digits ------------------------------------ */
-
-/* (1 - s)(z - ln(1 + z)) + t ln(1 + z), z = t/s: both parts are positive. */
-static long double exact_barrier(long double s, long double t)
-{
-    long double z = t / s, less = log1pl(z) - z;
-    if (s >= 1)
-        return s + t < 1 ? (s + t - 1) * logl(s + t) : 0;
-    if (s + t >= 1)
-        return t * (1 - s) / s - logl(s) * (s + t - 1);
-    if (fabsl(z) < 0.3L) {
-        less = 0;
-        for (int k = 80; k > 1; k--)
-            less = z * (less + (k % 2 ? 1.0L : -1.0L) / k);
-        less *= z;
-    }
-    return (s - 1) * less + t * log1pl(z);
-}
-
-TEST(remainders_of_the_barrier_are_exact)
-{
-    Random random = {12};
-    for (int i = 0; i < 3000; i++) {
-        double s = random_logarithmic(&random, 1e-5, 3);
-        double t = s * random_logarithmic(&random, 1e-14, 10);
-        if (i % 2)
-            t = -fmin(t, 0.9 * s);
-        long double exact = exact_barrier(s, t);
-        /* leaving or entering the barrier: s + t - 1 has lost digits */
-        double lost = s > 1 || s + t > 1 ? 8e-16 * (s + 1) : 0;
-        if (s > 1 && s + t < 1)
-            lost = 2e-15 / fabs(s + t - 1);
-        CHECK_NEAR(barrier_remainder(s, t), exact, (2e-15 + lost) * exact);
-    }
-    CHECK(barrier_remainder(0.5, -0.5) == INFINITY);
-    CHECK(barrier_remainder(0.5, -0.7) == INFINITY);
-}
-
-/* f0 of friction.h and its slope. */
-static Wide friction_at(Wide y, Wide e, Wide *slope)
-{
-    Wide size = y < 0 ? -y : y, a = size < e ? size / e : 1;
-    *slope = (y < 0 ? -1 : 1) * a * (2 - a);
-    return size < e ? y * y / e * (1 - a / 3) : size - e / 3;
-}
-
-TEST(remainders_of_friction_are_exact)
-{
-    Random random = {13};
-    for (int i = 0; i < 20000; i++) {
-        double e = random_logarithmic(&random, 1e-8, 10);
-        double y = e * random_uniform(&random, -2, 2);
-        double t = e * random_logarithmic(&random, 1e-9, 10);
-        Wide slope, unused;
-        t = i % 2 ? t : -t;
-        Wide start = friction_at(y, e, &slope);
-        double exact =
-            (double)(friction_at((Wide)y + t, e, &unused) - start - slope * t);
-        /* y + t is rounded: of t an ulp of e, twice, in what f'' passes */
-        double lost = 4e-15 * (e + fabs(t)) * fmin(1, fabs(t) / e) * 2;
-        CHECK_NEAR(friction_remainder(y, t, e), exact, 2e-15 * exact + lost);
-    }
-}
 
 /* V of plasticity.h as it stands there, times 2. */
 static Wide twice_V(Wide Y, Wide flow, Wide theta, Wide e_n, Wide e)
@@ -129,8 +62,7 @@ TEST(remainders_of_flow_are_exact)
     }
 }
 
-/* ---- some masses ----------------------------------------------------------
- */
+/* ---- some masses ------------------------------------------------------- */
 
 /* The system and the run of a test; those of the one before are freed. */
 static System few;
@@ -413,8 +345,7 @@ TEST(pairs_are_those_that_can_move)
     }
 }
 
-/* ---- whole scenes ---------------------------------------------------------
- */
+/* ---- whole scenes ------------------------------------------------------ */
 
 /* What is seen at each iterate. */
 typedef struct Watch {
@@ -665,8 +596,7 @@ TEST(breaking_books_its_energy)
     CHECK(broken > 30 && broken == fracture_of(system)->broken);
 }
 
-/* ---- laws of a scene ------------------------------------------------------
- */
+/* ---- laws of a scene --------------------------------------------------- */
 
 /* The largest strain of a spring. */
 static double worst_strain(const Simulation *scene)

@@ -152,8 +152,7 @@ TEST(the_square_scene_is_the_slides)
     CHECK_NEAR(strain_of(scene, 20), 0, 1e-15);
 }
 
-/* ---- what is refused --------------------------------------------------------
- */
+/* ---- what is refused --------------------------------------------------- */
 
 TEST(bad_sizes_are_refused)
 {

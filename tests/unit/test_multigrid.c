@@ -107,8 +107,7 @@ static Real energy_at(const double *u)
     return exact_energy(&E, u, x);
 }
 
-/* ---- the loops
- * --------------------------------------------------------------- */
+/* ---- the loops --------------------------------------------------------- */
 
 /* A grid with its parts and some vectors, at u. */
 typedef struct Parts {
@@ -335,8 +334,7 @@ TEST(the_cycle_is_symmetric_and_solves)
     }
 }
 
-/* ---- whole steps
- * -------------------------------------------------------------- */
+/* ---- whole steps ------------------------------------------------------- */
 
 /* To the end; u is then the minimiser. */
 static Status minimise(Multigrid *multigrid, const MultigridStep *step)

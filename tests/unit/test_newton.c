@@ -554,7 +554,7 @@ TEST(steps_into_a_wall_are_halved)
     }
 }
 
-/* ---- backtracking -------------------------------------------------------- */
+/* ---- backtracking ------------------------------------------------------ */
 
 /* Alphas up to the limit do not raise the energy. */
 typedef struct Probe {

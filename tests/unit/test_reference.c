@@ -22,8 +22,7 @@ int main(int argc, char **argv);
 #undef make_psd
 #undef exit
 
-/* ---- one reader -------------------------------------------------------------
- */
+/* ---- one reader -------------------------------------------------------- */
 
 enum { ROWS = 1024 };
 
@@ -110,8 +109,7 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
     }
 }
 
-/* ---- the slides' trajectories
- * ------------------------------------------------ */
+/* ---- the slides' trajectories ------------------------------------------ */
 
 /* The body, the barrier and the slip speed of the lecture's programs. */
 #define LESSON                                                                 \
@@ -218,8 +216,7 @@ TEST(a_ceiling_comes_down_as_in_the_lesson)
     fclose(file);
 }
 
-/* ---- lecture.c
- * --------------------------------------------------------------- */
+/* ---- lecture.c --------------------------------------------------------- */
 
 static void free_solid(Solid *solid)
 {
