@@ -224,7 +224,7 @@ static void draw_row(Paper *paper, Box box, const Listing *listing, int number)
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
     const char *words = row->markup;
     char value[LISTING_VALUE] = "";
-    double size = 1, line = text_line(paper->em);
+    double line = text_line(paper->em);
     double y = box.y + 0.5 * (box.height - line);
     int x = box.x + paper_pixels(paper, 2 + 1.2 * row->indent);
     int right = box.x + box.width - paper_pixels(paper, 0.6);
@@ -237,12 +237,10 @@ static void draw_row(Paper *paper, Box box, const Listing *listing, int number)
     if (reached || off)
         line_value(value, listing->simulation, trace ? trace : &(Trace){0},
                    row->line);
-    int text = paper_width(paper, FACE_REGULAR, size, words);
     int room = right - x - paper_pixels(paper, 0.8) -
                paper_width(paper, FACE_REGULAR, 0.88, value);
-    if (text > room) /* smaller letters, if that is enough */
-        size = fmax(0.8, (double)room / text);
-    text = paper_write(
+    double size = fitting_size(paper, FACE_REGULAR, 1, 0.8, room, words);
+    int text = paper_write(
         paper, FACE_REGULAR, size, off ? COLOUR_GREY : COLOUR_TEXT, x,
         y + 0.6 * (1 - size) * paper->em, ALIGN_LEFT, "%s", words);
     if (off) {

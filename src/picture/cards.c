@@ -93,17 +93,17 @@ Box cards_inside(Box card, double em)
                  card.height - bar - margin / 2};
 }
 
-/* A size for letters with which the text fits, not below a part of it. */
-static double fitting_size(Paper *paper, Face face, double size, int room,
-                           const char *text)
+double fitting_size(Paper *paper, Face face, double size, double least,
+                    double room, const char *text)
 {
     int width = paper_width(paper, face, size, text);
-    return width > room ? size * fmax(0.7, (double)room / width) : size;
+    return width > room ? size * fmax(least, room / width) : size;
 }
 
 void cards_hint(Paper *paper, Box inside, const char *text)
 {
-    double size = fitting_size(paper, FACE_REGULAR, 0.92, inside.width, text);
+    double size =
+        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, text);
     paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
                 inside.x + 0.5 * inside.width,
                 inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
@@ -122,21 +122,16 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                 COLOUR_BORDER);
     Box before =
         canvas_clip(&paper->canvas, (Box){box.x, box.y, box.width - bar, bar});
-    double size =
-        fitting_size(paper, FACE_BOLD, 0.96, box.width - bar - margin, title);
+    double size = fitting_size(paper, FACE_BOLD, 0.96, 0.7,
+                               box.width - bar - margin, title);
     paper_write(paper, FACE_BOLD, size, closed ? COLOUR_FAINT : COLOUR_TEXT,
                 box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
                 title);
     canvas_clip(&paper->canvas, before);
-    if (closed) { /* a plus */
-        canvas_line(&paper->canvas, x - arm, y, x + arm, y, 1.4 * unit,
-                    COLOUR_GREY);
-        canvas_line(&paper->canvas, x, y - arm, x, y + arm, 1.4 * unit,
-                    COLOUR_GREY);
-    } else {
-        canvas_line(&paper->canvas, x - arm, y - arm, x + arm, y + arm,
-                    1.4 * unit, COLOUR_GREY);
-        canvas_line(&paper->canvas, x - arm, y + arm, x + arm, y - arm,
+    for (int k = 0; k < 2; k++) { /* a plus, or a cross */
+        double right = closed && k ? 0 : arm;
+        double down = closed ? arm - right : k ? -arm : arm;
+        canvas_line(&paper->canvas, x - right, y - down, x + right, y + down,
                     1.4 * unit, COLOUR_GREY);
     }
     return cards_inside(box, paper->em);
@@ -182,24 +177,12 @@ int show_help_row(const Show *show, const Layout *layout, double x, double y)
     return row < grid.rows && at < show->help_rows ? at : -1;
 }
 
-/* One line in letters as small as it takes. */
-static void write_fitting(Paper *paper, double size, double x, double y,
-                          double room, const char *text)
-{
-    int width = paper_width(paper, FACE_REGULAR, size, text);
-    double smaller = width > room ? fmax(0.6, room / width) : 1;
-    paper_write(paper, FACE_REGULAR, size * smaller, COLOUR_TEXT, x,
-                y + 0.6 * (1 - smaller) * size * paper->em, ALIGN_LEFT, "%s",
-                text);
-}
-
 /* Key and meaning, row by row; a row without a meaning is a heading. */
 static void draw_help(Paper *paper, Box inside, const Show *show)
 {
     HelpGrid grid = help_grid(show, inside, paper->em);
-    double size = fmin(0.95, grid.line / (1.3 * paper->em));
-    bool pages = show->help == show->page_row;
-    double key = (pages ? 2.6 : 8) * size * paper->em;
+    double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
+    double key = (show->help == show->page_row ? 2.6 : 8) * size * em;
     double wide = inside.width / (double)grid.columns;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
@@ -207,9 +190,13 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
         double y = inside.y + i % grid.rows * grid.line;
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
-        if (row->text)
-            write_fitting(paper, size, x + key, y, wide - key - 0.5 * paper->em,
-                          row->text);
+        if (!row->text)
+            continue;
+        double fitting = fitting_size(paper, FACE_REGULAR, size, 0.6,
+                                      wide - key - 0.5 * em, row->text);
+        paper_write(paper, FACE_REGULAR, fitting, COLOUR_TEXT, x + key,
+                    y + 0.6 * (size - fitting) * em, ALIGN_LEFT, "%s",
+                    row->text);
     }
 }
 

@@ -1,4 +1,5 @@
-/* cards.h - what the column beside the stage can hold.
+/* cards.h - what is around the stage: the cards of the column, strip, row of
+ * settings, time line, last line.
  */
 #ifndef ELASTO_CARDS_H
 #define ELASTO_CARDS_H
@@ -47,11 +48,22 @@ Box cards_inside(Box card, double em);
 bool cards_explicit(const Show *show);
 #define EXPLICIT_HINT "an explicit method solves nothing"
 
+/* The size of letters, at most `size` ems and at least this part of it, with
+ * which the text fits into so many pixels. */
+double fitting_size(Paper *paper, Face face, double size, double least,
+                    double room, const char *text);
+
 /* One line in the middle of a card that has nothing to show yet. */
 void cards_hint(Paper *paper, Box inside, const char *text);
 
 /* All cards of the layout, or the page in their place. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
+
+/* Strip, row, time line, last line. */
+void frame_draw(Paper *paper, const Layout *layout, const Show *show);
+
+/* Steps that the time line has room for: those there are, at least some. */
+long frame_span(const Show *show);
 
 /* The trace that the cards show: that of the active pane; where a descent is
  * shown iteration by iteration, one made from it.  NULL: none. */

@@ -1,4 +1,4 @@
-#include "picture/frame.h"
+#include "picture/cards.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,40 +41,37 @@ static void draw_strip(Paper *paper, const Layout *layout, const Show *show)
         return;
     draw_ground(paper, strip, true);
     double em = paper->em, left = strip.x + 0.9 * em;
-    double middle = strip.y + 0.5 * strip.height;
+    double line = strip.y + 0.5 * strip.height - 0.65 * em;
     double right = strip.x + strip.width - 0.9 * em;
     bool both = show->method[0] && show->state[0];
     char words[2 * SHOW_TEXT];
     snprintf(words, sizeof words, "%s%s%s", show->method,
              both ? " \u00b7 " : "", show->state);
     int wide = paper_width(paper, FACE_REGULAR, SENTENCE, words);
-    if (wide > 0.45 * strip.width) /* a small window has room for the state */
-        snprintf(words, sizeof words, "%s", show->state);
-    int used = paper_write(paper, FACE_REGULAR, SENTENCE, COLOUR_FAINT, right,
-                           middle - 0.65 * em, ALIGN_RIGHT, "%s", words);
+    int used =
+        paper_write(paper, FACE_REGULAR, SENTENCE, COLOUR_FAINT, right, line,
+                    ALIGN_RIGHT, "%s", /* a small window has room for less */
+                    wide > 0.45 * strip.width ? show->state : words);
     right -= used > 0 ? used + 1.4 * em : 0;
-    double size = TOPIC;
-    const char *words_of_topic = show->topic ? show->topic : "";
-    int topic = paper_width(paper, FACE_BOLD, size, words_of_topic);
-    if (left + topic > right)
-        size = fmax(0.8, size * (right - left) / topic);
     Box before = canvas_clip(
         &paper->canvas,
         (Box){strip.x, strip.y, (int)(right - strip.x), strip.height});
-    topic =
+    const char *title = show->topic ? show->topic : "";
+    double size =
+        fitting_size(paper, FACE_BOLD, TOPIC, 0.8 / TOPIC, right - left, title);
+    int topic =
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, left,
-                    middle - 0.65 * size * em, ALIGN_LEFT, "%s", show->topic);
-    Box room = {(int)(left + topic + 1.1 * em), (int)(middle - 0.65 * em), 0,
-                strip.height};
+                    line + 0.65 * (1 - size) * em, ALIGN_LEFT, "%s", title);
+    Box room = {(int)(left + topic + 1.1 * em), (int)line, 0, strip.height};
     room.width = (int)right - room.x;
     bool message = show->message[0] && strip_tells(layout);
     const char *said = message ? show->message : show->sentence;
-    Colour colour = message && show->warning ? COLOUR_WARNING
-                    : message                ? COLOUR_VALUE
-                                             : COLOUR_TEXT;
+    Colour colour = !message        ? COLOUR_TEXT
+                    : show->warning ? COLOUR_WARNING
+                                    : COLOUR_VALUE;
     if (room.width > 6 * em && said[0]) {
         int full = paper_width(paper, FACE_REGULAR, SENTENCE, said);
-        bool two = full > room.width && strip.height > 2.6 * em;
+        bool two = full > room.width && strip_tells(layout);
         room.y -= two ? (int)(0.62 * em) : 0;
         paper_paragraph(paper, FACE_REGULAR, two ? 0.9 : SENTENCE, colour, room,
                         two ? 2 : 1, said);

@@ -6,7 +6,6 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/frame.h"
 #include "picture/handles.h"
 #include "picture/plot.h"
 #include "picture/square_picture.h"

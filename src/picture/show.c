@@ -4,7 +4,6 @@
 
 #include "picture/cards.h"
 #include "picture/exhibits.h"
-#include "picture/frame.h"
 #include "picture/handles.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
