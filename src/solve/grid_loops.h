@@ -48,7 +48,7 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 /* LANES (or WIDE_LANES) nodes from `first` on, of which none changes what
  * another one reads; e counts them. */
 #ifdef __clang__
-#define AT_ONCE
+#define AT_ONCE _Pragma("clang loop vectorize(assume_safety)")
 #else
 #define AT_ONCE _Pragma("GCC unroll 1") _Pragma("GCC ivdep")
 #endif

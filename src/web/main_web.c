@@ -96,14 +96,15 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     static char words[MOST_TEXT];
     Options now[OPTIONS_MAX_PANES], base;
     words[0] = '\0';
-    if (!plays || run->player.lanes != run->player.given_count)
+    if (!plays)
         return words;
-    player_options(&run->player, now);
-    if (!first_options(&run->player, &now[0], words, &base))
+    int panes = player_options(&run->player, now);
+    if (panes != run->player.given_count ||
+        !first_options(&run->player, &now[0], words, &base))
         words[0] = '\0';
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
         char was[64], is[64], option[64];
-        if (!row->label || run->player.lanes > 1)
+        if (!row->label || panes > 1)
             continue;
         option_value(row, &base, was, sizeof was);
         option_value(row, &now[0], is, sizeof is);

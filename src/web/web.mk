@@ -33,6 +33,9 @@ $(W)/%.o: src/%.c $(W)/libraries/done src/web/web.mk
 	$(call shown,EMCC)
 	$(Q)$(EMCC) $(WEB_CFLAGS) -MMD -MP -c $< -o $@
 
+$(GRID_LOOPS:%=$(W)/solve/%.o): private WEB_CFLAGS += -O3 \
+  -fno-trapping-math -fno-math-errno
+
 $(W)/listing_text.o: $(B)/listing_text.c $(W)/libraries/done
 	$(Q)$(EMCC) $(WEB_CFLAGS) -c $< -o $@
 

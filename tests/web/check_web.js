@@ -1,0 +1,259 @@
+// check_web.js ELASTO PAGE: the page does what the program does.  Every scene
+// and page of the tour ends in the same hash and has the same pixels; sessions by
+// mouse, keys and touch are played again by the program; files, addresses and
+// bad input.  Prints ok or not ok for each promise.
+'use strict';
+const { spawnSync } = require('child_process');
+const crypto = require('crypto');
+const fs = require('fs');
+const os = require('os');
+const path = require('path');
+const { launch, sleep } = require('./browser.js');
+
+const [elasto, page] = process.argv.slice(2).map((name) => path.resolve(name));
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-check-'));
+const at = (line) => `file://${page}#${line.replace(/ /g, '+')}`;
+const native = (line, more = {}) =>
+  spawnSync(elasto, line.split(' '), { encoding: 'utf8', cwd: folder, ...more });
+const hashIn = (text) => (/state(?: hash)? +([0-9a-f]{16})/.exec(text) || [])[1];
+const digest = (bytes) => crypto.createHash('sha256').update(bytes).digest('hex');
+
+let failed = 0;
+const verdict = (name, wrong) => {
+  console.log(wrong.length ? `not ok ${name}: ${wrong.join('; ')}` : `ok ${name}`);
+  failed += wrong.length > 0;
+};
+
+// A line without a window, in a tab that is open already; its summary.
+const headless = async (tab, line) => {
+  await tab.run(`$('summary').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`);
+  await tab.until(`/state hash/.test($('summary').textContent) || $('said').textContent`);
+  return tab.run(`$('summary').textContent || $('said').textContent`);
+};
+
+const names = (line) =>
+  native(line).stdout.trim().split('\n').map((row) => row.trim().split(/\s+/));
+const SCENES = names('--list').map(([name]) => name);
+const PAGES = names('--list --lecture').map(([, name]) => '--lecture ' + name);
+
+const sameHashes = async (browser) => {
+  const tab = await browser.open(at('square --headless --steps 0'));
+  const wrong = [];
+  for (const what of [...SCENES, ...PAGES]) {
+    const line = what + ' --headless --steps 20';
+    const [ours, theirs] = [hashIn(native(line).stdout), hashIn(await headless(tab, line))];
+    if (!ours || ours !== theirs) wrong.push(`${what}: ${ours}, page ${theirs}`);
+  }
+  verdict('every_scene_and_page_ends_in_the_same_hash', [...wrong, ...tab.trouble]);
+};
+
+// Frames by the canvas's own drawing code, at 1x and 2x; the race shows times.
+const samePixels = async (browser) => {
+  const tab = await browser.open(at('square --headless --steps 0'), {
+    before: 'HTMLAnchorElement.prototype.click = () => {}',
+  });
+  const wrong = [];
+  const frame = 'frames/frame_000001.png';
+  for (const what of [...SCENES, ...PAGES].filter((name) => !/race/.test(name)))
+    for (const size of ['1280x800', '2560x1600']) {
+      const line = `${what} --headless --steps 1 --size ${size} --frames frames`;
+      native(line);
+      await headless(tab, line);
+      const theirs = await tab.run(
+        `(() => { const b = FS.readFile('${frame}'); let s = ''; for (const c of b) s += String.fromCharCode(c); return btoa(s); })()`,
+      );
+      if (digest(fs.readFileSync(path.join(folder, frame))) !== digest(Buffer.from(theirs, 'base64')))
+        wrong.push(`${what} ${size}`);
+    }
+  verdict('every_scene_and_page_has_the_same_pixels', [...wrong, ...tab.trouble]);
+};
+
+// A session ends with Y: a hash, and a script that arrives as a download and
+// leads the program to it.
+const CTRL = 2;
+const SESSIONS = {
+  mouse: async (tab) => {
+    await tab.mouse('mousePressed', 450, 300);
+    for (let i = 1; i <= 6; i++) await tab.mouse('mouseMoved', 450 + 25 * i, 300 - 20 * i);
+    await sleep(400);
+    await tab.mouse('mouseReleased', 600, 180);
+    await tab.key('Space');
+    await tab.mouse('mousePressed', 300, 400, { button: 'right' });
+    await tab.mouse('mouseReleased', 300, 400, { button: 'right' });
+    await tab.ask('Input.dispatchMouseEvent', {
+      type: 'mouseWheel', x: 400, y: 300, deltaX: 0, deltaY: -200,
+    });
+    await tab.key('n');
+  },
+  keys: async (tab) => {
+    for (const key of ['Space', 'n', 'n', 'i', 'i', 'ArrowRight', 'ArrowRight', 'Escape', 'p', 'n'])
+      await tab.key(key);
+    await tab.key('Tab');
+    for (const key of ['0', '.', '0', '2', 'Enter', 'n', 'm', 'n', 'ArrowLeft', 'n']) await tab.key(key);
+  },
+  touch: async (tab) => {
+    await tab.touch('touchStart', [450, 300]);
+    for (let i = 1; i <= 6; i++) await tab.touch('touchMove', [450 + 20 * i, 300 - 15 * i]);
+    await sleep(400);
+    await tab.touch('touchEnd');
+    await tab.key('Space');
+    await tab.touch('touchStart', [300, 400]);
+    await sleep(800);
+    await tab.touch('touchEnd');
+    await tab.touch('touchStart', [350, 300], [450, 300]);
+    await tab.touch('touchMove', [320, 300], [480, 300]);
+    await tab.touch('touchEnd');
+    await tab.key('n');
+  },
+};
+const SQUARE = 'square --segments 12';
+
+const sessions = async (browser) => {
+  for (const [name, session] of Object.entries(SESSIONS)) {
+    const downloads = path.join(folder, name);
+    fs.mkdirSync(downloads);
+    const tab = await browser.open(at(SQUARE));
+    await tab.downloads(downloads);
+    await sleep(300);
+    await session(tab);
+    await sleep(300);
+    await tab.key('y');
+    await sleep(700);
+    const text = await tab.run(`describe(), canvas.getAttribute('aria-label')`);
+    const script = fs.readdirSync(downloads).find((file) => /script$/.test(file));
+    const wrong = [...tab.trouble];
+    if (!script) wrong.push('no script arrived: ' + text);
+    else {
+      const file = path.join(downloads, script);
+      const played = native(`${SQUARE} --headless --script ${file}`);
+      if (!hashIn(text) || hashIn(text) !== hashIn(played.stdout) || played.stderr)
+        wrong.push(`${text}, the program ${hashIn(played.stdout)} ${played.stderr}`);
+      if (name !== 'keys' && !/grab|drag/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no hand');
+      if (name !== 'keys' && !/pin/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no pin');
+      if (name === 'mouse') await dropped(browser, file, hashIn(text));
+    }
+    verdict(`a_session_by_${name}_is_the_programs`, wrong);
+  }
+};
+
+// Drops a file of this text on the page.
+const drop = (tab, name, text) =>
+  tab.run(`(() => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([${JSON.stringify(text)}], '${name}'));
+    dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true }));
+  })()`);
+
+const dropped = async (browser, file, hash) => {
+  const tab = await browser.open(at(SQUARE + ' --headless --steps 0'));
+  const wrong = [];
+  await tab.run(`line = ${JSON.stringify((SQUARE + ' --headless').split(' '))}`);
+  await drop(tab, 'mine.script', fs.readFileSync(file, 'utf8'));
+  await tab.until(`/state hash/.test($('summary').textContent) && !/steps +0\\n/.test($('summary').textContent)`);
+  const text = await tab.run(`$('summary').textContent`);
+  if (hashIn(text) !== hash) wrong.push(`${hashIn(text)} for ${hash}`);
+  verdict('a_dropped_script_is_played', [...wrong, ...tab.trouble]);
+};
+
+// The saved picture is what the canvas shows, also at 2x.
+const saved = async (browser) => {
+  const wrong = [];
+  for (const ratio of [1, 2]) {
+    const tab = await browser.open(at('hang --paused'), { width: 800, height: 500, ratio });
+    const same = await tab.run(`new Promise((done) => {
+      HTMLAnchorElement.prototype.click = async function () {
+        const picture = await createImageBitmap(await (await fetch(this.href)).blob());
+        const copy = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+        copy.drawImage(picture, 0, 0);
+        const pixels = (of, { width, height }) => of.getImageData(0, 0, width, height).data;
+        const [ours, theirs] = [pixels(context, canvas), pixels(copy, picture)];
+        done(canvas.width === picture.width && canvas.width === ${800 * ratio} &&
+          ours.every((value, i) => value === theirs[i] || i % 4 === 3));
+      };
+      requestAnimationFrame(() => { shot = true; key('S', false); });
+    })`);
+    if (!same) wrong.push(ratio + 'x');
+    wrong.push(...tab.trouble);
+    await tab.close();
+  }
+  verdict('a_saved_picture_has_the_pixels_of_the_canvas', wrong);
+};
+
+const addresses = async (browser) => {
+  const wrong = [];
+  const tab = await browser.open(at(''));
+  const follows = async (key, expected) => {
+    if (key) await tab.key(key);
+    await tab.run('looked = 0');
+    await tab.until(`location.hash === '#${expected}'`, 3000).catch(async () =>
+      wrong.push(`${key}: ${await tab.run('location.hash')}, not #${expected}`),
+    );
+  };
+  await follows('', PAGES[0].replace(' ', '+').replace(/\+.*/, ''));
+  await follows('PageDown', PAGES[1].replace(' ', '+'));
+  await follows('7', SCENES[6]);
+  await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
+  await follows('', 'circle+--timestep+0.05&bare');
+  if (!(await tab.run('document.body.className === "bare"'))) wrong.push('not bare');
+  verdict('the_address_follows_what_is_shown', [...wrong, ...tab.trouble]);
+
+  // A bad line says what the program says, and what was there goes on.
+  const bad = [];
+  await tab.run(`location.hash = 'square+--segments+0'`);
+  await tab.until(`$('said').textContent`);
+  const [ours, theirs] = [native('square --segments 0').stderr.trim(), await tab.run(`$('said').textContent`)];
+  if (ours !== theirs) bad.push(`'${theirs}', not '${ours}'`);
+  await drop(tab, 'x.script', '3 no such command\n');
+  await tab.until(`/no such/.test($('said').textContent)`, 3000).catch(() => bad.push('the bad script is not named'));
+  const frames = await tab.run('stats.frames');
+  await tab.key('Space');
+  await tab.until(`stats.frames > ${frames}`, 3000).catch(() => bad.push('nothing goes on'));
+  verdict('bad_lines_and_scripts_are_one_sentence', bad);
+};
+
+// Browsers that lack something, and tabs that nobody sees.
+const lacking = async (browser) => {
+  const wrong = [];
+  const said = async (before, expected, line = 'square') => {
+    const tab = await browser.open(at(line), { before });
+    await tab.until(`$('said').textContent`, 5000).catch(() => {});
+    const text = await tab.run(`$('said').textContent`);
+    if (!expected.test(text)) wrong.push(`'${text}' for ${expected}`);
+    await tab.close();
+  };
+  await said('WebAssembly.validate = () => false', /WebAssembly SIMD/);
+  await said('WebAssembly.Memory.prototype.grow = () => { throw new RangeError("no") }', /memory/, 'square --segments 300');
+  verdict('what_a_browser_lacks_is_said', wrong);
+
+  const tab = await browser.open(at('square'), {
+    before: `Object.defineProperty(document, 'hidden', { get: () => window.away })`,
+  });
+  await tab.until('stats.frames > 5');
+  await tab.run(`away = true; document.dispatchEvent(new Event('visibilitychange'))`);
+  await sleep(100);
+  const frames = await tab.run('stats.frames');
+  await sleep(700);
+  const after = await tab.run('stats.frames');
+  await tab.run(`away = false; document.dispatchEvent(new Event('visibilitychange'))`);
+  await tab.until(`stats.frames > ${after}`, 3000).catch(() => {});
+  const back = await tab.run('stats.frames');
+  verdict('a_tab_in_the_background_stops',
+    after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`]);
+};
+
+(async () => {
+  const size = fs.statSync(page).size;
+  verdict('the_page_has_at_most_1500_kB', size <= 1.5e6 ? [] : [`${size} bytes`]);
+  const browser = await launch();
+  try {
+    for (const check of [addresses, sessions, saved, lacking, sameHashes, samePixels])
+      await check(browser);
+  } finally {
+    await browser.close();
+    fs.rmSync(folder, { recursive: true, force: true });
+  }
+  process.exit(failed ? 1 : 0);
+})().catch((error) => {
+  console.log(`not ok ${error.stack}`);
+  process.exit(1);
+});
