@@ -1,6 +1,7 @@
 /* Shapes by coverage; lines in fixed point, for springs are most of a frame's
  * time. */
 #include "picture/canvas.h"
+#include "base/mathematics.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -286,7 +287,7 @@ void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
                    double width, double on, double off, double *phase,
                    Colour colour)
 {
-    double line[4] = {x0, y0, x1, y1}, length = hypot(x1 - x0, y1 - y0);
+    double line[4] = {x0, y0, x1, y1}, length = math_hypot(x1 - x0, y1 - y0);
     double begin = phase ? *phase : 0, period = on + off;
     if (!(length > 0) || !(period > 0) || !isfinite(length))
         return;
@@ -310,7 +311,7 @@ void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
 void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
                   double width, double head, Colour colour)
 {
-    double length = hypot(x1 - x0, y1 - y0);
+    double length = math_hypot(x1 - x0, y1 - y0);
     if (!(length > 0) || !isfinite(length))
         return;
     head = fmin(head, 0.7 * length);
@@ -402,7 +403,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
-        double n = hypot(dx, dy) * (turn > 0 ? 1 : -1);
+        double n = math_hypot(dx, dy) * (turn > 0 ? 1 : -1);
         edge[k][0] = -dy / n;
         edge[k][1] = dx / n;
         edge[k][2] = (dy * p[0] - dx * p[1]) / n;
@@ -450,7 +451,7 @@ static double card_distance(double x, double y, const double half[2],
 {
     double dx = fabs(x) - half[0] + radius, dy = fabs(y) - half[1] + radius;
     if (dx > 0 && dy > 0)
-        return hypot(dx, dy) - radius;
+        return math_hypot(dx, dy) - radius;
     return (dx > dy ? dx : dy) - radius;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
+#include "base/mathematics.h"
 
 static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
 static const double SWITCH_WIDE = 13;  /* ems */
@@ -71,7 +72,7 @@ bool handles_pick(const Show *show, const Plot *stage, double x, double y,
     for (int i = handles - 1; i >= 0; i--) {
         double pixel[2];
         plot_place(stage, at[i], pixel);
-        double distance = hypot(pixel[0] - x, pixel[1] - y);
+        double distance = math_hypot(pixel[0] - x, pixel[1] - y);
         if (!(distance < best))
             continue;
         best = distance;

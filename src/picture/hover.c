@@ -8,6 +8,7 @@
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
 #include "picture/plot.h"
+#include "base/mathematics.h"
 
 enum { HOVER_LINES = 8, HOVER_TEXT = 128 };
 
@@ -216,7 +217,7 @@ static void hover_spring(Plot *stage, const Show *show, const Pane *pane, int s)
     Lines lines = {0};
     char number[48], rest[48];
     plot_number(number, sizeof number,
-                100 * (hypot(d[0], d[1]) / sqrt(l2) - 1));
+                100 * (math_hypot(d[0], d[1]) / sqrt(l2) - 1));
     plot_number(rest, sizeof rest, l2);
     snprintf(next_line(&lines), HOVER_TEXT, "spring %d\u2013%d", i, j);
     snprintf(next_line(&lines), HOVER_TEXT,

@@ -8,6 +8,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "scenes/small_scenes.h"
+#include "base/mathematics.h"
 
 /* J s^2; both valleys have their bottom below 1. */
 static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
@@ -190,7 +191,7 @@ static void draw_named_direction(Plot *plot, const double from[2],
                                  const double p[2], Colour colour,
                                  const char *name, double slope)
 {
-    double length = hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
+    double length = math_hypot(p[0], p[1]) * plot->camera.scale[0], at[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const double place[2][2] = {{from[0] + p[0], from[1] + p[1]},
                                 {from[0] + far * p[0], from[1] + far * p[1]}};
@@ -226,7 +227,7 @@ static void draw_other_direction(Plot *plot, const Simulation *simulation)
     }
     slope = descent_direction(simulation, raw ? FILTER_CLAMP : FILTER_NONE, p);
     up = slope > 0;
-    if (hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
+    if (math_hypot(p[0] - own[0], p[1] - own[1]) > 1e-9)
         draw_named_direction(plot, descent->point, p,
                              up ? COLOUR_WARNING : COLOUR_GHOST,
                              raw ? "with projection" : "without", slope);
@@ -351,7 +352,7 @@ static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
     lines_add(&lines, COLOUR_TEXT, "h = %.4g s", h);
     lines_add(&lines, COLOUR_X, "{x} = (%.4f, %.4f) m", x[0], x[1]);
     lines_add(&lines, COLOUR_X_TILDE, "from {xt}: %.4g m",
-              hypot(x[0] - target[0], x[1] - target[1]));
+              math_hypot(x[0] - target[0], x[1] - target[1]));
     lines_add(&lines, COLOUR_TEXT, "inertia %.4g J s\u00b2", inertia);
     lines_add(&lines, COLOUR_TEXT, "elasticity h\u00b2 P %.4g J s\u00b2",
               elastic);

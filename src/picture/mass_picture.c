@@ -7,6 +7,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "scenes/small_scenes.h"
+#include "base/mathematics.h"
 
 enum { MASS_CORNERS = 120 };
 
@@ -56,7 +57,7 @@ static void mass_sample(const Simulation *simulation, History *history,
     for (int r = 0; r < simulation->runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
         history->name[r] = simulation->run[r].method->label;
-        value[r] = circle ? hypot(x[0], x[1]) : mass_energy(x, v);
+        value[r] = circle ? math_hypot(x[0], x[1]) : mass_energy(x, v);
         memcpy(point + 2 * r, x, 2 * sizeof *x);
     }
     history_add(history, simulation_time(simulation), value);
@@ -95,7 +96,7 @@ static void circle_draw(Plot *stage, const Show *show)
         const double *x = simulation->run[r].x;
         plot_legend(stage, circle_colour(simulation, r), "%s: %s m",
                     simulation->run[r].method->label,
-                    number_of(hypot(x[0], x[1])).text);
+                    number_of(math_hypot(x[0], x[1])).text);
     }
     plot_scale(stage);
 }
@@ -110,7 +111,7 @@ static Pick circle_pick(const Show *show, const Plot *stage, double x, double y)
     for (int r = 0; r < simulation->runs; r++) {
         double at[2];
         plot_place(stage, simulation->run[r].x, at);
-        double distance = hypot(at[0] - x, at[1] - y);
+        double distance = math_hypot(at[0] - x, at[1] - y);
         if (distance < best) {
             best = distance;
             pick.kind = PICK_NODE;
@@ -140,12 +141,14 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
 {
     const Simulation *simulation = show->pane[pane].simulation;
     const double *began = simulation->exhibit.began;
-    double most = hypot(hypot(began[0], began[1]), hypot(began[2], began[3]));
+    double most = math_hypot(math_hypot(began[0], began[1]),
+                             math_hypot(began[2], began[3]));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;
         mass_next_step(simulation, r, &step);
-        most = fmax(most, hypot(step.new_x[0], step.new_x[1]));
-        most = fmax(most, hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
+        most = fmax(most, math_hypot(step.new_x[0], step.new_x[1]));
+        most = fmax(most,
+                    math_hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
     }
     bounds_around(MASS_REACH, 1.1 * most, M_SQRT2, bounds);
 }
@@ -208,7 +211,7 @@ static void draw_mass_step(Plot *stage, const Simulation *simulation)
         double at[4][2], scale = stage->camera.scale[0];
         for (int k = 0; k < 8; k++)
             at[k / 2][k % 2] = now->a[k % 2] + part[k / 2] * now->d[k % 2];
-        if (hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
+        if (math_hypot(now->d[0], now->d[1]) * scale > 2 * stage->em)
             plot_words(stage, 4, (const double(*)[2])at, 0.35, 1.15, FACE_BOLD,
                        now->colour, now->word);
     }

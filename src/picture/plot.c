@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
+#include "base/mathematics.h"
 
 enum {
     PLOT_INTERVALS = 4,   /* between numbers, upwards */
@@ -373,7 +374,7 @@ static double longest_arrow(int nodes, const double *d)
 {
     double most = 0;
     for (int i = 0; i < nodes; i++) {
-        double length = hypot(d[2 * i], d[2 * i + 1]);
+        double length = math_hypot(d[2 * i], d[2 * i + 1]);
         if (isfinite(length) && length > most)
             most = length;
     }
@@ -393,7 +394,7 @@ double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
     if (length > most)
         factor = pow(10, -ceil(log10(length / most)));
     for (int i = 0; i < nodes; i += stride)
-        if (hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
+        if (math_hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
             plot_arrow(plot, x + 2 * i, d + 2 * i, part * factor, 1.6, colour);
     return factor;
 }

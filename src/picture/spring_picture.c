@@ -6,6 +6,7 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "scenes/small_scenes.h"
+#include "base/mathematics.h"
 
 enum { SPRING_CORNERS = 120, SPRING_COILS = 12, PROFILE_POINTS = 200 };
 
@@ -16,7 +17,7 @@ static const double SPRING_TURN = 6.283185307179586;
 static void spring_bounds(const Show *show, int pane, double bounds[4])
 {
     const double *x = show->pane[pane].simulation->run[0].x;
-    bounds_around(SPRING_REACH, 1.1 * hypot(x[0], x[1]), M_SQRT2, bounds);
+    bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), M_SQRT2, bounds);
 }
 
 static SpringFacts facts_of(const Simulation *simulation)
@@ -54,7 +55,7 @@ static void spring_circle(Plot *stage, double radius, Colour colour,
 /* A zigzag from the held end to x. */
 static void spring_coil(Plot *stage, const double *x, Colour colour)
 {
-    double length = hypot(x[0], x[1]), from[2] = {0, 0};
+    double length = math_hypot(x[0], x[1]), from[2] = {0, 0};
     if (!(length > 0))
         return;
     const double across[2] = {-x[1] / length, x[0] / length};

@@ -5,6 +5,7 @@
 #include "model/friction.h"
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"
+#include "base/mathematics.h"
 
 static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
@@ -68,7 +69,7 @@ double square_contact_most(const SpringPen *pen)
 {
     double most = 0;
     for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);)
-        most = fmax(most, hypot(touch.force[0], touch.force[1]));
+        most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
     return isfinite(most) ? most : 0;
 }
 
@@ -83,7 +84,7 @@ void square_contact_forces(const SpringPen *pen, double most)
         const double *at = pen->x + 2 * (size_t)touch.node;
         const double tail[2] = {at[0] - factor * touch.force[0],
                                 at[1] - factor * touch.force[1]};
-        if (hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
+        if (math_hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
             plot_arrow(pen->stage, tail, touch.force, factor, 1.8,
                        COLOUR_FORCE);
         if (touch.rough && touch.slides)

@@ -9,6 +9,7 @@
 
 #include "picture/colour_map.h"
 #include "picture/plot.h"
+#include "base/mathematics.h"
 
 enum { WORDS_TEXT = 512 }; /* bytes of a text with numbers */
 
@@ -283,7 +284,7 @@ static double length_inside(Box box, const double line[4])
 {
     double part[4] = {line[0], line[1], line[2], line[3]};
     bool inside = box_cut(&box, 0, part);
-    return inside ? hypot(part[2] - part[0], part[3] - part[1]) : 0;
+    return inside ? math_hypot(part[2] - part[0], part[3] - part[1]) : 0;
 }
 
 static double place_cost(const Plot *plot, Box place)

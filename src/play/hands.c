@@ -11,6 +11,7 @@
 #include "picture/picture.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
+#include "base/mathematics.h"
 
 enum {
     CLICK_ROOM = 4,   /* pixels that a click may move */
@@ -220,8 +221,8 @@ static int near_node(const Player *player, const Pick *pick)
     double reach = 0.75 * mesh->spacing;
     int nearest = -1;
     for (int i = 0; i < mesh->nodes; i++) {
-        double away =
-            hypot(x[2 * i] - pick->point[0], x[2 * i + 1] - pick->point[1]);
+        double away = math_hypot(x[2 * i] - pick->point[0],
+                                 x[2 * i + 1] - pick->point[1]);
         if (away < reach) {
             reach = away;
             nearest = i;
@@ -285,7 +286,7 @@ static Status follow(Player *player, const Layout *layout)
     Mouse *mouse = &player->mouse;
     Pick pick = world_at(player, layout);
     double dx = mouse->x - mouse->last[0], dy = mouse->y - mouse->last[1];
-    if (hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
+    if (math_hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
         CLICK_ROOM)
         mouse->moved = true;
     Status status = STATUS_OK;

@@ -13,6 +13,7 @@
 #include "model/plasticity.h"
 #include "scenes/pins.h"
 #include "scenes/scene.h"
+#include "base/mathematics.h"
 
 /* Part by which the strengths of springs differ. */
 #define TEAR_SCATTER 0.1
@@ -100,7 +101,7 @@ static int list_obstacles(const Options *options,
     int count = 0;
     for (int i = 0; i < options->grounds; i++) {
         const double *ground = options->ground[i];
-        double length = hypot(ground[0], ground[1]);
+        double length = math_hypot(ground[0], ground[1]);
         list[count++] =
             (Obstacle){.kind = OBSTACLE_WALL,
                        .n = {ground[0] / length, ground[1] / length},

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/mass_spring_energy.h"
+#include "base/mathematics.h"
 
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
@@ -172,7 +173,7 @@ static void find_direction(Simulation *simulation, double p[2])
                          descent->point[1]);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
-                            ? hypot(E.g[0], E.g[1])
+                            ? math_hypot(E.g[0], E.g[1])
                             : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
     if (!is_whole(simulation))
         return;

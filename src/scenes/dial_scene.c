@@ -1,4 +1,5 @@
 #include "scenes/small_scenes.h"
+#include "base/mathematics.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,7 @@ void dial_minimise(const Simulation *simulation, double h, double point[2])
         double determinant = H[0] * H[2] - H[1] * H[1], alpha = 1;
         const double p[2] = {(H[1] * g[1] - H[2] * g[0]) / determinant,
                              (H[1] * g[0] - H[0] * g[1]) / determinant};
-        bool near = hypot(p[0], p[1]) <= DIAL_NEAR;
+        bool near = math_hypot(p[0], p[1]) <= DIAL_NEAR;
         for (int i = 0; i < DIAL_HALVINGS && !near; i++, alpha /= 2) {
             const double to[2] = {point[0] + alpha * p[0],
                                   point[1] + alpha * p[1]};
@@ -36,7 +37,7 @@ void dial_minimise(const Simulation *simulation, double h, double point[2])
         }
         for (int i = 0; i < 2; i++)
             point[i] += alpha * p[i];
-        if (hypot(p[0], p[1]) <= 1e-14)
+        if (math_hypot(p[0], p[1]) <= 1e-14)
             return;
     }
 }

@@ -13,6 +13,7 @@
 #include "model/plasticity.h"
 #include "scenes/scene.h"
 #include "scenes/state.h"
+#include "base/mathematics.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
  * thousands. */
@@ -100,7 +101,7 @@ static void compare_prediction(Simulation *simulation)
     int count = simulation_point(simulation, prediction->came);
     double dx = prediction->came[0] - prediction->at[0];
     double dy = count > 1 ? prediction->came[1] - prediction->at[1] : 0;
-    prediction->distance = hypot(dx, dy);
+    prediction->distance = math_hypot(dx, dy);
     prediction->shown = true;
 }
 
@@ -434,7 +435,7 @@ bool simulation_is_loose(const Simulation *simulation, double *needed)
     bool minimises = simulation->run[0].newton != NULL;
     if (minimises && contact_of(system) && system_has_gravity(system))
         *needed = 0.1 * options->timestep *
-                  hypot(system->gravity[0], system->gravity[1]);
+                  math_hypot(system->gravity[0], system->gravity[1]);
     if (minimises && system_find_term(system, &friction_energy))
         *needed = fmin(*needed, 0.1 * options->slip_speed);
     return options->tolerance > *needed * (1 + 1e-9); /* rounding */
@@ -574,13 +575,13 @@ double simulation_deforming(const Simulation *simulation, double *centre,
         momentum += m * (r[0] * v[1] - r[1] * v[0]);
         inertia += m * (r[0] * r[0] + r[1] * r[1]);
     }
-    *centre = hypot(at[2], at[3]);
+    *centre = math_hypot(at[2], at[3]);
     *turn = inertia > 0 ? momentum / inertia : 0;
     for (int i = 0; i < nodes; i++) {
         double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
         double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
         fastest =
-            fmax(fastest, hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]));
+            fmax(fastest, math_hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]));
     }
     return fastest;
 }

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "scenes/body.h"
 #include "scenes/small_scenes.h"
+#include "base/mathematics.h"
 
 /* The last status that is not OK of so many steps with these options, or the
  * failure that ended them; x, v: the start, run out, free it in any case. */
@@ -78,7 +79,7 @@ static double largest_error(int nodes, const double *x, const double *exact)
     double largest = 0;
     for (int i = 0; i < 2 * nodes; i += 2)
         largest =
-            fmax(largest, hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
+            fmax(largest, math_hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
     return largest;
 }
 
