@@ -107,7 +107,7 @@ const launch = async (...more) => {
     await Promise.race([send('Browser.close').catch(() => {}), sleep(2000)]);
     chromium.kill();
     await sleep(200);
-    fs.rmSync(profile, { recursive: true, force: true });
+    fs.rmSync(profile, { recursive: true, force: true, maxRetries: 20 });
   };
   return { open, close };
 };
