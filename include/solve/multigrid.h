@@ -13,9 +13,6 @@
  * and the residual, max over nodes of |p_x| + |p_y|, over h, is known up to
  * sqrt(2/m)/h |r|_(M^-1) with the smallest m.  The iteration goes on until that
  * decides the test, to either side; what is not decided is not converged.
- * Before a step ends, conjugate gradients on the Hessian as it is look for a
- * direction along which E bends down, where that is asked for; if there is one,
- * that is the next way to go: the end is a minimum, not a saddle.
  *
  * A step depends on nothing but what it is given.  Results have the same bits
  * for every width of registers and number of threads.
@@ -38,7 +35,6 @@ typedef struct MultigridStep {
     double h;                    /* s, divides the residual */
     double tolerance;            /* m/s */
     bool is_free;                /* nothing acts on the centre of mass */
-    bool minimum;                /* a saddle is no end */
 } MultigridStep;
 
 /* What one iteration did; or, after multigrid_start, where it begins. */
@@ -61,7 +57,6 @@ typedef struct MultigridCounters {
     long cycles;       /* V-cycles */
     long certificates; /* tests decided by conjugate gradients */
     long local;        /* sweeps of tiles */
-    long saddles;      /* ends with negative curvature, left again */
 } MultigridCounters;
 
 typedef struct Multigrid Multigrid;
@@ -80,10 +75,6 @@ Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
  * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE.  u is then the last iterate,
  * where E is not higher than before. */
 Status multigrid_iterate(Multigrid *multigrid);
-
-/* After an end that turned out to be a saddle: as if the step's minimum had
- * been asked for.  Returns RUNNING where it found the way down, else OK. */
-Status multigrid_leave(Multigrid *multigrid);
 
 /* u [2n] m, out: the present iterate; pinned nodes are not written. */
 void multigrid_displacement(const Multigrid *multigrid, double *u);

@@ -126,6 +126,7 @@ typedef struct Newton {
     Rounding rounding;
     Multigrid *multigrid; /* NULL: was not needed yet */
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
+    bool lent;            /* NEWTON works, until multigrid's saddle is left */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */
     double first_change;  /* J s^2, the largest of this step by multigrid */
     double sum, size;     /* J s^2, of the changes in this minimisation; and of

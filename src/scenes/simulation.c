@@ -470,7 +470,7 @@ static bool expects_multigrid(const Options *options)
     return (options->solver == SOLVER_MULTIGRID ||
             (options->solver == SOLVER_AUTO &&
              options->segments > AUTO_NEWTON_SEGMENTS)) &&
-           options->filter == FILTER_CLAMP &&
+           options->filter == FILTER_CLAMP && !options->minimum &&
            options->line_search == LINE_SEARCH_BACKTRACK &&
            !integrator_methods[(int)fmax(options->integrator, 0)].averaged;
 }

@@ -177,8 +177,8 @@ static const double MASSES_DOWN = 100;
 Status direction_judges_end(Newton *newton)
 {
     /* Of a large square the factor that tells takes longer than multigrid's
-     * whole step; --minimum looks there. */
-    if (newton->working == SOLVER_MULTIGRID &&
+     * whole step: it has to be asked for. */
+    if (newton->working == SOLVER_MULTIGRID && !newton->settings.minimum &&
         newton->system->segments > AUTO_NEWTON_SEGMENTS)
         return STATUS_OK;
     return look_for_minimum(newton,

@@ -107,9 +107,6 @@ double grid_gradient(const Grid *grid, double *g, double moment[2]);
 double grid_remainder(const Grid *grid, const double *g, const double *p,
                       double *rest, double *largest);
 
-/* y = H d, H as it is; returns d.y. */
-double grid_product(const Grid *grid, const double *d, double *y);
-
 /* E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4. */
 void grid_along(const Grid *grid, const double *g, const double *p,
                 double q[4]);
@@ -119,11 +116,5 @@ void grid_move(const Grid *grid, double a, const double *p);
 
 /* All nodes move by this, m. */
 void grid_shift(const Grid *grid, const double by[2]);
-
-double grid_dot(const Grid *grid, const double *a, const double *b);
-
-/* y = alpha x + beta y */
-void grid_combine(const Grid *grid, double alpha, const double *x, double beta,
-                  double *y);
 
 #endif

@@ -85,8 +85,8 @@ double grid_gradient(const Grid *grid, double *g, double moment[2])
 #define ALONG_SPRING(to)                                                       \
     double ux = px[q] - px[q + (to)], uy = py[q] - py[q + (to)]
 
-/* out = -b - H p, H clamped, and |out|_(M^-1)^2; or H p, and p.H p. */
-INLINE void product(const void *job, int first, int end, bool clamped)
+/* out = -b - H p, H clamped, and |out|_(M^-1)^2. */
+FAST static void remainder_of(const void *job, int first, int end)
 {
     BANDS
     {
@@ -103,20 +103,19 @@ INLINE void product(const void *job, int first, int end, bool clamped)
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
         ALONG_SPRING(to);                                                      \
-        double iso = s.s > 0 || !clamped ? s.s : 0;                            \
-        double along = clamped ? 2 + (s.s - iso) / safe(s.d2) : 2;             \
+        double iso = s.s > 0 ? s.s : 0;                                        \
+        double along = 2 + (s.s - iso) / safe(s.d2);                           \
         along = (along > 0 ? along : 0) * (s.dx * ux + s.dy * uy);             \
         fx += s.c * (iso * ux + along * s.dx);                                 \
         fy += s.c * (iso * uy + along * s.dy);                                 \
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            fx = clamped ? -bx[q] - fx : fx;
-            fy = clamped ? -by[q] - fy : fy;
+            fx = -bx[q] - fx;
+            fy = -by[q] - fy;
             to_x[q] = fx;
             to_y[q] = fy;
-            sum[e] += clamped ? grid.per_m[q + at.node] * (fx * fx + fy * fy)
-                              : fx * px[q] + fy * py[q];
+            sum[e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
             most[e] = size > most[e] ? size : most[e];
         }
         for (int e = 0; e < LANES; e++)
@@ -124,16 +123,6 @@ INLINE void product(const void *job, int first, int end, bool clamped)
         grid.sums[band * MAX_SUMS] = sum_of(sum);
         grid.sums[band * MAX_SUMS + 1] = largest;
     }
-}
-
-FAST static void remainder_of(const void *job, int first, int end)
-{
-    product(job, first, end, true);
-}
-
-FAST static void product_of(const void *job, int first, int end)
-{
-    product(job, first, end, false);
 }
 
 double grid_remainder(const Grid *grid, const double *g, const double *p,
@@ -145,14 +134,6 @@ double grid_remainder(const Grid *grid, const double *g, const double *p,
     *largest = 0;
     for (int band = 0; band < grid->bands; band++)
         *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
-    return sum;
-}
-
-double grid_product(const Grid *grid, const double *d, double *y)
-{
-    double sum;
-    run(product_of, (Pass){.grid = grid, .a = d, .b = d, .out = y}, 2 * HEAVY,
-        1, &sum);
     return sum;
 }
 
@@ -217,20 +198,4 @@ FAST void grid_shift(const Grid *grid, const double by[2])
             x[e] = x_tilde[e] + away[e];
         }
     }
-}
-
-FAST double grid_dot(const Grid *grid, const double *a, const double *b)
-{
-    double sum[LANES] = {0};
-    for (int q = 0; q < 2 * grid->rows.plane; q += LANES)
-        EACH_OF (LANES)
-            sum[e] += a[q + e] * b[q + e];
-    return sum_of(sum);
-}
-
-FAST void grid_combine(const Grid *grid, double alpha, const double *x,
-                       double beta, double *y)
-{
-    EACH_OF (2 * grid->rows.plane)
-        y[e] = alpha * x[e] + beta * y[e];
 }

@@ -1,7 +1,6 @@
 #include "solve/multigrid.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,14 +25,6 @@ static const double STALLS = 0.3, PACE = 0.5;
  * precision, and made smaller by REFINED, until it falls no more. */
 static const double WORTH_A_TEST = 8, TESTED = 1e-4, REFINED = 1e-2;
 
-/* Iterations that look for negative curvature; without any, the remainder of
- * random numbers falls to this share of its norm. */
-enum { CURVATURE_CYCLES = 20 };
-static const double NO_CURVATURE = 1e-3;
-
-/* Saddles that one step leaves. */
-enum { MAX_SADDLES = 30 };
-
 struct Multigrid {
     Grid grid;
     VCycle cycle;
@@ -43,8 +34,7 @@ struct Multigrid {
     MultigridCounters counters;
     MultigridRecord record;
     MultigridStep step;
-    double *g, *p;        /* [2 planes] grad E and direction at x */
-    double *rest, *d, *y; /* [2 planes] of conjugate gradients */
+    double *g, *p, *rest; /* [2 planes] grad E and direction at x, remainder */
     double square;        /* |g|_(M^-1)^2 */
     double moment[2];     /* kg m, sum m (x - x_tilde) */
     double bound;         /* m/s, of the residual */
@@ -53,8 +43,7 @@ struct Multigrid {
     bool known;           /* the grid has the system's numbers */
     bool directed;        /* p is a direction at x */
     bool stalls;          /* tiles relax in each iteration */
-    int iterations;       /* of this step, or since a saddle */
-    int saddles;          /* of this step */
+    int iterations;       /* of this step */
 };
 
 static void lay_out(int segments, Multigrid *mg)
@@ -63,9 +52,9 @@ static void lay_out(int segments, Multigrid *mg)
     grid_lay_out(segments, &mg->memory, &mg->grid);
     v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
     tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
-    double **vectors[] = {&mg->g, &mg->p, &mg->rest, &mg->d, &mg->y};
+    double **vectors[] = {&mg->g, &mg->p, &mg->rest};
     size_t bytes = 2 * (size_t)mg->grid.rows.plane * sizeof(double);
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < 3; i++)
         *vectors[i] = memory_piece(&mg->memory, bytes);
 }
 
@@ -126,50 +115,6 @@ static bool decide_test(Multigrid *mg)
     return false;
 }
 
-/* Random numbers of -1 ... 1 where nodes move, the same ones always. */
-static void random_remainder(Multigrid *mg)
-{
-    const float *m = mg->cycle.level->m;
-    uint64_t state = 1;
-    for (int q = 0; q < 2 * mg->grid.rows.plane; q++) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        double number = (double)(int64_t)state / 9223372036854775808.0;
-        mg->rest[q] = m[q % mg->grid.rows.plane] > 0 ? number : 0;
-    }
-}
-
-/* p = B rest; returns rest.p. */
-static double precondition(Multigrid *mg)
-{
-    double square = grid_dot(&mg->grid, mg->rest, mg->rest);
-    v_precondition(&mg->cycle, mg->rest, square / mg->grid.lightest, mg->p);
-    return grid_dot(&mg->grid, mg->rest, mg->p);
-}
-
-/* Conjugate gradients on the Hessian as it is, from random numbers: whether
- * they have met a d with d.H d < 0. */
-static bool find_curvature(Multigrid *mg)
-{
-    const Grid *grid = &mg->grid;
-    random_remainder(mg);
-    double now = precondition(mg), start = now;
-    grid_combine(grid, 1, mg->p, 0, mg->d);
-    for (int i = 1; i <= CURVATURE_CYCLES; i++) {
-        double bend = grid_product(grid, mg->d, mg->y);
-        if (bend < 0)
-            return true;
-        if (!(bend > 0) || !isfinite(now) || i == CURVATURE_CYCLES)
-            return false;
-        grid_combine(grid, -now / bend, mg->y, 1, mg->rest);
-        double last = now;
-        now = precondition(mg);
-        if (now <= NO_CURVATURE * NO_CURVATURE * start)
-            return false;
-        grid_combine(grid, 1, mg->p, now / last, mg->d);
-    }
-    return false;
-}
-
 /* A place where the quartic is below 0, at a minimum if rounding allows, looked
  * for from 1 on; 0 if there is none.
  *   trials  out, places looked at */
@@ -211,35 +156,6 @@ static Status search_step(Multigrid *mg)
     return STATUS_OK;
 }
 
-/* At the start of a step, and of what follows a saddle. */
-static void begin_iterations(Multigrid *mg)
-{
-    mg->stalls = false;
-    mg->iterations = 0;
-    mg->last_bound = mg->test_below = INFINITY;
-}
-
-/* Goes along a direction in which E bends down, if there is one.  Returns
- * whether it has. */
-static bool leaves_saddle(Multigrid *mg)
-{
-    const Grid *grid = &mg->grid;
-    if (!mg->step.minimum || mg->saddles == MAX_SADDLES || !find_curvature(mg))
-        return false;
-    double sense = grid_dot(grid, mg->g, mg->d) > 0 ? -1 : 1;
-    grid_combine(grid, sense, mg->d, 0, mg->p);
-    MultigridRecord before = mg->record;
-    Status status = search_step(mg);
-    before.change = mg->record.change; /* the rest is of the iteration */
-    mg->record = before;
-    if (status)
-        return false;
-    begin_iterations(mg);
-    mg->saddles++;
-    mg->counters.saddles++;
-    return true;
-}
-
 /* g at x, and the bound of the residual. */
 static void evaluate(Multigrid *mg)
 {
@@ -272,10 +188,7 @@ static Status multigrid_test(Multigrid *mg)
         if (!mg->directed || !(mg->record.after <= tolerance))
             return STATUS_RUNNING;
     }
-    if (!leaves_saddle(mg))
-        return STATUS_OK;
-    evaluate(mg);
-    return STATUS_RUNNING;
+    return STATUS_OK;
 }
 
 /* ---- the iteration ---- */
@@ -294,8 +207,9 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
                 step->version == mg->step.version;
     mg->step = *step;
     mg->record = (MultigridRecord){0};
-    mg->saddles = 0;
-    begin_iterations(mg);
+    mg->stalls = false;
+    mg->iterations = 0;
+    mg->last_bound = mg->test_below = INFINITY;
     crew_begin(mg->crew);
     if (!mg->known) {
         grid_read_system(&mg->grid, step);
@@ -304,12 +218,6 @@ Status multigrid_start(Multigrid *mg, const MultigridStep *step)
     mg->known = true;
     grid_read_state(&mg->grid, step);
     evaluate(mg);
-    return count(mg, multigrid_test(mg));
-}
-
-Status multigrid_leave(Multigrid *mg)
-{
-    mg->step.minimum = true;
     return count(mg, multigrid_test(mg));
 }
 

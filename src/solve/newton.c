@@ -33,6 +33,7 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     }
     newton->saddles = 0;
     newton->clamps = 0;
+    newton->lent = false;
     newton->sum = newton->size = 0;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->counters.minimisations++;
@@ -115,7 +116,8 @@ Status newton_iterate(Newton *newton)
         status = newton_update(newton);
     NewtonRecord done = newton->record;
     if (!status)
-        status = direction_next(newton);
+        status = newton->lent ? newton_multigrid_again(newton)
+                              : direction_next(newton);
     status = newton_limits(newton, status);
     done.status = status;
     done.seconds = clock_now() - start;

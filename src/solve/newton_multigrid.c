@@ -77,7 +77,6 @@ static void count(Newton *newton, const MultigridCounters *before)
     counters->gradients += now->gradients - before->gradients;
     counters->cycles += now->cycles - before->cycles;
     counters->local += now->local - before->local;
-    counters->saddles += now->saddles - before->saddles;
 }
 
 /* u and x from multigrid; the residual as far as it is known. */
@@ -92,24 +91,17 @@ static void fetch(Newton *newton)
     newton->kind = end->decided ? RESIDUAL_ESTIMATE : RESIDUAL_BOUND;
 }
 
-/* Newton goes on from the iterate that multigrid has reached. */
+/* Newton goes on from the iterate that multigrid has reached; where that is a
+ * saddle for one iteration, which leaves it. */
 static Status take_back(Newton *newton)
 {
+    int saddles = newton->saddles;
     newton->working = newton->record.solver = SOLVER_NEWTON;
     newton->rounding.E = NAN;
-    newton->counters.taken_back++;
-    return direction_first(newton);
-}
-
-/* Multigrid has passed the test: if there is no minimum it goes on, or Newton
- * does.  Returns OK, RUNNING, NOT_A_MINIMUM where Newton has to, or a failure.
- */
-static Status end_here(Newton *newton)
-{
-    Status status = direction_judges_end(newton);
-    bool leaves = status == STATUS_NOT_A_MINIMUM &&
-                  multigrid_leave(newton->multigrid) == STATUS_RUNNING;
-    return leaves ? STATUS_RUNNING : status;
+    Status status = direction_first(newton);
+    newton->lent = newton->saddles > saddles;
+    newton->counters.taken_back += status == STATUS_RUNNING && !newton->lent;
+    return status;
 }
 
 Status newton_multigrid_start(Newton *newton)
@@ -136,19 +128,24 @@ Status newton_multigrid_start(Newton *newton)
                           .weight = at->E.weight,
                           .h = settings->h,
                           .tolerance = settings->tolerance,
-                          .is_free = system_is_free(system),
-                          .minimum = settings->minimum};
+                          .is_free = system_is_free(system)};
     status = multigrid_start(newton->multigrid, &step);
     count(newton, &before);
     fetch(newton);
     newton->counters.seconds_multigrid += clock_now() - start;
     newton->first_change = 0;
     /* A gradient that vanishes may be that of a maximum: Newton looks. */
-    if (status == STATUS_OK && !settings->minimum &&
-        newton->kind == RESIDUAL_BOUND)
-        return direction_first(newton);
-    status = status == STATUS_OK ? end_here(newton) : status;
+    if (status == STATUS_OK && newton->kind == RESIDUAL_BOUND)
+        return take_back(newton);
+    status = status == STATUS_OK ? direction_judges_end(newton) : status;
     return status == STATUS_NOT_A_MINIMUM ? take_back(newton) : status;
+}
+
+Status newton_multigrid_again(Newton *newton)
+{
+    newton->lent = newton->bends_down = false;
+    newton->working = newton->record.solver = SOLVER_MULTIGRID;
+    return newton_multigrid_start(newton);
 }
 
 /* Whether multigrid has come to its end without the test being passed.
@@ -187,7 +184,7 @@ Status newton_multigrid_iterate(Newton *newton)
     NewtonRecord done = *record;
     bool last = done.iteration + 1 >= newton_most_iterations(newton);
     bool stuck = is_stuck(newton, status, last);
-    status = status == STATUS_OK ? end_here(newton) : status;
+    status = status == STATUS_OK ? direction_judges_end(newton) : status;
     stuck = stuck || status == STATUS_NOT_A_MINIMUM;
     newton->counters.seconds_multigrid += clock_now() - start;
     if (stuck)

@@ -77,6 +77,9 @@ bool newton_takes_multigrid(Newton *newton);
 /* Instead of direction_first: the start, and its test. */
 Status newton_multigrid_start(Newton *newton);
 
+/* Instead of direction_next, after a saddle that multigrid came to was left. */
+Status newton_multigrid_again(Newton *newton);
+
 /* Instead of an iteration.  Where multigrid cannot go on, such as among
  * rounding errors, Newton's own iterations go on from its last iterate. */
 Status newton_multigrid_iterate(Newton *newton);

@@ -625,12 +625,3 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
     give(grid, cycle->mass / unit, cycle->p, adds, p);
     return largest;
 }
-
-void v_precondition(VCycle *cycle, const double *a, double square, double *z)
-{
-    double unit = unit_of(sqrt(square * cycle->grid->lightest));
-    set_up(cycle);
-    take(cycle->grid, unit, a, cycle->level->b);
-    v_cycle(cycle);
-    give(cycle->grid, cycle->mass / unit, cycle->level->x, false, z);
-}

@@ -59,9 +59,6 @@ void v_cycle_read_system(VCycle *cycle);
 double v_solve(VCycle *cycle, double sign, const double *a, double square,
                VEnd end, bool adds, double *p);
 
-/* z = B a, one V-cycle.  square, a: as above */
-void v_precondition(VCycle *cycle, const double *a, double square, double *z);
-
 /* Whether the largest |p_x| + |p_y| of the exact direction is on the same side
  * of `length` as this one: H - M is positive semi-definite, so the error is at
  * most the remainder's |r|_(M^-1) in the norm of M, and no node's share of it

@@ -255,16 +255,41 @@ TEST(counters_tell_what_was_done)
     }
 }
 
+/* Asked for a minimum, multigrid's steps do not end on a saddle either: Newton
+ * makes one iteration, which leaves it, and multigrid goes on.  At the end of
+ * each the Hessian as it is has a Cholesky factor. */
+TEST(multigrid_leaves_saddles)
+{
+    static const char *const lines[] = {"--segments 8 --stretch 1.5",
+                                        "--segments 48"};
+    for (int i = 0; i < 2; i++) {
+        int projected;
+        Simulation *square = simulate("%s --minimum %s", lines[i], multigrid);
+        Newton *newton = square->run[0].newton;
+        for (int step = 0; step < 20; step++) {
+            make_steps(square, 1);
+            CHECK_STATUS(search_direction_assemble(&newton->search, &newton->at,
+                                                   FILTER_ON_DEMAND,
+                                                   &projected),
+                         STATUS_OK);
+            CHECK_STATUS(cholesky_factor(newton->search.cholesky), STATUS_OK);
+        }
+        const NewtonCounters *did = &newton->counters;
+        CHECK(did->saddles > 0 && did->taken_back == 0);
+        CHECK(did->iterations ==
+              multigrid_counters(newton->multigrid)->iterations + did->saddles);
+    }
+}
+
 /* What Newton counts of multigrid is what multigrid has done, and its limit of
  * iterations holds for it. */
 TEST(multigrid_is_counted)
 {
-    Simulation *square = make_steps(
-        simulate("--segments 8 --stretch 1.5 --minimum %s", multigrid), 20);
+    Simulation *square =
+        make_steps(simulate("--segments 8 --stretch 1.5 %s", multigrid), 20);
     Newton *newton = square->run[0].newton;
     const MultigridCounters *did = multigrid_counters(newton->multigrid);
-    CHECK(newton->counters.taken_back == 0 && did->saddles > 0);
-    CHECK(newton->counters.saddles == did->saddles);
+    CHECK(newton->counters.taken_back == 0);
     CHECK(newton->counters.iterations == did->iterations);
     CHECK(newton->counters.cycles == did->cycles);
     newton->settings.max_iterations = 1;

@@ -14,18 +14,14 @@
 #define grid_displacement      scalar_grid_displacement
 #define grid_gradient          scalar_grid_gradient
 #define grid_remainder         scalar_grid_remainder
-#define grid_product           scalar_grid_product
 #define grid_along             scalar_grid_along
 #define grid_move              scalar_grid_move
 #define grid_shift             scalar_grid_shift
-#define grid_dot               scalar_grid_dot
-#define grid_combine           scalar_grid_combine
 #define tiles_lay_out          scalar_tiles_lay_out
 #define tiles_relax            scalar_tiles_relax
 #define v_cycle_lay_out        scalar_v_cycle_lay_out
 #define v_cycle_read_system    scalar_v_cycle_read_system
 #define v_solve                scalar_v_solve
-#define v_precondition         scalar_v_precondition
 #define v_decides              scalar_v_decides
 #define multigrid_create       scalar_create
 #define multigrid_free         scalar_free
@@ -82,8 +78,7 @@ static void compare(const char *line, int steps)
                           .weight = run->h * run->h,
                           .h = run->h,
                           .tolerance = simulation.options.tolerance,
-                          .is_free = !system->pinned,
-                          .minimum = true};
+                          .is_free = !system->pinned};
     for (int i = 0; i < steps; i++) {
         Status one = scalar_start(scalar, &step);
         Status other = multigrid_start(wide, &step);
