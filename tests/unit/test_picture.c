@@ -8,18 +8,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "attended.h"
 #include "test.h"
 
 #include "picture/colour_map.h"
 #include "picture/picture.h"
 #include "picture/plot.h"
-#include "scenes/options.h"
-#include "play/player.h"
-#include "play/playing.h"
 #include "play/recording.h"
-#include "play/recording.h"
-#include "scenes/scene.h"
 #include "play/view.h"
+#include "scenes/options.h"
+#include "scenes/scene.h"
 
 enum { NAME_SIZE = 256, FRAME = 900 };
 
@@ -50,16 +48,16 @@ static void write_text(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* The whole file as a text that the caller frees. */
-static char *read_text(const char *name)
+/* The file is this text; NULL: it has any.  Returns it, to be freed. */
+static char *check_text(const char *name, const char *expected)
 {
     FILE *file = fopen(name, "r");
-    assert_non_null(file);
     char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
-    size_t size = fread(text, 1, (1 << 20) - 1, file);
-    assert_true(size > 0);
+    assert_true(file && text);
+    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
     fclose(file);
+    if (expected)
+        assert_string_equal(text, expected);
     return text;
 }
 
@@ -94,74 +92,70 @@ static int pixel_distance(Colour a, Colour b)
     return largest;
 }
 
-/* Darkness of the picture: sum over pixels of 1 - green/255. */
-static double ink(const Canvas *canvas)
+/* Darkness of a box: sum over pixels of 1 - green/255. */
+static double ink_in(const Canvas *canvas, Box box)
 {
     double sum = 0;
-    for (int i = 0; i < canvas->width * canvas->height; i++)
-        sum += 1 - (double)(canvas->pixels[i] >> 8 & 255) / 255;
+    for (int j = box.y; j < box.y + box.height; j++)
+        for (int i = box.x; i < box.x + box.width; i++)
+            sum +=
+                1 - (canvas->pixels[canvas->width * j + i] >> 8 & 255) / 255.0;
     return sum;
 }
 
-static Options parsed(int count, char **arguments)
+static double ink(const Canvas *canvas)
 {
-    Options options;
-    char message[512] = "";
-    if (options_parse(count, arguments, 0, &options, message, sizeof message))
-        fail_msg("%s", message);
-    return options;
+    return ink_in(canvas, (Box){0, 0, canvas->width, canvas->height});
+}
+
+/* A white canvas until the next call. */
+static Canvas *white_canvas(int width, int height)
+{
+    static Canvas canvas;
+    canvas_free(&canvas);
+    CHECK_STATUS(canvas_create(width, height, &canvas), STATUS_OK);
+    CHECK(canvas.pixels[0] == COLOUR_WHITE);
+    return &canvas;
 }
 
 /* ---- canvas ------------------------------------------------------------- */
 
 TEST(a_canvas_has_limits)
 {
+    static const int sizes[][2] = {
+        {0, 5}, {5, -1}, {CANVAS_MAX_SIZE + 1, 5}, {5, CANVAS_MAX_SIZE + 1}};
     Canvas canvas;
-    CHECK_STATUS(canvas_create(0, 5, &canvas), STATUS_INVALID_INPUT);
-    CHECK_STATUS(canvas_create(5, -1, &canvas), STATUS_INVALID_INPUT);
-    CHECK_STATUS(canvas_create(CANVAS_MAX_SIZE + 1, 5, &canvas),
-                 STATUS_INVALID_INPUT);
-    CHECK_STATUS(canvas_create(5, CANVAS_MAX_SIZE + 1, &canvas),
-                 STATUS_INVALID_INPUT);
+    for (int i = 0; i < 4; i++)
+        CHECK_STATUS(canvas_create(sizes[i][0], sizes[i][1], &canvas),
+                     STATUS_INVALID_INPUT);
     canvas_free(&canvas);
     canvas_free(NULL);
-    CHECK_STATUS(canvas_create(1, 1, &canvas), STATUS_OK);
-    CHECK(canvas.pixels[0] == COLOUR_WHITE);
-    canvas_free(&canvas);
+    white_canvas(1, 1);
 }
 
-/* The ink of a line is its area, in whatever direction it runs. */
-TEST(lines_have_their_area)
+/* The ink of a line is its area, in whatever direction it runs; that of a disc
+ * and of a ring, too. */
+TEST(shapes_have_their_area)
 {
     Random random = {11};
-    Canvas canvas;
-    assert_int_equal(canvas_create(200, 200, &canvas), 0);
-    for (int i = 0; i < 200; i++) {
-        double angle = random_uniform(&random, 0, 6.3);
-        double width = random_uniform(&random, 0.5, 6);
+    for (int i = 0; i < 300; i++) {
+        double angle = random_uniform(&random, 0, 6.3), area;
+        double width = random_uniform(&random, 1, 6);
         double x = random_uniform(&random, 99, 101), y = 100;
-        canvas_clear(&canvas, COLOUR_WHITE);
-        canvas_line(&canvas, x, y, x + 80 * cos(angle), y + 80 * sin(angle),
-                    width, 0xff000000);
-        CHECK_NEAR(ink(&canvas), 80 * width, 0.02 * 80 * width + 1);
-    }
-    canvas_free(&canvas);
-}
-
-TEST(discs_have_their_area)
-{
-    Random random = {12};
-    Canvas canvas;
-    assert_int_equal(canvas_create(100, 100, &canvas), 0);
-    for (int i = 0; i < 100; i++) {
         double radius = random_uniform(&random, 1, 40);
-        double area = 3.14159265358979 * radius * radius;
-        canvas_clear(&canvas, COLOUR_WHITE);
-        canvas_disc(&canvas, random_uniform(&random, 49, 51), 50, radius,
-                    0xff000000);
-        CHECK_NEAR(ink(&canvas), area, 0.02 * area + 0.3);
+        Canvas *canvas = white_canvas(200, 200);
+        if (i % 3 == 0)
+            canvas_line(canvas, x, y, x + 80 * cos(angle), y + 80 * sin(angle),
+                        width, 0xff000000);
+        else if (i % 3 == 1)
+            canvas_disc(canvas, x, y, radius, 0xff000000);
+        else
+            canvas_ring(canvas, x, y, radius + width, width, 0xff000000);
+        area = i % 3 == 0   ? 80 * width
+               : i % 3 == 1 ? M_PI * radius * radius
+                            : 2 * M_PI * (radius + width) * width;
+        CHECK_NEAR(ink(canvas), area, 0.02 * area + (i % 3 ? 0.3 : 1));
     }
-    canvas_free(&canvas);
 }
 
 /* A clipped line has the pixels of the whole one; nothing is written outside
@@ -170,41 +164,36 @@ TEST(shapes_are_clipped)
 {
     Random random = {13};
     const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 1e30, 0};
-    Canvas canvas;
-    assert_int_equal(canvas_create(31, 17, &canvas), 0);
+    Canvas *canvas = white_canvas(31, 17);
     for (int i = 0; i < 2000; i++) {
         double at[4];
         for (int k = 0; k < 4; k++)
             at[k] = random_uniform(&random, -100, 100);
         if (i % 2)
             at[random_below(&random, 4)] = odd[random_below(&random, 7)];
-        canvas_line(&canvas, at[0], at[1], at[2], at[3], 3, 0xff000000);
-        canvas_disc(&canvas, at[0], at[1], fabs(at[2]), 0xff0000ff);
-        canvas_rectangle(&canvas, (int)fmod(at[2], 50), -20, 60, 30,
-                         0x80ff0000);
+        canvas_line(canvas, at[0], at[1], at[2], at[3], 3, 0xff000000);
+        canvas_disc(canvas, at[0], at[1], fabs(at[2]), 0xff0000ff);
+        canvas_rectangle(canvas, (int)fmod(at[2], 50), -20, 60, 30, 0x80ff0000);
     }
-    canvas_clear(&canvas, COLOUR_WHITE);
-    canvas_line(&canvas, NAN, 1, 2, 3, 2, 0xff000000);
-    canvas_line(&canvas, -10, -10, -10, 50, 2, 0xff000000);
-    canvas_disc(&canvas, 1, NAN, 3, 0xff000000);
-    CHECK_NEAR(ink(&canvas), 0, 0);
-    canvas_line(&canvas, -1e6, 8.5, 1e6, 8.5, 1, 0xff000000);
-    CHECK_NEAR(ink(&canvas), 31, 0.1);
-    canvas_free(&canvas);
+    canvas_clear(canvas, COLOUR_WHITE);
+    canvas_line(canvas, NAN, 1, 2, 3, 2, 0xff000000);
+    canvas_line(canvas, -10, -10, -10, 50, 2, 0xff000000);
+    canvas_disc(canvas, 1, NAN, 3, 0xff000000);
+    CHECK_NEAR(ink(canvas), 0, 0);
+    canvas_line(canvas, -1e6, 8.5, 1e6, 8.5, 1, 0xff000000);
+    CHECK_NEAR(ink(canvas), 31, 0.1);
 }
 
 TEST(rectangles_mix_by_alpha)
 {
-    Canvas canvas;
-    assert_int_equal(canvas_create(4, 4, &canvas), 0);
-    canvas_rectangle(&canvas, 1, 1, 2, 2, 0x80000000);
-    CHECK(pixel_distance(canvas.pixels[5], 0xff7f7f7f) <= 1);
-    CHECK(canvas.pixels[0] == COLOUR_WHITE);
-    canvas_rectangle(&canvas, 0, 0, 4, 4, 0xff102030);
-    CHECK(canvas.pixels[15] == 0xff102030);
-    canvas_rectangle(&canvas, 2, 2, -1, 5, 0xffffffff);
-    CHECK(canvas.pixels[10] == 0xff102030);
-    canvas_free(&canvas);
+    Canvas *canvas = white_canvas(4, 4);
+    canvas_rectangle(canvas, 1, 1, 2, 2, 0x80000000);
+    CHECK(pixel_distance(canvas->pixels[5], 0xff7f7f7f) <= 1);
+    CHECK(canvas->pixels[0] == COLOUR_WHITE);
+    canvas_rectangle(canvas, 0, 0, 4, 4, 0xff102030);
+    CHECK(canvas->pixels[15] == 0xff102030);
+    canvas_rectangle(canvas, 2, 2, -1, 5, 0xffffffff);
+    CHECK(canvas->pixels[10] == 0xff102030);
 }
 
 /* ---- colours, history, plot ---------------------------------------------- */
@@ -277,18 +266,6 @@ TEST(axes_end_at_round_numbers)
         CHECK_NEAR(plot_round_up(from[i]) / to[i], 1, 1e-9);
     CHECK_NEAR(plot_round_axis(103), 150, 1e-9);
     CHECK_NEAR(plot_round_axis(40), 40, 1e-9);
-}
-
-/* The darkness of a box alone. */
-static double ink_in(const Canvas *canvas, Box box)
-{
-    double sum = 0;
-    for (int j = box.y; j < box.y + box.height; j++)
-        for (int i = box.x; i < box.x + box.width; i++)
-            sum +=
-                1 - (double)(canvas->pixels[canvas->width * j + i] >> 8 & 255) /
-                        255;
-    return sum;
 }
 
 /* Beside each value that an axis names there is as much ink as its number has
@@ -480,18 +457,14 @@ TEST(words_stand_to_the_right)
 /* Where there is nothing to rub on, there is no coefficient to change. */
 TEST(friction_is_a_number_of_contact)
 {
-    static const char *const scenes_with[] = {"slope", "drop", "dent"};
+    static const char *const scene[] = {"slope", "drop", "dent", "square"};
     const OptionRow *found[OPTIONS_MOST];
     for (int i = 0; i < 4; i++) {
-        Simulation simulation;
         bool there = false;
-        simulation_from_line(i < 3 ? scenes_with[i] : "square", NULL, NULL,
-                             &simulation);
-        int count = options_row(&simulation.options, found);
+        int count = options_row(&simulate("%s", scene[i])->options, found);
         for (int k = 0; k < count; k++)
             there = there || strcmp(found[k]->name, "friction") == 0;
         CHECK(there == (i < 3));
-        simulation_free(&simulation);
     }
 }
 
@@ -515,44 +488,31 @@ static void mask_words(const Canvas *words, const Canvas *plain,
         }
 }
 
-/* The frame of a step as the program makes it; the same without words to
- * `plain`, unless that is NULL. */
-static Canvas program_frame(const char *line, int step, Canvas *plain)
+/* The frame of a step, with and without words; free both. */
+static void frame_of(const char *line, int step, Canvas frame[2])
 {
-    static Player player;
-    static volatile sig_atomic_t stop;
-    char copy[256], steps[16], name[NAME_SIZE + 64], frames[NAME_SIZE + 16];
-    char *arguments[32] = {"elasto", "--headless", "--quiet", "--frames",
-                           frames,   "--steps",    steps};
-    snprintf(frames, sizeof frames, "%s", in_folder("frames"));
-    int count = 7;
-    snprintf(steps, sizeof steps, "%d", step);
-    snprintf(copy, sizeof copy, "%s", line);
-    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
-        arguments[count++] = word;
-    Options options = parsed(count, arguments);
-    assert_int_equal(player_create(&options, 1, "elasto", &stop, &player), 0);
-    player.attended = true; /* plots know all steps, only two are drawn */
-    assert_int_equal(player_draw(&player), 0);
+    char whole[160];
+    snprintf(whole, sizeof whole, "%s --steps %d", line, step);
+    begin(whole);
+    player.paused = false;
+    player_sample(&player);
     while (player.step < step) {
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
-    assert_int_equal(player_draw(&player), 0);
-    if (plain) {
+    for (int plain = 0; plain < 2; plain++) {
         Paper paper;
         assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-        text_free(paper.text);
-        paper.text = NULL;
+        if (plain) {
+            text_free(paper.text);
+            paper.text = NULL;
+        }
         player_paint(&player, &paper);
-        *plain = paper.canvas;
+        frame[plain] = paper.canvas;
         paper.canvas = (Canvas){0};
         paper_free(&paper);
     }
-    assert_int_equal(player_finish(&player), 0);
-    player_free(&player);
-    snprintf(name, sizeof name, "%s/frame_%06d.png", options.frames, step);
-    return read_png(name);
+    end();
 }
 
 /* Pixels of tests/data/NAME.png, away from words, that are off by more than 4
@@ -565,19 +525,20 @@ static int count_far_pixels(const char *name, const char *line, int step)
     int far = 0, compared = 0;
     snprintf(file, sizeof file, "tests/data/%s.png", name);
     Canvas reference = read_png(file);
-    Canvas plain, now = program_frame(line, step, &plain);
+    Canvas now[2];
+    frame_of(line, step, now);
     assert_int_equal(reference.width, FRAME);
     assert_int_equal(reference.height, FRAME);
-    mask_words(&now, &plain, mask);
+    mask_words(&now[0], &now[1], mask);
     for (int i = 0; i < FRAME * FRAME; i++)
         if (!mask[i]) {
-            far += pixel_distance(now.pixels[i], reference.pixels[i]) > 4;
+            far += pixel_distance(now[0].pixels[i], reference.pixels[i]) > 4;
             compared++;
         }
     CHECK(compared > FRAME * FRAME / 2);
     canvas_free(&reference);
-    canvas_free(&plain);
-    canvas_free(&now);
+    canvas_free(&now[0]);
+    canvas_free(&now[1]);
     assert_int_equal(stat(file, &info), 0);
     CHECK(info.st_size < 250000);
     return far;
@@ -609,10 +570,12 @@ TEST(a_loose_tolerance_is_named)
                                         "drop --segments 4 --tolerance 0.01"};
     int red[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
-        Canvas frame = program_frame(lines[k], 0, NULL);
-        for (int i = 0; i < frame.width * frame.height; i++)
-            red[k] += pixel_distance(frame.pixels[i], 0xffd00000u) < 60;
-        canvas_free(&frame);
+        Canvas frame[2];
+        frame_of(lines[k], 0, frame);
+        for (int i = 0; i < FRAME * FRAME; i++)
+            red[k] += pixel_distance(frame->pixels[i], COLOUR_WARNING) < 60;
+        canvas_free(&frame[0]);
+        canvas_free(&frame[1]);
     }
     CHECK(red[0] == 0);
     CHECK(red[1] > 50);
@@ -639,11 +602,8 @@ TEST(readme_shows_films_of_all_scenes)
     assert_non_null(list);
     while (fscanf(list, "%31s %d %d %127[^\n]", name, &speed, &steps, line) ==
            4) {
-        static Simulation simulation;
-        simulation_from_line(line, NULL, NULL, &simulation);
-        CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
-        CHECK(strcmp(simulation.scene->name, name) == 0);
-        simulation_free(&simulation);
+        Simulation *scene = make_steps(simulate("%s", line), 1);
+        CHECK(strcmp(scene->scene->name, name) == 0);
         CHECK(steps == 60 * speed);
         count++;
     }
@@ -670,11 +630,9 @@ TEST(readme_shows_films_of_all_scenes)
 /* SDL's software renderer shows exactly the paper. */
 TEST(surface_shows_the_paper)
 {
-    static Simulation simulation;
     static Show show;
     View *view = NULL;
-    simulation_from_line("square", NULL, NULL, &simulation);
-    show_create(&simulation, &show);
+    show_create(simulate("square"), &show);
     CHECK_STATUS(view_create_surface(300, 200, &view), STATUS_OK);
     Paper *paper = view_paper(view);
     assert_non_null(paper);
@@ -689,7 +647,6 @@ TEST(surface_shows_the_paper)
           !view_quit_waits(view, true, true));
     view_free(view);
     view_free(NULL);
-    simulation_free(&simulation);
 }
 
 /* An output without any pixel, as a window may have for a moment, has a paper
@@ -754,27 +711,22 @@ TEST(outputs_replace_at_the_end)
     fputs("thrown away\n", output.file);
     CHECK_STATUS(output_cut(&output, -1), STATUS_OK);
     fputs("new\n", output.file);
-    char *text = read_text(name);
-    assert_string_equal(text, "old\n");
-    free(text);
+    free(check_text(name, "old\n"));
     CHECK(exists(part));
     CHECK_STATUS(output_close(&output), STATUS_OK);
     CHECK_STATUS(output_close(&output), STATUS_OK);
-    text = read_text(name);
-    assert_string_equal(text, "new\n");
-    free(text);
+    free(check_text(name, "new\n"));
     CHECK(!exists(part));
-}
-
-TEST(discarded_outputs_leave_nothing)
-{
-    Output output;
-    CHECK_STATUS(output_open(in_folder("never.txt"), &output), STATUS_OK);
+    name = in_folder("never.txt");
+    CHECK_STATUS(output_open(name, &output), STATUS_OK);
     fputs("text", output.file);
     output_discard(&output, false);
     output_discard(&output, false);
-    CHECK(!exists(in_folder("never.txt")));
-    CHECK(!exists(in_folder("never.txt.part")));
+    CHECK(!exists(name) && !exists(in_folder("never.txt.part")));
+    CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
+    fputs("text", output.file);
+    CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
+    assert_int_equal(errno, ENOSPC);
 }
 
 /* What cannot get its name stays beside it, and is written over by the next:
@@ -787,12 +739,10 @@ TEST(outputs_have_one_file_beside_their_name)
         CHECK_STATUS(output_open(name, &output), STATUS_OK);
         CHECK_STATUS(output_open(name, &second), STATUS_FILE_FAILED);
         assert_int_equal(errno, EBUSY);
-        fprintf(output.file, "%.*s", 3 - i, "abc");
+        fputs("abc" + i, output.file);
         CHECK(mkdir(name, 0700) == 0);
         CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
-        char *text = read_text(part);
-        CHECK((int)strlen(text) == 3 - i);
-        free(text);
+        free(check_text(part, "abc" + i));
         CHECK(rmdir(name) == 0);
     }
     CHECK_STATUS(output_open(name, &output), STATUS_OK);
@@ -825,23 +775,6 @@ TEST(outputs_have_the_mode_of_their_name)
     }
 }
 
-TEST(full_devices_are_noticed)
-{
-    Output output;
-    CHECK_STATUS(output_open("/dev/full", &output), STATUS_OK);
-    fputs("text", output.file);
-    CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
-    assert_int_equal(errno, ENOSPC);
-}
-
-/* The default options, to ask for files with. */
-static Options recording_options(void)
-{
-    char program[] = "elasto";
-    char *arguments[] = {program, NULL};
-    return parsed(1, arguments);
-}
-
 static bool record_update(void *user, const NewtonRecord *record)
 {
     return recording_update(user, record, 1) == STATUS_OK;
@@ -851,19 +784,17 @@ static bool record_update(void *user, const NewtonRecord *record)
 TEST(states_are_exact)
 {
     static Recording recording;
-    static Simulation simulation;
-    char name[NAME_SIZE + 64];
-    snprintf(name, sizeof name, "%s", in_folder("states.csv"));
-    Options options = recording_options();
+    Simulation *scene = simulate("square");
+    const Simulation *twice[] = {scene, scene};
+    const char *name = in_folder("states.csv");
+    Options options = scene->options;
     options.states = name;
     CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
-    assert_int_equal(simulation_create(&options, NULL, NULL, &simulation), 0);
-    const Simulation *twice[] = {&simulation, &simulation};
     CHECK_STATUS(recording_states(&recording, twice, 1, 0), STATUS_OK);
-    assert_int_equal(simulation_step(&simulation), 0);
+    make_steps(scene, 1);
     CHECK_STATUS(recording_states(&recording, twice, 2, 1), STATUS_OK);
     CHECK_STATUS(recording_close(&recording), STATUS_OK);
-    char *text = read_text(name);
+    char *text = check_text(name, NULL);
     char *line = strtok(text, "\n");
     assert_string_equal(line, "step,time,node,x,y,vx,vy");
     for (int i = 0; i < 3 * 25; i++) { /* the second run's nodes go on */
@@ -880,33 +811,28 @@ TEST(states_are_exact)
         CHECK(time == (i >= 25) * 0.004);
         node %= 25;
         if (step == 1) {
-            CHECK_SAME_BITS(x, simulation.run[0].x + 2 * node, 2);
-            CHECK_SAME_BITS(v, simulation.run[0].v + 2 * node, 2);
+            CHECK_SAME_BITS(x, scene->run[0].x + 2 * node, 2);
+            CHECK_SAME_BITS(v, scene->run[0].v + 2 * node, 2);
         }
     }
     assert_null(strtok(NULL, "\n"));
     free(text);
-    simulation_free(&simulation);
 }
 
 /* A row for each Newton update, as many as Newton counted. */
 TEST(log_has_every_update)
 {
     static Recording recording;
-    static Simulation simulation;
-    char name[NAME_SIZE + 64];
-    snprintf(name, sizeof name, "%s", in_folder("log.csv"));
-    Options options = recording_options();
+    const char *name = in_folder("log.csv");
+    Options options = simulate("square")->options;
     options.log = name;
     CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_OK);
-    assert_int_equal(
-        simulation_create(&options, record_update, &recording, &simulation), 0);
-    for (int i = 0; i < 5; i++)
-        assert_int_equal(simulation_step(&simulation), 0);
+    Simulation *scene =
+        make_steps(simulate_watched(record_update, &recording, "square"), 5);
     const NewtonRecord last = {.step = 5, .iteration = -1};
     CHECK(record_update(&recording, &last)); /* an end without an update */
     CHECK_STATUS(recording_close(&recording), STATUS_OK);
-    char *text = read_text(name);
+    char *text = check_text(name, NULL);
     CHECK(strstr(text, "\n5,,0,") != NULL);
     long rows = -2;
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
@@ -916,19 +842,17 @@ TEST(log_has_every_update)
         assert_int_equal(commas, 13);
         rows++;
     }
-    assert_int_equal(rows, simulation_counters(&simulation).iterations);
+    assert_int_equal(rows, simulation_counters(scene).iterations);
     assert_memory_equal(text, "step,iteration,residual,alpha,", 30);
     free(text);
-    simulation_free(&simulation);
 }
 
 TEST(frames_are_numbered_by_step)
 {
     static Recording recording;
     Canvas canvas;
-    char name[NAME_SIZE + 64];
-    snprintf(name, sizeof name, "%s", in_folder("frames"));
-    Options options = recording_options();
+    const char *name = in_folder("frames");
+    Options options = simulate("square")->options;
     options.frames = name;
     assert_int_equal(canvas_create(3, 3, &canvas), 0);
     for (int i = 0; i < 2; i++) {
@@ -948,11 +872,9 @@ TEST(frames_are_numbered_by_step)
 TEST(recording_failures_name_the_file)
 {
     static Recording recording;
-    char file[NAME_SIZE + 64], none[NAME_SIZE + 64];
-    snprintf(file, sizeof file, "%s", in_folder("a_file"));
-    snprintf(none, sizeof none, "%s", in_folder("none/s.csv"));
+    const char *file = in_folder("a_file"), *none = in_folder("none/s.csv");
     write_text(file, "text");
-    Options options = recording_options();
+    Options options = simulate("square")->options;
     options.frames = file;
     CHECK_STATUS(recording_open(&options, 1, &recording), STATUS_FILE_FAILED);
     assert_string_equal(recording.failed, file);
