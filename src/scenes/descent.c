@@ -104,25 +104,9 @@ Local descent_at(const Simulation *simulation, Filter filter, double x,
                         simulation->run[0].h, filter, at);
 }
 
-/* Whether the parts on the map are all of E: then Newton is the one of the
- * time integrators. */
-static bool is_whole(const Simulation *simulation)
-{
-    return simulation->run[0].newton && simulation->exhibit.parts == PART_BOTH;
-}
-
 double descent_value(const Simulation *simulation, double x, double y)
 {
-    double at[2 * LANDSCAPE_NODES], u[2 * LANDSCAPE_NODES] = {0};
-    if (!is_whole(simulation))
-        return descent_at(simulation, FILTER_NONE, x, y).value;
-    const Iterate *now = &simulation->run[0].newton->at;
-    memcpy(at, now->x, sizeof at);
-    at[0] = x;
-    at[1] = y;
-    u[0] = x - now->E.x_n[0];
-    u[1] = y - now->E.x_n[1];
-    return incremental_potential_value(&now->E, u, at);
+    return descent_at(simulation, FILTER_NONE, x, y).value;
 }
 
 int descent_bends_down(const Simulation *simulation, double x, double y)
@@ -157,28 +141,27 @@ double descent_direction(const Simulation *simulation, Filter filter,
     return newton_direction(&E, descent->scalar, p);
 }
 
-/* On demand: two unknowns are projected at once. */
+/* On demand: projected where the Hessian is not positive definite. */
 static Filter own_filter(const Simulation *simulation)
 {
-    Filter filter = simulation->options.filter;
-    return filter == FILTER_ON_DEMAND ? FILTER_CLAMP : filter;
+    const double *at = simulation->descent.point;
+    Filter filter = (Filter)simulation->options.filter;
+    if (filter != FILTER_ON_DEMAND)
+        return filter;
+    return descent_bends_down(simulation, at[0], at[1]) ? FILTER_CLAMP
+                                                        : FILTER_NONE;
 }
 
 /* p, and what the loop tests there: of Algorithm 1 |g|, else |p|/h. */
 static void find_direction(Simulation *simulation, double p[2])
 {
     Descent *descent = &simulation->descent;
-    const Newton *newton = simulation->run[0].newton;
     Local E = descent_at(simulation, own_filter(simulation), descent->point[0],
                          descent->point[1]);
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
                             : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
-    if (!is_whole(simulation))
-        return;
-    memcpy(p, newton->at.p, 2 * sizeof *p);
-    descent->slope = newton->at.g[0] * p[0] + newton->at.g[1] * p[1];
 }
 
 /* How Algorithm 1 ends: at its test, without a direction, or above the start,
@@ -196,22 +179,19 @@ static Status end_of_search(const Simulation *simulation)
 }
 
 /* Shows the iterate where the picture and the states look for it, and what the
- * loop's test says of it if Newton (status) goes on.  Where the search failed
- * its direction stays to be seen. */
+ * loop's test says of it if the search (status) goes on.  Where it failed its
+ * direction stays to be seen. */
 static Status show_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
     double p[2];
-    if (is_whole(simulation))
-        memcpy(run->x, run->newton->at.x, 2 * sizeof *run->x);
     descent->value = descent_value(simulation, run->x[0], run->x[1]);
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
     find_direction(simulation, p);
-    bool own = descent->by_gradient || !is_whole(simulation);
-    if (own && (status == STATUS_RUNNING || status == STATUS_OK))
+    if (status == STATUS_RUNNING)
         status = end_of_search(simulation);
     simulation->done = status != STATUS_RUNNING;
     bool none = status == STATUS_OK || !isfinite(descent->slope);
@@ -221,52 +201,25 @@ static Status show_iterate(Simulation *simulation, Status status)
     return status;
 }
 
-/* Adds the two positions to the record of an iteration. */
-static bool observe_landscape(void *user, const NewtonRecord *iteration)
-{
-    Simulation *simulation = user;
-    NewtonRecord record = *iteration;
-    record.step = simulation->steps + 1;
-    record.iteration = (int)simulation->steps;
-    memcpy(record.from, simulation->descent.point, sizeof record.from);
-    memcpy(record.to, simulation->run[0].newton->at.x, sizeof record.to);
-    if (simulation->descent.by_gradient)
-        record.residual = simulation->descent.residual;
-    return simulation_record(simulation, &record);
-}
-
-/* Algorithm 1 has a test of its own: Newton goes on until that is passed. */
+/* Algorithm 1 has a test of its own. */
 static void choose_test(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     Descent *descent = &simulation->descent;
-    Newton *newton = simulation->run[0].newton;
     bool plain = descent->scalar || (options->filter == FILTER_NONE &&
                                      options->line_search == LINE_SEARCH_NONE);
     if (plain != descent->by_gradient)
         descent->count = 0; /* residuals of another kind */
     descent->by_gradient = plain;
-    if (newton)
-        newton->settings.tolerance = plain ? 0 : options->tolerance;
 }
 
-/* Newton starts at the present iterate: x_n is moved there, x_tilde stays. */
+/* The search begins at the present iterate; x_tilde stays. */
 void aim_descent(Simulation *simulation)
 {
-    TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
-    Status status = STATUS_RUNNING;
     choose_test(simulation);
     descent->began = INFINITY; /* until it is known */
-    if (run->newton) {
-        for (int i = 0; i < 2; i++)
-            run->newton->u_tilde[i] = simulation->exhibit.target[i] - run->x[i];
-        /* run->x follows the iterates */
-        memcpy(run->new_x, run->x, 2 * LANDSCAPE_NODES * sizeof *run->x);
-        status = newton_start(run->newton, run->new_x, NULL, run->h * run->h);
-    }
-    status = show_iterate(simulation,
-                          is_whole(simulation) ? status : STATUS_RUNNING);
+    Status status = show_iterate(simulation, STATUS_RUNNING);
     simulation->status = simulation->done ? status : STATUS_OK;
     if (!descent->scalar)
         descent->began = descent->value;
@@ -289,11 +242,18 @@ static Status update_iterate(Simulation *simulation, NewtonRecord *record)
     const Descent *descent = &simulation->descent;
     double *x = simulation->run[0].x;
     Status status = STATUS_RUNNING;
-    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK &&
-        line_search_backtrack(descent_difference, simulation, &record->alpha,
-                              &record->trials))
-        status =
-            record->slope > 0 ? STATUS_NOT_DESCENT : STATUS_LINE_SEARCH_LIMIT;
+    if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
+        Status found = line_search_backtrack(descent_difference, simulation,
+                                             &record->alpha, &record->trials);
+        /* Uphill E grows by about slope (alpha - alpha^2/2): a step as short as
+         * that lowers it only in its rounding. */
+        bool rounding = record->slope > 0 && record->alpha < 1e-3;
+        if (found || rounding) {
+            status = record->slope > 0 ? STATUS_NOT_DESCENT
+                                       : STATUS_LINE_SEARCH_LIMIT;
+            record->alpha = 0;
+        }
+    }
     record->change = descent_difference(simulation, record->alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record->alpha * descent->direction[i];
@@ -307,11 +267,6 @@ Status step_descent(Simulation *simulation)
     Descent *descent = &simulation->descent;
     const double *at = descent->point;
     choose_test(simulation);
-    if (is_whole(simulation)) {
-        Status status = newton_iterate(simulation->run[0].newton);
-        status = show_iterate(simulation, status);
-        return simulation->done ? status : STATUS_OK;
-    }
     NewtonRecord record = {
         .step = simulation->steps + 1,
         .iteration = (int)simulation->steps,
@@ -331,13 +286,15 @@ Status step_descent(Simulation *simulation)
 
 /* ---- the scenes ---------------------------------------------------------- */
 
-/* One run of this method that starts at x at rest, and aims. */
+/* Node 0 starts at x, and the search aims.  Of two unknowns it is a step of
+ * backward Euler, but nobody makes steps of time. */
 static Status begin_descent(Simulation *simulation,
-                            const NewtonSettings *settings, const char *method,
-                            const double *x)
+                            const NewtonSettings *settings, const double *x)
 {
     const double v[2 * LANDSCAPE_NODES] = {0};
     simulation->runs = 1;
+    const char *method =
+        simulation->descent.scalar ? "forward-euler" : "backward-euler";
     Status status =
         time_integrator_create(integrator_method(method), &simulation->system,
                                settings, x, v, &simulation->run[0]);
@@ -356,8 +313,7 @@ static Status create_scalar(Simulation *simulation,
         return status;
     simulation->system.m[0] = 1;
     simulation->descent.scalar = f;
-    return begin_descent(simulation, settings, "forward-euler",
-                         simulation->options.start);
+    return begin_descent(simulation, settings, simulation->options.start);
 }
 
 Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
@@ -375,14 +331,11 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
 {
     const Options *options = &simulation->options;
     double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
-    NewtonSettings own = *settings;
-    own.observer = observe_landscape;
-    own.user = simulation;
     Status status = fill_landscape(&simulation->system, x);
     if (status)
         return status;
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.parts = PART_BOTH;
-    return begin_descent(simulation, &own, "backward-euler", x);
+    return begin_descent(simulation, settings, x);
 }

@@ -177,7 +177,7 @@ const OptionRow option_rows[] = {
      NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
     {NAME("solver", solver, "S", "", SOLVER_AUTO, solver_name), NEEDS(MESH),
      LIST("solver"), LIVE, ROW(11, 15, 0)},
-    {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(SPRINGS)},
+    {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(MESH)},
     {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_name),
      NEEDS(SPRINGS), LIST("projection"), LIVE, ROW(9, 9, 0)},
     {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK,

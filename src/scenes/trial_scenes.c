@@ -16,6 +16,7 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
     const NewtonSettings settings = {.h = options->timestep,
                                      .tolerance = options->tolerance,
                                      .solver = options->solver,
+                                     .minimum = options->minimum,
                                      .filter = options->filter,
                                      .search = options->line_search,
                                      .max_iterations = 10000};
