@@ -27,6 +27,8 @@ typedef enum CommandKind {
     COMMAND_HOME,      /* step 0 */
     COMMAND_END,       /* the newest step */
     COMMAND_GOTO,      /* number: the step */
+    COMMAND_UNDO,      /* what was changed last is not */
+    COMMAND_REDO,      /* or is again */
     COMMAND_RESTART,   /* begins again */
     COMMAND_FASTER,    /* twice as many steps a second */
     COMMAND_SLOWER,    /* half as many */

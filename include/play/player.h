@@ -7,7 +7,8 @@
 #include <signal.h>
 #include <stdio.h>
 
-#include "play/lane.h"
+#include "play/past.h"
+#include "play/script.h"
 #include "scenes/options.h"
 #include "play/recording.h"
 #include "play/view.h"
@@ -41,21 +42,55 @@ typedef struct Mouse {
     Options options;         /* at its beginning */
 } Mouse;
 
+/* What is shown of one of the runs side by side. */
+typedef struct Side {
+    int place;     /* in its rounds; -1: after the step */
+    double *ghost; /* [2n] m, the outcome with other settings, or NULL */
+    char ghost_label[64];
+    double *from;   /* [4n] m, where a glide begins, and where it is; NULL */
+    char label[64]; /* what is different here */
+    int rigid;      /* steps in which nothing has deformed, up to this one */
+    int idle;       /* steps that needed no update, the same */
+    bool over;      /* that it ended was told */
+    bool retried;   /* it was tried to know its rounds */
+} Side;
+
+/* What is to be done as soon as the step that was asked for is shown. */
+typedef enum Then {
+    THEN_NOTHING,
+    THEN_ENTER, /* its lines are walked through from the first one, */
+    THEN_LEAVE, /* or from the last one back */
+    THEN_PEAK,  /* it was taken by itself: an explosion in it is shown */
+    THEN_TELL   /* it was taken again: both outcomes are told */
+} Then;
+
+/* Of a step that is taken again: what it was. */
+typedef struct Retake {
+    char had[160]; /* "no projection: E +206 in 12 updates" */
+    char is[64];   /* what it is now: "projection clamp" */
+    Command edit;  /* the change */
+    bool alone;    /* two unlike outcomes may be put beside each other */
+    double extent; /* m */
+    int round;     /* the place in it; -1: none */
+    Line line;
+} Retake;
+
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
     int given_count;
-    Lane lane[OPTIONS_MAX_PANES]; /* [lanes] side by side */
-    int lanes, active;            /* the one whose numbers are shown */
-    long step, newest;            /* shown, and known */
-    long forgotten[2];            /* the first and the last step that was just
-                                     forgotten, and not told; 0: none */
+    Past past;
+    Side side[OPTIONS_MAX_PANES]; /* one for each of its panes */
+    int active;                   /* the one whose numbers are shown */
+    Then then;
+    Retake retake;
+    const struct Scene *scene; /* that is shown */
     Recording recording;
+    long written;    /* the last step in its tables; -1: none */
     View *view;      /* NULL: nothing is drawn */
     bool window;     /* the view is a window: it takes keys */
     bool attended;   /* a window or a script: it may pause and go back */
     Script script;   /* of the command line */
     char line[1024]; /* the command line, without files and scripts */
-    Script journal;  /* what was done so far, as a script */
     bool begun;      /* player_create worked */
     bool quit;       /* somebody asked for the end */
     bool changed;    /* the window must be drawn again */
@@ -69,12 +104,13 @@ typedef struct Player {
     bool from_map;     /* the scene is a cell of the envelope */
     bool leaving;      /* the last command was Escape, with nothing open */
     bool by_hand;      /* commands come from keys and mouse */
-    long gesture;      /* so many keys, clicks, turns of the wheel */
-    long asked;        /* the one that was asked whether steps may go */
+    bool by_run;       /* the step that is made was not asked for, */
+    bool known;        /* and it is not new */
+    int gesture;       /* so many keys, clicks, turns of the wheel */
+    int grip;          /* < 0: the last gesture of a script that takes a node */
     int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
-    Status recorded;   /* how the last record of the log was written */
     bool refused;      /* a line of the script made no sense */
     char message[768]; /* why a command or the script cannot be obeyed, or "" */
     char note[SHOW_TEXT];              /* what a command just did, or "" */
@@ -82,9 +118,10 @@ typedef struct Player {
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */
     double due;                        /* s, the next step */
+    double began;                      /* s, work that is */
+    bool under_way;                    /* and goes on in the next frame */
     double clock_mark, time_mark;      /* s, where the speed is measured from */
     double measured; /* simulated over real time; 0: unknown */
-    Energies start[OPTIONS_MAX_PANES]; /* where a summary will want them */
 
     /* What only the screen shows. */
     Lens lens;
@@ -141,7 +178,7 @@ bool player_ended(const Player *player);
 /* Whether any step, or the scene as a whole, did not converge. */
 bool player_unconverged(const Player *player);
 
-/* The hash of the present state of all lanes; see state_hash. */
+/* The hash of the present state of all panes; see state_hash. */
 uint64_t player_hash(const Player *player);
 
 /* Finishes the files and frees all but the numbers that a summary needs.

@@ -148,6 +148,9 @@ void simulation_set_solver(Simulation *simulation, Solver solver);
 Status simulation_set_friction(Simulation *simulation, double mu);
 Status simulation_set_damping(Simulation *simulation, double eta);
 
+/* Whether a hand can take hold of its nodes. */
+bool simulation_is_handled(const Simulation *simulation);
+
 /* Pins a node where it is, or sets it free; its velocity is 0 then.
  * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (there is no such node). */
 Status simulation_pin(Simulation *simulation, int node, bool pinned);

@@ -1,8 +1,8 @@
 /* state.h - the state of a simulation as bytes: saved, restored, hashed.
  *
- * Only what a step changes: positions, velocities, what integrators and terms
- * remember, counters.  Scenes that show iterations of one minimisation have no
- * state of this kind: they are begun again and iterated to where they were.
+ * All that a step changes: positions, velocities, what integrators and terms
+ * remember, counters; of the lecture's small scenes what they show, too, and of
+ * those that show iterations the minimisation that is under way.
  */
 #ifndef ELASTO_STATE_H
 #define ELASTO_STATE_H
@@ -16,10 +16,8 @@
  * fits another method and another stiffness of the same scene. */
 typedef enum StatePart { STATE_ALL, STATE_BODY } StatePart;
 
-/* Bytes of a saved state; state_size is that of STATE_ALL, and 0 where going
- * back must begin again, since a scene has more than this. */
+/* Bytes of a saved state. */
 size_t state_bytes(const Simulation *simulation, StatePart part);
-size_t state_size(const Simulation *simulation);
 
 /* bytes [state_bytes] out. */
 void state_save(const Simulation *simulation, StatePart part, void *bytes);

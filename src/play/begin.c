@@ -6,25 +6,6 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* Whether new runs with these options can begin; the message says why not. */
-static Status try_options(Player *player, const Options *options, int count)
-{
-    Simulation *trial = calloc(1, sizeof *trial);
-    Status status = trial ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; i < count && !status; i++) {
-        status = simulation_create(&options[i], NULL, NULL, trial);
-        simulation_free(trial);
-    }
-    free(trial);
-    return status ? player_refuse(player, status_text(status)) : STATUS_OK;
-}
-
-Status player_try_restart(Player *player, const Options *options)
-{
-    Status status = try_options(player, options, player->lanes);
-    return status ? status : player_restart(player, options, player->lanes);
-}
-
 Status player_scene_options(Player *player, const char *name,
                             Options options[OPTIONS_MAX_PANES], int *count)
 {
@@ -55,14 +36,13 @@ static Status switch_scene(Player *player, const Command *command)
     Status status =
         player_scene_options(player, command->text, options, &count);
     if (!status)
-        status = player_restart(player, options, count);
+        status = player_begin(player, options, count, command);
     if (status)
         return status;
     player->paused = player->paused && !halted;
     player->column = LECTURE_CARDS;
     if (options->scene->explains && !player->given[0].script)
         player->paused = true;
-    player_set_title(player);
     return STATUS_OK;
 }
 
@@ -70,27 +50,28 @@ static Status switch_scene(Player *player, const Command *command)
 static Status pick_start(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    const Scene *scene = player->lane[0].track.options.scene;
+    const Scene *scene = player_simulation(player)->scene;
     if (!(scene->needs & NEEDS_START))
         return player_refuse(player, "this scene has no start to choose");
-    for (int i = player_options(player, options) - 1; i >= 0; i--) {
+    int panes = past_panes(&player->past);
+    player_all_options(player, options);
+    for (int i = 0; i < panes; i++) {
         options[i].start[0] = command->x;
         options[i].start[1] = command->y;
     }
     player->paused = true;
-    return player_try_restart(player, options);
+    return player_begin(player, options, panes, command);
 }
 
 /* From step 0 with the present numbers. */
 static Status begin_again(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    (void)command;
-    player_options(player, options);
+    player_all_options(player, options);
     if (player->halted && !player_explains(&options[0]))
         player->paused = false; /* nobody asked for this pause */
     player->lens = LENS_FITS;
-    return player_restart(player, options, player->lanes);
+    return player_begin(player, options, past_panes(&player->past), command);
 }
 
 const Deed begin_deeds[] = {

@@ -1,37 +1,69 @@
-/* change.c - the settings of the run: numbers and methods, while it goes on or
- * from its start.
+/* change.c - what changes a run: numbers and methods, while it goes on or from
+ * its start; the present step again; panes; pins and hands.
  */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "play/playing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-/* Which lanes a change of this option is for: the active one where they are
- * compared by it, else all.  from, to out: lanes from ... to - 1. */
-static void find_lanes(const Player *player, const char *option, int *from,
+/* Which panes a change of this option is for: the active one where they are
+ * compared by it, else all.  from, to out: panes from ... to - 1. */
+static void find_panes(const Player *player, const char *option, int *from,
                        int *to)
 {
     bool one = option && player_compares(player, option);
     *from = one ? player->active : 0;
-    *to = one ? player->active + 1 : player->lanes;
+    *to = one ? player->active + 1 : past_panes(&player->past);
 }
 
-Status player_change_lanes(Player *player, const Command *change, int from,
-                           int to)
+/* The gesture that a change belongs to: of the mouse, or of a script from
+ * taking a node to letting it go; 0: none. */
+static int gesture_of(Player *player, CommandKind kind)
 {
-    Status status = player_forget_later(player);
+    bool takes =
+        kind == COMMAND_GRAB || kind == COMMAND_DRAG || kind == COMMAND_RELEASE;
+    if (player->by_hand)
+        return player->gesture;
+    player->grip -= kind == COMMAND_GRAB;
+    return takes ? player->grip : 0;
+}
+
+/* A change; again: of the step that is shown, which is to be made once more. */
+static Status change_panes(Player *player, const Command *change, int from,
+                           int to, bool again)
+{
+    Past *past = &player->past;
+    long step = past->step;
     player->changed = true;
     if (player->rests && player->halted) /* something may move again */
         player->paused = player->halted = false;
     player->rests = player->drifts = false;
-    for (int i = from; i < to && !status; i++) {
-        player->lane[i].rigid = player->lane[i].idle = 0;
-        player->lane[i].ended = 0;
-        status = track_change(&player->lane[i].track, change, player->message,
+    Status status = past_edit(past, change, from, to, again,
+                              gesture_of(player, change->kind), player->message,
                               sizeof player->message);
-        lane_sample_again(&player->lane[i], player->step);
+    if (status)
+        return status;
+    for (int p = from; p < to; p++)
+        player->side[p].rigid = player->side[p].idle = 0;
+    return player_fork(player, step - again);
+}
+
+Status player_change(Player *player, const Command *change, int from, int to)
+{
+    Status status = change_panes(player, change, from, to, false);
+    for (int p = from; p < to && !status; p++) {
+        Machine *machine = &player->past.machine[p];
+        if (machine->curves.sampled < player->past.step)
+            continue; /* what is kept of the present state is taken again */
+        history_cut(&machine->curves.history,
+                    nextafter(machine_time(machine), -INFINITY));
+        trail_cut(&machine->curves.trail, 1);
+        show_sample(&machine->simulation, &machine->curves.history,
+                    &machine->curves.trail);
     }
     return status;
 }
@@ -39,35 +71,172 @@ Status player_change_lanes(Player *player, const Command *change, int from,
 Status player_change_all(Player *player, const Command *change)
 {
     player->sampled = -1;
-    return player_change_lanes(player, change, 0, player->lanes);
+    return player_change(player, change, 0, past_panes(&player->past));
 }
 
-int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
+void player_all_options(const Player *player,
+                        Options options[OPTIONS_MAX_PANES])
 {
-    for (int i = 0; i < player->lanes; i++)
-        options[i] = player->lane[i].track.settings.options;
-    return player->lanes;
+    for (int p = 0; p < past_panes(&player->past); p++)
+        options[p] = past_control(&player->past, p)->options;
 }
 
-/* New runs with this option in these lanes. */
+/* ---- the step once more: the counterfactual ------------------------------ */
+
+/* "E +206 in 12 updates" */
+static void tell_outcome(const Told *told, char *text, size_t size)
+{
+    snprintf(text, size, "E %+.3g in %d update%s%s%s", told->change,
+             told->updates, told->updates == 1 ? "" : "s",
+             told->status ? ", " : "",
+             told->status ? status_text(told->status) : "");
+}
+
+/* What a value is called in a sentence. */
+static void value_words(const char *option, const char *value, char *text,
+                        size_t size)
+{
+    if (strcmp(value, "none") == 0)
+        snprintf(text, size, "%s",
+                 strcmp(option, "filter") == 0 ? "no projection" : "full step");
+    else
+        snprintf(text, size, "%s %s", option_find(option)->label, value);
+}
+
+/* Whether it is the projection or the line search that changes. */
+static bool is_method(const char *option)
+{
+    return strcmp(option, "filter") == 0 || strcmp(option, "line-search") == 0;
+}
+
+/* The largest coordinate in the whole step, m. */
+static double extent_of(const Machine *machine)
+{
+    return fmax(machine->told.extent,
+                machine->known ? rounds_extent(&machine->rounds) : 0);
+}
+
+/* Keeps the positions of the active pane as a ghost. */
+static void keep_ghost(Player *player, const char *label)
+{
+    const Simulation *simulation = player_simulation(player);
+    Side *side = &player->side[player->active];
+    size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
+    double *ghost = realloc(side->ghost, bytes);
+    if (!ghost)
+        return;
+    side->ghost = ghost;
+    memcpy(ghost, simulation->run[0].x, bytes);
+    snprintf(side->ghost_label, sizeof side->ghost_label, "%s", label);
+}
+
+/* The change, and the present step once more with it, from its own start; what
+ * it was before stays as a ghost. */
+static Status retake_step(Player *player, const Command *change,
+                          const char *option, const char *value,
+                          const char *old, int from, int to)
+{
+    enum { SOON = 64 }; /* steps that are made again without a wait */
+    Past *past = &player->past;
+    Retake *retake = &player->retake;
+    const Machine *machine = player_machine(player);
+    const Side *side = &player->side[player->active];
+    bool failed = machine->failed, simple = machine->simulation.scene->step;
+    char was[64], had[80];
+    long step = past->step + failed;
+    if (step < 1)
+        return player_change(player, change, from, to);
+    *retake = (Retake){.edit = *change, .round = -1};
+    if (side->place >= 0 && player->fine > 0) {
+        retake->round = machine->rounds.place[side->place].round;
+        retake->line = machine->rounds.place[side->place].line;
+    }
+    retake->extent = extent_of(machine);
+    retake->alone = is_method(option) && past_panes(past) == 1 && past->keeps &&
+                    step < SOON && !failed &&
+                    (machine->simulation.scene->needs & NEEDS_MESH) &&
+                    simulation_is_handled(&machine->simulation);
+    value_words(option, old, was, sizeof was);
+    value_words(option, value, retake->is, sizeof retake->is);
+    tell_outcome(failed ? &machine->told
+                        : &past_entry(past, player->active, step)->told,
+                 had, sizeof had);
+    snprintf(retake->had, sizeof retake->had, "%s: %s", was, had);
+    bool paused = player->paused, holds = player->holds;
+    player_leave_step(player);
+    if (is_method(option) && !failed && !simple)
+        keep_ghost(player, was);
+    Status status = change_panes(player, change, from, to, !failed);
+    if (status)
+        return status;
+    player->paused = paused;
+    player->holds = holds;
+    player->by_run = false;
+    player->sampled = -1;
+    past_aim(past, step, false);
+    player->then = THEN_TELL;
+    return player_work(player);
+}
+
+/* Two outcomes that no one picture can show are put beside each other: the step
+ * as it was in a second pane. */
+static Status put_beside(Player *player)
+{
+    Past *past = &player->past;
+    const Command beside = {.kind = COMMAND_ADD_PANE};
+    long step = past->step;
+    player->retake.alone = false;
+    past_undo(past, -1);
+    Status status = past_set_panes(past, 2, 0, &beside);
+    if (!status)
+        status = past_edit(past, &player->retake.edit, 0, 1, true, 0,
+                           player->message, sizeof player->message);
+    if (!status)
+        status = player_fork(player, step - 1);
+    player_leave_step(player);
+    past_aim(past, step, true);
+    player->then = THEN_TELL;
+    return status ? status : player_work(player);
+}
+
+Status player_tell_retake(Player *player)
+{
+    enum { TIMES = 5 };
+    const Retake *retake = &player->retake;
+    const Machine *machine = player_machine(player);
+    double extent = extent_of(machine);
+    char has[80];
+    bool unlike = !(extent <= TIMES * retake->extent) ||
+                  !(retake->extent <= TIMES * extent);
+    if (retake->alone && unlike)
+        return put_beside(player);
+    if (retake->round >= 0 && machine->known && machine->rounds.places > 2)
+        player->side[player->active].place =
+            rounds_find(&machine->rounds, retake->round, retake->line);
+    tell_outcome(&machine->told, has, sizeof has);
+    player_note(player, "%s; %s: %s", retake->had, retake->is, has);
+    return STATUS_OK;
+}
+
+/* ---- numbers and methods ------------------------------------------------- */
+
+/* New runs with this option in these panes. */
 static Status restart_with(Player *player, const char *option,
                            const char *value, int from, int to)
 {
     Options options[OPTIONS_MAX_PANES];
+    Command edit = {.kind = COMMAND_SET};
     int active = player->active;
-    long newest = player->newest;
-    player_options(player, options);
+    player_all_options(player, options);
     for (int i = from; i < to; i++)
         if (options_set(&options[i], option, value, player->message,
                         sizeof player->message))
             return STATUS_INVALID_INPUT;
-    Status status = player_try_restart(player, options);
-    if (status)
-        return status;
-    player->active = active;
-    player->forgotten[0] = 1;
-    player->forgotten[1] = player->attended ? newest : 0;
-    return STATUS_OK;
+    snprintf(edit.text, sizeof edit.text, "%.20s %.40s", option, value);
+    Status status =
+        player_begin(player, options, past_panes(&player->past), &edit);
+    player->active = status ? player->active : active;
+    return status;
 }
 
 /* An option while the run goes on, or from the start where it cannot change
@@ -90,7 +259,7 @@ static Status set_option(Player *player, const char *text)
         return player_refuse(player, "no line search here");
     if (filter && !simulation_has_filter(simulation))
         return player_refuse(player, "nothing to project here");
-    Options options = player_settings(player)->options;
+    Options options = *player_options(player);
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
@@ -98,9 +267,9 @@ static Status set_option(Player *player, const char *text)
         integrator_method_refuses(options_integrator(&options),
                                   &simulation->system))
         return player_refuse(player, "a term of this scene refuses it");
-    find_lanes(player, name, &from, &to);
+    find_panes(player, name, &from, &to);
     const OptionRow *row = option_find(name);
-    option_value(row, &player_settings(player)->options, old, sizeof old);
+    option_value(row, player_options(player), old, sizeof old);
     option_value(row, &options, now, sizeof now);
     bool time = scene->needs & NEEDS_TIME;
     bool method = filter || search;
@@ -114,11 +283,11 @@ static Status set_option(Player *player, const char *text)
         player_reset_speed(player);
         return status;
     }
-    bool within = player->fine > 0 && player_lane(player)->place >= 0;
+    bool within = player->fine > 0 && player->side[player->active].place >= 0;
     Status status =
         (method || within) && strcmp(old, now) != 0
             ? retake_step(player, &change, name, value, old, from, to)
-            : player_change_lanes(player, &change, from, to);
+            : player_change(player, &change, from, to);
     player_reset_speed(player);
     return status;
 }
@@ -160,7 +329,7 @@ static Status set_default(Player *player, const Command *command)
     const char *option = command->text;
     char value[COMMAND_TEXT_SIZE];
     const OptionRow *row = option_find(option);
-    const Options *now = &player->lane[0].track.options;
+    const Options *now = &past_start(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
     int count;
     if (!row || !row->label)
@@ -181,7 +350,7 @@ static Status select_number(Player *player, const Command *command)
 {
     (void)command;
     const OptionRow *number[OPTIONS_MOST];
-    int count = options_row(&player_settings(player)->options, number);
+    int count = options_row(player_options(player), number);
     int next = player->selected + 1;
     player_deselect(player);
     player->selected = next < count ? next : -1;
@@ -193,7 +362,7 @@ static Status select_number(Player *player, const Command *command)
 static Status switch_method(Player *player, const Command *command)
 {
     char text[COMMAND_TEXT_SIZE];
-    const Options *now = &player_settings(player)->options;
+    const Options *now = &*player_options(player);
     const Options *given = &player->given[0];
     bool search = command->kind == COMMAND_SEARCH;
     LineSearch l = given->line_search, line = LINE_SEARCH_NONE;
@@ -237,6 +406,121 @@ static Status switch_integrator(Player *player, const Command *command)
     return status;
 }
 
+/* ---- panes --------------------------------------------------------------- */
+
+/* The same run with the next method beside the last one. */
+static Status add_pane(Player *player, const Command *command)
+{
+    Past *past = &player->past;
+    int panes = past_panes(past);
+    const Simulation *simulation = &past->machine[panes - 1].simulation;
+    Command change = {.kind = COMMAND_SET};
+    const IntegratorMethod *next = player_next_method(simulation);
+    if (panes == OPTIONS_MAX_PANES)
+        return player_refuse(player, "six are side by side: no room for more");
+    if (!(simulation->scene->needs & NEEDS_TIME))
+        return player_refuse(player, "no time passes here: there is no other "
+                                     "method to put beside it");
+    if (simulation->runs > 1)
+        return player_refuse(player, "several runs are in this picture "
+                                     "already: nothing goes beside it");
+    if (next == simulation->run[0].method)
+        return player_refuse(player, "no other method knows all terms of this "
+                                     "scene: nothing goes beside it");
+    if (!past->keeps)
+        return player_refuse(player, "nothing to be put beside it here");
+    snprintf(change.text, sizeof change.text, "integrator %s", next->name);
+    Status status = past_set_panes(
+        past, panes + 1, player->by_hand ? player->gesture : 0, command);
+    if (!status)
+        status = player_work(player);
+    if (!status)
+        status = player_change(player, &change, panes, panes + 1);
+    player->active = panes;
+    player_note(player, "beside it: %s", next->label);
+    return status;
+}
+
+/* The last pane goes. */
+static Status end_pane(Player *player, const Command *command)
+{
+    Past *past = &player->past;
+    if (past_panes(past) < 2)
+        return player_refuse(player, "there is only one");
+    Status status = past_set_panes(past, past_panes(past) - 1, 0, command);
+    if (!status)
+        status = player_fork(player, past->step);
+    return status ? status : player_work(player);
+}
+
+/* The pane whose numbers are shown. */
+static Status choose_pane(Player *player, const Command *command)
+{
+    if (command->number >= past_panes(&player->past))
+        return player_refuse(player, "there is no such pane");
+    player->active = (int)command->number;
+    return STATUS_OK;
+}
+
+/* ---- hands --------------------------------------------------------------- */
+
+/* Pins a node, or sets it free. */
+static Status switch_pin(Player *player, const Command *command)
+{
+    long node = command->number;
+    const Simulation *simulation = player_simulation(player);
+    if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
+        return player_refuse(player, "only nodes of a square can be pinned");
+    bool pinned = node < simulation->system.nodes &&
+                  simulation_is_pinned(simulation, (int)node);
+    Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
+    Status status = player_change_all(player, &change);
+    if (!status)
+        player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
+    return status;
+}
+
+/* The hand takes a node where it is. */
+static Status grab(Player *player, const Command *command)
+{
+    long node = command->number;
+    const Simulation *simulation = player_simulation(player);
+    if (!simulation_is_handled(simulation))
+        return player_refuse(player, "nothing to take hold of here");
+    Command change = {.kind = COMMAND_GRAB, .number = node};
+    if (node < simulation->system.nodes) {
+        change.x = simulation->run[0].x[2 * node];
+        change.y = simulation->run[0].x[2 * node + 1];
+    }
+    Status status = player_change_all(player, &change);
+    player->holds = player->holds || !status;
+    if (!status && player->paused)
+        player_note(player, "paused: the hand pulls as soon as time goes on "
+                            "(Space, N)");
+    return status;
+}
+
+/* It pulls, or lets go. */
+static Status pull(Player *player, const Command *command)
+{
+    if (past_control(&player->past, player->active)->hand < 0)
+        return player_refuse(player, "the hand holds nothing");
+    player->holds = command->kind == COMMAND_DRAG;
+    return player_change_all(player, command);
+}
+
+/* A point of the scene moves; a minimisation begins anew with it, at step 0. */
+static Status move_handle(Player *player, const Command *command)
+{
+    const Simulation *simulation = player_simulation(player);
+    Status status = STATUS_OK;
+    unsigned needs = simulation->scene->needs;
+    if ((needs & NEEDS_START) && !(needs & NEEDS_TIME) &&
+        simulation->scene->grips)
+        status = player_show(player, 0, false, THEN_NOTHING);
+    return status ? status : player_change_all(player, command);
+}
+
 const Deed change_deeds[] = {
     {COMMAND_SET, set},
     {COMMAND_DEFAULT, set_default},
@@ -246,5 +530,14 @@ const Deed change_deeds[] = {
     {COMMAND_FILTER, switch_method},
     {COMMAND_SEARCH, switch_method},
     {COMMAND_METHOD, switch_integrator},
+    {COMMAND_ADD_PANE, add_pane},
+    {COMMAND_END_PANE, end_pane},
+    {COMMAND_PANE, choose_pane},
+    {COMMAND_PIN, switch_pin},
+    {COMMAND_GRAB, grab},
+    {COMMAND_DRAG, pull},
+    {COMMAND_RELEASE, pull},
+    {COMMAND_HANDLE, move_handle},
+    {COMMAND_FLIP, player_change_all},
     {COMMAND_NONE, NULL},
 };

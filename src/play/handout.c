@@ -161,7 +161,7 @@ static Status play_page(const LecturePage *page,
         status = play_lines(player, page);
     else if (!status)
         status = player_run(player);
-    if (status && status == player->lane[0].track.simulation.status)
+    if (status && status == player->past.machine[0].simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
     Status finished = player_finish(player);
     if (player->recording.message[0])

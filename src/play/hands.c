@@ -202,7 +202,7 @@ static Status type_key(Player *player, const char *key, bool *taken)
 /* The stretch that puts the edge under the mouse. */
 static Status drag_edge(Player *player, const Pick *pick)
 {
-    const Options *options = &player_lane(player)->track.settings.options;
+    const Options *options = player_options(player);
     char value[32], now[32];
     double stretch = 2 * fabs(pick->point[0]) / options->side;
     snprintf(value, sizeof value, "%.2f", fmax(stretch, 0.02));
@@ -273,7 +273,7 @@ static Pick world_at(Player *player, const Layout *layout)
     const Mouse *mouse = &player->mouse;
     Pick pick = {.pane = player->active};
     Hit hit = layout_hit(layout, mouse->x, mouse->y);
-    if (hit.zone == ZONE_STAGE && hit.index < player->lanes)
+    if (hit.zone == ZONE_STAGE && hit.index < past_panes(&player->past))
         pick.pane = hit.index;
     Camera camera = show_camera(&player->show, layout, pick.pane);
     camera_world(&camera, mouse->x, mouse->y, pick.point);
@@ -391,7 +391,7 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
     case ZONE_PAGE:
         return page_clicked(player, layout);
     case ZONE_STRIP:
-        player_note(player, player_settings(player)->options.page
+        player_note(player, player_options(player)->page
                                 ? "Page Down and Page Up turn the pages, G "
                                   "lists them, 1 ... 9 open scenes"
                                 : "1 ... 9 open other scenes, ? lists them; "
@@ -402,7 +402,7 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
     default:
         return STATUS_OK;
     }
-    if (hit.index < player->lanes && hit.index != player->active) {
+    if (hit.index < past_panes(&player->past) && hit.index != player->active) {
         Status status = ask_number(player, COMMAND_PANE, hit.index, 0, 0);
         if (status)
             return status;
@@ -543,7 +543,8 @@ static Status take_input(Player *player, const Input *input)
 Status player_input(Player *player, const Input *input)
 {
     bool turns = input->kind == INPUT_WHEEL && player->mouse.turns;
-    bool key = input->kind == INPUT_KEY && !input->repeats;
+    bool key = input->kind == INPUT_KEY && !input->repeats &&
+               player->mouse.drag == DRAG_NONE;
     if (input->kind == INPUT_PRESS || key ||
         (input->kind == INPUT_WHEEL && !turns))
         player->gesture++;

@@ -13,11 +13,11 @@
 static void free_name(const Player *player, const char *end, char *name,
                       size_t size)
 {
-    const char *scene = player->lane[0].track.options.scene->name;
-    snprintf(name, size, "elasto_%s_%06ld%s", scene, player->step, end);
+    const char *scene = player_simulation(player)->scene->name;
+    snprintf(name, size, "elasto_%s_%06ld%s", scene, player->past.step, end);
     for (int i = 2; access(name, F_OK) == 0 && i < 100000; i++)
-        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, player->step, i,
-                 end);
+        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, player->past.step,
+                 i, end);
 }
 
 static const char *reason_of(Status status)
@@ -90,20 +90,24 @@ static Status tell_hash(Player *player, const Command *command)
     (void)command;
     char name[80];
     unsigned long long hash = player_hash(player);
-    const char *scene = player->lane[0].track.options.scene->name;
-    if (player->journal.count == 0) {
+    const char *scene = player_simulation(player)->scene->name;
+    Script script;
+    Status status = past_script(&player->past, &script);
+    if (script.count == 0) {
         player_note(player, "state %016llx: %.80s --steps %ld", hash,
-                    player->line, player->step);
+                    player->line, player->past.step);
         return STATUS_OK;
     }
     free_name(player, ".script", name, sizeof name);
-    Status status = script_write(name, &player->journal);
+    if (!status)
+        status = script_write(name, &script);
+    script_free(&script);
     if (status)
         player_note(player, "state %016llx of %s, step %ld; no script: %s",
-                    hash, scene, player->step, reason_of(status));
+                    hash, scene, player->past.step, reason_of(status));
     else
         player_note(player, "state %016llx at step %ld: %.60s --script %s",
-                    hash, player->step, player->line, name);
+                    hash, player->past.step, player->line, name);
     return STATUS_OK;
 }
 

@@ -9,7 +9,7 @@
 
 Status lesson_prepare(Player *player)
 {
-    const LecturePage *page = player->lane[0].track.settings.options.page;
+    const LecturePage *page = player_options(player)->page;
     const char *rest = page && page->open ? page->open : "";
     Status status = STATUS_OK;
     while (*rest && !status) {
@@ -27,14 +27,15 @@ Status lesson_prepare(Player *player)
 }
 
 /* The page's scene from its start, with its settings. */
-static Status lesson_open(Player *player, const LecturePage *page)
+static Status lesson_open(Player *player, const LecturePage *page,
+                          const Command *command)
 {
     Options options;
     Status status = lecture_options(page, &options, player->message,
                                     sizeof player->message);
     if (status)
         return status;
-    status = player_restart(player, &options, 1);
+    status = player_begin(player, &options, 1, command);
     player->speed = player_first_speed(&options);
     player_reset_speed(player);
     player->left = page;
@@ -42,7 +43,6 @@ static Status lesson_open(Player *player, const LecturePage *page)
     player->help = false;
     if (!player->given[0].script)
         player->paused = !page->plays;
-    player_set_title(player);
     player->fine = 0;
     return status || player->given[0].script ? status : lesson_prepare(player);
 }
@@ -50,11 +50,11 @@ static Status lesson_open(Player *player, const LecturePage *page)
 /* The first page and the last one have only one neighbour. */
 static Status turn_page(Player *player, const Command *command)
 {
-    const LecturePage *page = player->lane[0].track.settings.options.page;
+    const LecturePage *page = player_options(player)->page;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         if (page)
-            return lesson_open(player, page);
+            return lesson_open(player, page, command);
         snprintf(player->message, sizeof player->message,
                  "there is no page '%s', they are 1 ... %d", command->text,
                  lecture_count());
@@ -62,23 +62,24 @@ static Status turn_page(Player *player, const Command *command)
     }
     if (!page && player->left) { /* another scene was looked at */
         bool on = command->kind == COMMAND_PAGE_ON && player->left[1].name;
-        return lesson_open(player, player->left + on);
+        return lesson_open(player, player->left + on, command);
     }
     if (!page)
-        return lesson_open(player, &lecture_pages[0]);
+        return lesson_open(player, &lecture_pages[0], command);
     if (command->kind == COMMAND_PAGE_ON && !page[1].name)
         return player_refuse(player, "this is the last page");
     if (command->kind == COMMAND_PAGE_BACK && page == lecture_pages)
         return player_refuse(player, "this is the first page");
     return lesson_open(player,
-                       command->kind == COMMAND_PAGE_ON ? page + 1 : page - 1);
+                       command->kind == COMMAND_PAGE_ON ? page + 1 : page - 1,
+                       command);
 }
 
 /* ---- what the mouse does on a page -------------------------------------- */
 
 bool lesson_asks(const Player *player)
 {
-    const LecturePage *page = player->lane[0].track.settings.options.page;
+    const LecturePage *page = player_options(player)->page;
     const Simulation *simulation = player_simulation(player);
     return page && page->predict && !simulation->done;
 }
@@ -87,7 +88,7 @@ bool lesson_asks(const Player *player)
 static Status predict(Player *player, const Command *command)
 {
     double at[2];
-    Simulation *simulation = &player_lane(player)->track.simulation;
+    Simulation *simulation = &player->past.machine[player->active].simulation;
     if (simulation->done || simulation_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player->paused = true;
@@ -107,7 +108,7 @@ static bool has_cell(const Player *player, long cell)
 static Status visit_cell(Player *player, const Command *command)
 {
     long cell = command->number;
-    Simulation *simulation = &player_lane(player)->track.simulation;
+    Simulation *simulation = &player->past.machine[player->active].simulation;
     const EnvelopeMap *map = &simulation->exhibit.map;
     int column = (int)(cell % ENVELOPE_COLUMNS);
     int row = (int)(cell / ENVELOPE_COLUMNS);
@@ -131,8 +132,7 @@ static Status set_number(Player *player, const char *option, double value)
  * can repeat. */
 Status lesson_load(Player *player, long cell)
 {
-    const Lane *lane = player_lane(player);
-    const Options map = lane->track.simulation.options;
+    const Options map = player_simulation(player)->options;
     Command scene = {.kind = COMMAND_SCENE, .text = "square"};
     Command restart = {.kind = COMMAND_RESTART};
     if (!has_cell(player, cell))
@@ -162,7 +162,7 @@ Status lesson_back_to_map(Player *player)
 {
     Command scene = {.kind = COMMAND_SCENE, .text = "envelope"};
     player->from_map = false;
-    return player->left ? lesson_open(player, player->left)
+    return player->left ? lesson_open(player, player->left, &scene)
                         : player_obey(player, &scene);
 }
 

@@ -3,15 +3,15 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "play/playing.h"
 
 /* All of them. */
-static const Deed *const deeds[] = {walk_deeds,   change_deeds, pane_deeds,
-                                    hold_deeds,   begin_deeds,  keep_deeds,
-                                    lesson_deeds, screen_deeds};
+static const Deed *const deeds[] = {walk_deeds, change_deeds, begin_deeds,
+                                    keep_deeds, lesson_deeds, screen_deeds};
 
-DeedFunction *player_deed(CommandKind kind)
+static DeedFunction *find_deed(CommandKind kind)
 {
     for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
         for (const Deed *deed = deeds[i]; deed->act; deed++)
@@ -26,14 +26,14 @@ Status player_refuse(Player *player, const char *why)
     return STATUS_INVALID_INPUT;
 }
 
-const Settings *player_settings(const Player *player)
+const Options *player_options(const Player *player)
 {
-    return &player->lane[player->active].track.settings;
+    return &past_control(&player->past, player->active)->options;
 }
 
 Options player_numbers(const Player *player)
 {
-    Options options = player_settings(player)->options;
+    Options options = *player_options(player);
     double h = player_simulation(player)->options.timestep;
     if (h != options.timestep) { /* nobody chose it: as the cards have it */
         char text[32];
@@ -62,60 +62,77 @@ static bool keeps_note(const Player *player, CommandKind kind)
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
 
-/* Whether it changes the run from the shown step on: what is known of later
- * steps is forgotten then. */
-static bool forgets(CommandKind kind)
+/* Whether it is obeyed while a step is still being computed: it only concerns
+ * the screen.  Everything else ends the work first. */
+static bool waits_for_nothing(CommandKind kind)
 {
-    static const CommandKind kinds[] = {
-        COMMAND_SET,      COMMAND_FILTER, COMMAND_SEARCH,  COMMAND_METHOD,
-        COMMAND_ADD_PANE, COMMAND_GRAB,   COMMAND_DRAG,    COMMAND_PIN,
-        COMMAND_HANDLE,   COMMAND_FLIP,   COMMAND_RELEASE,
-    };
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (kinds[i] == kind)
-            return true;
-    return false;
+    return kind == COMMAND_REDRAW || kind == COMMAND_QUIT ||
+           kind == COMMAND_PLAY || kind == COMMAND_PAUSE ||
+           (kind >= COMMAND_ZOOM && kind <= COMMAND_ENLARGE) ||
+           kind == COMMAND_PAGES || kind == COMMAND_CODE ||
+           kind == COMMAND_FULL || kind == COMMAND_BLANK ||
+           kind == COMMAND_FASTER || kind == COMMAND_SLOWER ||
+           kind == COMMAND_SELECT || kind == COMMAND_SHOT ||
+           kind == COMMAND_FILM || kind == COMMAND_HASH;
 }
 
-/* A hand that would make the run forget steps is asked first: its next gesture
- * does it.  Scripts know what they do. */
-static Status ask_first(Player *player, CommandKind kind)
+/* Writes down what was done: in the journal of the branch that it began, in
+ * front of what it did in turn, else in that of before. */
+static Status note_line(Player *player, const Command *command, long step,
+                        long runs, int now, size_t told)
 {
-    long first = player->step + 1, last = player->newest;
-    char steps[64];
-    if (!player->by_hand || last < first || !forgets(kind) ||
-        (player->asked > 0 && player->gesture == player->asked + 1))
+    Past *past = &player->past;
+    bool same = past->now == now && past->runs == runs;
+    if (!command_row(command->kind)->kept)
         return STATUS_OK;
-    player->asked = player->gesture;
-    snprintf(steps, sizeof steps,
-             first == last ? "step %ld" : "steps %ld ... %ld", first, last);
-    snprintf(player->message, sizeof player->message,
-             "%s would be forgotten: once more does it, End shows the newest",
-             steps);
-    return STATUS_INVALID_INPUT;
+    return script_insert(&past->branch[past->now].journal,
+                         same ? told : past->branch[past->now].carried, step,
+                         command);
+}
+
+/* Later steps that a change has left behind. */
+static void tell_left(Player *player, long step, long newest)
+{
+    const Branch *branch = &player->past.branch[player->past.now];
+    size_t used = strlen(player->note);
+    if (branch->fresh || branch->count > 2 || step >= newest ||
+        used >= sizeof player->note)
+        return;
+    snprintf(player->note + used, sizeof player->note - used,
+             "%ssteps %ld ... %ld: Ctrl+Z leads back", used ? "; " : "",
+             step + 1, newest);
 }
 
 Status player_obey(Player *player, const Command *command)
 {
+    Past *past = &player->past;
     Command resolved = resolve(player, command);
     bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
-    size_t told = player->journal.count;
+    long step = past->step, newest = past_newest(past), runs = past->runs;
+    int now = past->now;
+    size_t told = past->branch[now].journal.count;
     player->changed = true;
     player->message[0] = '\0';
     if (resolved.kind != COMMAND_REDRAW)
         player->glide = 0;
     if (!keeps_note(player, resolved.kind))
         player->note[0] = '\0';
-    if (command_row(resolved.kind)->kept &&
-        script_add(&player->journal, player->step, &resolved))
+    if (past->works && resolved.kind == COMMAND_NEXT)
+        return STATUS_OK; /* it is on its way */
+    if (past->works && !waits_for_nothing(resolved.kind)) {
+        past_drop(past);
+        player->then = THEN_NOTHING;
+        if (resolved.kind == COMMAND_ESCAPE)
+            return player_work(player);
+    }
+    DeedFunction *act = find_deed(resolved.kind);
+    Status status = act ? act(player, &resolved) : STATUS_OK;
+    bool undo = resolved.kind == COMMAND_UNDO || resolved.kind == COMMAND_REDO;
+    if (!undo && past->now > now)
+        tell_left(player, step, newest);
+    if (status != STATUS_INVALID_INPUT && !undo &&
+        note_line(player, &resolved, step, runs, now, told))
         return STATUS_OUT_OF_MEMORY;
-    DeedFunction *act = player_deed(resolved.kind);
-    Status status = ask_first(player, resolved.kind);
-    if (!status && act)
-        status = act(player, &resolved);
-    if (status == STATUS_INVALID_INPUT && player->journal.count == told + 1)
-        player->journal.count = told; /* nothing was done */
-    player_tell_forgotten(player);
     player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -32,22 +33,26 @@ double player_rate(const Player *player)
     return FRAME_RATE * ldexp(1, player->speed);
 }
 
-Lane *player_lane(Player *player)
+const Machine *player_machine(const Player *player)
 {
-    return &player->lane[player->active];
+    return &player->past.machine[player->active];
 }
 
 double player_time(const Player *player)
 {
-    const Lane *lane = &player->lane[player->active];
-    for (int i = 0; i < player->lanes && lane_is_over(lane, player->step); i++)
-        lane = &player->lane[i];
-    return lane_time(lane);
+    const Past *past = &player->past;
+    int pane = player->active;
+    long last;
+    for (int p = 0;
+         p < past_panes(past) && past_is_over(past, pane, past->step, &last);
+         p++)
+        pane = p;
+    return machine_time(&past->machine[pane]);
 }
 
 const Simulation *player_simulation(const Player *player)
 {
-    return &player->lane[player->active].track.simulation;
+    return &player_machine(player)->simulation;
 }
 
 /* What the command line says; else one step a frame through time, and
@@ -80,8 +85,8 @@ void player_note(Player *player, const char *format, ...)
 uint64_t player_hash(const Player *player)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int i = 0; i < player->lanes; i++)
-        hash = state_hash(&player->lane[i].track.simulation, hash);
+    for (int i = 0; i < past_panes(&player->past); i++)
+        hash = state_hash(&player->past.machine[i].simulation, hash);
     return hash;
 }
 
@@ -107,13 +112,13 @@ void player_deselect(Player *player)
 bool player_ended(const Player *player)
 {
     const Options *options = &player->given[0];
-    const Simulation *simulation = &player->lane[0].track.simulation;
+    const Simulation *simulation = &player->past.machine[0].simulation;
     bool unattended = !player->window || options->steps >= 0;
     if (player->quit || *player->stop)
         return true;
-    if (!script_is_over(&player->script))
+    if (!script_is_over(&player->script) || player->past.works)
         return false;
-    return (options->steps >= 0 && player->step >= options->steps) ||
+    return (options->steps >= 0 && player->past.step >= options->steps) ||
            (unattended && simulation->done) ||
            (!player->window && player->paused);
 }
@@ -121,8 +126,8 @@ bool player_ended(const Player *player)
 bool player_unconverged(const Player *player)
 {
     bool any = false;
-    for (int i = 0; i < player->lanes; i++) {
-        const Simulation *simulation = &player->lane[i].track.simulation;
+    for (int i = 0; i < past_panes(&player->past); i++) {
+        const Simulation *simulation = &player->past.machine[i].simulation;
         any = any || simulation->unconverged > 0 ||
               (simulation->done && simulation->status != STATUS_OK);
     }
@@ -140,23 +145,27 @@ static int frames_shown(const Player *player)
 void player_know_step(Player *player)
 {
     enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        const Simulation *simulation = &lane->track.simulation;
-        if (!player->paused || !player->attended || lane->taped ||
-            lane->retried || lane->failed || player->step == 0 ||
-            !simulation->run[0].newton || !track_step_shown(&lane->track) ||
-            state_size(simulation) == 0)
+    Past *past = &player->past;
+    long work = 0;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        const Simulation *simulation = &machine->simulation;
+        if (machine->known || machine->failed || player->side[p].retried ||
+            !simulation->run[0].newton || !simulation_is_handled(simulation) ||
+            past_entry(past, p, past->step)->substeps == 0)
             continue;
-        long work = simulation->system.nodes;
-        work *= 1 + lane->bar[player->step - 1].updates;
-        work *= 2; /* with the step before it */
-        if (player->mouse.drag == DRAG_TIME && work > SOON)
-            continue;
-        if (work <= LONG && lane_retape(lane, player->step))
-            lane_show(lane, player->step);
-        lane->retried = true;
+        work += 2 * simulation->system.nodes * /* with the step before it */
+                (1 + past_entry(past, p, past->step)->told.updates);
     }
+    if (!player->paused || !player->attended || past->works ||
+        past->step == 0 || work == 0 || work > LONG ||
+        (player->mouse.drag == DRAG_TIME && work > SOON))
+        return;
+    for (int p = 0; p < past_panes(past); p++)
+        player->side[p].retried = true;
+    past_aim(past, past->step, true);
+    player->then = THEN_NOTHING;
+    player_work(player);
 }
 
 Status player_draw(Player *player)
@@ -165,18 +174,22 @@ Status player_draw(Player *player)
     if (!player->view)
         return STATUS_OK;
     player_know_step(player);
+    if (player->past.works && !player->past.making) {
+        player->changed = true; /* as soon as it is there */
+        return STATUS_OK;
+    }
     Paper *paper = view_paper(player->view);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    bool fresh = player->sampled != player->step;
+    bool fresh = player->sampled != player->past.step;
     bool filmed = film_runs(&player->recording.film);
-    player->sampled = player->step;
+    player->sampled = player->past.step;
     player_sample(player);
     player_paint(player, paper);
     Status status = view_show(player->view);
     if (!status && (fresh || filmed))
         status = recording_frame(&player->recording, &paper->canvas,
-                                 player->step, frames_shown(player));
+                                 player->past.step, frames_shown(player));
     return status;
 }
 
@@ -184,7 +197,7 @@ Status player_draw(Player *player)
 static void show_progress(const Player *player)
 {
     char bar[BAR_LENGTH + 1] = {0};
-    long steps = player->step, all = player->given[0].steps;
+    long steps = player->past.step, all = player->given[0].steps;
     if (player->given[0].quiet || all < 1 || !isatty(STDERR_FILENO))
         return;
     int filled = (int)(BAR_LENGTH * ((double)steps / (double)all));
@@ -220,9 +233,9 @@ static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
     while (!status && !player->quit) {
-        bool done = player->lane[0].track.simulation.done;
-        const Command *command =
-            script_due(&player->script, player->step, !player->paused && !done);
+        bool done = player->past.machine[0].simulation.done;
+        const Command *command = script_due(&player->script, player->past.step,
+                                            !player->paused && !done);
         if (!command)
             break;
         status = player_obey(player, command);
@@ -231,8 +244,8 @@ static Status obey_script(Player *player)
             command_format(command, line, sizeof line);
             one_line(line, line, sizeof line);
             one_line(player->message, player->message, sizeof player->message);
-            fprintf(stderr, "script: step %ld: '%s': %s\n", player->step, line,
-                    player->message);
+            fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
+                    line, player->message);
             player->message[0] = '\0';
             player->refused = true;
             status = STATUS_OK;
@@ -241,76 +254,28 @@ static Status obey_script(Player *player)
     return status;
 }
 
-/* A failure beyond all numbers: what is shown then is the last state that can
- * be seen, at most ten times as large as the first. */
-static Status show_last_good(Player *player)
-{
-    const Lane *lane = &player->lane[0];
-    const Track *track = &lane->track;
-    long failed = player->step + 1;
-    if (!track->keeps || track->newest < 1 ||
-        state_size(&track->simulation) == 0)
-        return STATUS_OK;
-    long step = lane_last_good(lane);
-    if (step == player->step)
-        return STATUS_OK;
-    Status status = player_show(player, step);
-    player_note(player,
-                "step %ld ends beyond all numbers; shown is step %ld, the last "
-                "below ten times the size",
-                failed, step);
-    player->warning = true;
-    return status;
-}
-
-/* Of several side by side: those whose step could not be made end, and the
- * others go on. */
-static Status end_lanes(Player *player)
-{
-    Status status = STATUS_OK;
-    for (int i = 0; i < player->lanes && !status; i++) {
-        Lane *lane = &player->lane[i];
-        if (!lane->failed || lane->ended || lane->track.simulation.done)
-            continue;
-        status = lane_end(lane, player->step);
-        player_note(player,
-                    "pane %d ended at step %ld, beyond all numbers: its last "
-                    "state below ten times the size is shown",
-                    i + 1, lane->last);
-        player->warning = true;
-    }
-    return status;
-}
-
-/* A failed step is shown, and somebody may go on from it. */
-static Status show_failure(Player *player, Status status)
-{
-    if (!status || !player->attended || player->given[0].steps >= 0 ||
-        player->recorded || status == STATUS_OUT_OF_MEMORY ||
-        status == STATUS_SCREEN_FAILED || status == STATUS_FILE_FAILED ||
-        status == STATUS_INVALID_INPUT)
-        return status;
-    player->changed = true;
-    if (player->lanes > 1)
-        return end_lanes(player);
-    player->paused = true;
-    return status == STATUS_NOT_FINITE ? show_last_good(player) : STATUS_OK;
-}
-
 /* The steps of one frame; fewer if they take long.  Without a window each step
  * is a frame. */
 static Status step_frame(Player *player)
 {
+    Past *past = &player->past;
     Status status = STATUS_OK;
     int count = player->window && player->speed > 0 ? 1 << player->speed : 1;
     double begin = count > 1 ? clock_now() : 0;
-    for (int i = 0; i < count && !status && !player->paused; i++) {
+    for (int i = 0; i < count && !status && (!player->paused || past->works);
+         i++) {
         if (i > 0 &&
             (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
             break;
-        bool known = player->step < player->newest;
-        status = show_failure(player, player_go_on(player));
-        if (!known)
+        if (!past->works) {
+            player->known = past->step < past_newest(past);
+            status = player_go_on(player, THEN_NOTHING);
+        } else {
+            status = player_work(player);
+        }
+        if (past->works)
+            break;
+        if (player->by_run && !player->known)
             player_pause_if_due(player);
         if (!status)
             status = obey_script(player);
@@ -340,15 +305,18 @@ Status player_frame(Player *player)
 {
     double period = 1 / fmin(FRAME_RATE, player_rate(player));
     Status status = obey_inputs(player);
-    if (!status)
+    if (!status && !player->past.works)
         status = obey_script(player);
     double now = player->window ? clock_now() : 0; /* else nobody waits */
     if (player->sampled < 0) /* a new run: step 0 is a frame too */
         player->due = now + period;
     bool due = !player->window || now >= player->due - EARLY;
     bool first = player->sampled < 0 && player->view;
-    if (!status && !player_ended(player) && !player->paused && due && !first) {
-        player->due = fmax(player->due + period, now);
+    bool works = player->past.works;
+    bool goes = !player->paused && due && !first && !player_ended(player);
+    if (!status && (works || goes)) {
+        if (!works)
+            player->due = fmax(player->due + period, now);
         status = step_frame(player);
         if (player->window)
             measure_speed(player);
@@ -360,7 +328,8 @@ Status player_frame(Player *player)
 
 int player_wait(const Player *player)
 {
-    if (!player->window || (player->paused && !script_is_over(&player->script)))
+    if (!player->window || player->past.works ||
+        (player->paused && !script_is_over(&player->script)))
         return 0;
     double wait = player->glide > 0 ? 1e3 / FRAME_RATE
                   : player->paused  ? IDLE_WAIT
@@ -387,8 +356,8 @@ Status player_run(Player *player)
 static void player_title(const Player *player, char *title, size_t size)
 {
     snprintf(title, size, "elasto: %s (press ? for the keys)",
-             player->lanes > 0 ? player->lane[0].track.options.scene->name
-                               : player->given[0].scene->name);
+             player->scene ? player->scene->name
+                           : player->given[0].scene->name);
 }
 
 void player_set_title(Player *player)
@@ -464,6 +433,7 @@ Status player_create(const Options *options, int count, const char *line,
     player->speed = player_first_speed(options);
     player->lens = LENS_FITS;
     player->large = player->selected = -1;
+    player_leave_rounds(player);
     Status status = read_script(player);
     if (!status)
         status = open_view(player);
@@ -473,12 +443,16 @@ Status player_create(const Options *options, int count, const char *line,
     player->paused =
         options->paused || (player->window && !options->script &&
                             options->steps < 0 && player_explains(options));
-    Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
-    if (player->paused && script_add(&player->journal, 0, &pause))
-        return STATUS_OUT_OF_MEMORY;
     status = recording_open(&player->given[0], count, &player->recording);
+    past_create(player->attended || player->view,
+                player->attended && options->steps < 0, &player->past);
+    player->scene = player->given[0].scene;
     if (!status)
-        status = player_begin(player, player->given, count);
+        status = player_begin(player, player->given, count,
+                              &(Command){.kind = COMMAND_RESTART});
+    Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
+    if (!status && player->paused)
+        status = script_add(&player->past.branch[0].journal, 0, &pause);
     player->left = options->page;
     if (!status && options->page && player->window && !options->script)
         status = lesson_prepare(player);
@@ -488,18 +462,26 @@ Status player_create(const Options *options, int count, const char *line,
 
 Status player_finish(Player *player)
 {
-    player_label_lanes(player);
+    Status rest = STATUS_OK;
+    if (player->past.branches > 0) {
+        rest = player_write_rest(player);
+        player_label_panes(player);
+    }
     view_free(player->view);
     player->view = NULL;
-    return recording_close(&player->recording);
+    Status closed = recording_close(&player->recording);
+    return rest ? rest : closed;
 }
 
 void player_free(Player *player)
 {
     view_free(player->view);
     recording_close(&player->recording);
-    for (int i = 0; i < player->lanes; i++)
-        lane_free(&player->lane[i]);
+    past_free(&player->past);
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
+        free(player->side[p].ghost);
+        free(player->side[p].from);
+        player->side[p].ghost = player->side[p].from = NULL;
+    }
     script_free(&player->script);
-    script_free(&player->journal);
 }

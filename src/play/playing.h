@@ -14,65 +14,48 @@ typedef struct Deed {
     DeedFunction *act;
 } Deed;
 
-extern const Deed walk_deeds[], change_deeds[], pane_deeds[], hold_deeds[],
-    begin_deeds[], keep_deeds[], lesson_deeds[], screen_deeds[];
-
-/* The act of this kind; NULL: there is none. */
-DeedFunction *player_deed(CommandKind kind);
+extern const Deed walk_deeds[], change_deeds[], begin_deeds[], keep_deeds[],
+    lesson_deeds[], screen_deeds[];
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);
 
-/* The settings of the lane whose numbers are shown. */
-const Settings *player_settings(const Player *player);
+/* The options of the pane whose numbers are shown. */
+const Options *player_options(const Player *player);
 
-/* The same options with the numbers as they are now: a scene may change its
- * time step by itself. */
+/* The same with the numbers as they are now: a scene may change its time step
+ * by itself. */
 Options player_numbers(const Player *player);
 
 /* ---- walk.c ------------------------------------------------------------- */
 
-/* Where E has risen beyond all proportion within a step that was taken by
- * itself, that is what is shown. */
-void player_show_peaks(Player *player);
+/* What was wished for the step that is shown now. */
+Status player_wish(Player *player, Then then);
 
-/* All lanes show their steps' ends again, no updates or lines. */
-void player_leave_tapes(Player *player);
+/* All panes show their steps' ends again, no updates or lines. */
+void player_leave_rounds(Player *player);
 
-/* ---- glide.c ------------------------------------------------------------ */
-
-/* From what is shown now, before another line is; only in a window. */
-void glide_begin(Player *player);
-
-/* The part of the way that is still to go: 1 ... 0; 0: it is over. */
+/* The part of the way to another line that is still to go: 1 ... 0; 0: it is
+ * over.  The positions there, [2n] m, the side's own. */
 double glide_rest(Player *player);
-
-/* The positions there, [2n] m, the lane's own. */
-const double *glide_between(Lane *lane, double rest);
+const double *glide_between(Player *player, int pane, double rest);
 
 /* ---- change.c ----------------------------------------------------------- */
 
-/* A change from here on, in lanes from ... to - 1 or in all of them; it makes
- * no step again. */
-Status player_change_lanes(Player *player, const Command *change, int from,
-                           int to);
+/* A change from here on, in panes from ... to - 1 or in all of them. */
+Status player_change(Player *player, const Command *change, int from, int to);
 Status player_change_all(Player *player, const Command *change);
 
-/* The present options of all lanes.  Returns how many. */
-int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
+/* The present options of all panes. */
+void player_all_options(const Player *player,
+                        Options options[OPTIONS_MAX_PANES]);
 
 /* The next row of the table of integrators that all terms allow. */
 const IntegratorMethod *player_next_method(const Simulation *simulation);
 
-/* ---- retake.c ----------------------------------------------------------- */
-
-/* A change with the present step taken again; what was changed since that step
- * is changed again after it.  Two outcomes with and without projection or line
- * search that no one picture can show are put beside each other.
- *   option, value, old  what changes, and from what
- *   from, to            in these lanes */
-Status retake_step(Player *player, const Command *change, const char *option,
-                   const char *value, const char *old, int from, int to);
+/* Tells what a step did before it was taken again and does now; unlike outcomes
+ * are put beside each other. */
+Status player_tell_retake(Player *player);
 
 /* ---- begin.c ------------------------------------------------------------ */
 
@@ -81,20 +64,28 @@ Status retake_step(Player *player, const Command *change, const char *option,
 Status player_scene_options(Player *player, const char *name,
                             Options options[OPTIONS_MAX_PANES], int *count);
 
-/* Whether new runs with these options can begin, of as many lanes as there are;
- * message says why not; and then they do. */
-Status player_try_restart(Player *player, const Options *options);
-
 /* ---- steps.c ------------------------------------------------------------ */
 
-/* Simulations, states and energies at step 0. */
-Status player_begin(Player *player, const Options *options, int count);
-
 /* New runs with these options, from step 0; files begin anew. */
-Status player_restart(Player *player, const Options *options, int count);
+Status player_begin(Player *player, const Options *options, int count,
+                    const Command *edit);
 
-/* The observer of all lanes. */
-bool player_watch(void *lane, const NewtonRecord *record);
+/* Iterates until the step that is wanted is shown, or the slice of time of a
+ * frame is over. */
+Status player_work(Player *player);
+
+/* Shows another step, and waits there; again: with all that is told of its
+ * iterations. */
+Status player_show(Player *player, long step, bool again, Then then);
+
+/* What goes whenever another step is shown. */
+void player_leave_step(Player *player);
+
+/* The next step, known or new. */
+Status player_go_on(Player *player, Then then);
+
+/* The past has another branch, which left the one before at this step. */
+Status player_fork(Player *player, long step);
 
 /* What curves and trails keep of states not seen before. */
 void player_sample(Player *player);
@@ -103,28 +94,16 @@ void player_sample(Player *player);
  * run of a given number of steps ends by itself and does not. */
 void player_pause_if_due(Player *player);
 
-/* Shows another step. */
-Status player_show(Player *player, long step);
-
-/* The same, so that it can be walked through line by line. */
-Status player_retape(Player *player, long step);
-
-/* The next step: known, or new. */
-Status player_go_on(Player *player);
-
-/* What came after an old step is forgotten. */
-Status player_forget_later(Player *player);
-
-/* Says which steps were forgotten, beside what else was said. */
-void player_tell_forgotten(Player *player);
+/* What tables still lack of the past that is shown. */
+Status player_write_rest(Player *player);
 
 /* ---- player.c ----------------------------------------------------------- */
 
-/* The lane whose numbers are shown, and the simulation in it. */
-Lane *player_lane(Player *player);
+/* The machine of the pane whose numbers are shown, and its simulation. */
+const Machine *player_machine(const Player *player);
 const Simulation *player_simulation(const Player *player);
 
-/* s: that of the lane whose numbers are shown, or where it has ended that of
+/* s: that of the pane whose numbers are shown, or where it has ended that of
  * one that goes on. */
 double player_time(const Player *player);
 
@@ -175,13 +154,13 @@ void player_deselect(Player *player);
 /* Fills player->show. */
 void player_fill(Player *player);
 
-/* What is different in each lane, as its label. */
-void player_label_lanes(Player *player);
+/* What is different in each pane, as its label. */
+void player_label_panes(Player *player);
 
 /* The whole picture. */
 void player_paint(Player *player, Paper *paper);
 
-/* Whether the lanes have different values of this option. */
+/* Whether the panes have different values of this option. */
 bool player_compares(const Player *player, const char *option);
 
 #endif

@@ -73,23 +73,23 @@ static const char *advice(const Player *player, Status status)
     }
 }
 
-/* The first lane whose simulation ended so; NULL: none did. */
-static const Lane *lane_that_ended(const Player *player, Status status)
+/* The first pane whose simulation ended so; -1: none did. */
+static int pane_that_ended(const Player *player, Status status)
 {
-    for (int i = 0; i < player->lanes; i++)
-        if (player->lane[i].track.simulation.status == status)
-            return &player->lane[i];
-    return NULL;
+    for (int p = 0; p < past_panes(&player->past); p++)
+        if (player->past.machine[p].simulation.status == status)
+            return p;
+    return -1;
 }
 
 /* The one line about a failure. */
 static void report_failure(const Player *player, Status status)
 {
     const Recording *recording = &player->recording;
-    const Lane *lane = lane_that_ended(player, status);
+    int ended = pane_that_ended(player, status);
     char reason[256] = "", name[256], pane[32] = "";
-    if (lane && player->lanes > 1)
-        snprintf(pane, sizeof pane, "pane %d, ", lane->number + 1);
+    if (ended >= 0 && past_panes(&player->past) > 1)
+        snprintf(pane, sizeof pane, "pane %d, ", ended + 1);
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
     one_line(recording->failed, name, sizeof name);
@@ -97,8 +97,9 @@ static void report_failure(const Player *player, Status status)
         tell("%s", player->message[0] ? player->message : recording->message);
     else if (recording->reason)
         tell("%s: %s", name, output_reason(recording->reason));
-    else if (lane)
-        tell("%sstep %ld failed: %s%s", pane, lane->track.simulation.steps + 1,
+    else if (ended >= 0)
+        tell("%sstep %ld failed: %s%s", pane,
+             player->past.machine[ended].simulation.steps + 1,
              status_text(status), advice(player, status));
     else
         tell("%s%s%s%s", status_text(status), reason[0] ? ": " : "", reason,
@@ -132,7 +133,7 @@ int program_end(Player *player, Status status)
                     (options->log && output_is_standard(options->log));
     if (!player->begun)
         recording_discard(&player->recording);
-    long steps = player->lane[0].track.simulation.steps;
+    long steps = player->past.machine[0].simulation.steps;
     player->recording.aside = status && steps == 0;
     Status closed = player_finish(player);
     if (!status)

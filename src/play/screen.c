@@ -89,7 +89,7 @@ static Status fit(Player *player, const Command *command)
  */
 static Status switch_card(Player *player, const Command *command)
 {
-    int cards = picture_cards(picture_of(player->lane[0].track.options.scene));
+    int cards = picture_cards(picture_of(player_simulation(player)->scene));
     int card = (int)fmin((double)command->number, 1e6);
     if (card >= cards)
         return player_refuse(player, "there is no such card");
@@ -107,7 +107,7 @@ static Status switch_column(Player *player, const Command *command)
 {
     LectureColumn column =
         command->kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
-    if (column == LECTURE_CODE && !player_settings(player)->options.page)
+    if (column == LECTURE_CODE && !player_options(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
     player->help = false;

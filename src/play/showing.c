@@ -1,11 +1,15 @@
 /* showing.c - what the player knows, as the Show that the pictures read. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
+
+static const double LONG_WORK = 0.3; /* s; then it is shown */
 
 /* The list of keys, filled from the tables of commands and of scenes. */
 enum { DIGITS = 9, SCENES_IN_ROW = 3, SCENE_ROWS = DIGITS / SCENES_IN_ROW };
@@ -97,10 +101,10 @@ bool player_compares(const Player *player, const char *option)
     char first[COMMAND_TEXT_SIZE], other[COMMAND_TEXT_SIZE];
     if (!row || !row->label)
         return false;
-    option_value(row, &player->lane[0].track.settings.options, first,
+    option_value(row, &past_control(&player->past, 0)->options, first,
                  sizeof first);
-    for (int i = 1; i < player->lanes; i++) {
-        option_value(row, &player->lane[i].track.settings.options, other,
+    for (int i = 1; i < past_panes(&player->past); i++) {
+        option_value(row, &past_control(&player->past, i)->options, other,
                      sizeof other);
         if (strcmp(first, other) != 0)
             return true;
@@ -137,7 +141,6 @@ static void value_text(const OptionRow *row, const Options *options,
 static void fill_settings(Player *player)
 {
     Show *show = &player->show;
-    const Lane *lane = &player->lane[player->active];
     const Options shown = player_numbers(player), *options = &shown;
     player->numbers = options_row(options, player->number);
     for (int i = 0; i < player->numbers; i++) {
@@ -146,10 +149,11 @@ static void fill_settings(Player *player)
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = row->label;
         setting->letters = row->letters;
-        value_text(row, options, &lane->track.simulation, setting->value,
+        value_text(row, options, player_simulation(player), setting->value,
                    SHOW_VALUE);
         option_value(row, options, now, sizeof now);
-        option_value(row, &lane->track.options, start, sizeof start);
+        option_value(row, &past_start(&player->past, player->active)->options,
+                     start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
         setting->off = strcmp(now, "none") == 0;
     }
@@ -214,8 +218,7 @@ static void add_chip(Player *player, CommandKind kind, const char *key,
 static void fill_chips(Player *player)
 {
     const Simulation *simulation = player_simulation(player);
-    const Options *options =
-        &player->lane[player->active].track.settings.options;
+    const Options *options = player_options(player);
     static const char *const next[] = {"next step", "next update", "next line"};
     static const char *const finer[] = {"updates", "lines", "steps"};
     bool time = simulation->scene->needs & NEEDS_TIME;
@@ -256,70 +259,97 @@ static void fill_chips(Player *player)
 }
 
 /* One picture on the stage. */
-static void fill_pane(Player *player, int i, double rest, Trace *trace)
+static void fill_pane(Player *player, int p, double rest, Trace *trace)
 {
-    Lane *lane = &player->lane[i];
-    Pane *pane = &player->show.pane[i];
-    const Simulation *simulation = &lane->track.simulation;
-    Status outcome = lane->outcome;
+    const Machine *machine = &player->past.machine[p];
+    const Simulation *simulation = &machine->simulation;
+    const Side *side = &player->side[p];
+    Pane *pane = &player->show.pane[p];
+    long last;
     *pane = (Pane){.simulation = simulation,
-                   .history = &lane->history,
-                   .trail = &lane->trail,
-                   .ghost = lane->ghost,
-                   .ghost_label = lane->ghost_label};
-    if (lane_is_over(lane, player->step))
+                   .history = &machine->curves.history,
+                   .trail = &machine->curves.trail,
+                   .ghost = side->ghost,
+                   .ghost_label = side->ghost_label};
+    if (past_is_over(&player->past, p, player->past.step, &last))
         pane->trouble = STATUS_NOT_FINITE;
-    else if (outcome && outcome != STATUS_INTERRUPTED)
-        pane->trouble = outcome;
-    if (player->lanes > 1)
-        pane->label = lane->label;
+    else
+        pane->trouble = machine->told.status;
+    if (past_panes(&player->past) > 1)
+        pane->label = side->label;
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
-    if (lane->taped && newton) {
-        pane->x = tape_trace(&lane->tape, lane->place, trace);
+    if (machine->known && newton) {
+        pane->x = rounds_trace(&machine->rounds, side->place, trace);
         pane->trace = trace;
         trace->rest = rest;
     }
     if (rest > 0)
-        pane->x = glide_between(lane, rest);
+        pane->x = glide_between(player, p, rest);
 }
 
 /* The hand, where it pulls. */
 static void fill_hand(Player *player)
 {
-    const Settings *settings = &player->lane[player->active].track.settings;
+    const Control *control = past_control(&player->past, player->active);
     Hand *hand = &player->show.hand;
-    if (!settings->held || player_lane(player)->place >= 0)
+    if (control->hand < 0 || player->side[player->active].place >= 0)
         return;
     *hand = (Hand){.on = true,
                    .pane = player->active,
-                   .node = settings->node,
-                   .target = {settings->at[0], settings->at[1]}};
+                   .node = control->hand,
+                   .target = {control->at[0], control->at[1]}};
 }
 
-void player_label_lanes(Player *player)
+/* The time line.  Nothing is drawn where memory is missing. */
+static void fill_bars(Player *player)
 {
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        const Options *options = &lane->track.settings.options;
-        size_t used = 0;
-        lane->label[0] = '\0';
+    static StepBar *bar;
+    static long room;
+    Show *show = &player->show;
+    const Past *past = &player->past;
+    long newest = past_newest(past) - past->making;
+    if (!past->keeps)
+        return;
+    if (newest > room) {
+        StepBar *grown = realloc(bar, 2 * (size_t)newest * sizeof *bar);
+        if (!grown)
+            return;
+        bar = grown;
+        room = 2 * newest;
+    }
+    for (long step = 1; step <= newest; step++) {
+        const Told *told = &past_entry(past, player->active, step)->told;
+        bar[step - 1] =
+            (StepBar){told->updates, status_is_unconverged(told->status)};
+    }
+    show->bars = newest;
+    show->bar = bar;
+}
+
+void player_label_panes(Player *player)
+{
+    const Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Options *options = &past_control(past, p)->options;
+        char *label = player->side[p].label;
+        size_t used = 0, size = sizeof player->side[p].label;
+        long last;
+        label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
             char value[SHOW_VALUE];
-            if (!player_compares(player, row->name) ||
-                used >= sizeof lane->label)
+            if (!player_compares(player, row->name) || used >= size)
                 continue;
-            value_text(row, options, &lane->track.simulation, value,
+            value_text(row, options, &past->machine[p].simulation, value,
                        sizeof value);
             bool alone = row->slot == OPTION_SLOT(integrator);
-            used += (size_t)snprintf(lane->label + used,
-                                     sizeof lane->label - used, "%s%s%s%s",
+            used += (size_t)snprintf(label + used, size - used, "%s%s%s%s",
                                      used ? ", " : "", alone ? "" : row->label,
                                      alone ? "" : " ", value);
         }
-        if (lane_is_over(lane, player->step) && used < sizeof lane->label)
-            snprintf(lane->label + used, sizeof lane->label - used,
-                     "%sended at step %ld", used ? ", " : "", lane->last);
+        if (past_is_over(past, p, past->step, &last) && used < size)
+            snprintf(label + used, size - used, "%sended at step %ld",
+                     used ? ", " : "", last);
     }
 }
 
@@ -327,14 +357,15 @@ void player_label_lanes(Player *player)
 static void fill_time(Player *player)
 {
     Show *show = &player->show;
-    const Lane *lane = &player->lane[player->active];
-    const char *turn = lane->track.simulation.scene->turn;
-    double wanted = player_rate(player) * lane_pace(lane);
+    const Past *past = &player->past;
+    const char *turn = player_simulation(player)->scene->turn;
+    double wanted = player_rate(player) * machine_pace(player_machine(player));
+    long newest = past_newest(past) - past->making;
     size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
-                                   turn ? turn : "step", player->step);
-    if (player->newest > player->step)
+                                   turn ? turn : "step", past->step);
+    if (newest > past->step)
         used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
-                                 " of %ld", player->newest);
+                                 " of %ld", newest);
     if (turn)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
@@ -352,20 +383,22 @@ void player_fill(Player *player)
 {
     static Trace traces[OPTIONS_MAX_PANES];
     Show *show = &player->show;
-    const Lane *lane = &player->lane[player->active];
     Pick hover = show->hover;
     Hit over = show->over;
     show_create(player_simulation(player), show);
-    show->panes = player->lanes;
+    show->panes = past_panes(&player->past);
     show->active = player->active;
     double rest = glide_rest(player);
-    player_label_lanes(player);
-    for (int i = 0; i < player->lanes; i++)
+    player_label_panes(player);
+    for (int i = 0; i < past_panes(&player->past); i++)
         fill_pane(player, i, rest, &traces[i]);
     show->hover = hover;
     show->over = over;
     show->paused = player->paused;
-    if (player->rests)
+    if (player->past.making && clock_now() - player->began > LONG_WORK)
+        snprintf(show->state, SHOW_VALUE, "computing, update %d",
+                 player_machine(player)->told.updates);
+    else if (player->rests)
         snprintf(show->state, SHOW_VALUE, "%s",
                  player->balances ? "at rest" : "within \u03b5");
     else if (player->drifts && !player->paused)
@@ -374,11 +407,8 @@ void player_fill(Player *player)
     fill_chips(player);
     fill_hand(player);
     fill_time(player);
-    if (lane->bar) {
-        show->bars = player->newest;
-        show->bar = lane->bar;
-    }
-    show->step = player->step;
+    fill_bars(player);
+    show->step = player->past.step;
     snprintf(show->message, SHOW_TEXT, "%s", player->note);
     show->warning = player->warning;
     show->closed ^= player->closed;

@@ -1,220 +1,324 @@
-/* steps.c - steps of all lanes, what is recorded of them, and going back. */
+/* steps.c - steps of all panes, what is recorded of them, and going back. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* The Newton object whose iterations are kept for the cards: that of the first
- * run that has one, while it is this run's turn; else NULL. */
-static const Newton *listened_to(const Simulation *simulation)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        if (simulation->run[r].newton)
-            return r == simulation->stepping ? simulation->run[r].newton : NULL;
-    return NULL;
-}
+/* s, of a frame in which steps are made; then inputs are looked at. */
+static const double SLICE = 0.05;
 
-/* After each Newton iteration: log it, and look whether to go on. */
-bool player_watch(void *user, const NewtonRecord *record)
+/* ---- tables -------------------------------------------------------------- */
+
+/* What Newton told of the step that the machines have just made, or could not
+ * make. */
+static Status record_updates(Player *player, long step)
 {
-    Lane *lane = user;
-    Player *player = lane->player;
-    const Newton *newton = listened_to(&lane->track.simulation);
-    if (*player->stop ||
-        (player->window &&
-         view_quit_waits(player->view, player->selected < 0 && !player->typing,
-                         player_escape_ends(player))))
-        player->quit = true;
-    if (lane->track.keeps && newton && lane->track.simulation.scene &&
-        !lane->track.simulation.scene->step)
-        tape_add(&lane->tape, newton, record);
-    if (!lane->track.repeating) {
-        NewtonRecord row = *record;
-        if (player->recording.panes > 1)
-            row.step = player->step + 1;
-        if (lane->number < player->recording.panes)
-            player->recorded =
-                recording_update(&player->recording, &row, lane->number + 1);
+    Recording *recording = &player->recording;
+    Status status = STATUS_OK;
+    for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
+         p++) {
+        const Machine *machine = &player->past.machine[p];
+        for (long i = 0; i < machine->records && !status; i++) {
+            NewtonRecord row = machine->record[i];
+            if (recording->panes > 1)
+                row.step = step;
+            status = recording_update(recording, &row, p + 1);
+        }
     }
-    return !player->quit && !player->recorded;
+    return status;
 }
 
-/* The states of all lanes. */
-static Status record_states(Player *player)
+/* The step that is shown, if it is the next one that is not written yet. */
+static Status record_step(Player *player)
 {
     const Simulation *simulation[OPTIONS_MAX_PANES];
-    for (int i = 0; i < player->lanes; i++)
-        simulation[i] = &player->lane[i].track.simulation;
-    return recording_states(&player->recording, simulation, player->lanes,
-                            player->step);
+    int panes = past_panes(&player->past);
+    long step = player->past.step;
+    if (step != player->written + 1)
+        return STATUS_OK;
+    player->written = step;
+    for (int p = 0; p < panes; p++)
+        simulation[p] = &player->past.machine[p].simulation;
+    Status status = step > 0 ? record_updates(player, step) : STATUS_OK;
+    return status
+               ? status
+               : recording_states(&player->recording, simulation, panes, step);
 }
 
-Status player_begin(Player *player, const Options *options, int count)
+Status player_write_rest(Player *player)
 {
-    player->sampled = -1;
-    player->halted = false;
-    player->warned = player->rests = player->drifts = player->holds = false;
-    player->changed = true;
-    player->recorded = STATUS_OK;
-    player->step = player->newest = 0;
-    player->active = 0;
-    player->lanes = 0;
-    /* pictures show the steps behind them: residuals, the time line */
-    bool keeps = player->attended || player->view;
-    for (int i = 0; i < count; i++) {
-        Status status = lane_create(player, i, &options[i], keeps, player_watch,
-                                    &player->lane[i]);
-        player->lanes++;
-        if (status)
-            return status;
+    Past *past = &player->past;
+    Status status = STATUS_OK;
+    if (!past->keeps || past->branches == 0 ||
+        (!player->recording.states.file && !player->recording.log.file))
+        return STATUS_OK;
+    while (player->written < past_newest(past) && !status && !*player->stop) {
+        if (past->works || past->step > player->written + 1)
+            past_aim(past, player->written > 0 ? player->written : 0, false);
+        else
+            past_aim(past, player->written + 1, false);
+        do
+            status = past_iterate(past);
+        while (status == STATUS_RUNNING);
+        if (!status || status_is_unconverged(status))
+            status = record_step(player);
     }
-    player_reset_speed(player);
-    for (int i = 0; i < count && !player->given[0].quiet; i++)
-        player->start[i] =
-            simulation_energies(&player->lane[i].track.simulation, 0);
-    return record_states(player);
+    return status;
 }
 
-Status player_restart(Player *player, const Options *options, int count)
+/* ---- beginning ----------------------------------------------------------- */
+
+/* Another scene has a camera and cards of its own. */
+static void enter_scene(Player *player)
 {
-    Options copy[OPTIONS_MAX_PANES]; /* they may be those of the lanes */
-    memcpy(copy, options, (size_t)count * sizeof *copy);
-    bool other = copy[0].scene != player->lane[0].track.options.scene;
-    for (int i = 0; i < player->lanes; i++)
-        lane_free(&player->lane[i]);
-    Status status = recording_restart(&player->recording, &copy[0]);
-    if (other) {
-        player->from_map = false;
-        player->speed = player_first_speed(&copy[0]);
-        player->lens = LENS_FITS;
-        player->closed = 0;
-        player->large = -1;
-        player_deselect(player);
-        player->show.hover = (Pick){.kind = PICK_NONE};
-        player->mouse.drag = DRAG_NONE;
-    }
-    return status ? status : player_begin(player, copy, count);
+    const Options *options = player_options(player);
+    if (options->scene == player->scene)
+        return;
+    player->scene = options->scene;
+    player->from_map = false;
+    player->speed = player_first_speed(options);
+    player->lens = LENS_FITS;
+    player->closed = 0;
+    player->large = -1;
+    player_deselect(player);
+    player->show.hover = (Pick){.kind = PICK_NONE};
+    player->mouse.drag = DRAG_NONE;
+    player_set_title(player);
 }
 
-void player_leave_tapes(Player *player)
-{
-    for (int i = 0; i < player->lanes; i++)
-        player->lane[i].place = -1;
-}
-
-/* What goes whenever another step is shown. */
-static void leave_step(Player *player)
+void player_leave_step(Player *player)
 {
     player->changed = true;
     player->rests = false;
-    player_leave_tapes(player);
-    for (int i = 0; i < player->lanes; i++)
-        lane_drop_ghost(&player->lane[i]);
-}
-
-static long clamp_step(const Player *player, long step)
-{
-    return step < 0 ? 0 : step > player->newest ? player->newest : step;
-}
-
-/* Another step is to be shown, and the run waits there. */
-static void wait_elsewhere(Player *player)
-{
-    leave_step(player);
-    player->holds = player->drifts = false;
-    player->paused = true;
-}
-
-/* All lanes at this step, as lane_show or lane_retape shows it. */
-static Status go_to_step(Player *player, long step,
-                         Status (*show)(Lane *lane, long step))
-{
-    Status status = STATUS_OK;
-    for (int i = 0; i < player->lanes && !status; i++)
-        status = show(&player->lane[i], step);
-    player->step = step;
-    return status == STATUS_INTERRUPTED ? STATUS_OK : status;
-}
-
-Status player_show(Player *player, long step)
-{
-    wait_elsewhere(player);
-    if (!player->attended)
-        return STATUS_OK;
-    return go_to_step(player, clamp_step(player, step), lane_show);
-}
-
-Status player_retape(Player *player, long step)
-{
-    if (step < 1 || step > player->newest)
-        return player_show(player, step);
-    wait_elsewhere(player);
-    return go_to_step(player, step, lane_retape);
-}
-
-Status player_go_on(Player *player)
-{
-    if (!player->attended || player->step >= player->newest)
-        return player_step(player);
-    leave_step(player);
-    player->holds = player->drifts = false;
-    return go_to_step(player, player->step + 1, lane_repeat);
-}
-
-void player_tell_forgotten(Player *player)
-{
-    long first = player->forgotten[0], last = player->forgotten[1];
-    size_t used = strlen(player->note);
-    player->forgotten[1] = 0;
-    if (last < 1 || used >= sizeof player->note)
-        return;
-    if (first == last)
-        snprintf(player->note + used, sizeof player->note - used,
-                 "%sstep %ld is forgotten", used ? "; " : "", first);
-    else
-        snprintf(player->note + used, sizeof player->note - used,
-                 "%ssteps %ld ... %ld are forgotten", used ? "; " : "", first,
-                 last);
-}
-
-Status player_forget_later(Player *player)
-{
-    if (!player->attended || player->step >= player->newest)
-        return STATUS_OK;
-    player->forgotten[0] = player->step + 1;
-    player->forgotten[1] = player->newest;
-    for (int i = 0; i < player->lanes; i++)
-        lane_forget(&player->lane[i], player->step);
-    player->newest = player->step;
-    return recording_cut(&player->recording, player->step);
-}
-
-/* Where the lane with the longest timestep will be. */
-static double next_time(const Player *player)
-{
-    double pace = -1, time = 0;
-    for (int i = 0; i < player->lanes; i++) {
-        const Lane *lane = &player->lane[i];
-        if (!lane->failed && !lane->ended && lane_pace(lane) > pace) {
-            pace = lane_pace(lane);
-            time = lane_time(lane);
-        }
+    player_leave_rounds(player);
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
+        free(player->side[p].ghost);
+        player->side[p].ghost = NULL;
+        player->side[p].retried = false;
     }
-    return time + pace;
 }
+
+Status player_begin(Player *player, const Options *options, int count,
+                    const Command *edit)
+{
+    Past *past = &player->past;
+    bool again = past->branches > 0;
+    Status status = past_begin(past, options, count,
+                               player->by_hand ? player->gesture : 0, edit);
+    if (status && again) { /* what was there before is shown again */
+        snprintf(player->message, sizeof player->message, "%s",
+                 status_text(status));
+        Status shown = player_work(player);
+        return shown ? shown : STATUS_INVALID_INPUT;
+    }
+    if (status)
+        return status;
+    player_leave_step(player);
+    player->sampled = player->written = -1;
+    player->halted = player->warned = player->drifts = player->holds = false;
+    player->active = 0;
+    for (int p = 0; p < count; p++)
+        player->side[p].rigid = player->side[p].idle = 0;
+    if (again)
+        status = recording_restart(&player->recording, options);
+    enter_scene(player);
+    player_reset_speed(player);
+    return status ? status : record_step(player);
+}
+
+Status player_fork(Player *player, long step)
+{
+    Past *past = &player->past;
+    const Options *start = &past_start(past, 0)->options;
+    player->changed = true;
+    if (player->active >= past_panes(past))
+        player->active = past_panes(past) - 1;
+    enter_scene(player);
+    if (player->written <= step)
+        return STATUS_OK;
+    player->written = step;
+    return step < 0 ? recording_restart(&player->recording, start)
+                    : recording_cut(&player->recording, step);
+}
+
+/* ---- what happens as a step is shown ------------------------------------- */
+
+void player_sample(Player *player)
+{
+    Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        Machine *machine = &past->machine[p];
+        Curves *curves = &machine->curves;
+        long last;
+        if (curves->sampled >= past->step || past->works)
+            continue;
+        curves->sampled = past->step;
+        if (!past_is_over(past, p, past->step, &last))
+            show_sample(&machine->simulation, &curves->history, &curves->trail);
+    }
+}
+
+/* A failure beyond all numbers: what is shown then is the last state that can
+ * be seen, at most ten times as large as the first. */
+static Status show_last_good(Player *player)
+{
+    enum { TIMES = 10 };
+    Past *past = &player->past;
+    long step = past->step, failed = step + 1;
+    const Entry *first = past_entry(past, 0, 1);
+    if (step < 1 || !first)
+        return STATUS_OK;
+    double most = TIMES * fmax(first->told.extent, 1e-300);
+    while (step > 0 && !(past_entry(past, 0, step)->told.extent <= most))
+        step--;
+    if (step == past->step)
+        return STATUS_OK;
+    Status status = player_show(player, step, false, THEN_NOTHING);
+    player_note(player,
+                "step %ld ends beyond all numbers; shown is step %ld, the last "
+                "below ten times the size",
+                failed, step);
+    player->warning = true;
+    return status;
+}
+
+/* Of several side by side: those whose step could not be made have ended. */
+static void tell_ended(Player *player)
+{
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        Side *side = &player->side[p];
+        long last;
+        bool over = past_is_over(&player->past, p, player->past.step, &last);
+        if (over && !side->over) {
+            player_note(player,
+                        "pane %d ended at step %ld, beyond all numbers: its "
+                        "last state below ten times the size is shown",
+                        p + 1, last);
+            player->warning = true;
+        }
+        side->over = over;
+    }
+}
+
+/* A failed step is shown, and somebody may go on from it. */
+static Status show_failure(Player *player, Status status)
+{
+    Past *past = &player->past;
+    if (past->step == player->written) { /* its iterations are told */
+        Status recorded = record_updates(player, past->step + 1);
+        if (recorded)
+            return recorded;
+    }
+    player->sampled = -1; /* draw the last frame again, and why it ends */
+    player->changed = true;
+    if (!player->attended || player->given[0].steps >= 0 ||
+        status == STATUS_OUT_OF_MEMORY)
+        return status;
+    player->paused = true;
+    player->then = THEN_NOTHING;
+    if (!player->by_run || status != STATUS_NOT_FINITE)
+        return STATUS_OK;
+    return show_last_good(player);
+}
+
+/* The work has come to its end. */
+static Status step_shown(Player *player, Status status, long before)
+{
+    Past *past = &player->past;
+    Then then = player->then;
+    bool failed = status && !status_is_unconverged(status);
+    player->changed = true;
+    if (past_panes(past) > 1)
+        tell_ended(player);
+    if (failed && (past_panes(past) == 1 || past->step == before))
+        return show_failure(player, status);
+    if (past->step != before && player->attended)
+        player_sample(player);
+    status = record_step(player);
+    player->then = THEN_NOTHING;
+    return status ? status : player_wish(player, then);
+}
+
+Status player_work(Player *player)
+{
+    Past *past = &player->past;
+    double begin = clock_now();
+    if (!player->under_way)
+        player->began = begin;
+    player->under_way = true;
+    while (past->works && !player->quit) {
+        long before = past->step;
+        Status status = past_iterate(past);
+        if (!past->works || (status && status != STATUS_RUNNING)) {
+            status = step_shown(player, status, before);
+            if (status)
+                return status;
+        }
+        if (*player->stop)
+            player->quit = true;
+        if (player->window && clock_now() - begin > SLICE)
+            break;
+    }
+    player->changed = true;
+    player->under_way = past->works;
+    return STATUS_OK;
+}
+
+Status player_show(Player *player, long step, bool again, Then then)
+{
+    player_leave_step(player);
+    player->holds = player->drifts = player->by_run = false;
+    player->paused = true;
+    if (!player->past.keeps)
+        return STATUS_OK;
+    long newest = past_newest(&player->past);
+    past_aim(&player->past, step < newest ? step : newest, again);
+    player->then = then;
+    return player_work(player);
+}
+
+/* A node that was held when this step was shown, long ago. */
+static Status let_go(Player *player)
+{
+    Command release = {.kind = COMMAND_RELEASE};
+    if (past_control(&player->past, 0)->hand < 0 || player->holds)
+        return STATUS_OK;
+    return player_change_all(player, &release); /* as a script does by itself */
+}
+
+Status player_go_on(Player *player, Then then)
+{
+    Past *past = &player->past;
+    Status status = past->step < past_newest(past) ? STATUS_OK : let_go(player);
+    if (status)
+        return status;
+    player_leave_step(player);
+    player->by_run = !player->paused;
+    past_aim(past, past->step + 1, false);
+    player->then = then;
+    return player_work(player);
+}
+
+Status player_step(Player *player)
+{
+    return player_go_on(player, THEN_NOTHING);
+}
+
+/* ---- pauses -------------------------------------------------------------- */
 
 /* Whether nothing moved in this step: no update was made, and nothing is
  * held. */
-static bool is_idle(const Lane *lane)
+static bool is_idle(const Machine *machine)
 {
-    const Simulation *simulation = &lane->track.simulation;
+    const Simulation *simulation = &machine->simulation;
     const TimeIntegrator *run = &simulation->run[0];
     if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
-        simulation->runs > 1 || lane->track.settings.held ||
-        lane->track.now.updates > 0 || simulation->steps == 0)
+        simulation->runs > 1 || machine->control->hand >= 0 ||
+        machine->told.updates > 0 || simulation->steps == 0)
         return false;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
         if (fabs(run->v[i]) > simulation->options.tolerance)
@@ -224,33 +328,33 @@ static bool is_idle(const Lane *lane)
 
 /* Whether nothing moves any more: in balance, or, so says the second of two
  * steps from the same place, because the tolerance lets the forces pass. */
-static bool is_at_rest(Lane *lane, bool *balances)
+static bool is_at_rest(const Machine *machine, Side *side, bool *balances)
 {
-    lane->idle = is_idle(lane) ? lane->idle + 1 : 0;
-    if (lane->idle == 0)
+    side->idle = is_idle(machine) ? side->idle + 1 : 0;
+    if (side->idle == 0)
         return false;
-    bool rests = simulation_rests(&lane->track.simulation);
+    bool rests = simulation_rests(&machine->simulation);
     *balances = *balances && rests;
-    return rests || lane->idle > 1;
+    return rests || side->idle > 1;
 }
 
 /* Whether it moves on for ever as it is: nothing acts on it, and nothing has
  * deformed for some steps, so that this is no turning point. */
-static bool drifts(Lane *lane)
+static bool drifts(const Machine *machine, Side *side)
 {
     enum { STEPS = 8 };
-    const Simulation *simulation = &lane->track.simulation;
+    const Simulation *simulation = &machine->simulation;
     double centre, turn;
     const unsigned body = NEEDS_MESH | NEEDS_TIME;
     if ((simulation->scene->needs & body) != body ||
-        state_size(simulation) == 0 || simulation->runs > 1 ||
-        lane->track.settings.held || !simulation_is_free(simulation) ||
+        !simulation_is_handled(simulation) || simulation->runs > 1 ||
+        machine->control->hand >= 0 || !simulation_is_free(simulation) ||
         !(simulation_deforming(simulation, &centre, &turn) <=
           simulation->options.tolerance))
-        lane->rigid = 0;
+        side->rigid = 0;
     else
-        lane->rigid++;
-    return lane->rigid >= STEPS;
+        side->rigid++;
+    return side->rigid >= STEPS;
 }
 
 /* Says so once. */
@@ -293,8 +397,8 @@ static void tell_tolerance(Player *player)
 static void tell_rest(Player *player)
 {
     int folded = 0;
-    for (int i = 0; i < player->lanes; i++) {
-        Pane pane = {.simulation = &player->lane[i].track.simulation};
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        Pane pane = {.simulation = &player->past.machine[p].simulation};
         folded += pane_folded(&pane);
     }
     player_note(player,
@@ -305,109 +409,24 @@ static void tell_rest(Player *player)
                          "change a number, or R begins again");
 }
 
-/* Of the statuses of several lanes the one that ends most. */
-static Status worse(Status one, Status other)
-{
-    bool first = one && !status_is_unconverged(one);
-    return first || !other ? one : other;
-}
-
-/* Whether the failure is what the scene shows: the end of its iteration. */
-static bool is_scene_end(const Simulation *simulation, Status status)
-{
-    return simulation->done && status != STATUS_OUT_OF_MEMORY &&
-           status != STATUS_TOO_LARGE;
-}
-
-/* A node that was held when this step was shown, long ago. */
-static Status let_go(Player *player)
-{
-    Command release = {.kind = COMMAND_RELEASE};
-    if (!player->lane[0].track.settings.held || player->holds)
-        return STATUS_OK;
-    return player_change_all(player, &release); /* as a script does by itself */
-}
-
-/* All lanes, one step of the player. */
-static Status advance_lanes(Player *player)
-{
-    double target = next_time(player);
-    Status worst = STATUS_OK;
-    bool moved = false;
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        long before = track_step_shown(&lane->track);
-        Status status = lane_advance(lane, target, player->step + 1);
-        moved = moved || track_step_shown(&lane->track) > before;
-        if (is_scene_end(&lane->track.simulation, status))
-            status = STATUS_OK;
-        worst = worse(status, worst);
-        if (status == STATUS_OUT_OF_MEMORY || status == STATUS_INTERRUPTED ||
-            player->recorded)
-            break;
-    }
-    if (moved) {
-        player->step++;
-        player->newest = player->step;
-    }
-    return worst;
-}
-
-void player_sample(Player *player)
-{
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        if (lane->sampled >= player->step)
-            continue;
-        lane->sampled = player->step;
-        if (!lane_is_over(lane, player->step))
-            show_sample(&lane->track.simulation, &lane->history, &lane->trail);
-    }
-}
-
-Status player_step(Player *player)
-{
-    long before = player->step;
-    Status status = player_forget_later(player);
-    if (!status)
-        status = let_go(player);
-    if (status)
-        return status;
-    player_tell_forgotten(player);
-    leave_step(player);
-    status = advance_lanes(player);
-    if (player->recorded)
-        return player->recorded;
-    if (player->step != before) {
-        if (player->attended)
-            player_sample(player);
-        Status recorded = record_states(player);
-        if (recorded)
-            return recorded;
-    } else {
-        player->sampled = -1; /* draw the last frame again, and why it ends */
-    }
-    if (status == STATUS_INTERRUPTED || status_is_unconverged(status))
-        return STATUS_OK;
-    return status;
-}
-
 void player_pause_if_due(Player *player)
 {
     bool ended = true, rests = true, trouble = false, drifting = true;
     bool balances = true;
-    int going = 0;
+    int going = 0, panes = past_panes(&player->past);
     if (player->given[0].steps >= 0 || !player->attended)
         return;
-    for (int i = 0; i < player->lanes; i++) {
-        Lane *lane = &player->lane[i];
-        if (lane_is_over(lane, player->step))
+    for (int p = 0; p < panes; p++) {
+        const Machine *machine = &player->past.machine[p];
+        Side *side = &player->side[p];
+        long last;
+        if (past_is_over(&player->past, p, player->past.step, &last))
             continue;
         going++;
-        ended = ended && (lane->track.simulation.done || lane->failed);
-        rests = is_at_rest(lane, &balances) && rests;
-        drifting = drifts(lane) && drifting;
-        trouble = trouble || lane->outcome;
+        ended = ended && (machine->simulation.done || machine->failed);
+        rests = is_at_rest(machine, side, &balances) && rests;
+        drifting = drifts(machine, side) && drifting;
+        trouble = trouble || machine->told.status;
     }
     rests = rests && going > 0;
     if (rests && !player->rests && balances)
@@ -419,7 +438,7 @@ void player_pause_if_due(Player *player)
     player->balances = balances;
     player->halted = !player->paused && (ended || rests);
     player->paused = player->paused || player->halted;
-    if (trouble && !player->warned && player->lanes == 1) {
+    if (trouble && !player->warned && panes == 1) {
         player->warned = true;
         player->halted = player->halted || !player->paused;
         player->paused = true;

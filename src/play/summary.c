@@ -77,7 +77,7 @@ static void print_energy(FILE *file, double energy)
 /* Of the first run; where there are several, with its name. */
 static void print_energies(FILE *file, const Player *player, int pane)
 {
-    const Simulation *simulation = &player->lane[pane].track.simulation;
+    const Simulation *simulation = &player->past.machine[pane].simulation;
     const Energies end = simulation_energies(simulation, 0);
     const char *name = "", *of = "";
     if (simulation->runs > 1) {
@@ -85,7 +85,7 @@ static void print_energies(FILE *file, const Player *player, int pane)
         name = simulation->run[0].method->name;
     }
     fprintf(file, "energy at start     ");
-    print_energy(file, player->start[pane].total);
+    print_energy(file, player->past.machine[pane].start);
     fprintf(file, "%s%s\nenergy at end       ", of, name);
     print_energy(file, end.total);
     fprintf(file, "%s%s\n", of, name);
@@ -123,7 +123,7 @@ static void print_steps(FILE *file, const Simulation *simulation)
 /* What it took, and where that led. */
 static void print_work(FILE *file, const Player *player, int pane)
 {
-    const Simulation *simulation = &player->lane[pane].track.simulation;
+    const Simulation *simulation = &player->past.machine[pane].simulation;
     print_newton(file, simulation);
     if (simulation->scene->needs & NEEDS_TIME)
         print_energies(file, player, pane);
@@ -144,16 +144,17 @@ static void print_unconverged(FILE *file, const Simulation *simulation)
 /* One quantity a line; of several panes those of each, one after the other. */
 void summary_print(FILE *file, const Player *player)
 {
-    for (int i = 0; i < player->lanes && player->lanes > 1; i++) {
-        const Lane *lane = &player->lane[i];
-        fprintf(file, "pane %-14d %s\n", i + 1, lane->label);
-        print_steps(file, &lane->track.simulation);
+    int panes = past_panes(&player->past);
+    for (int i = 0; i < panes && panes > 1; i++) {
+        const Machine *machine = &player->past.machine[i];
+        fprintf(file, "pane %-14d %s\n", i + 1, player->side[i].label);
+        print_steps(file, &machine->simulation);
         print_work(file, player, i);
-        print_unconverged(file, &lane->track.simulation);
+        print_unconverged(file, &machine->simulation);
         fputc('\n', file);
     }
-    const Simulation *simulation = &player->lane[0].track.simulation;
-    bool one = player->lanes == 1;
+    const Simulation *simulation = &player->past.machine[0].simulation;
+    bool one = panes == 1;
     if (one)
         print_steps(file, simulation);
     fprintf(file, "wall time           %.3f s\n",

@@ -282,6 +282,12 @@ static void book_change(Simulation *simulation, const double *had)
             had[r] - simulation_energies(simulation, r).dissipated;
 }
 
+bool simulation_is_handled(const Simulation *simulation)
+{
+    const Scene *scene = simulation->scene;
+    return (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
+}
+
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
     System *system = &simulation->system;

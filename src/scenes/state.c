@@ -120,9 +120,53 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
         system_changed(run->system, false);
 }
 
+/* A minimisation that is under way: the iterate, its direction, and what
+ * decides how it goes on. */
+static void pass_newton(Cursor *cursor, TimeIntegrator *run, size_t array)
+{
+    Newton *newton = run->newton;
+    pass(cursor, run->new_x, array); /* where it began */
+    pass(cursor, newton->at.u, 5 * array);
+    PASS(newton->record);
+    PASS(newton->status);
+    PASS(newton->residual);
+    PASS(newton->kind);
+    PASS(newton->clamps);
+    PASS(newton->saddles);
+    PASS(newton->bends_down);
+    PASS(newton->rounding);
+    PASS(newton->working);
+    PASS(newton->sum);
+    PASS(newton->size);
+}
+
+/* What a scene shows beside its system. */
+static void pass_exhibit(Cursor *cursor, Simulation *simulation)
+{
+    const Scene *scene = simulation->scene;
+    TimeIntegrator *run = &simulation->run[0];
+    size_t array = array_size(simulation) * sizeof(double);
+    if (!scene->step && !scene->grips)
+        return;
+    PASS(simulation->exhibit);
+    if (!scene->step)
+        return;
+    PASS(simulation->descent);
+    PASS(simulation->options.timestep);
+    PASS(run->h);
+    pass(cursor, simulation->system.k,
+         (size_t)simulation->system.springs * sizeof(double));
+    if (run->newton && scene->aim)
+        pass_newton(cursor, run, array);
+    else if (run->newton)
+        run->newton->settings.h = run->h;
+}
+
 static void pass_all(Cursor *cursor, Simulation *simulation)
 {
     pass_counters(cursor, simulation);
+    if (cursor->part == STATE_ALL)
+        pass_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);
 }
@@ -134,13 +178,6 @@ size_t state_bytes(const Simulation *simulation, StatePart part)
     return cursor.bytes;
 }
 
-size_t state_size(const Simulation *simulation)
-{
-    const Scene *scene = simulation->scene;
-    bool known = (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
-    return known ? state_bytes(simulation, STATE_ALL) : 0;
-}
-
 void state_save(const Simulation *simulation, StatePart part, void *bytes)
 {
     Cursor cursor = {SAVE, part, bytes, 0};
@@ -150,6 +187,7 @@ void state_save(const Simulation *simulation, StatePart part, void *bytes)
 void state_restore(const void *bytes, StatePart part, Simulation *simulation)
 {
     Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0};
+    simulation->prediction = (Prediction){0}; /* it was of another step */
     pass_all(&cursor, simulation);
 }
 

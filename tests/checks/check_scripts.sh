@@ -86,6 +86,11 @@ cat >commands <<'END'
 5 set tolerance 0.001
 5 method
 5 step
+6 undo
+5 undo
+5 redo
+5 redo
+6 step
 6 end-pane
 6 step
 7 restart

@@ -370,7 +370,11 @@ typed_in_a_step() {
     key Tab n
     xdotool type --delay 5 1q
     key Escape
-    a=$(shot a)
+    for i in 1 2 3 4 5 6 7 8 9; do
+        a=$(shot "a$i")
+        [ "$a" != 1 ] || break
+        sleep 1
+    done
     [ "$a" = 1 ] || echo "it is at step $a, not 1"
     key q
     end 0

@@ -73,9 +73,28 @@ static inline void obey_all(const char *const *lines)
         CHECK_STATUS(obey(*lines), STATUS_OK);
 }
 
-static inline Lane *lane(int i)
+static inline const Machine *machine(int pane)
 {
-    return &player.lane[i];
+    return &player.past.machine[pane];
+}
+
+static inline Side *side(int pane)
+{
+    return &player.side[pane];
+}
+
+/* The largest coordinate in the whole step, m. */
+static inline double extent(int pane)
+{
+    double inside = rounds_extent(&machine(pane)->rounds);
+    double after = machine(pane)->told.extent;
+    return inside > after ? inside : after;
+}
+
+/* What is told of a step. */
+static inline const Told *told(int pane, long step)
+{
+    return &past_entry(&player.past, pane, step)->told;
 }
 
 #endif

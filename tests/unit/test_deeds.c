@@ -21,62 +21,65 @@ TEST(lines_lead_back_into_the_step_before)
     begin("square --segments 2");
     obey_all(
         (const char *const[]){"step", "step", "finer", "finer", "back", NULL});
-    CHECK(player.step == 2 && lane(0)->place > 0);
-    while (lane(0)->place > 0)
+    CHECK(player.past.step == 2 && side(0)->place > 0);
+    while (side(0)->place > 0)
         CHECK_STATUS(obey("back"), STATUS_OK);
-    CHECK(player.step == 2);
+    CHECK(player.past.step == 2);
     CHECK_STATUS(obey("back"), STATUS_OK);
-    CHECK(player.step == 1 && lane(0)->place == lane(0)->tape.places - 1);
+    CHECK(player.past.step == 1 &&
+          side(0)->place == machine(0)->rounds.places - 1);
     end();
 }
 
 /* Where one lane has come to the end of its step, it waits there for the
  * other. */
-TEST(lanes_wait_for_each_other)
+TEST(panes_wait_for_each_other)
 {
     begin("square --segments 3 --tolerance 0.5,1e-9");
     obey_all((const char *const[]){"finer", "next", NULL});
-    CHECK(lane(0)->tape.places < lane(1)->tape.places);
+    CHECK(machine(0)->rounds.places < machine(1)->rounds.places);
     bool waited = false;
-    for (int i = 0; i < 1000 && player.step == 1; i++) {
+    for (int i = 0; i < 1000 && player.past.step == 1; i++) {
         for (int k = 0; k < 2; k++)
-            CHECK(lane(k)->place >= 0 && lane(k)->place < lane(k)->tape.places);
-        waited = waited || lane(0)->place == lane(0)->tape.places - 1;
+            CHECK(side(k)->place >= 0 &&
+                  side(k)->place < machine(k)->rounds.places);
+        waited = waited || side(0)->place == machine(0)->rounds.places - 1;
         CHECK_STATUS(obey("next"), STATUS_OK);
     }
-    CHECK(waited && player.step == 2);
+    CHECK(waited && player.past.step == 2);
     end();
 }
 
 /* Forward Euler explodes within 30 steps.  Beside others it ends there: its
  * pane goes back to a state of the square's own size, says so, and keeps the
  * energies of that; time is that of those who go on. */
-TEST(a_lane_that_fails_leaves_the_others_alone)
+TEST(a_pane_that_fails_leaves_the_others_alone)
 {
     begin_script("0 play\n60 pause\n",
                  "square --integrator forward-euler,symplectic-euler");
     CHECK_STATUS(player_run(&player), STATUS_OK);
-    CHECK(player.step == 60 && player.lanes == 2);
-    CHECK(lane(0)->ended > 10 && lane(0)->ended < 60 && lane(1)->ended == 0);
-    CHECK(lane(0)->last == lane(0)->ended - 1);
-    CHECK(lane_extent(lane(0)) < 10);
-    CHECK(lane_is_over(lane(0), player.step) && !lane_is_over(lane(1), 60));
+    CHECK(player.past.step == 60 && past_panes(&player.past) == 2);
+    long last, other;
+    CHECK(past_is_over(&player.past, 0, 60, &last) && last > 5);
+    CHECK(!past_is_over(&player.past, 1, 60, &other) && other == 60);
+    CHECK(machine(0)->told.extent < 10);
     CHECK(fabs(player_time(&player) - 60 * 0.004) < 1e-12);
-    const History *history = &lane(0)->history;
+    const History *history = &machine(0)->curves.history;
     CHECK(history->count > 1);
     CHECK(history->high <= 10 * history->value[0][0]); /* J */
     char words[32];
-    snprintf(words, sizeof words, "ended at step %ld", lane(0)->last);
+    snprintf(words, sizeof words, "ended at step %ld", last);
     player_fill(&player);
     CHECK(strstr(player.show.pane[0].label, words) != NULL);
     CHECK(strstr(player.show.pane[1].label, "ended") == NULL);
     CHECK(strstr(player.show.time_text, "t = 0.24 s") != NULL);
-    CHECK_STATUS(player_show(&player, 2), STATUS_OK); /* it was alive there */
+    CHECK_STATUS(player_show(&player, 2, false, THEN_NOTHING),
+                 STATUS_OK); /* it was alive there */
     player_fill(&player);
     CHECK(strstr(player.show.pane[0].label, "ended") == NULL);
     CHECK_STATUS(player_step(&player), STATUS_OK); /* and goes on from there */
-    CHECK(lane(0)->ended == 0 && player.step == 3);
-    CHECK(fabs(lane_time(lane(0)) - 3 * 0.004) < 1e-12);
+    CHECK(player.past.step == 3);
+    CHECK(fabs(machine_time(machine(0)) - 3 * 0.004) < 1e-12);
     end();
 }
 
@@ -99,39 +102,15 @@ TEST(every_list_labels_its_panes)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         begin(lines[i]);
         player_fill(&player);
-        CHECK(lane(0)->label[0] && lane(1)->label[0]);
-        CHECK(strcmp(lane(0)->label, lane(1)->label) != 0);
+        CHECK(side(0)->label[0] && side(1)->label[0]);
+        CHECK(strcmp(side(0)->label, side(1)->label) != 0);
         end();
     }
     begin("square --turn 0,30 --stiffness 1e4,1e5");
     player_fill(&player);
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < i; k++)
-            CHECK(strcmp(lane(i)->label, lane(k)->label) != 0);
-    end();
-}
-
-/* What a change in a past step costs is told: the steps behind it. */
-TEST(forgotten_steps_are_told)
-{
-    begin("square --segments 2");
-    for (int i = 0; i < 6; i++)
-        CHECK_STATUS(player_step(&player), STATUS_OK);
-    CHECK(player.note[0] == '\0');
-    obey_all((const char *const[]){"goto 2", "grab 0", NULL});
-    CHECK(strstr(player.note, "the hand pulls") != NULL);
-    CHECK(strstr(player.note, "; steps 3 ... 6 are forgotten") != NULL);
-    CHECK_STATUS(obey("release"), STATUS_OK);
-    for (int i = 0; i < 2; i++)
-        CHECK_STATUS(player_step(&player), STATUS_OK);
-    obey_all((const char *const[]){"goto 3", "play", NULL});
-    player.note[0] = '\0';
-    CHECK_STATUS(player_step(&player), STATUS_OK);
-    CHECK(strcmp(player.note, "step 4 is forgotten") == 0);
-    obey_all((const char *const[]){"home", "set stretch 1.2", NULL});
-    CHECK(strcmp(player.note, "steps 1 ... 4 are forgotten") == 0);
-    CHECK_STATUS(obey("set stretch 1.3"), STATUS_OK);
-    CHECK(player.note[0] == '\0'); /* nothing was there */
+            CHECK(strcmp(side(i)->label, side(k)->label) != 0);
     end();
 }
 
@@ -211,9 +190,9 @@ TEST(running_leaves_the_lines)
 {
     begin("square --segments 2");
     obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    CHECK(lane(0)->place == 0 && player.paused);
+    CHECK(side(0)->place == 0 && player.paused);
     CHECK_STATUS(obey("play"), STATUS_OK);
-    CHECK(lane(0)->place == -1 && !player.paused);
+    CHECK(side(0)->place == -1 && !player.paused);
     CHECK(player.fine == 2);
     CHECK_STATUS(obey("finer"), STATUS_OK);
     CHECK(player.fine == 0);
@@ -229,16 +208,16 @@ TEST(glides_begin_and_end_at_lines)
     enum { SIZE = 18 };
     double before[SIZE];
     obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    const Tape *tape = &lane(0)->tape;
-    while (tape->place[lane(0)->place].line != LINE_SEARCH)
+    const Rounds *rounds = &machine(0)->rounds;
+    while (rounds->place[side(0)->place].line != LINE_SEARCH)
         CHECK_STATUS(obey("next"), STATUS_OK);
-    memcpy(before, lane(0)->from, sizeof before);
+    memcpy(before, side(0)->from, sizeof before);
     CHECK_STATUS(obey("next"), STATUS_OK); /* line 6 moves the square */
-    CHECK_SAME_BITS(glide_between(lane(0), 1), before, SIZE);
+    CHECK_SAME_BITS(glide_between(&player, 0, 1), before, SIZE);
     Trace trace;
-    const double *after = tape_trace(tape, lane(0)->place, &trace);
+    const double *after = rounds_trace(rounds, side(0)->place, &trace);
     CHECK(after && memcmp(after, before, sizeof before) != 0);
-    CHECK_SAME_BITS(glide_between(lane(0), 0), after, SIZE);
+    CHECK_SAME_BITS(glide_between(&player, 0, 0), after, SIZE);
 
     /* 1 ... 0 and flat at both ends: a fifth of the time before the end about
      * a tenth of the way is left, and never less than nothing. */
@@ -258,14 +237,14 @@ TEST(changes_are_for_one_pane_or_all)
     begin("square --segments 2 --timestep 0.01,0.005");
     obey_all(
         (const char *const[]){"set timestep 0.002", "set stiffness 2e5", NULL});
-    CHECK(lane(0)->track.settings.options.timestep == 0.002);
-    CHECK(lane(1)->track.settings.options.timestep == 0.005);
+    CHECK(past_control(&player.past, 0)->options.timestep == 0.002);
+    CHECK(past_control(&player.past, 1)->options.timestep == 0.005);
     for (int i = 0; i < 2; i++)
-        CHECK(lane(i)->track.settings.options.stiffness == 2e5);
+        CHECK(past_control(&player.past, i)->options.stiffness == 2e5);
     obey_all((const char *const[]){"pane 1", "pause", "set segments 3", NULL});
-    CHECK(player.active == 1 && player.paused && player.step == 0);
+    CHECK(player.active == 1 && player.paused && player.past.step == 0);
     for (int i = 0; i < 2; i++)
-        CHECK(player.lane[i].track.options.segments == 3);
+        CHECK(past_start(&player.past, i)->options.segments == 3);
     CHECK_STATUS(obey("play"), STATUS_OK);
     CHECK_STATUS(obey("set segments 2"), STATUS_OK);
     CHECK(!player.paused);
@@ -279,13 +258,13 @@ TEST(defaults_are_the_scene_s)
     begin("square --timestep 0.003");
     obey_all(
         (const char *const[]){"set timestep 0.001", "default timestep", NULL});
-    CHECK(lane(0)->track.settings.options.timestep == 0.003);
+    CHECK(past_control(&player.past, 0)->options.timestep == 0.003);
     CHECK_STATUS(obey("scene hang"), STATUS_OK);
-    double own = lane(0)->track.options.timestep;
+    double own = past_start(&player.past, 0)->options.timestep;
     CHECK(own != 0.003);
     obey_all(
         (const char *const[]){"set timestep 0.001", "default timestep", NULL});
-    CHECK(lane(0)->track.settings.options.timestep == own);
+    CHECK(past_control(&player.past, 0)->options.timestep == own);
     end();
 }
 
@@ -293,9 +272,9 @@ TEST(methods_are_switched)
 {
     begin("square --segments 2 --filter abs");
     CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(lane(0)->track.settings.options.filter == FILTER_NONE);
+    CHECK(past_control(&player.past, 0)->options.filter == FILTER_NONE);
     CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(lane(0)->track.settings.options.filter == FILTER_ABS);
+    CHECK(past_control(&player.past, 0)->options.filter == FILTER_ABS);
     end();
     begin("circle"); /* all at once: the first alone is the next */
     CHECK(player_simulation(&player)->runs > 1);
@@ -309,7 +288,7 @@ TEST(numbers_are_selected_in_turn)
 {
     const OptionRow *number[OPTIONS_MOST];
     begin("square --segments 2");
-    int count = options_row(&player_settings(&player)->options, number);
+    int count = options_row(player_options(&player), number);
     CHECK(count > 2);
     for (int i = 0; i < count; i++) {
         CHECK_STATUS(obey("select"), STATUS_OK);
@@ -328,20 +307,20 @@ TEST(a_step_is_taken_again_in_its_place)
 {
     begin("square --segments 3 --stretch 0.6");
     obey_all((const char *const[]){"next", "next", "play", "projection", NULL});
-    CHECK(player.step == 2 && !player.paused);
-    CHECK(lane(0)->ghost != NULL);
+    CHECK(player.past.step == 2 && !player.paused);
+    CHECK(side(0)->ghost != NULL);
     obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    CHECK(player.step == 3 && lane(0)->ghost == NULL);
-    TapePlace at;
+    CHECK(player.past.step == 3 && side(0)->ghost == NULL);
+    Station at;
     do {
         CHECK_STATUS(obey("next"), STATUS_OK);
-        at = lane(0)->tape.place[lane(0)->place];
+        at = machine(0)->rounds.place[side(0)->place];
     } while (at.round < 1 || at.line != LINE_SOLVE);
-    CHECK(player.step == 3);
+    CHECK(player.past.step == 3);
     CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(player.step == 3 && player.paused);
-    CHECK(lane(0)->tape.place[lane(0)->place].round == at.round);
-    CHECK(lane(0)->tape.place[lane(0)->place].line == LINE_SOLVE);
+    CHECK(player.past.step == 3 && player.paused);
+    CHECK(machine(0)->rounds.place[side(0)->place].round == at.round);
+    CHECK(machine(0)->rounds.place[side(0)->place].line == LINE_SOLVE);
     end();
 }
 
@@ -351,8 +330,8 @@ TEST(unlike_outcomes_are_put_side_by_side)
 {
     begin("explosion --filter clamp");
     obey_all((const char *const[]){"next", "projection", NULL});
-    CHECK(player.lanes == 2);
-    CHECK(lane_extent(lane(0)) > 100 * lane_extent(lane(1)));
+    CHECK(past_panes(&player.past) == 2);
+    CHECK(extent(0) > 100 * extent(1));
     CHECK(strstr(player.note, "projection clamp: E ") == player.note);
     CHECK(strstr(player.note, "; no projection: E ") != NULL);
     end();
@@ -365,11 +344,11 @@ TEST(the_last_pane_goes)
     begin("square --segments 2 --timestep 0.01,0.005,0.002");
     CHECK_STATUS(obey("pane 3"), STATUS_INVALID_INPUT);
     obey_all((const char *const[]){"pane 2", "end-pane", NULL});
-    CHECK(player.lanes == 2 && player.active == 1);
+    CHECK(past_panes(&player.past) == 2 && player.active == 1);
     CHECK_STATUS(obey("pane 2"), STATUS_INVALID_INPUT);
     CHECK_STATUS(obey("pane 0"), STATUS_OK);
     CHECK_STATUS(obey("end-pane"), STATUS_OK);
-    CHECK(player.lanes == 1 && player.active == 0);
+    CHECK(past_panes(&player.past) == 1 && player.active == 0);
     end();
 }
 
@@ -386,7 +365,7 @@ TEST(hands_pin_and_hold)
     CHECK_STATUS(obey("grab 0"), STATUS_OK);
     CHECK(player.holds);
     CHECK_STATUS(obey("step"), STATUS_OK); /* nothing let go of it */
-    CHECK(player.lane[0].track.settings.held && player.holds);
+    CHECK((past_control(&player.past, 0)->hand >= 0) && player.holds);
     for (int y = 1; y < 3; y++) { /* also straight upwards */
         obey_all((const char *const[]){y == 1 ? "drag 1 1" : "drag 1 2", "step",
                                        NULL});
@@ -394,16 +373,17 @@ TEST(hands_pin_and_hold)
         CHECK(hand && hand->target[0] == 1 && hand->target[1] == y);
     }
     CHECK_STATUS(obey("release"), STATUS_OK);
-    CHECK(!player.lane[0].track.settings.held && !player.holds);
+    CHECK(!(past_control(&player.past, 0)->hand >= 0) && !player.holds);
     /* Back where it was held: nobody holds it now. */
     CHECK_STATUS(obey("goto 1"), STATUS_OK);
-    CHECK(player.lane[0].track.settings.held && !player.holds);
+    CHECK((past_control(&player.past, 0)->hand >= 0) && !player.holds);
     CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
     CHECK_STATUS(obey("step"), STATUS_OK);
-    CHECK(!player.lane[0].track.settings.held);
+    CHECK(!(past_control(&player.past, 0)->hand >= 0));
     CHECK_STATUS(obey("goto 0"), STATUS_OK);
     CHECK_STATUS(obey("goto 99"), STATUS_OK); /* the newest there is */
-    CHECK(player.step == player.newest && player.step > 0);
+    CHECK(player.past.step == past_newest(&player.past) &&
+          player.past.step > 0);
     end();
 }
 
@@ -420,13 +400,13 @@ TEST(scenes_begin)
     }
     CHECK(player.halted); /* at rest: nobody asked for this pause */
     CHECK_STATUS(obey("scene drop"), STATUS_OK);
-    CHECK(!player.paused && player.step == 0 && player.speed == speed);
+    CHECK(!player.paused && player.past.step == 0 && player.speed == speed);
     obey_all((const char *const[]){"pause", "scene hang", NULL});
     CHECK(player.paused); /* somebody did */
     CHECK_STATUS(obey("start 0.3 -0.2"), STATUS_INVALID_INPUT);
     obey_all((const char *const[]){"scene landscape", "start 0.3 -0.2", NULL});
-    CHECK(lane(0)->track.options.start[0] == 0.3);
-    CHECK(lane(0)->track.options.start[1] == -0.2);
+    CHECK(past_start(&player.past, 0)->options.start[0] == 0.3);
+    CHECK(past_start(&player.past, 0)->options.start[1] == -0.2);
     end();
 }
 
@@ -437,7 +417,7 @@ TEST(rest_is_that_of_all_panes)
     CHECK_STATUS(obey("play"), STATUS_OK);
     for (int i = 0; i < 5; i++)
         CHECK_STATUS(player_step(&player), STATUS_OK);
-    CHECK(lane(0)->track.now.updates > 0 && lane(1)->track.now.updates == 0);
+    CHECK(machine(0)->told.updates > 0 && machine(1)->told.updates == 0);
     player_pause_if_due(&player);
     CHECK(!player.paused && !player.rests);
     end();

@@ -1,7 +1,7 @@
 /* The hand: a term of E with the derivatives it claims, whose work is booked;
  * whatever the mouse does, every step ends.
  */
-#include "test.h"
+#include "pasts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,25 +15,6 @@
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
-#include "play/track.h"
-
-static void begin(const char *line, Track *track)
-{
-    Simulation simulation;
-    simulation_from_line(line, NULL, NULL, &simulation);
-    Options options = simulation.options;
-    simulation_free(&simulation);
-    CHECK_STATUS(track_create(&options, true, NULL, NULL, track), STATUS_OK);
-}
-
-static void change(Track *track, CommandKind kind, long number, double x,
-                   double y)
-{
-    char message[256];
-    Command command = {.kind = kind, .number = number, .x = x, .y = y};
-    CHECK_STATUS(track_change(track, &command, message, sizeof message),
-                 STATUS_OK);
-}
 
 /* What the potential of the averaged gradient, k (x_n + u/2 - o), gains up to
  * u; of the two coordinates of a node. */
@@ -159,20 +140,18 @@ TEST(work_is_what_energy_gains)
         "circle --integrator avf",
     };
     for (int line = 0; line < 3; line++) {
-        Track track;
-        begin(lines[line], &track);
-        const Simulation *simulation = &track.simulation;
+        begin_past(lines[line]);
+        const Simulation *simulation = &past.machine[0].simulation;
         double start = simulation_energies(simulation, 0).total, high = start;
         for (int step = 0; step < 60; step++) {
             const double *x = simulation->run[0].x;
             if (step == 5)
-                change(&track, COMMAND_GRAB, 0, x[0], x[1]);
+                edit(COMMAND_GRAB, 0, x[0], x[1]);
             if (step > 5 && step < 40)
-                change(&track, COMMAND_DRAG, 0, -1 - 0.05 * step,
-                       0.3 * sin(step));
+                edit(COMMAND_DRAG, 0, -1 - 0.05 * step, 0.3 * sin(step));
             if (step == 40)
-                change(&track, COMMAND_RELEASE, 0, 0, 0);
-            CHECK_STATUS(track_step(&track), STATUS_OK);
+                edit(COMMAND_RELEASE, 0, 0, 0);
+            show(step + 1);
             Energies energies = simulation_energies(simulation, 0);
             high = fmax(high, energies.total);
             /* What Newton's tolerance leaves: measured 2e-9 of the highest. */
@@ -181,25 +160,25 @@ TEST(work_is_what_energy_gains)
         }
         Energies end = simulation_energies(simulation, 0);
         CHECK(OF(&end, hand) == 0 && fabs(end.work) > 1e-3 * start);
-        track_free(&track);
+        past_free(&past);
     }
 }
 
 /* A node pulled for a while is where the hand is. */
 TEST(the_node_follows)
 {
-    Track track;
-    begin("square --segments 4 --stretch 1 --timestep 0.02", &track);
-    const double *x = track.simulation.run[0].x;
-    change(&track, COMMAND_GRAB, 24, x[48], x[49]);
-    change(&track, COMMAND_DRAG, 24, 1.5, 1);
-    for (int i = 0; i < 400; i++)
-        CHECK_STATUS(track_step(&track), STATUS_OK);
-    CHECK_NEAR(track.simulation.run[0].x[48], 1.5, 0.01);
-    CHECK_NEAR(track.simulation.run[0].x[49], 1, 0.01);
-    change(&track, COMMAND_RELEASE, 0, 0, 0);
-    CHECK(!hand_energy_of(&track.simulation.system));
-    track_free(&track);
+    begin_past("square --segments 4 --stretch 1 --timestep 0.02");
+    const Simulation *simulation = &past.machine[0].simulation;
+    const double *x = simulation->run[0].x;
+    edit(COMMAND_GRAB, 24, x[48], x[49]);
+    edit(COMMAND_DRAG, 24, 1.5, 1);
+    for (int i = 1; i <= 400; i++)
+        show(i);
+    CHECK_NEAR(simulation->run[0].x[48], 1.5, 0.01);
+    CHECK_NEAR(simulation->run[0].x[49], 1, 0.01);
+    edit(COMMAND_RELEASE, 0, 0, 0);
+    CHECK(!hand_energy_of(&simulation->system));
+    past_free(&past);
 }
 
 /* Going back into a drag and out of it again. */
@@ -207,37 +186,33 @@ TEST(drags_are_repeated)
 {
     for (int thin = 0; thin < 2; thin++) {
         enum { STEPS = 50 };
-        Track track;
         uint64_t hash[STEPS + 1];
-        begin("square --segments 3 --integrator bdf2 --solver multigrid",
-              &track);
+        begin_past("square --segments 3 --integrator bdf2 --solver multigrid");
+        const Simulation *simulation = &past.machine[0].simulation;
         if (thin)
-            track.limit = track_bytes(&track) + STEPS * TRACK_STEP_BYTES +
-                          3 * state_size(&track.simulation);
+            past.limit = 5 * past.bytes;
         for (int i = 0; i <= STEPS; i++) {
+            hash[i] = show(i);
             if (i == 8)
-                change(&track, COMMAND_GRAB, 5, 0, 0);
+                edit(COMMAND_GRAB, 5, 0, 0);
             if (i > 8 && i < 30 && i % 3 == 0)
-                change(&track, COMMAND_DRAG, 5, 0.1 * i, -1);
+                edit(COMMAND_DRAG, 5, 0.1 * i, -1);
             if (i == 20)
-                change(&track, COMMAND_PIN, 2, 1, 0);
+                edit(COMMAND_PIN, 2, 1, 0);
             if (i == 33)
-                change(&track, COMMAND_RELEASE, 0, 0, 0);
-            hash[i] = state_hash(&track.simulation, STATE_HASH_SEED);
-            if (i < STEPS)
-                CHECK(!track_step(&track));
+                edit(COMMAND_RELEASE, 0, 0, 0);
+            hash[i] = hash_now();
         }
-        double work = track.simulation.work[0];
+        double work = simulation->work[0];
         for (int i = STEPS; i >= 0; i--) {
-            CHECK_STATUS(track_show(&track, i), STATUS_OK);
-            CHECK(state_hash(&track.simulation, STATE_HASH_SEED) == hash[i]);
-            CHECK((hand_energy_of(&track.simulation.system) != NULL) ==
+            CHECK(show(i) == hash[i]);
+            CHECK((hand_energy_of(&simulation->system) != NULL) ==
                   (i >= 8 && i < 33));
         }
-        CHECK(track.simulation.work[0] == 0);
-        CHECK_STATUS(track_show(&track, STEPS), STATUS_OK);
-        CHECK(track.simulation.work[0] == work);
-        track_free(&track);
+        CHECK(simulation->work[0] == 0);
+        show(STEPS);
+        CHECK(simulation->work[0] == work);
+        past_free(&past);
     }
 }
 
@@ -252,24 +227,22 @@ static double change_of_motion(const Simulation *simulation, const double *v_n)
 }
 
 /* A timestep every ten steps; a node is taken, jerked about and let go. */
-static void jerk(Track *track, Random *random, int step)
+static void jerk(Random *random, int step)
 {
-    char message[256];
-    Command set = {.kind = COMMAND_SET};
+    char text[64];
     double h = random_logarithmic(random, 1e-4, 1);
-    snprintf(set.text, sizeof set.text, "timestep %.17g", h);
+    snprintf(text, sizeof text, "timestep %.17g", h);
     if (step % 10 == 0)
-        CHECK_STATUS(track_change(track, &set, message, sizeof message),
-                     STATUS_OK);
+        set_option(text, false);
     if (step % 25 == 0)
-        change(track, COMMAND_GRAB,
-               random_below(random, track->simulation.system.nodes),
-               random_uniform(random, -1, 1), random_uniform(random, -1, 1));
+        edit(COMMAND_GRAB,
+             random_below(random, past.machine[0].simulation.system.nodes),
+             random_uniform(random, -1, 1), random_uniform(random, -1, 1));
     else if (step % 25 == 20)
-        change(track, COMMAND_RELEASE, 0, 0, 0);
-    else if (track->settings.held)
-        change(track, COMMAND_DRAG, 0, random_uniform(random, -5, 5),
-               random_uniform(random, -5, 5));
+        edit(COMMAND_RELEASE, 0, 0, 0);
+    else if (past_control(&past, 0)->hand >= 0)
+        edit(COMMAND_DRAG, 0, random_uniform(random, -5, 5),
+             random_uniform(random, -5, 5));
 }
 
 /* One step after a jerk.  A step of backward Euler ends where E is at most what
@@ -278,21 +251,22 @@ static void jerk(Track *track, Random *random, int step)
  * that damp nothing gather the hand's work: beyond 1e20 J, false, and nothing
  * is NaN.  A step of explicit ones may lead beyond all numbers: false, and it
  * changes nothing. */
-static bool jerked_step(Track *track, bool descends)
+static bool jerked_step(bool descends)
 {
-    const Simulation *simulation = &track->simulation;
+    const Simulation *simulation = &past.machine[0].simulation;
     const TimeIntegrator *run = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
     double v[MAX_SIZE * 3], high = simulation_energies(simulation, 0).total;
-    long before = track_step_shown(track);
+    long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
-    Status status = track_step(track);
+    past_aim(&past, before + 1, false);
+    Status status = work();
     if (status && !status_is_unconverged(status)) {
         CHECK(!run->newton && status == STATUS_NOT_FINITE);
         CHECK_SAME_BITS(run->v, v, size);
         return false;
     }
-    CHECK(track_step_shown(track) == before + 1);
+    CHECK(past.step == before + 1);
     for (int k = 0; k < size; k++)
         CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_energies(simulation, 0);
@@ -327,25 +301,24 @@ TEST(random_drags_end)
     Random random = {2026};
     for (int i = 0; i < METHODS; i++) {
         char line[160];
-        Track track;
         snprintf(line, sizeof line,
                  "square --segments %d --integrator %s --solver %s", 2 + i % 3,
                  methods[i], i % 2 ? "multigrid" : "newton");
-        begin(line, &track);
+        begin_past(line);
         int runaways = 0;
         for (int step = 0; step < steps; step++) {
-            jerk(&track, &random, step);
-            if (jerked_step(&track, i < 2))
+            jerk(&random, step);
+            if (jerked_step(i < 2))
                 continue;
-            track_free(&track);
-            begin(line, &track);
+            past_free(&past);
+            begin_past(line);
             runaways++;
         }
         /* Explicit steps run away every twentieth time, as they must beyond
          * their stable timestep; backward Euler and BDF2 never do. */
         print_message("  %-16s %d runaways\n", methods[i], runaways);
         CHECK(i < DAMPING ? runaways == 0 : i < EXPLICIT || runaways > 0);
-        track_free(&track);
+        past_free(&past);
     }
 }
 

@@ -496,7 +496,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     begin(whole);
     player.paused = false;
     player_sample(&player);
-    while (player.step < step) {
+    while (player.past.step < step) {
         Status status = player_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }

@@ -11,32 +11,15 @@
 
 /* The sum of E over the updates so far, where it was highest, and at its end,
  * J s^2. */
-static double highest(const Lane *lane, double *last)
+static double highest(int pane, double *last)
 {
     double most = 0;
     *last = 0;
-    for (int i = 0; i < lane->tape.count; i++) {
-        *last += lane->tape.record[i].change;
+    for (int i = 0; i < machine(pane)->rounds.count; i++) {
+        *last += machine(pane)->rounds.record[i].change;
         most = fmax(most, *last);
     }
     return most;
-}
-
-/* Each command has one deed, and nothing else has one. */
-TEST(every_command_has_one_deed)
-{
-    const Deed *const lists[] = {walk_deeds,   change_deeds, pane_deeds,
-                                 hold_deeds,   begin_deeds,  keep_deeds,
-                                 lesson_deeds, screen_deeds};
-    int count[COMMAND_KINDS] = {0};
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        for (const Deed *deed = lists[i]; deed->act; deed++)
-            count[deed->kind]++;
-    for (int kind = 0; kind < COMMAND_KINDS; kind++) {
-        bool resolved = kind == COMMAND_NONE || kind == COMMAND_TOGGLE_PAUSE;
-        CHECK(count[kind] == !resolved);
-        CHECK((player_deed((CommandKind)kind) == NULL) == resolved);
-    }
 }
 
 /* The scene opens at step 0; one key shows E rising to 1e16 J s^2 and nodes a
@@ -47,11 +30,13 @@ TEST(the_explosion_is_seen_and_tamed)
     for (int i = 0; i < 2; i++) {
         double last, rise = 0, tamed;
         begin("explosion");
-        CHECK(player.step == 0 && player_simulation(&player)->scene->explains);
+        CHECK(player.past.step == 0 &&
+              player_simulation(&player)->scene->explains);
         CHECK_STATUS(obey("next"), STATUS_OK);
-        CHECK(highest(lane(0), &last) > 1e16);
-        CHECK(lane(0)->place >= 0 && lane_peak(lane(0), &rise) >= 0);
-        CHECK(rise > 1e16 && lane_extent(lane(0)) > 1000);
+        CHECK(highest(0, &last) > 1e16);
+        CHECK(side(0)->place >= 0 &&
+              rounds_peak(&machine(0)->rounds, &rise) >= 0);
+        CHECK(rise > 1e16 && extent(0) > 1000);
         player_fill(&player);
         const double *x = pane_x(&player.show.pane[0]);
         double far = 0;
@@ -60,15 +45,16 @@ TEST(the_explosion_is_seen_and_tamed)
         CHECK(far > 500); /* m, of a square of one metre */
         CHECK(strstr(player.show.message, "E has risen") != NULL);
         CHECK_STATUS(obey(keys[i]), STATUS_OK);
-        CHECK(player.lanes == 2 && player.step == 1);
-        tamed = highest(lane(0), &last);
-        CHECK(tamed <= 1e-9 && last <= 0 && lane_peak(lane(0), &rise) < 0);
-        CHECK(lane_extent(lane(0)) < 2);
-        CHECK(highest(lane(1), &last) > 1e16 && lane(1)->place >= 0);
+        CHECK(past_panes(&player.past) == 2 && player.past.step == 1);
+        tamed = highest(0, &last);
+        CHECK(tamed <= 1e-9 && last <= 0 &&
+              rounds_peak(&machine(0)->rounds, &rise) < 0);
+        CHECK(extent(0) < 2);
+        CHECK(highest(1, &last) > 1e16 && side(1)->place >= 0);
         player_fill(&player);
         CHECK(player.show.panes == 2);
         CHECK(pane_x(&player.show.pane[0]) != pane_x(&player.show.pane[1]));
-        CHECK(strcmp(lane(0)->label, lane(1)->label) != 0);
+        CHECK(strcmp(side(0)->label, side(1)->label) != 0);
         end();
     }
 }
@@ -89,17 +75,17 @@ TEST(a_toggle_tells_both_outcomes)
         char had[32], has[32];
         begin(rows[i].line);
         obey_all((const char *const[]){"next", "next", NULL});
-        const StepRow *row = track_row(&lane(0)->track, 2);
+        const Told *row = told(0, 2);
         snprintf(had, sizeof had, "%s%+.3g in %d", rows[i].was, row->change,
                  row->updates);
         CHECK_STATUS(obey(rows[i].key), STATUS_OK);
-        CHECK(player.step == 2);
-        row = track_row(&lane(0)->track, 2);
+        CHECK(player.past.step == 2);
+        row = told(0, 2);
         snprintf(has, sizeof has, "%s%+.3g in %d", rows[i].is, row->change,
                  row->updates);
         CHECK(strstr(player.note, had) == player.note);
         CHECK(strstr(player.note, has) != NULL);
-        CHECK(lane(0)->ghost != NULL || player.lanes == 2);
+        CHECK(side(0)->ghost != NULL || past_panes(&player.past) == 2);
         end();
     }
 }
@@ -152,7 +138,7 @@ TEST(e_is_told_as_it_is)
         CHECK_STATUS(obey("next"), STATUS_OK);
         double after = step_energy(simulation, x, v, simulation->run[0].x);
         CHECK(after != before);
-        CHECK_NEAR(track_row(&lane(0)->track, 1)->change, after - before,
+        CHECK_NEAR(told(0, 1)->change, after - before,
                    rows[i].digits * (before + after));
         end();
     }
@@ -175,20 +161,20 @@ TEST(at_rest_it_says_so_and_stops)
     begin("square --segments 2");
     run_until_it_pauses();
     CHECK(player.rests && player.halted && player.paused);
-    CHECK(lane(0)->track.now.updates == 0); /* slow steps came before */
+    CHECK(machine(0)->told.updates == 0); /* slow steps came before */
     CHECK(strncmp(player.note, "at rest", 7) == 0);
     player_fill(&player);
     CHECK(strcmp(player.show.state, "at rest") == 0);
     CHECK_STATUS(obey("pin 8"), STATUS_OK); /* or it would drift for ever */
     run_until_it_pauses();
-    long step = player.step;
+    long step = player.past.step;
     CHECK(step > 10);
     CHECK_STATUS(obey("grab 0"), STATUS_OK);
     CHECK(!player.paused && !player.rests);
     CHECK_STATUS(obey("drag 2 2"), STATUS_OK);
     CHECK_STATUS(player_step(&player), STATUS_OK);
     player_pause_if_due(&player);
-    CHECK(!player.paused && player.step == step + 1);
+    CHECK(!player.paused && player.past.step == step + 1);
     CHECK_STATUS(obey("release"), STATUS_OK);
     run_until_it_pauses();
     CHECK(player.rests && player.paused);
@@ -197,7 +183,7 @@ TEST(at_rest_it_says_so_and_stops)
     run_until_it_pauses();
     CHECK(player.paused);
     CHECK_STATUS(obey("restart"), STATUS_OK);
-    CHECK(!player.paused && player.step == 0);
+    CHECK(!player.paused && player.past.step == 0);
     CHECK_STATUS(obey("pause"), STATUS_OK); /* somebody's own pause stays */
     CHECK_STATUS(obey("restart"), STATUS_OK);
     CHECK(player.paused);
@@ -235,7 +221,7 @@ static void compare_with_plain_run(const char *line)
         CHECK_STATUS(player_step(&player), STATUS_OK);
         player_pause_if_due(&player);
     }
-    for (long i = 0; i < player.step; i++)
+    for (long i = 0; i < player.past.step; i++)
         CHECK_STATUS(simulation_step(&plain), STATUS_OK);
     CHECK_SAME_BITS(plain.run[0].x, run->x, (int)run->size);
     CHECK_SAME_BITS(plain.run[0].v, run->v, (int)run->size);
@@ -269,8 +255,8 @@ TEST(rest_is_told_from_tolerance)
         run_until_it_pauses();
         CHECK(player.rests && player.balances == rows[i].rests);
         CHECK(rows[i].rests || /* twice, or it may be a turning point */
-              track_row(&lane(0)->track, player.step - 1)->updates == 0);
-        CHECK(lane(0)->track.now.updates == 0);
+              told(0, player.past.step - 1)->updates == 0);
+        CHECK(machine(0)->told.updates == 0);
         CHECK((strncmp(player.note, "at rest", 7) == 0) == rows[i].rests);
         CHECK((strncmp(player.note, "within the tolerance, ", 22) == 0) !=
               rows[i].rests);
@@ -368,7 +354,7 @@ TEST(rigid_motion_deforms_nothing)
 {
     double centre, turn;
     begin("square --segments 3 --stretch 1.2");
-    Simulation *simulation = &lane(0)->track.simulation;
+    Simulation *simulation = &player.past.machine[0].simulation;
     TimeIntegrator *run = &simulation->run[0];
     for (int i = 0; i < simulation->system.nodes; i++) {
         run->v[2 * i] = 3 - 2 * run->x[2 * i + 1];
@@ -388,7 +374,7 @@ TEST(rigid_motion_deforms_nothing)
     const char *held[] = {"hang", "drop", "squeeze", "bend", "tear"};
     for (size_t i = 0; i < sizeof held / sizeof *held; i++) {
         begin(held[i]);
-        CHECK(!simulation_is_free(&lane(0)->track.simulation));
+        CHECK(!simulation_is_free(&machine(0)->simulation));
         end();
     }
 }
@@ -399,14 +385,13 @@ TEST(a_failure_shows_the_last_good_state)
 {
     begin("square --integrator forward-euler");
     CHECK_STATUS(player_run(&player), STATUS_OK);
-    CHECK(player.paused && player.step < player.newest);
-    const Track *track = &lane(0)->track;
-    double first = track_row(track, 1)->extent;
-    CHECK(track_row(track, player.step)->extent <= 10 * first);
-    CHECK(!(track_row(track, player.step + 1)->extent <= 10 * first));
+    CHECK(player.paused && player.past.step < past_newest(&player.past));
+    double first = told(0, 1)->extent;
+    CHECK(told(0, player.past.step)->extent <= 10 * first);
+    CHECK(!(told(0, player.past.step + 1)->extent <= 10 * first));
     CHECK(strstr(player.note, "beyond all numbers") && player.warning);
     CHECK_STATUS(obey("home"), STATUS_OK);
-    CHECK(player.step == 0);
+    CHECK(player.past.step == 0);
     end();
 }
 
@@ -418,20 +403,19 @@ TEST(up_to_six_panes)
     obey_all((const char *const[]){"next", "next", NULL});
     for (int i = 1; i < 6; i++) {
         CHECK_STATUS(obey("add-pane"), STATUS_OK);
-        CHECK(player.lanes == i + 1);
+        CHECK(past_panes(&player.past) == i + 1);
         for (int k = 0; k < i; k++)
-            CHECK(lane(k)->track.settings.options.integrator !=
-                  lane(i)->track.settings.options.integrator);
+            CHECK(past_control(&player.past, k)->options.integrator !=
+                  past_control(&player.past, i)->options.integrator);
     }
     CHECK_STATUS(obey("add-pane"), STATUS_INVALID_INPUT);
-    CHECK(player.lanes == 6 && player.message[0] != '\0');
+    CHECK(past_panes(&player.past) == 6 && player.message[0] != '\0');
     uint64_t before = player_hash(&player);
     obey_all((const char *const[]){"next", "next", NULL});
     for (int i = 1; i < 6; i++) {
-        CHECK(lane_time(lane(i)) == lane_time(lane(0)));
-        CHECK(memcmp(lane(i)->track.simulation.run[0].x,
-                     lane(0)->track.simulation.run[0].x,
-                     sizeof(double) * 8) != 0);
+        CHECK(machine_time(machine(i)) == machine_time(machine(0)));
+        CHECK(memcmp(machine(i)->simulation.run[0].x,
+                     machine(0)->simulation.run[0].x, sizeof(double) * 8) != 0);
     }
     uint64_t after = player_hash(&player);
     obey_all((const char *const[]){"back", "back", NULL});
@@ -476,7 +460,7 @@ TEST(an_update_line_by_line)
         CHECK(player.show.pane[0].trace->line == order[i]);
         CHECK_SAME_BITS(pane_x(&player.show.pane[0]), x[i], SIZE);
     }
-    CHECK(player_hash(&player) == hash && player.step == 1);
+    CHECK(player_hash(&player) == hash && player.past.step == 1);
     end();
 }
 
@@ -510,9 +494,9 @@ TEST(energies_of_a_step_taken_again_have_its_changes)
     begin("square");
     obey_all((const char *const[]){"next", "next", "set stiffness 150000",
                                    "projection", NULL});
-    const History *history = &lane(0)->history;
+    const History *history = &machine(0)->curves.history;
     double shown = history->value[0][history->count - 1];
-    lane_sample_again(lane(0), player.step);
+
     CHECK_NEAR(shown, history->value[0][history->count - 1], 1e-9 * shown);
     end();
 }
@@ -631,11 +615,11 @@ TEST(the_picture_follows_the_mouse)
         input.kind = INPUT_MOVE;
         input.x += 30;
         CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        const Settings *settings = &lane(pane)->track.settings;
+        const Control *control = past_control(&player.past, pane);
         camera_world(&camera, input.x, input.y, world);
-        CHECK(settings->held && settings->node == 12);
-        CHECK_NEAR(settings->at[0], world[0], 1e-12);
-        CHECK_NEAR(settings->at[1], world[1], 1e-12);
+        CHECK(control->hand == 12);
+        CHECK_NEAR(control->at[0], world[0], 1e-12);
+        CHECK_NEAR(control->at[1], world[1], 1e-12);
         input.kind = INPUT_RELEASE;
         CHECK_STATUS(player_input(&player, &input), STATUS_OK);
     }
@@ -679,35 +663,35 @@ TEST(captions_are_those_of_the_method)
     }
 }
 
-/* However a step is come to, the tape knows its updates and those of the step
+/* However a step is come to, its updates are known and those of the step
  * before it, and nothing of the steps that were made again on the way. */
-TEST(old_steps_are_taped_as_new_ones)
+TEST(old_steps_have_their_rounds)
 {
     enum { STEP = 12 };
     begin("square");
     for (int i = 0; i < STEP; i++)
         CHECK_STATUS(obey("step"), STATUS_OK);
-    const Tape *tape = &lane(0)->tape;
-    int count = tape->count, before = tape->before;
-    double first = tape->record_before[0].residual;
-    CHECK(count > 0 && before > 0 && tape->step == STEP && !tape->open);
-    CHECK(before == track_row(&lane(0)->track, STEP - 1)->updates);
+    const Rounds *rounds = &machine(0)->rounds;
+    int count = rounds->count, before = rounds->before;
+    double first = rounds->record_before[0].residual;
+    CHECK(count > 0 && before > 0 && rounds->step == STEP);
+    CHECK(before == told(0, STEP - 1)->updates);
     obey_all((const char *const[]){"step", "goto 7", "goto 12", NULL});
-    CHECK(!lane(0)->taped && tape->step == STEP + 1); /* going there */
-    CHECK(tape->before == count);                     /* adds nothing */
-    CHECK_STATUS(player_retape(&player, STEP), STATUS_OK);
-    CHECK(tape->count == count && tape->before == before);
-    CHECK(tape->record_before[0].residual == first);
-    CHECK_STATUS(player_retape(&player, 1), STATUS_OK);
-    CHECK(tape->before == 0 && tape->step == 1);
-    CHECK(tape->count == track_row(&lane(0)->track, 1)->updates);
-    /* A step far from the one on the tape has nothing before it. */
+    CHECK(!machine(0)->known && rounds->step == STEP + 1); /* going there */
+    CHECK(rounds->before == count);                        /* adds nothing */
+    CHECK_STATUS(player_show(&player, STEP, true, THEN_NOTHING), STATUS_OK);
+    CHECK(rounds->count == count && rounds->before == before);
+    CHECK(rounds->record_before[0].residual == first);
+    CHECK_STATUS(player_show(&player, 1, true, THEN_NOTHING), STATUS_OK);
+    CHECK(rounds->before == 0 && rounds->step == 1);
+    CHECK(rounds->count == told(0, 1)->updates);
+    /* A step far from the one before has nothing before it. */
     obey_all((const char *const[]){"goto 5", "step", NULL});
-    CHECK(tape->step == 6 && tape->before == 0 && tape->count > 0);
+    CHECK(rounds->step == 6 && rounds->before == 0 && rounds->count > 0);
     /* The same step with another method: both are seen. */
-    int with = tape->count;
+    int with = rounds->count;
     CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(tape->step == 6 && tape->before == with);
+    CHECK(rounds->step == 6 && rounds->before == with);
     end();
 }
 
@@ -724,11 +708,11 @@ TEST(the_curve_goes_through_the_step)
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
             CHECK_STATUS(obey("step"), STATUS_OK);
-            const Tape *tape = &lane(0)->tape;
-            for (int place = 0; place < tape->places; place++) {
+            const Rounds *rounds = &machine(0)->rounds;
+            for (int place = 0; place < rounds->places; place++) {
                 Trace trace;
-                tape_trace(tape, place, &trace);
-                int round = tape->place[place].round;
+                rounds_trace(rounds, place, &trace);
+                int round = rounds->place[place].round;
                 if (trace.line != LINE_UPDATE)
                     continue;
                 seen++;
@@ -736,11 +720,11 @@ TEST(the_curve_goes_through_the_step)
                     CHECK(i == 3 && round == 0 && !trace.difference);
                     continue;
                 }
-                const NewtonRecord *record = &tape->record[round];
+                const NewtonRecord *record = &rounds->record[round];
                 double change = trace.difference(trace.function, record->alpha);
-                rough += tape->round[round].value != NULL;
-                if (tape->round[round].value &&
-                    record->alpha < trace.first / TAPE_PARTS)
+                rough += rounds->round[round].value != NULL;
+                if (rounds->round[round].value &&
+                    record->alpha < trace.first / ROUND_PARTS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
                            1e-7 * fabs(record->slope) * record->alpha);
@@ -748,9 +732,9 @@ TEST(the_curve_goes_through_the_step)
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
-        const Tape *tape = &lane(0)->tape;
-        tape_trace(tape, -1, &whole);
-        CHECK(whole.residual <= player.given[0].tolerance || !tape->ended);
+        const Rounds *rounds = &machine(0)->rounds;
+        rounds_trace(rounds, -1, &whole);
+        CHECK(whole.residual <= player.given[0].tolerance || !rounds->ended);
         end();
     }
 }
@@ -765,15 +749,15 @@ TEST(last_rounds_have_their_lines)
         static const char *const lines[2] = {"2347", "27"};
         char line[9] = "";
         CHECK_STATUS(obey("step"), STATUS_OK);
-        const Tape *tape = &lane(0)->tape;
-        for (int i = 0; i < tape->places && tape->count > 0; i++)
-            if (tape->place[i].round == tape->count &&
-                tape->place[i].line != LINE_END)
-                snprintf(line + strlen(line), 3, "%d", tape->place[i].line);
-        if (tape->count == 0)
+        const Rounds *rounds = &machine(0)->rounds;
+        for (int i = 0; i < rounds->places && rounds->count > 0; i++)
+            if (rounds->place[i].round == rounds->count &&
+                rounds->place[i].line != LINE_END)
+                snprintf(line + strlen(line), 3, "%d", rounds->place[i].line);
+        if (rounds->count == 0)
             continue;
-        assert_string_equal(line, lines[tape->passed]);
-        passed[tape->passed]++;
+        assert_string_equal(line, lines[rounds->passed]);
+        passed[rounds->passed]++;
     }
     CHECK(passed[0] > 0 && passed[1] > 0);
     end();
@@ -806,15 +790,15 @@ TEST(every_scene_is_taken_hold_of)
                   status_is_unconverged(status));
             CHECK((status == STATUS_INVALID_INPUT) ==
                   (player.message[0] != '\0'));
-            hash[player.step] = player_hash(&player);
+            hash[player.past.step] = player_hash(&player);
         }
-        long last = player.step;
-        CHECK(last >= 1 && last == player.newest);
+        long last = player.past.step;
+        CHECK(last >= 1 && last == past_newest(&player.past));
         for (long step = last - 1; step >= 0; step -= last > 3 ? 3 : 1) {
             char line[32];
             snprintf(line, sizeof line, "goto %ld", step);
             CHECK_STATUS(obey(line), STATUS_OK);
-            CHECK(player.step == step);
+            CHECK(player.past.step == step);
             CHECK_STATUS(obey("end"), STATUS_OK);
             CHECK(player_hash(&player) == hash[last]);
         }
@@ -828,14 +812,15 @@ TEST(what_is_dragged_is_shown_as_it_is)
 {
     begin("arrows --integrator forward-euler");
     for (int step = 0; step < 3; step++) {
-        const Lane *lane = &player.lane[0];
+        const Curves *curves = &machine(0)->curves;
         player_sample(&player);
         CHECK_STATUS(obey("handle 0 0.5 0.25"), STATUS_OK);
         CHECK_STATUS(obey("handle 1 1.5 2.25"), STATUS_OK);
-        CHECK(lane->history.count == step + 1 && lane->trail.count == step + 1);
+        CHECK(curves->history.count == step + 1 &&
+              curves->trail.count == step + 1);
         /* (0.5^2 + 0.25^2 + 1^2 + 2^2) / 2 */
-        CHECK_NEAR(lane->history.value[0][step], 2.65625, 0);
-        CHECK_NEAR(lane->trail.point[0][step][1], 0.25, 0);
+        CHECK_NEAR(curves->history.value[0][step], 2.65625, 0);
+        CHECK_NEAR(curves->trail.point[0][step][1], 0.25, 0);
         CHECK_STATUS(obey("next"), STATUS_OK);
     }
     end();
@@ -892,7 +877,7 @@ TEST(a_race_begins_again)
     begin("race");
     CHECK_STATUS(obey("step"), STATUS_OK);
     CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(player.step == 0);
+    CHECK(player.past.step == 0);
     CHECK(strstr(player.note, "from the start: projection none") != NULL);
     end();
 }
@@ -927,8 +912,9 @@ TEST(a_cell_of_the_map_is_a_scene)
     begin("envelope --segments 3 --stretch 1.3");
     CHECK_STATUS(obey("step"), STATUS_OK);
     CHECK_STATUS(lesson_load(&player, CELL), STATUS_OK);
-    const Options *options = &player_settings(&player)->options;
-    CHECK(options->scene == &scenes[0] && player.paused && player.step == 0);
+    const Options *options = player_options(&player);
+    CHECK(options->scene == &scenes[0] && player.paused &&
+          player.past.step == 0);
     CHECK(options->segments == 3 && options->stretch == 1.3);
     snprintf(line, sizeof line,
              "square --segments 3 --stretch 1.3 --timestep %.17g --stiffness "
@@ -940,7 +926,7 @@ TEST(a_cell_of_the_map_is_a_scene)
     CHECK_STATUS(obey("escape"), STATUS_OK);
     CHECK(player_simulation(&player)->scene->picture == PICTURE_ENVELOPE);
     CHECK(!player.quit && !player_is_open(&player));
-    CHECK(player_settings(&player)->options.segments == 3);
+    CHECK(player_options(&player)->segments == 3);
     end();
     begin(line);
     CHECK_STATUS(obey("step"), STATUS_OK);
@@ -954,8 +940,8 @@ TEST(panes_meet_at_the_longest_timestep)
     begin("square --segments 2 --timestep 0.01,0.005");
     for (int step = 1; step <= 3; step++) {
         CHECK_STATUS(obey("step"), STATUS_OK);
-        CHECK(track_step_shown(&lane(0)->track) == step);
-        CHECK(track_step_shown(&lane(1)->track) == 2 * step);
+        CHECK(machine(0)->simulation.steps == step);
+        CHECK(machine(1)->simulation.steps == 2 * step);
     }
     end();
 }
@@ -965,13 +951,13 @@ TEST(every_pane_may_fail)
 {
     begin("square --integrator forward-euler,backward-euler --steps 1000");
     CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
-    CHECK(lane(0)->failed && !lane(1)->failed);
+    CHECK(machine(0)->failed && !machine(1)->failed);
     end();
     begin("square --tolerance 1e-30,0.01");
     CHECK(!player_unconverged(&player));
     CHECK_STATUS(obey("step"), STATUS_OK);
-    CHECK(lane(0)->track.simulation.unconverged == 1);
-    CHECK(lane(1)->track.simulation.unconverged == 0);
+    CHECK(machine(0)->simulation.unconverged == 1);
+    CHECK(machine(1)->simulation.unconverged == 0);
     CHECK(player_unconverged(&player));
     end();
 }
@@ -999,7 +985,7 @@ TEST(a_counted_run_ends_at_its_failure)
 {
     begin("square --integrator forward-euler --steps 1000");
     CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
-    CHECK(!player.paused && player.step == player.newest);
+    CHECK(!player.paused && player.past.step == past_newest(&player.past));
     end();
 }
 
@@ -1009,12 +995,12 @@ TEST(old_steps_are_neither_kept_twice_nor_for_ever)
 {
     begin("square --segments 2");
     obey_all((const char *const[]){"step", "step", "step", "back", NULL});
-    long count = lane(0)->history.calls;
+    long count = machine(0)->curves.history.calls;
     player_sample(&player);
-    CHECK(count > 0 && lane(0)->history.calls == count);
-    CHECK(player.step == 2 && player.newest == 3);
+    CHECK(count > 0 && machine(0)->curves.history.calls == count);
+    CHECK(player.past.step == 2 && past_newest(&player.past) == 3);
     CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
-    CHECK(player.step == 2 && player.newest == 2);
+    CHECK(player.past.step == 2 && past_newest(&player.past) == 2);
     end();
 }
 
@@ -1025,11 +1011,11 @@ TEST(the_summary_counts)
     char text[2048], expected[80];
     begin("square --filter none --timestep 0.02 --stretch 0.5");
     CHECK_STATUS(obey("step"), STATUS_OK);
-    Status first = track_row(&lane(0)->track, 1)->status;
+    Status first = told(0, 1)->status;
     obey_all((const char *const[]){"set timestep 1e-4", "set tolerance 1e-30",
                                    "step", NULL});
-    CHECK(track_row(&lane(0)->track, 2)->status > STATUS_OK);
-    CHECK(track_row(&lane(0)->track, 2)->status != first);
+    CHECK(told(0, 2)->status > STATUS_OK);
+    CHECK(told(0, 2)->status != first);
     FILE *file = fmemopen(text, sizeof text, "w");
     CHECK(file != NULL);
     summary_print(file, &player);
@@ -1064,9 +1050,9 @@ TEST(material_numbers_change_live)
                 CHECK_STATUS(obey("back"), STATUS_OK);
             if (again)
                 CHECK_STATUS(obey(lines[n][1]), STATUS_OK);
-            CHECK(player.step == 59);
+            CHECK(player.past.step == 59);
             CHECK_STATUS(obey("step"), STATUS_OK);
-            CHECK(player.step == 60 && player.newest == 60);
+            CHECK(player.past.step == 60 && past_newest(&player.past) == 60);
 
             hash[again] = player_hash(&player);
         }
@@ -1127,7 +1113,7 @@ TEST(scripts_wait_while_it_runs)
     alarm(20); /* s; it takes milliseconds */
     CHECK_STATUS(player_run(&player), STATUS_OK);
     alarm(0);
-    CHECK(!stop && player.step == 1 && player.paused);
+    CHECK(!stop && player.past.step == 1 && player.paused);
     end();
 }
 
@@ -1139,7 +1125,7 @@ TEST(many_steps_a_frame_end_in_time)
     player.window = true;
     player.speed = 4;
     CHECK_STATUS(player_run(&player), STATUS_OK);
-    CHECK(player.step == 10);
+    CHECK(player.past.step == 10);
     end();
 }
 

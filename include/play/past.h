@@ -1,0 +1,192 @@
+/* past.h - the one past: all that was computed and done, of up to six runs side
+ * by side.
+ *
+ * A step is a pure function: the state of entry k+1 is made of the state and
+ * the control of entry k.  So states may be thrown away and made again with the
+ * same bits, and all else is reading: back, forward, undo, panes, the walk
+ * inside a step, tables.
+ *
+ *   branch 0   0--1--2--3--4--5--6     started from options (fresh)
+ *   branch 1            3'-4'-5'       changed at 3: a pin; 4 ... 6 stay
+ *   branch 2               4"-5"       P at 5': step 5 again, made from 4'
+ *
+ * Branches are a stack.  Undo goes one down, to where that one was left; redo
+ * one up; a change drops those above.  When there are MOST_BRANCHES the two
+ * lowest become one.
+ *
+ * All panes have one time and one count of steps: a step is one of the pane
+ * with the longest timestep, and as many of the others as fit into it.
+ */
+#ifndef ELASTO_PAST_H
+#define ELASTO_PAST_H
+
+#include "play/rounds.h"
+#include "play/script.h"
+#include "scenes/control.h"
+#include "scenes/state.h"
+
+enum { MOST_BRANCHES = 64, MOST_PANES = OPTIONS_MAX_PANES };
+#define PAST_BYTES ((size_t)256 << 20) /* of states; they give way */
+
+typedef struct State {
+    size_t size;
+    unsigned char bytes[];
+} State;
+
+/* What is told of a step when its iterations are long forgotten. */
+typedef struct Told {
+    int updates;     /* of Newton, in all its substeps */
+    Status status;   /* the worst */
+    double change;   /* of E, J s^2 */
+    double residual; /* m/s, at the end */
+    double extent;   /* m, the largest coordinate of run 0 */
+    double time;     /* s, after it */
+} Told;
+
+/* One step of one pane: the state after it, and how the next one is made. */
+typedef struct Entry {
+    const Control *control;
+    State *state; /* NULL: made again from an entry before */
+    bool placed; /* somebody has moved a point in it: it cannot be made again */
+    int substeps; /* steps of its own in it: with a shorter h several; 0: it has
+                     ended before, or its scene is over */
+    Told told;
+} Entry;
+
+/* What plots keep of the steps that were drawn. */
+typedef struct Curves {
+    History history; /* of energies or radii */
+    Trail trail;
+    long sampled; /* step up to which these know of it; -1: none */
+} Curves;
+
+typedef struct Branch {
+    bool fresh;  /* starts from options; else goes on from the one below */
+    long run;    /* counts fresh ones: those of one run have one number */
+    long first;  /* step of its entry 0 */
+    long count;  /* entries; never 0 */
+    long room;   /* for so many */
+    long left;   /* the step shown when it was left */
+    long stride; /* every so manyth state is kept, and that of entry 0 */
+    int panes;
+    int source[MOST_PANES]; /* the pane below that each one goes on from */
+    Entry *entry;           /* [count][panes] */
+    int gesture;            /* of the mouse; 0: none.  Changes of the same one
+                               change this branch's end */
+    Command edit;           /* what began it */
+    const Control *then[MOST_PANES]; /* from its entry 1 on; NULL: the same */
+    Script journal; /* what was done while it was the present one */
+    size_t told;    /* lines of the one below that lead to it */
+    size_t
+        carried; /* own lines, of a branch of the same gesture in its place */
+    Curves *curves[MOST_PANES]; /* as it was left, or NULL */
+} Branch;
+
+/* A simulation that stands at an entry. */
+typedef struct Machine {
+    Simulation simulation;
+    const Control *control; /* that it uses */
+    long run;               /* that it was made for; 0: it is none */
+    int branch, pane;       /* whose entry it stands at, */
+    long step;              /* -1: at none, its state has to be loaded */
+    bool stepping;          /* a step of the simulation is begun */
+    int substeps;           /* made of the step after it */
+    long before;            /* the simulation's steps before the last of them */
+    Told told;              /* of the step that is made, or the last one */
+    bool failed;            /* that one could not be made */
+    double start;           /* J, total energy at step 0 */
+    Rounds rounds;
+    bool known;   /* they are of the step it stands at, or failed after it */
+    long records; /* all that Newton told of that step, for the log */
+    long record_room;
+    NewtonRecord *record;
+    Curves curves;
+} Machine;
+
+typedef struct Past {
+    Branch branch[MOST_BRANCHES];
+    int branches, now; /* those above `now` were undone */
+    long runs;         /* fresh branches so far */
+    long step;         /* shown, in all panes */
+    Machine machine[MOST_PANES];
+    bool keeps;   /* somebody may go back, or looks at steps behind */
+    bool goes_on; /* when one of several panes fails the others go on */
+    size_t bytes, limit;
+    /* Work that is under way, a Newton iteration at a time. */
+    bool works;
+    long aim;      /* the step that is to be shown */
+    int pane;      /* whose turn it is */
+    bool making;   /* the step is new */
+    bool again;    /* it is made again, and the one before it */
+    double target; /* s, where it ends */
+    bool moved;    /* by any of its panes */
+    Status worst;
+} Past;
+
+void past_create(bool keeps, bool goes_on, Past *past);
+void past_free(Past *past);
+
+/* New runs from step 0, side by side.  A gesture that has begun the present
+ * branch begins it anew.  Returns as simulation_create; what was there before
+ * is shown then as soon as past_iterate has made it. */
+Status past_begin(Past *past, const Options *options, int panes, int gesture,
+                  const Command *edit);
+
+/* Changes something from the step that is shown on; later steps that are known
+ * stay in the branch below.
+ *   edit     COMMAND_SET with "NAME VALUE"; COMMAND_PIN with a node, x = 1 to
+ *            pin it and 0 to set it free; COMMAND_GRAB with a node and where
+ *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_HANDLE,
+ *            COMMAND_FLIP
+ *   from,to  in panes from ... to - 1
+ *   again    it counts from the step before on: the one that is shown is made
+ *            once more by past_iterate
+ *   gesture  of the mouse: the same one changes its own branch's end; or 0
+ *   message  [size] out, why not, after INVALID_INPUT */
+Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
+                 int gesture, char *message, size_t size);
+
+/* One pane more with the past of the last one, or fewer.  Returns OK,
+ * OUT_OF_MEMORY. */
+Status past_set_panes(Past *past, int panes, int gesture, const Command *edit);
+
+/* Wants this step shown, 0 ... newest + 1.
+ *   again  it is made once more, to know its rounds and those before it */
+void past_aim(Past *past, long step, bool again);
+
+/* One Newton iteration of the work.  RUNNING: there is more.  OK, or an
+ * unconverged status: the aim is shown, if it is a new step that any pane could
+ * make.  A failure: the last whole step is shown. */
+Status past_iterate(Past *past);
+
+/* Unfinished work is forgotten; past_iterate shows the last whole step. */
+void past_drop(Past *past);
+
+/* One branch down (-1) or up (1), where past_iterate leads.  Returns what was
+ * undone or done again; NULL: nothing was. */
+const Command *past_undo(Past *past, int way);
+
+/* All that was done, as a script that leads to the present branch.
+ *   script  out, free it in any case
+ * Returns OK, OUT_OF_MEMORY. */
+Status past_script(const Past *past, Script *script);
+
+int past_panes(const Past *past);
+long past_newest(const Past *past);
+
+/* NULL: there is none. */
+const Entry *past_entry(const Past *past, int pane, long step);
+
+/* From the step that is shown on; at step 0 of the run. */
+const Control *past_control(const Past *past, int pane);
+const Control *past_start(const Past *past, int pane);
+
+/* Whether a pane takes no more steps since one of them failed, at this step of
+ * those of all panes.  last out: its last one. */
+bool past_is_over(const Past *past, int pane, long step, long *last);
+
+/* s, and s of one step; 0 and 1 in scenes without time. */
+double machine_time(const Machine *machine);
+double machine_pace(const Machine *machine);
+
+#endif

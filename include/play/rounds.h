@@ -1,0 +1,103 @@
+/* rounds.h - the minimisation of one step, round by round of the loop of
+ * Algorithm 3: for the cards, and to be walked through line by line.
+ *
+ * Whoever iterates the solver looks at it: before each iteration x^i and p^i
+ * stand there to be copied.  Rounds 0 ... count-1 made an update; round `count`
+ * is the one whose direction passed the test.
+ */
+#ifndef ELASTO_ROUNDS_H
+#define ELASTO_ROUNDS_H
+
+#include "picture/show.h"
+
+/* Bytes of iterates and directions that are kept of one step; later updates of
+ * a longer minimisation leave their records alone. */
+#define ROUNDS_BYTES ((size_t)64 << 20)
+
+/* E along p is drawn to 3/2 of the first trial.  Where it is no polynomial it
+ * is kept at parts of that, 1/32 of the trial apart: first, first/2, ... are
+ * among them. */
+enum { ROUND_PARTS = 32, ROUND_VALUES = ROUND_PARTS * 3 / 2 + 1 };
+
+typedef struct Round {
+    double *x, *p; /* [size] m; NULL: not kept */
+    double first;  /* alpha that the line search begins with */
+    Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
+    double *value; /* [ROUND_VALUES] J s^2, where it is not; NULL: it is */
+    double residual, slope;
+    ResidualKind kind; /* of the residual */
+    int projected;
+} Round;
+
+/* A place in the listing: which line of which round; in the line search, how
+ * many trials have been made. */
+typedef struct Station {
+    int round;
+    Line line;
+    int trials;
+} Station;
+
+typedef struct Rounds {
+    long step;           /* the one that they are of; 0: none */
+    double h, tolerance; /* s, m/s, that it was made with */
+    int size;            /* 2n */
+    int count;           /* updates */
+    int room;            /* of the arrays, one more */
+    Round *round;
+    NewtonRecord *record; /* [count] */
+    int before;           /* updates of the step before, or of this step with */
+                          /* other settings; 0: not known */
+    int before_room;
+    NewtonRecord *record_before;
+    bool ended;      /* round [count] is there */
+    bool passed;     /* its test was passed without a direction */
+    double *x_tilde; /* [size] m */
+    bool tilde;      /* it is known */
+    size_t bytes;
+    Station *place; /* [places] in the order of the listing */
+    int places;
+} Rounds;
+
+/* Before a step.  What was there is kept as the step before it where it was
+ * that one, or this one with other settings.  Returns OK, OUT_OF_MEMORY. */
+Status rounds_begin(Rounds *rounds, const Simulation *simulation);
+
+/* Before a Newton iteration: where a minimisation begins. */
+void rounds_look(Rounds *rounds, const Newton *newton);
+
+/* After it.  Nothing is kept where memory is missing. */
+void rounds_add(Rounds *rounds, const Newton *newton,
+                const NewtonRecord *record);
+
+/* After the step: the places to walk through, filled in for these settings.
+ * Returns OK, OUT_OF_MEMORY. */
+Status rounds_end(Rounds *rounds, const Options *options);
+
+/* Forgets all but the memory. */
+void rounds_clear(Rounds *rounds);
+void rounds_free(Rounds *rounds);
+
+/* From one place to the next (way 1) or to the one before (-1).
+ *   fine   how small a pace: 1 whole updates, 2 lines
+ *   place  index in rounds->place
+ * Returns the index; -1 or rounds->places where it leaves the step. */
+int rounds_walk(const Rounds *rounds, int fine, int place, int way);
+
+/* The same line of the same round as before the step was made again, or the
+ * last one before it. */
+int rounds_find(const Rounds *rounds, int round, Line line);
+
+/* The place where E was highest, if the step has raised it by far more than it
+ * has changed it in the end: an explosion that is over.  rise out: J s^2.
+ * Returns -1 where there was none. */
+int rounds_peak(const Rounds *rounds, double *rise);
+
+/* The largest coordinate in them, m; 0 where none is kept. */
+double rounds_extent(const Rounds *rounds);
+
+/* What the picture shows at a place; -1: the whole step is over.  All pointers
+ * stay those of the rounds.  Returns the positions to draw, [size] m, or NULL:
+ * those of the state after the step. */
+const double *rounds_trace(const Rounds *rounds, int place, Trace *trace);
+
+#endif

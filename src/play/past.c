@@ -1,0 +1,1077 @@
+#include "play/past.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/scene.h"
+
+/* A state beyond this times the first one's size is no longer to be seen. */
+static const double EXPLODED = 10;
+
+/* ---- entries ------------------------------------------------------------- */
+
+int past_panes(const Past *past)
+{
+    return past->branches > 0 ? past->branch[past->now].panes : 0;
+}
+
+long past_newest(const Past *past)
+{
+    const Branch *branch = &past->branch[past->now];
+    return branch->first + branch->count - 1;
+}
+
+/* The entry of a step as a branch sees it: its own, or one below.
+ *   branch, pane  in and out, whose it is */
+static Entry *entry_below(const Past *past, long step, int *branch, int *pane)
+{
+    const Branch *at = &past->branch[*branch];
+    while (step < at->first && !at->fresh) {
+        *pane = at->source[*pane];
+        at = &past->branch[--*branch];
+    }
+    long i = step - at->first;
+    return i < 0 || i >= at->count ? NULL : &at->entry[i * at->panes + *pane];
+}
+
+/* As the present one does. */
+static Entry *find_entry(const Past *past, long step, int *branch, int *pane)
+{
+    *branch = past->now;
+    return entry_below(past, step, branch, pane);
+}
+
+static Entry *entry_of(const Past *past, int pane, long step)
+{
+    int branch;
+    return find_entry(past, step, &branch, &pane);
+}
+
+const Entry *past_entry(const Past *past, int pane, long step)
+{
+    return entry_of(past, pane, step);
+}
+
+const Control *past_control(const Past *past, int pane)
+{
+    return entry_of(past, pane, past->step)->control;
+}
+
+const Control *past_start(const Past *past, int pane)
+{
+    const Branch *at = &past->branch[past->now];
+    for (; !at->fresh; at--)
+        pane = at->source[pane];
+    return at->entry[pane].control;
+}
+
+/* Whether the pane can make no more steps from here. */
+static bool has_failed(const Entry *entry)
+{
+    Status status = entry->told.status;
+    return entry->substeps == 0 && status && !status_is_unconverged(status);
+}
+
+bool past_is_over(const Past *past, int pane, long step, long *last)
+{
+    *last = step;
+    while (*last > 0 && has_failed(past_entry(past, pane, *last)))
+        --*last;
+    return *last < step;
+}
+
+static void drop_state(Past *past, Entry *entry)
+{
+    if (entry->state)
+        past->bytes -= entry->state->size;
+    free(entry->state);
+    entry->state = NULL;
+}
+
+static void drop_entry(Past *past, Entry *entry)
+{
+    control_drop(entry->control);
+    drop_state(past, entry);
+    *entry = (Entry){0};
+}
+
+/* Lets go of the newest entries of the present branch. */
+static void drop_newest(Past *past)
+{
+    Branch *branch = &past->branch[past->now];
+    branch->count--;
+    for (int p = 0; p < branch->panes; p++)
+        drop_entry(past, &branch->entry[branch->count * branch->panes + p]);
+}
+
+/* One more entry a pane.  Where nobody goes back the last two are enough. */
+static Status add_entries(Past *past, Branch *branch)
+{
+    size_t row = (size_t)branch->panes * sizeof(Entry);
+    if (!past->keeps && branch->count == 2) {
+        for (int p = 0; p < branch->panes; p++)
+            drop_entry(past, &branch->entry[p]);
+        memmove(branch->entry, branch->entry + branch->panes, row);
+        branch->first++;
+        branch->count--;
+    }
+    if (branch->count == branch->room) {
+        long room = branch->room ? 2 * branch->room : 4;
+        Entry *entry = realloc(branch->entry, (size_t)room * row);
+        if (!entry)
+            return STATUS_OUT_OF_MEMORY;
+        branch->entry = entry;
+        branch->room = room;
+    }
+    memset(branch->entry + branch->count * branch->panes, 0, row);
+    branch->count++;
+    return STATUS_OK;
+}
+
+/* Every second kept state of the branch with the finest ones goes; the one that
+ * is shown comes last. */
+static bool thin_states(Past *past)
+{
+    Branch *finest = NULL;
+    for (int b = 0; b < past->branches; b++) {
+        Branch *branch = &past->branch[b];
+        bool finer = !finest || branch->stride < finest->stride ||
+                     (branch->stride == finest->stride && b != past->now);
+        if (branch->stride < branch->count && finer)
+            finest = branch;
+    }
+    if (!finest)
+        return false;
+    finest->stride *= 2;
+    for (long i = 0; i < finest->count * finest->panes; i++)
+        if (i / finest->panes % finest->stride && !finest->entry[i].placed)
+            drop_state(past, &finest->entry[i]);
+    return true;
+}
+
+/* The machine's state for the entry where it stands, if that one keeps it.
+ * Memory that is not there makes the past coarser; it is no failure but for the
+ * first one. */
+static Status keep_state(Past *past, int pane)
+{
+    Machine *machine = &past->machine[pane];
+    Branch *branch = &past->branch[machine->branch];
+    long i = machine->step - branch->first;
+    Entry *entry = &branch->entry[i * branch->panes + machine->pane];
+    size_t size =
+        past->keeps ? state_bytes(&machine->simulation, STATE_ALL) : 0;
+    drop_state(past, entry);
+    if (size == 0)
+        return STATUS_OK;
+    while (past->bytes + size > past->limit && thin_states(past))
+        continue;
+    if (i % branch->stride && !entry->placed)
+        return STATUS_OK;
+    entry->state = malloc(sizeof *entry->state + size);
+    if (!entry->state)
+        return i > 0 && !entry->placed ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    entry->state->size = size;
+    past->bytes += size;
+    state_save(&machine->simulation, STATE_ALL, entry->state->bytes);
+    return STATUS_OK;
+}
+
+/* ---- branches ------------------------------------------------------------ */
+
+static void drop_branch(Past *past, Branch *branch)
+{
+    for (long i = 0; i < branch->count * branch->panes; i++)
+        drop_entry(past, &branch->entry[i]);
+    for (int p = 0; p < MOST_PANES; p++) {
+        control_drop(branch->then[p]);
+        free(branch->curves[p]);
+    }
+    free(branch->entry);
+    script_free(&branch->journal);
+    *branch = (Branch){0};
+}
+
+/* Branches from this one on go. */
+static void drop_branches(Past *past, int from)
+{
+    while (past->branches > from)
+        drop_branch(past, &past->branch[--past->branches]);
+}
+
+/* No machine stands anywhere any more. */
+static void lose_machines(Past *past)
+{
+    for (int p = 0; p < MOST_PANES; p++)
+        past->machine[p].step = -1;
+}
+
+/* An entry of the lower branch as one of the upper. */
+static Status take_entry(Past *past, const Entry *from, Entry *to)
+{
+    *to = *from;
+    control_keep(to->control);
+    if (!from->state)
+        return STATUS_OK;
+    size_t size = sizeof *to->state + from->state->size;
+    to->state = malloc(size);
+    if (!to->state)
+        return STATUS_OUT_OF_MEMORY;
+    memcpy(to->state, from->state, size);
+    past->bytes += from->state->size;
+    return STATUS_OK;
+}
+
+/* Lines of one journal behind those of another. */
+static Status add_lines(Script *to, const Script *from, size_t count)
+{
+    Status status = STATUS_OK;
+    for (size_t i = 0; i < count && !status; i++)
+        status = script_add(to, from->line[i].step, &from->line[i].command);
+    return status;
+}
+
+Status past_script(const Past *past, Script *script)
+{
+    Status status = STATUS_OK;
+    *script = (Script){0};
+    for (int b = 0; b <= past->now && !status; b++) {
+        const Branch *branch = &past->branch[b];
+        status =
+            add_lines(script, &branch->journal,
+                      b < past->now ? branch[1].told : branch->journal.count);
+    }
+    return status;
+}
+
+/* What led to the second branch becomes a part of its journal. */
+static Status take_lower_journal(Past *past)
+{
+    Branch *low = &past->branch[0], *up = &past->branch[1];
+    Script both = {0};
+    Status status = add_lines(&both, &low->journal, up->told);
+    if (!status)
+        status = add_lines(&both, &up->journal, up->journal.count);
+    if (status) {
+        script_free(&both);
+        return status;
+    }
+    if (past->branches > 2)
+        past->branch[2].told += up->told;
+    script_free(&up->journal);
+    up->journal = both;
+    return STATUS_OK;
+}
+
+/* What the second branch shows of the lowest becomes its own. */
+static Status take_lower_entries(Past *past)
+{
+    Branch *low = &past->branch[0], *up = &past->branch[1];
+    long below = up->first - low->first;
+    size_t row = (size_t)up->panes * sizeof(Entry);
+    Entry *entry = calloc((size_t)(below + up->count), row);
+    Status status = entry ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (long i = 0; i < below * up->panes && !status; i++) {
+        const Entry *from =
+            &low->entry[i / up->panes * low->panes + up->source[i % up->panes]];
+        status = take_entry(past, from, &entry[i]);
+    }
+    if (status) {
+        free(entry); /* what it had taken is lost: there is no memory */
+        return status;
+    }
+    memcpy(entry + below * up->panes, up->entry, (size_t)up->count * row);
+    free(up->entry);
+    up->entry = entry;
+    up->first = low->first;
+    up->count += below;
+    up->room = up->count;
+    up->fresh = true;
+    return STATUS_OK;
+}
+
+/* Room for one more branch: the two lowest become one. */
+static Status make_room(Past *past)
+{
+    drop_branches(past, past->now + 1);
+    if (past->branches < MOST_BRANCHES)
+        return STATUS_OK;
+    if (take_lower_journal(past) ||
+        (!past->branch[1].fresh && take_lower_entries(past)))
+        return STATUS_OUT_OF_MEMORY;
+    drop_branch(past, &past->branch[0]);
+    memmove(past->branch, past->branch + 1,
+            (MOST_BRANCHES - 1) * sizeof *past->branch);
+    past->branch[MOST_BRANCHES - 1] = (Branch){0};
+    past->branches--;
+    past->now--;
+    lose_machines(past);
+    return STATUS_OK;
+}
+
+/* The present branch is left, and can be come back to. */
+static void leave_branch(Past *past)
+{
+    Branch *branch = &past->branch[past->now];
+    branch->left = past->step;
+    for (int p = 0; p < branch->panes; p++) {
+        if (!branch->curves[p])
+            branch->curves[p] = malloc(sizeof *branch->curves[p]);
+        if (branch->curves[p])
+            *branch->curves[p] = past->machine[p].curves;
+    }
+}
+
+static void clear_curves(Curves *curves)
+{
+    history_clear(&curves->history);
+    trail_clear(&curves->trail);
+    curves->sampled = -1;
+}
+
+/* Curves forget what came after this step. */
+static void cut_curves(Curves *curves, long step, double time)
+{
+    if (curves->sampled <= step)
+        return;
+    history_cut(&curves->history, time);
+    trail_cut(&curves->trail,
+              (int)fmin((double)(curves->sampled - step), TRAIL_POINTS));
+    curves->sampled = step;
+}
+
+/* A branch on top of the present one, with one entry.  NULL: no memory. */
+static Branch *push_branch(Past *past, bool fresh, long first, int panes,
+                           const Command *edit, int gesture)
+{
+    Branch *branch = &past->branch[past->branches];
+    *branch = (Branch){.fresh = fresh,
+                       .first = first,
+                       .stride = 1,
+                       .panes = panes,
+                       .gesture = gesture,
+                       .edit = *edit};
+    if (add_entries(past, branch)) {
+        free(branch->entry);
+        return NULL;
+    }
+    if (past->branches > 0)
+        leave_branch(past);
+    past->runs += fresh;
+    branch->run = fresh ? past->runs : past->branch[past->now].run;
+    int below = past->branches > 0 ? past->branch[past->now].panes : 0;
+    branch->told = below ? past->branch[past->now].journal.count : 0;
+    for (int p = 0; p < panes; p++) {
+        branch->source[p] = p < below ? p : below - 1;
+        if (p >= below && !fresh)
+            past->machine[p].curves = past->machine[below - 1].curves;
+    }
+    for (int p = 0; p < panes && !fresh; p++) {
+        const Entry *entry = past_entry(past, branch->source[p], first);
+        branch->entry[p].control = control_keep(entry->control);
+        branch->entry[p].substeps = entry->substeps;
+        branch->entry[p].told = entry->told;
+        cut_curves(&past->machine[p].curves, first, entry->told.time);
+    }
+    past->now = past->branches++;
+    past->step = past->aim = first;
+    return branch;
+}
+
+/* ---- machines ------------------------------------------------------------ */
+
+double machine_time(const Machine *machine)
+{
+    return simulation_time(&machine->simulation);
+}
+
+double machine_pace(const Machine *machine)
+{
+    const Simulation *simulation = &machine->simulation;
+    return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
+                                                 : 1;
+}
+
+/* The Newton object whose rounds are kept: that of the first run that has one,
+ * while it is this run's turn; else NULL. */
+static const Newton *listened_to(const Simulation *simulation)
+{
+    for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
+        if (simulation->run[r].newton)
+            return r == simulation->stepping ? simulation->run[r].newton : NULL;
+    return NULL;
+}
+
+/* What Newton tells of an iteration. */
+static bool watch(void *user, const NewtonRecord *record)
+{
+    Machine *machine = user;
+    if (!machine->stepping)
+        return true;
+    machine->told.updates += record->iteration >= 0;
+    machine->told.residual = record->residual;
+    if (machine->simulation.scene->step) /* an update is a step */
+        machine->told.change = record->change;
+    const Newton *newton = listened_to(&machine->simulation);
+    if (newton && machine->rounds.step > 0)
+        rounds_add(&machine->rounds, newton, record);
+    if (machine->records == machine->record_room) {
+        long room = machine->record_room ? 2 * machine->record_room : 64;
+        NewtonRecord *grown =
+            realloc(machine->record, (size_t)room * sizeof *grown);
+        if (!grown)
+            return true;
+        machine->record = grown;
+        machine->record_room = room;
+    }
+    machine->record[machine->records++] = *record;
+    return true;
+}
+
+static void free_simulation(Machine *machine)
+{
+    simulation_free(&machine->simulation);
+    control_drop(machine->control);
+    machine->control = NULL;
+    machine->run = 0;
+    machine->step = -1;
+    machine->stepping = machine->failed = machine->known = false;
+    machine->substeps = 0;
+    machine->records = 0;
+}
+
+/* A simulation of the present run, at its step 0. */
+static Status make_simulation(Past *past, int pane, const Options *options)
+{
+    Machine *machine = &past->machine[pane];
+    free_simulation(machine);
+    Status status =
+        simulation_create(options, watch, machine, &machine->simulation);
+    if (status)
+        return status;
+    machine->run = past->branch[past->now].run;
+    if (machine->simulation.scene->needs & NEEDS_TIME)
+        machine->start = simulation_energies(&machine->simulation, 0).total;
+    return STATUS_OK;
+}
+
+static Status use_control(Machine *machine, const Control *control)
+{
+    if (machine->control == control)
+        return STATUS_OK;
+    Status status = simulation_use(&machine->simulation, control);
+    control_keep(control);
+    control_drop(machine->control);
+    machine->control = control;
+    if (status)
+        free_simulation(machine);
+    return status;
+}
+
+/* The machine stands at this step of the present branch. */
+static void stand(Past *past, int pane, long step)
+{
+    Machine *machine = &past->machine[pane];
+    machine->step = step;
+    find_entry(past, step, &machine->branch, &pane);
+    machine->pane = pane;
+}
+
+static bool stands(const Past *past, int pane, long step)
+{
+    const Machine *machine = &past->machine[pane];
+    int branch;
+    return machine->step == step &&
+           machine->run == past->branch[past->now].run &&
+           find_entry(past, step, &branch, &pane) &&
+           machine->branch == branch && machine->pane == pane;
+}
+
+/* The entry whose state leads to this step: its own, or where a branch begins
+ * that of the branch below; NULL: none is kept. */
+static const Entry *kept_entry(const Past *past, int pane, long step)
+{
+    int b;
+    const Entry *entry = find_entry(past, step, &b, &pane);
+    while (entry && !entry->state && !past->branch[b].fresh &&
+           step == past->branch[b].first) {
+        pane = past->branch[b--].source[pane];
+        entry = entry_below(past, step, &b, &pane);
+    }
+    return entry && entry->state ? entry : NULL;
+}
+
+/* The machine to where it can make its way to this step from. */
+static Status load(Past *past, int pane, long goal)
+{
+    Machine *machine = &past->machine[pane];
+    const Entry *kept = kept_entry(past, pane, goal);
+    long from = goal;
+    while (!kept && from > 0)
+        kept = kept_entry(past, pane, --from);
+    bool near = machine->step >= from || machine->step >= goal - 1;
+    if (near && machine->step <= goal && stands(past, pane, machine->step))
+        return STATUS_OK;
+    if (!kept)
+        return STATUS_OUT_OF_MEMORY;
+    Status status = STATUS_OK;
+    if (machine->run != past->branch[past->now].run)
+        status = make_simulation(past, pane, &past_start(past, pane)->options);
+    if (!status)
+        status = use_control(machine, kept->control);
+    if (status)
+        return status;
+    state_restore(kept->state->bytes, STATE_ALL, &machine->simulation);
+    machine->known = machine->failed = false;
+    machine->told = kept->told;
+    machine->substeps = 0;
+    stand(past, pane, from);
+    return use_control(machine, past_entry(past, pane, from)->control);
+}
+
+/* ---- steps --------------------------------------------------------------- */
+
+/* Where the pane with the longest timestep will be, s. */
+static double next_time(const Past *past)
+{
+    double pace = -1, time = 0;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        if (has_failed(past_entry(past, p, machine->step)) ||
+            machine_pace(machine) <= pace)
+            continue;
+        pace = machine_pace(machine);
+        time = machine_time(machine);
+    }
+    return time + pace;
+}
+
+/* What is told of the step that was made. */
+static void sum_up(Machine *machine, Status status)
+{
+    const Simulation *simulation = &machine->simulation;
+    Told *told = &machine->told;
+    told->status = status ? status : told->status;
+    told->time = machine_time(machine);
+    told->extent = 0;
+    for (int i = 0; i < 2 * simulation->system.nodes; i++)
+        told->extent = fmax(told->extent, fabs(simulation->run[0].x[i]));
+    for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
+        if (simulation->run[r].newton)
+            told->change += simulation->run[r].newton->change;
+}
+
+/* The machine has come to the entry behind the one where it stood. */
+static Status arrive(Past *past)
+{
+    int pane = past->pane;
+    Machine *machine = &past->machine[pane];
+    const Entry *from = past_entry(past, pane, machine->step);
+    Entry *to = entry_of(past, pane, machine->step + 1);
+    Branch *branch = &past->branch[past->now];
+    bool fresh = !to->control;
+    if (fresh) {
+        const Control *then = branch->then[pane];
+        bool second = machine->step == branch->first && then;
+        to->control = control_keep(second ? then : from->control);
+        to->substeps = machine->substeps;
+        to->told = machine->told;
+    }
+    past->moved = past->moved || machine->substeps > 0;
+    machine->substeps = 0;
+    stand(past, pane, machine->step + 1);
+    Status status = use_control(machine, to->control);
+    if (!status && fresh)
+        status = keep_state(past, pane);
+    else if (!status && to->placed)
+        state_restore(to->state->bytes, STATE_ALL, &machine->simulation);
+    return status ? status : STATUS_RUNNING;
+}
+
+/* The pane that failed beside others goes back to its last state that can be
+ * seen; from there on it stands still. */
+static void end_pane(Past *past, int pane, Status status)
+{
+    Branch *branch = &past->branch[past->now];
+    Machine *machine = &past->machine[pane];
+    const Entry *first =
+        past_entry(past, pane, branch->first > 0 ? branch->first : 1);
+    double most = EXPLODED * first->told.extent;
+    long last = machine->step;
+    while (last > branch->first &&
+           !(past_entry(past, pane, last)->told.extent <= most))
+        last--;
+    const Entry *good = past_entry(past, pane, last);
+    cut_curves(&machine->curves, last, good->told.time);
+    for (long step = last + 1; step <= past_newest(past); step++) {
+        Entry *entry = entry_of(past, pane, step);
+        int updates = entry->told.updates;
+        drop_entry(past, entry);
+        *entry =
+            (Entry){.control = control_keep(good->control), .told = good->told};
+        entry->told.updates = updates;
+        entry->told.status = status;
+    }
+    machine->step = -1;
+    machine->substeps = 0;
+    /* What an explosion has made of the energies would flatten those of
+     * others. */
+    History *history = &machine->curves.history;
+    while (history->count > 1 && history->value[0][history->count - 1] >
+                                     EXPLODED * fabs(history->value[0][0]))
+        history_cut(history, history->time[history->count - 2]);
+}
+
+/* The work ends; the last whole step stays. */
+static void stop_work(Past *past)
+{
+    for (int p = 0; p < past_panes(past); p++) {
+        Machine *machine = &past->machine[p];
+        if (machine->stepping)
+            simulation_drop(&machine->simulation);
+        if (machine->stepping || machine->substeps > 0)
+            machine->step = -1;
+        machine->stepping = false;
+        machine->substeps = 0;
+    }
+    if (past->making) {
+        drop_newest(past);
+        for (int p = 0; p < past_panes(past); p++)
+            if (past->machine[p].step > past_newest(past))
+                past->machine[p].step = -1;
+    }
+    past->making = past->works = past->again = false;
+}
+
+/* A step could not be made. */
+static Status fail(Past *past, Status status)
+{
+    Machine *machine = &past->machine[past->pane];
+    bool lacks = status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
+    if (past->making && past->goes_on && past_panes(past) > 1 && !lacks) {
+        end_pane(past, past->pane, status);
+        past->moved = true;
+        past->worst = status;
+        return STATUS_RUNNING;
+    }
+    stop_work(past);
+    if (!lacks && machine->run) {
+        machine->failed = machine->known = true;
+        machine->told.status = status;
+    }
+    past->step = past->aim =
+        past->step > past_newest(past) ? past_newest(past) : past->step;
+    return status;
+}
+
+/* A step of the simulation goes on, or is over. */
+static Status stepped(Past *past, Status status)
+{
+    int pane = past->pane;
+    Machine *machine = &past->machine[pane];
+    const Simulation *simulation = &machine->simulation;
+    const Entry *to = past_entry(past, pane, machine->step + 1);
+    if (status == STATUS_RUNNING)
+        return status;
+    machine->stepping = false;
+    if (past->keeps && rounds_end(&machine->rounds, &simulation->options))
+        return fail(past, STATUS_OUT_OF_MEMORY);
+    bool moved = simulation->steps > machine->before;
+    bool lacks = status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
+    sum_up(machine, status);
+    if (status && !moved && (lacks || !simulation->done))
+        return fail(past, status);
+    machine->known = past->keeps;
+    machine->substeps += moved;
+    if (past->making && status)
+        past->worst = status;
+    bool more = to->control
+                    ? machine->substeps < to->substeps
+                    : moved && (simulation->scene->needs & NEEDS_TIME) &&
+                          machine_time(machine) + 0.5 * machine_pace(machine) <
+                              past->target;
+    return more ? STATUS_RUNNING : arrive(past);
+}
+
+/* One step of the simulation begins, where the pane makes any. */
+static Status begin_step(Past *past)
+{
+    int pane = past->pane;
+    Machine *machine = &past->machine[pane];
+    const Entry *from = past_entry(past, pane, machine->step);
+    const Entry *to = past_entry(past, pane, machine->step + 1);
+    if (machine->substeps == 0) {
+        machine->told = (Told){.time = machine_time(machine)};
+        machine->records = 0;
+        machine->failed = machine->known = false;
+    }
+    if (to->control ? to->substeps == 0 : has_failed(from)) {
+        machine->told = to->control ? to->told : from->told;
+        machine->told.updates = 0;
+        return arrive(past);
+    }
+    if (past->keeps && rounds_begin(&machine->rounds, &machine->simulation))
+        return fail(past, STATUS_OUT_OF_MEMORY);
+    machine->before = machine->simulation.steps;
+    machine->stepping = true;
+    return stepped(past, simulation_begin(&machine->simulation));
+}
+
+/* All panes have come as far as they know the way: the aim is reached, or a new
+ * step begins. */
+static Status end_turn(Past *past)
+{
+    long newest = past_newest(past);
+    if (!past->making && past->aim > newest) {
+        past->target = next_time(past);
+        past->pane = 0;
+        past->making = true;
+        past->moved = false;
+        past->worst = STATUS_OK;
+        if (add_entries(past, &past->branch[past->now])) {
+            past->making = false;
+            return fail(past, STATUS_OUT_OF_MEMORY);
+        }
+        return STATUS_RUNNING;
+    }
+    Status worst = past->making ? past->worst : STATUS_OK;
+    if (past->making && !past->moved) { /* all scenes are at their end */
+        drop_newest(past);
+        for (int p = 0; p < past_panes(past); p++)
+            stand(past, p, newest - 1);
+        past->aim = newest - 1;
+    }
+    past->making = past->works = past->again = false;
+    past->step = past->aim;
+    return worst;
+}
+
+Status past_iterate(Past *past)
+{
+    if (!past->works)
+        return STATUS_OK;
+    Machine *machine = &past->machine[past->pane];
+    if (machine->stepping) {
+        const Newton *newton = listened_to(&machine->simulation);
+        if (newton && past->keeps)
+            rounds_look(&machine->rounds, newton);
+        return stepped(past, simulation_iterate(&machine->simulation));
+    }
+    long newest = past_newest(past);
+    long goal = past->aim < newest ? past->aim : newest;
+    long from = past->again ? (goal > 2 ? goal - 2 : 0) : goal;
+    for (; past->pane < past_panes(past); past->pane++) {
+        machine = &past->machine[past->pane];
+        bool under_way =
+            machine->substeps > 0 || (past->again && machine->step >= from &&
+                                      stands(past, past->pane, machine->step));
+        Status status = under_way || (past->making && machine->step == goal)
+                            ? STATUS_OK
+                            : load(past, past->pane, from);
+        if (status)
+            return fail(past, status);
+        if (machine->step < goal)
+            return begin_step(past);
+    }
+    return end_turn(past);
+}
+
+void past_aim(Past *past, long step, bool again)
+{
+    long most = past_newest(past) + 1;
+    past_drop(past);
+    past->aim = step < 0 ? 0 : step > most ? most : step;
+    past->works = true;
+    past->pane = 0;
+    past->again = again && past->aim > 0 && past->aim < most;
+    for (int p = 0; p < past_panes(past) && past->again; p++) {
+        rounds_clear(&past->machine[p].rounds);
+        past->machine[p].step = -1;
+    }
+}
+
+void past_drop(Past *past)
+{
+    if (!past->works)
+        return;
+    stop_work(past);
+    past->aim = past->step;
+    past->pane = 0;
+    past->works = true;
+}
+
+/* ---- what is done -------------------------------------------------------- */
+
+/* All machines stand at the step that is shown. */
+static Status settle(Past *past)
+{
+    Status status = STATUS_RUNNING;
+    past_drop(past);
+    for (int p = 0; p < past_panes(past); p++)
+        past->works = past->works || !stands(past, p, past->step);
+    past->pane = 0;
+    past->aim = past->step;
+    while (past->works && status == STATUS_RUNNING)
+        status = past_iterate(past);
+    return status == STATUS_RUNNING ? STATUS_OK : status;
+}
+
+/* The branch that could not begin goes. */
+static void pop_branch(Past *past)
+{
+    past->now--;
+    drop_branches(past, past->now + 1);
+    lose_machines(past);
+    if (past->now < 0)
+        return;
+    past->step = past->branch[past->now].left;
+    past->works = false;
+    past_aim(past, past->step, false);
+}
+
+/* A simulation at step 0, and its entry. */
+static Status begin_pane(Past *past, int pane, const Options *options)
+{
+    Machine *machine = &past->machine[pane];
+    Entry *entry = &past->branch[past->now].entry[pane];
+    Status status = make_simulation(past, pane, options);
+    Control *control = status ? NULL : control_of(&machine->simulation);
+    if (!control)
+        return status ? status : STATUS_OUT_OF_MEMORY;
+    control->options = *options;
+    entry->control = control;
+    entry->substeps = 1;
+    machine->control = control_keep(control);
+    machine->told = (Told){.status = machine->simulation.status};
+    clear_curves(&machine->curves);
+    rounds_clear(&machine->rounds);
+    machine->rounds.step = 0;
+    stand(past, pane, 0);
+    return keep_state(past, pane);
+}
+
+Status past_begin(Past *past, const Options *options, int panes, int gesture,
+                  const Command *edit)
+{
+    Options own[MOST_PANES]; /* they may be those of a branch that goes */
+    Script journal = {0};
+    memcpy(own, options, (size_t)panes * sizeof *own);
+    if (past->branches > 0) {
+        past_drop(past);
+        past->works = false;
+        const Branch *now = &past->branch[past->now];
+        if (gesture && now->gesture == gesture && now->fresh && past->now > 0) {
+            journal = past->branch[past->now].journal;
+            past->branch[past->now].journal = (Script){0};
+            pop_branch(past);
+            past->works = false;
+        }
+        if (make_room(past))
+            return STATUS_OUT_OF_MEMORY;
+    }
+    Branch *branch = push_branch(past, true, 0, panes, edit, gesture);
+    if (!branch)
+        return STATUS_OUT_OF_MEMORY;
+    branch->journal = journal;
+    branch->carried = journal.count;
+    Status status = STATUS_OK;
+    for (int p = 0; p < panes && !status; p++)
+        status = begin_pane(past, p, &own[p]);
+    if (status)
+        pop_branch(past);
+    return status;
+}
+
+/* "NAME VALUE" into its two words. */
+static void split(const char *text, char name[COMMAND_TEXT_SIZE],
+                  char value[COMMAND_TEXT_SIZE])
+{
+    size_t length = strcspn(text, " ");
+    snprintf(name, COMMAND_TEXT_SIZE, "%.*s", (int)length, text);
+    snprintf(value, COMMAND_TEXT_SIZE, "%s",
+             text[length] ? text + length + 1 : "");
+}
+
+/* Whether a change makes sense here; message [size] out: why not. */
+static Status check_edit(const Simulation *simulation, const Command *edit,
+                         char *message, size_t size)
+{
+    double at[SCENE_MAX_HANDLES][2];
+    Switch part[SCENE_MAX_SWITCHES];
+    const char *what = "node";
+    long limit = LONG_MAX;
+    message[0] = '\0';
+    if (edit->kind == COMMAND_HANDLE) {
+        what = "point to drag";
+        limit = exhibit_handles(simulation, at);
+    } else if (edit->kind == COMMAND_FLIP) {
+        what = "switch";
+        limit = exhibit_switches(simulation, part);
+    } else if (edit->kind == COMMAND_PIN || edit->kind == COMMAND_GRAB) {
+        limit = simulation->system.nodes;
+    }
+    if (edit->number >= 0 && edit->number < limit)
+        return STATUS_OK;
+    if (limit > 0)
+        snprintf(message, size, "there is no %s %ld, they are 0 ... %ld", what,
+                 edit->number, limit - 1);
+    else
+        snprintf(message, size, "there is no %s here", what);
+    return STATUS_INVALID_INPUT;
+}
+
+/* The control after a change. */
+static Status change_control(const Control *from, const Command *edit,
+                             const Control **to, char *message, size_t size)
+{
+    char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
+    Control *control = control_copy(from);
+    if (!control)
+        return STATUS_OUT_OF_MEMORY;
+    *to = control;
+    if (edit->kind == COMMAND_SET) {
+        split(edit->text, name, value);
+        return options_set(&control->options, name, value, message, size);
+    }
+    if (edit->kind == COMMAND_PIN)
+        control_pin(control, (int)edit->number, edit->x != 0);
+    if (edit->kind == COMMAND_GRAB)
+        control->hand = (int)edit->number;
+    if (edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG) {
+        control->at[0] = edit->x;
+        control->at[1] = edit->y;
+    }
+    if (edit->kind == COMMAND_RELEASE)
+        control->hand = -1;
+    return STATUS_OK;
+}
+
+/* An entry whose machine stands at it is changed. */
+static Status change_entry(Past *past, int pane, const Control *to,
+                           const Command *edit)
+{
+    Machine *machine = &past->machine[pane];
+    Entry *entry = entry_of(past, pane, past->step);
+    int number = (int)edit->number;
+    control_drop(entry->control);
+    entry->control = to;
+    stand(past, pane, past->step);
+    Status status = use_control(machine, to);
+    entry->placed = entry->placed || edit->kind == COMMAND_HANDLE ||
+                    edit->kind == COMMAND_FLIP;
+    entry->substeps += entry->substeps == 0; /* it may go on again */
+    if (status)
+        return status;
+    if (edit->kind == COMMAND_HANDLE)
+        exhibit_drag(&machine->simulation, number, edit->x, edit->y);
+    if (edit->kind == COMMAND_FLIP)
+        exhibit_flip(&machine->simulation, number);
+    return keep_state(past, pane);
+}
+
+Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
+                 int gesture, char *message, size_t size)
+{
+    const Control *control[MOST_PANES] = {NULL}, *then[MOST_PANES] = {NULL};
+    int panes = past_panes(past);
+    long first = past->step - again;
+    Status status = settle(past);
+    for (int p = from; p < to && !status; p++) {
+        status = check_edit(&past->machine[p].simulation, edit, message, size);
+        if (!status)
+            status = change_control(past_entry(past, p, first)->control, edit,
+                                    &control[p], message, size);
+        if (!status && again)
+            status = change_control(past_control(past, p), edit, &then[p],
+                                    message, size);
+    }
+    const Branch *now = &past->branch[past->now];
+    bool joins = gesture && now->gesture == gesture && !again &&
+                 past->step == past_newest(past);
+    if (!status && !joins) {
+        for (int p = 0; p < panes && again; p++)
+            if (!then[p])
+                then[p] = control_keep(past_control(past, p));
+        status = make_room(past) ? STATUS_OUT_OF_MEMORY : settle(past);
+        Branch *branch =
+            status ? NULL
+                   : push_branch(past, false, first, panes, edit, gesture);
+        status = branch || status ? status : STATUS_OUT_OF_MEMORY;
+        for (int p = 0; p < panes && branch && again; p++) {
+            branch->then[p] = then[p];
+            then[p] = NULL;
+        }
+    }
+    for (int p = 0; p < panes; p++) {
+        if (!status && !again && (!joins || control[p])) {
+            const Control *same = past_control(past, p);
+            status = change_entry(
+                past, p, control[p] ? control[p] : control_keep(same), edit);
+            control[p] = NULL;
+        } else if (!status && again && control[p]) {
+            Entry *entry = entry_of(past, p, first);
+            control_drop(entry->control);
+            entry->control = control[p];
+            control[p] = NULL;
+        }
+        control_drop(control[p]);
+        control_drop(then[p]);
+    }
+    return status;
+}
+
+Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
+{
+    Status status = settle(past);
+    if (!status)
+        status = make_room(past);
+    if (!status && !push_branch(past, false, past->step, panes, edit, gesture))
+        status = STATUS_OUT_OF_MEMORY;
+    if (!status)
+        past_aim(past, past->step, false);
+    return status;
+}
+
+const Command *past_undo(Past *past, int way)
+{
+    int to = past->now + way;
+    if (to < 0 || to >= past->branches)
+        return NULL;
+    past_drop(past);
+    past->works = false;
+    leave_branch(past);
+    past->now = to;
+    Branch *branch = &past->branch[to];
+    if (way > 0) /* what was done in between led nowhere */
+        branch[-1].journal.count = branch->told;
+    for (int p = 0; p < branch->panes; p++) {
+        clear_curves(&past->machine[p].curves);
+        if (branch->curves[p])
+            past->machine[p].curves = *branch->curves[p];
+    }
+    past->step = branch->left;
+    past_aim(past, branch->left, false);
+    return &past->branch[way < 0 ? to + 1 : to].edit;
+}
+
+void past_create(bool keeps, bool goes_on, Past *past)
+{
+    *past = (Past){
+        .now = -1, .keeps = keeps, .goes_on = goes_on, .limit = PAST_BYTES};
+    lose_machines(past);
+}
+
+void past_free(Past *past)
+{
+    drop_branches(past, 0);
+    for (int p = 0; p < MOST_PANES; p++) {
+        free_simulation(&past->machine[p]);
+        rounds_free(&past->machine[p].rounds);
+        free(past->machine[p].record);
+        past->machine[p].record = NULL;
+        past->machine[p].record_room = 0;
+    }
+    past->now = -1;
+}

@@ -1,0 +1,139 @@
+#include "scenes/control.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/pull_energy.h"
+
+/* With room for this many pins. */
+static Control *make_control(int pins)
+{
+    Control *control =
+        calloc(1, sizeof *control + (size_t)pins * sizeof *control->pin);
+    if (control)
+        control->users = 1;
+    return control;
+}
+
+Control *control_of(const Simulation *simulation)
+{
+    int nodes = simulation->system.nodes, pins = 0;
+    for (int i = 0; i < nodes; i++)
+        pins += simulation_is_pinned(simulation, i);
+    Control *control = make_control(pins);
+    if (!control)
+        return NULL;
+    control->options = simulation->options;
+    control->hand = -1;
+    for (int i = 0; i < nodes; i++)
+        if (simulation_is_pinned(simulation, i))
+            control->pin[control->pins++] = i;
+    return control;
+}
+
+Control *control_copy(const Control *from)
+{
+    Control *control = make_control(from->pins + 1);
+    if (!control)
+        return NULL;
+    memcpy(control, from,
+           sizeof *from + (size_t)from->pins * sizeof *from->pin);
+    control->users = 1;
+    return control;
+}
+
+/* Where `node` stands among the pins, or would. */
+static int pin_place(const Control *control, int node)
+{
+    int at = 0;
+    while (at < control->pins && control->pin[at] < node)
+        at++;
+    return at;
+}
+
+bool control_has_pin(const Control *control, int node)
+{
+    int at = pin_place(control, node);
+    return at < control->pins && control->pin[at] == node;
+}
+
+void control_pin(Control *control, int node, bool pinned)
+{
+    int *pin = control->pin + pin_place(control, node);
+    size_t behind = (size_t)(control->pin + control->pins - pin);
+    if (control_has_pin(control, node) == pinned)
+        return;
+    if (pinned) {
+        memmove(pin + 1, pin, behind * sizeof *pin);
+        *pin = node;
+    } else {
+        memmove(pin, pin + 1, (behind - 1) * sizeof *pin);
+    }
+    control->pins += pinned ? 1 : -1;
+}
+
+const Control *control_keep(const Control *control)
+{
+    if (control)
+        ((Control *)control)->users++;
+    return control;
+}
+
+void control_drop(const Control *control)
+{
+    Control *own = (Control *)control;
+    if (own && --own->users == 0)
+        free(own);
+}
+
+/* Options, as far as they differ. */
+static Status use_options(Simulation *simulation, const Options *wanted)
+{
+    const Options *now = &simulation->options;
+    Status status = STATUS_OK;
+    if (now->integrator != wanted->integrator ||
+        now->stiffness != wanted->stiffness)
+        return simulation_change(simulation, wanted);
+    if (now->timestep != wanted->timestep)
+        simulation_set_timestep(simulation, wanted->timestep);
+    if (now->tolerance != wanted->tolerance)
+        simulation_set_tolerance(simulation, wanted->tolerance);
+    if (now->solver != wanted->solver)
+        simulation_set_solver(simulation, wanted->solver);
+    if (now->filter != wanted->filter)
+        simulation_set_filter(simulation, wanted->filter);
+    if (now->line_search != wanted->line_search)
+        simulation_set_line_search(simulation, wanted->line_search);
+    if (now->friction != wanted->friction)
+        status = simulation_set_friction(simulation, wanted->friction);
+    if (!status && now->damping != wanted->damping)
+        status = simulation_set_damping(simulation, wanted->damping);
+    return status;
+}
+
+/* The hand, where it is not already. */
+static Status use_hand(Simulation *simulation, const Control *control)
+{
+    const Pull *hand = hand_energy_of(&simulation->system);
+    if (control->hand < 0) {
+        simulation_release(simulation);
+        return STATUS_OK;
+    }
+    if (hand && hand->node == control->hand &&
+        hand->target[0] == control->at[0] && hand->target[1] == control->at[1])
+        return STATUS_OK;
+    return simulation_grab(simulation, control->hand, control->at[0],
+                           control->at[1]);
+}
+
+Status simulation_use(Simulation *simulation, const Control *control)
+{
+    Status status = use_options(simulation, &control->options);
+    for (int i = 0, at = 0; i < simulation->system.nodes && !status; i++) {
+        bool pinned = at < control->pins && control->pin[at] == i;
+        at += pinned;
+        if (simulation_is_pinned(simulation, i) != pinned)
+            status = simulation_pin(simulation, i, pinned);
+    }
+    return status ? status : use_hand(simulation, control);
+}

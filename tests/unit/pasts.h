@@ -1,0 +1,80 @@
+/* pasts.h - a past without a player: what the tests of it begin with. */
+#ifndef ELASTO_PASTS_H
+#define ELASTO_PASTS_H
+
+#include "test.h"
+
+#include <string.h>
+
+#include "play/past.h"
+
+static Past past;
+
+static inline uint64_t hash_now(void)
+{
+    uint64_t hash = STATE_HASH_SEED;
+    for (int p = 0; p < past_panes(&past); p++)
+        hash = state_hash(&past.machine[p].simulation, hash);
+    return hash;
+}
+
+static inline Status work(void)
+{
+    Status status = STATUS_RUNNING;
+    while (status == STATUS_RUNNING)
+        status = past_iterate(&past);
+    return status;
+}
+
+/* Options of this command line. */
+static inline Options line_options(const char *line)
+{
+    Simulation simulation;
+    simulation_from_line(line, NULL, NULL, &simulation);
+    Options options = simulation.options;
+    simulation_free(&simulation);
+    return options;
+}
+
+static inline void begin_past(const char *line)
+{
+    const Command restart = {.kind = COMMAND_RESTART};
+    Options options = line_options(line);
+    past_create(true, true, &past);
+    CHECK_STATUS(past_begin(&past, &options, 1, 0, &restart), STATUS_OK);
+}
+
+/* Shows this step, also a new one. */
+static inline uint64_t show(long step)
+{
+    past_aim(&past, step, false);
+    Status status = work();
+    CHECK(!status || status_is_unconverged(status));
+    CHECK(past.step == step);
+    return hash_now();
+}
+
+static inline Status try_edit(const Command *command, bool again, int gesture)
+{
+    char message[256] = "";
+    Status status = past_edit(&past, command, 0, past_panes(&past), again,
+                              gesture, message, sizeof message);
+    CHECK((status == STATUS_INVALID_INPUT) == (message[0] != '\0'));
+    return status;
+}
+
+static inline void edit(CommandKind kind, long number, double x, double y)
+{
+    const Command command = {.kind = kind, .number = number, .x = x, .y = y};
+    CHECK_STATUS(try_edit(&command, false, 0), STATUS_OK);
+}
+
+/* "timestep 0.01" */
+static inline void set_option(const char *text, bool again)
+{
+    Command command = {.kind = COMMAND_SET};
+    strcpy(command.text, text);
+    CHECK_STATUS(try_edit(&command, again, 0), STATUS_OK);
+}
+
+#endif

@@ -1,0 +1,593 @@
+/* The one past: every state comes back to the last bit, whatever was kept,
+ * thrown away, changed, undone and done again; scripts and commands.
+ */
+#include "pasts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "model/contact.h"
+#include "model/fracture.h"
+#include "model/plasticity.h"
+#include "play/script.h"
+
+enum { STEPS = 70 };
+
+/* hash [to + 1] out: of the steps from ... to. */
+static void run(long from, long to, uint64_t *hash)
+{
+    for (long step = from; step <= to; step++)
+        hash[step] = show(step);
+}
+
+/* From one step to the next that is looked at. */
+static int stride(int all, int some)
+{
+    return tests_are_long() ? all : some;
+}
+
+/* Every way back to a step gives its bits: backwards, at random, forwards. */
+static void check_all_steps(long steps, const uint64_t *hash)
+{
+    Random random = {7};
+    for (long step = steps; step >= 0; step -= stride(3, 9))
+        CHECK(show(step) == hash[step]);
+    for (int i = 0; i < 20; i += stride(1, 3)) {
+        int step = random_below(&random, (int)steps + 1);
+        CHECK(show(step) == hash[step]);
+    }
+    for (long step = steps / 2; step <= steps; step++)
+        CHECK(show(step) == hash[step]);
+}
+
+static const char *const lines[] = {
+    "square --segments 3",
+    "square --segments 3 --solver multigrid",
+    "square --segments 3 --filter on-demand --stretch 0.6 --timestep 0.01",
+    "square --segments 3 --integrator bdf2",
+    "square --segments 3 --integrator verlet --timestep 0.0005",
+    "square --segments 3 --integrator sdirk2 --solver multigrid",
+    "square --segments 3 --integrator avf4",
+    "circle",
+    "unprojected --segments 2",
+    "square --segments 9 --solver multigrid",
+    "hang --segments 3",
+    "drop --segments 3",
+    "slope",
+    "dent --segments 4",
+    "tear --segments 4",
+    "squeeze --segments 4",
+    "bend",
+    "arrows",
+    "spring",
+};
+
+/* As a simulation makes them that nobody ever stops. */
+TEST(states_come_back)
+{
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        uint64_t hash[STEPS + 1];
+        Simulation plain;
+        begin_past(lines[i]);
+        run(0, STEPS, hash);
+        simulation_from_line(lines[i], NULL, NULL, &plain);
+        for (int step = 0; step <= STEPS; step++) {
+            CHECK(state_hash(&plain, STATE_HASH_SEED) == hash[step]);
+            simulation_step(&plain);
+        }
+        simulation_free(&plain);
+        check_all_steps(STEPS, hash);
+        CHECK(past_newest(&past) == STEPS);
+        past_free(&past);
+    }
+}
+
+/* With room for a few states only every 2^k-th is kept, and no more memory is
+ * taken than there is. */
+TEST(thinned_states_come_back)
+{
+    for (size_t i = 0; i < sizeof lines / sizeof *lines;
+         i += (size_t)stride(1, 2)) {
+        uint64_t hash[STEPS + 1];
+        begin_past(lines[i]);
+        size_t size = state_bytes(&past.machine[0].simulation, STATE_ALL);
+        past.limit = 5 * size;
+        run(0, STEPS, hash);
+        CHECK(past.bytes <= past.limit && past.branch[0].stride >= STEPS / 8);
+        check_all_steps(STEPS, hash);
+        CHECK(past.bytes <= past.limit);
+        past_free(&past);
+    }
+}
+
+/* A state that fits nowhere leaves step 0, from which all can be made again. */
+TEST(one_state_is_enough)
+{
+    uint64_t hash[13];
+    begin_past("square --segments 2");
+    past.limit = 1;
+    run(0, 12, hash);
+    check_all_steps(12, hash);
+    past_free(&past);
+}
+
+/* Scenes that show iterations come back in the midst of them, with all that
+ * their pictures show. */
+TEST(iterations_come_back)
+{
+    const char *scene[] = {"overshoot --line-search backtrack", "landscape",
+                           "tangent", "dial", "envelope --segments 2"};
+    for (int i = 0; i < 5; i++) {
+        uint64_t hash[5];
+        Descent descent[5];
+        begin_past(scene[i]);
+        const Simulation *simulation = &past.machine[0].simulation;
+        for (int step = 0; step <= 4; step++) {
+            hash[step] = show(step);
+            descent[step] = simulation->descent;
+        }
+        for (int step = 3; step >= 0; step--) {
+            CHECK(show(step) == hash[step]);
+            CHECK(memcmp(&descent[step], &simulation->descent,
+                         sizeof *descent) == 0);
+        }
+        for (int step = 1; step <= 4; step++) {
+            CHECK(show(step) == hash[step]);
+            CHECK(simulation->descent.count == descent[step].count);
+        }
+        past_free(&past);
+    }
+}
+
+/* All that may change, each while the run goes on: the change counts from its
+ * step on, whatever is shown in between; and undone, one after the other, each
+ * shows the steps that were there before it. */
+TEST(changes_come_back_and_go)
+{
+    static const char *const changes[] = {
+        "timestep 0.01",   "stiffness 2e4",     "",
+        "filter none",     "solver multigrid",  "timestep 0.002",
+        "integrator bdf2", "filter on-demand",  "",
+        "tolerance 1e-6",  "integrator verlet", "timestep 0.0003",
+        "integrator avf",  "line-search none",  "timestep 0.005",
+    };
+    enum { CHANGES = sizeof changes / sizeof *changes, ALL = 4 * CHANGES + 4 };
+    for (int limit = 0; limit < 2; limit++) {
+        static uint64_t hash[ALL + 1], before[CHANGES];
+        Random random = {3};
+        begin_past("square --segments 3");
+        if (limit)
+            past.limit = 6 * past.bytes;
+        hash[0] = hash_now();
+        for (int i = 0; i < ALL; i++) {
+            if (i % 4 == 3 && i / 4 < CHANGES) {
+                before[i / 4] = show(i + 1); /* without it */
+                show(i);
+                if (changes[i / 4][0])
+                    set_option(changes[i / 4], false);
+                else
+                    edit(COMMAND_PIN, i / 4 + 1, 1, 0);
+                hash[i] = hash_now(); /* a pinned node has stopped */
+            }
+            hash[i + 1] = show(i + 1);
+        }
+        CHECK_NEAR(machine_time(&past.machine[0]),
+                   3 * 0.004 + 20 * 0.01 + 24 * 0.002 + 12 * 0.0003 + 5 * 0.005,
+                   1e-12);
+        CHECK(simulation_is_pinned(&past.machine[0].simulation, 3));
+        check_all_steps(ALL, hash);
+        show(2);
+        CHECK(!simulation_is_pinned(&past.machine[0].simulation, 3));
+        CHECK(past_control(&past, 0)->options.timestep == 0.004);
+        show(ALL);
+        for (int k = CHANGES - 1; k >= 0; k--) {
+            CHECK(past_undo(&past, -1) != NULL && work() == STATUS_OK);
+            CHECK(past.step == 4 * k + 3 && past_newest(&past) == 4 * k + 4);
+            CHECK(show(4 * k + 4) == before[k]);
+            show(4 * k + 3);
+        }
+        CHECK(!past_undo(&past, -1));
+        for (int k = 0; k < 3 * CHANGES; k++) { /* up and down */
+            past_undo(&past, random_below(&random, 3) ? 1 : -1);
+            CHECK_STATUS(work(), STATUS_OK);
+        }
+        while (past_undo(&past, 1))
+            CHECK_STATUS(work(), STATUS_OK);
+        CHECK(show(ALL) == hash[ALL]);
+        check_all_steps(ALL, hash);
+        past_free(&past);
+    }
+}
+
+/* A change of the step that is shown makes it again from the one before; what
+ * was changed after it still counts. */
+TEST(a_step_is_made_again)
+{
+    uint64_t hash[6];
+    begin_past("square --segments 3 --stretch 0.6");
+    run(0, 5, hash);
+    set_option("stiffness 2e5", false);
+    set_option("timestep 0.003", true);
+    CHECK(past.step == 4 && past_newest(&past) == 4);
+    uint64_t other = show(5);
+    CHECK(past_control(&past, 0)->options.stiffness == 2e5);
+    CHECK(past_entry(&past, 0, 4)->control->options.stiffness != 2e5);
+    set_option("timestep 0.004", true);
+    CHECK(other != hash[5] && show(5) == hash[5]);
+    CHECK(past_control(&past, 0)->options.stiffness == 2e5);
+    past_free(&past);
+}
+
+/* Changes of one gesture are one branch, which goes on with its steps. */
+TEST(a_gesture_is_undone_as_a_whole)
+{
+    uint64_t hash[9];
+    begin_past("square --segments 3");
+    run(0, 3, hash);
+    const double *x = past.machine[0].simulation.run[0].x;
+    Command grab = {.kind = COMMAND_GRAB, .number = 5, .x = x[10], .y = x[11]};
+    CHECK_STATUS(try_edit(&grab, false, 7), STATUS_OK);
+    for (long step = 4; step <= 8; step++) {
+        Command drag = {.kind = COMMAND_DRAG, .x = 0.1 * (double)step, .y = 1};
+        CHECK_STATUS(try_edit(&drag, false, 7), STATUS_OK);
+        hash[step] = show(step);
+    }
+    CHECK(past.branches == 2);
+    check_all_steps(8, hash);
+    show(8);
+    past_undo(&past, -1);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == 3 && hash_now() == hash[3] && past_newest(&past) == 3);
+    past_undo(&past, 1);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == 8 && hash_now() == hash[8]);
+    past_free(&past);
+}
+
+/* A point that somebody moved stays where it was put, however little memory
+ * there is. */
+TEST(what_was_placed_comes_back)
+{
+    uint64_t hash[21];
+    begin_past("arrows --integrator backward-euler");
+    past.limit = 3 * past.bytes;
+    for (int step = 0; step <= 20; step++) {
+        hash[step] = show(step);
+        if (step % 5 != 2)
+            continue;
+        edit(COMMAND_HANDLE, 0, 0.1 * step, 0.5);
+        hash[step] = hash_now();
+    }
+    check_all_steps(20, hash);
+    past_free(&past);
+}
+
+/* More changes than branches: the oldest can no longer be undone, and no step
+ * is lost. */
+TEST(the_lowest_branches_become_one)
+{
+    enum { ALL = MOST_BRANCHES + 20 };
+    static uint64_t hash[ALL + 1];
+    begin_past("square --segments 2");
+    for (int step = 0; step < ALL; step++) {
+        char text[40];
+        snprintf(text, sizeof text, "stiffness %d", 10000 + 100 * step);
+        hash[step] = hash_now();
+        set_option(text, false);
+        hash[step + 1] = show(step + 1);
+    }
+    CHECK(past.branches == MOST_BRANCHES);
+    check_all_steps(ALL, hash);
+    show(ALL);
+    for (int i = 1; i < MOST_BRANCHES; i++)
+        CHECK(past_undo(&past, -1) && work() == STATUS_OK);
+    CHECK(!past_undo(&past, -1) && past.step == ALL - MOST_BRANCHES + 1);
+    CHECK(show(7) == hash[7]);
+    past_free(&past);
+}
+
+/* Another run, and back to the one before. */
+TEST(a_new_run_can_be_undone)
+{
+    const Command restart = {.kind = COMMAND_RESTART};
+    uint64_t hash[11], drop[6];
+    Options options = line_options("drop --segments 3");
+    begin_past("square --segments 3");
+    run(0, 10, hash);
+    CHECK_STATUS(past_begin(&past, &options, 1, 0, &restart), STATUS_OK);
+    CHECK(past.step == 0 && past_newest(&past) == 0);
+    run(0, 5, drop);
+    past_undo(&past, -1);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == 10 && hash_now() == hash[10]);
+    check_all_steps(10, hash);
+    past_undo(&past, 1);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == 5 && hash_now() == drop[5]);
+    options.stretch = -1; /* cannot begin: what was there stays */
+    CHECK(past_begin(&past, &options, 1, 0, &restart) != STATUS_OK);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == 5 && hash_now() == drop[5]);
+    past_free(&past);
+}
+
+/* Two panes with steps of different length; one more with the past of the last
+ * one. */
+TEST(panes_share_their_past)
+{
+    uint64_t hash[41];
+    const Command add = {.kind = COMMAND_ADD_PANE};
+    Options options[2] = {line_options("square --segments 3"),
+                          line_options("square --segments 2 --timestep 1e-3")};
+    past_create(true, true, &past);
+    CHECK_STATUS(past_begin(&past, options, 2, 0, &add), STATUS_OK);
+    past.limit = 8 * past.bytes;
+    run(0, 20, hash);
+    CHECK(past_entry(&past, 1, 9)->substeps == 4);
+    CHECK_STATUS(past_set_panes(&past, 3, 0, &add), STATUS_OK);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK_SAME_BITS(past.machine[2].simulation.run[0].x,
+                    past.machine[1].simulation.run[0].x, 18);
+    for (int step = 20; step <= 40; step++)
+        hash[step] = show(step);
+    for (int step = 0; step < 20; step++)
+        hash[step] = show(step);
+    check_all_steps(40, hash);
+    past_free(&past);
+}
+
+/* Work that is dropped at any iteration leaves no trace. */
+TEST(dropped_work_leaves_no_trace)
+{
+    static const char *const some[] = {"square --segments 4", "drop",
+                                       "squeeze --segments 4", "slope",
+                                       "square --integrator avf4"};
+    for (int i = 0; i < 5; i++) {
+        uint64_t hash[31];
+        begin_past(some[i]);
+        run(0, 30, hash);
+        past_free(&past);
+        begin_past(some[i]);
+        for (int step = 1; step <= 30; step++) {
+            past_aim(&past, step, false);
+            for (int k = 0; k < step % 7 && past.works; k++)
+                past_iterate(&past);
+            past_drop(&past);
+            CHECK_STATUS(work(), STATUS_OK);
+            CHECK(hash_now() == hash[past.step]);
+            CHECK(show(step) == hash[step]);
+        }
+        past_free(&past);
+    }
+}
+
+/* Another stiffness while the run goes on leaves what elements have been
+ * through: plastic strains, broken springs, obstacles that moved; and the
+ * ledger books what it did to the energy as work, so that nothing else in it
+ * jumps. */
+TEST(elements_keep_their_past)
+{
+    static const struct {
+        const char *line;
+        int steps;
+    } rows[] = {{"dent --segments 5", 130},
+                {"tear --segments 8", 90},
+                {"squeeze --segments 3", 40},
+                {"slope", 20}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        uint64_t hash[201];
+        int steps = rows[i].steps;
+        begin_past(rows[i].line);
+        run(0, steps, hash);
+        Simulation *simulation = &past.machine[0].simulation;
+        System *system = &simulation->system;
+        Plasticity *plastic = plasticity_of(system);
+        Energies before = simulation_energies(simulation, 0);
+        size_t springs = (size_t)system->springs;
+        double *k = calloc(3 * springs, sizeof *k);
+        memcpy(k, system->k, springs * sizeof *k);
+        double stored = 0;
+        for (size_t s = 0; plastic && s < springs; s++)
+            stored += fabs(k[springs + s] = plastic->ep[s]);
+        int broken = system->breaks ? fracture_of(system)->broken : -1;
+        CHECK(!plastic || stored > 0.1);
+        CHECK(!system->breaks || broken > 0);
+        Obstacle wall = {0};
+        int last = contact_of(system) ? contact_of(system)->obstacles - 1 : 0;
+        if (contact_of(system))
+            wall = contact_of(system)->obstacle[last];
+        set_option("stiffness 3e4", false);
+        plastic = plasticity_of(system);
+        for (size_t s = 0; s < springs; s++) {
+            CHECK(system->k[s] == (k[s] == 0 ? 0 : 3e4));
+            CHECK(!plastic || plastic->ep[s] == k[springs + s]);
+        }
+        if (contact_of(system))
+            CHECK(memcmp(&wall, contact_of(system)->obstacle + last,
+                         sizeof wall) == 0);
+        CHECK(broken < 0 || fracture_of(system)->broken == broken);
+        CHECK(hash_now() == hash[steps]);
+        Energies after = simulation_energies(simulation, 0);
+        CHECK(OF(&before, plastic) == OF(&after, plastic));
+        CHECK(OF(&before, fracture) == OF(&after, fracture));
+        CHECK_NEAR(after.dissipated, before.dissipated,
+                   1e-9 * (1 + fabs(after.total)));
+        run(steps, steps + 3, hash);
+        check_all_steps(steps + 3, hash);
+        free(k);
+        past_free(&past);
+    }
+}
+
+TEST(bad_changes_change_nothing)
+{
+    const Command bad[] = {
+        {.kind = COMMAND_SET, .text = "timestep -1"},
+        {.kind = COMMAND_SET, .text = "start 1,2"},
+        {.kind = COMMAND_SET, .text = "nothing 3"},
+        {.kind = COMMAND_SET, .text = "filter"},
+        {.kind = COMMAND_PIN, .number = 9, .x = 1},
+    };
+    begin_past("square --segments 2");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        CHECK_STATUS(try_edit(&bad[i], false, 0), STATUS_INVALID_INPUT);
+        CHECK(past.branches == 1);
+    }
+    past_free(&past);
+}
+
+/* A pinned node stays where it is, in every method. */
+TEST(pins_hold)
+{
+    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
+        char line[128];
+        snprintf(line, sizeof line,
+                 "square --segments 2 --timestep 0.0005 --integrator %s",
+                 row->name);
+        begin_past(line);
+        show(1);
+        const TimeIntegrator *run = &past.machine[0].simulation.run[0];
+        double at[2] = {run->x[0], run->x[1]}, other = run->x[2];
+        edit(COMMAND_PIN, 0, 1, 0);
+        for (int i = 2; i <= 7; i++)
+            show(i);
+        CHECK(run->x[0] == at[0] && run->x[1] == at[1] && run->x[2] != other);
+        CHECK(run->v[0] == 0);
+        past_free(&past);
+    }
+}
+
+/* What is written can be read, and is the same. */
+TEST(commands_are_written_as_they_are_read)
+{
+    char message[256], line[160], again[160];
+    static const char *const good[] = {
+        "quit",        "set timestep 0.01",
+        "goto 12",     "drag 0.10000000000000001 -0.5",
+        "default k",   "zoom 110 0.5 1",
+        "line-search", "scene landscape",
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        Command command;
+        CHECK_STATUS(command_parse(good[i], &command, message, sizeof message),
+                     STATUS_OK);
+        command_format(&command, line, sizeof line);
+        CHECK(strcmp(line, good[i]) == 0);
+    }
+    for (int kind = COMMAND_QUIT; kind < COMMAND_KINDS; kind++) {
+        Command command = {(CommandKind)kind, 7, 0.1, -3, "a b"}, read;
+        CHECK((int)command_row((CommandKind)kind)->kind == kind);
+        if (!command_row((CommandKind)kind)->word)
+            continue;
+        command_format(&command, line, sizeof line);
+        CHECK_STATUS(command_parse(line, &read, message, sizeof message),
+                     STATUS_OK);
+        command_format(&read, again, sizeof again);
+        CHECK(read.kind == command.kind && strcmp(line, again) == 0);
+    }
+    static const char *const bad[] = {
+        "",         "jump",   "goto",       "goto -1", "goto x",
+        "goto 1 2", "drag 1", "drag 1 nan", "quit 1",  "set a b c"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        Command command;
+        CHECK_STATUS(command_parse(bad[i], &command, message, sizeof message),
+                     STATUS_INVALID_INPUT);
+        CHECK(message[0] != '\0');
+    }
+}
+
+/* No key asks for two things. */
+TEST(keys_are_given_once)
+{
+    static const char *const keys[] = {
+        "Space", "N", "Right", "Left",  "Home",   "End", "R", "I",   "Shift+N",
+        "P",     "L", "M",     "Tab+M", "Ctrl+R", "?",   "+", "F11", "Escape",
+    };
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        Command command;
+        int rows = 0;
+        command_from_key(keys[i], false, &command);
+        CHECK(command.kind != COMMAND_NONE);
+        for (int kind = 0; kind < COMMAND_KINDS; kind++) {
+            const char *all = command_row((CommandKind)kind)->keys;
+            const char *at = all ? strstr(all, keys[i]) : NULL;
+            size_t length = strlen(keys[i]);
+            rows += at && (at == all || at[-1] == '|') &&
+                    (at[length] == '\0' || at[length] == '|');
+        }
+        CHECK(rows == 1);
+    }
+    Command command;
+    command_from_key("3", false, &command);
+    CHECK(command.kind == COMMAND_SCENE && strcmp(command.text, "3") == 0);
+    command_from_key("R", true, &command);
+    CHECK(command.kind == COMMAND_NONE);
+    command_from_key("X", false, &command);
+    CHECK(command.kind == COMMAND_NONE);
+}
+
+/* Lines wait for their step unless nothing moves. */
+/* Writes the text to a file and reads it as a script. */
+static Status read_script(const char *name, const char *text, Script *script,
+                          char *message, size_t size)
+{
+    FILE *file = fopen(name, "w");
+    CHECK(file != NULL);
+    fputs(text, file);
+    fclose(file);
+    return script_read(name, script, message, size);
+}
+
+TEST(scripts_wait)
+{
+    char name[] = "/tmp/elasto-script-XXXXXX", message[256];
+    int file = mkstemp(name);
+    CHECK(file >= 0);
+    close(file);
+    Script script; /* its last line needs no end */
+    CHECK_STATUS(
+        read_script(name, "# a comment\n\n0 pause\n  3 goto 2 # back\n3 play",
+                    &script, message, sizeof message),
+        STATUS_OK);
+    CHECK(script.count == 3);
+    const Command *command = script_due(&script, 0, true);
+    CHECK(command && command->kind == COMMAND_PAUSE);
+    CHECK(!script_due(&script, 2, true));
+    command = script_due(&script, 3, true);
+    CHECK(command && command->kind == COMMAND_GOTO && command->number == 2);
+    command = script_due(&script, 2, false);
+    CHECK(command && command->kind == COMMAND_PLAY);
+    CHECK(script_is_over(&script) && !script_due(&script, 9, false));
+    CHECK_STATUS(script_write(name, &script), STATUS_OK);
+    script_free(&script);
+    CHECK_STATUS(script_read(name, &script, message, sizeof message),
+                 STATUS_OK);
+    CHECK(script.count == 3 && script.line[1].step == 3);
+    script_free(&script);
+    CHECK_STATUS(read_script(name, "0 pause\n1 nonsense\n", &script, message,
+                             sizeof message),
+                 STATUS_INVALID_INPUT);
+    CHECK(strstr(message, "line 2") && strstr(message, "nonsense"));
+    script_free(&script);
+    char line[1000];
+    int most;
+    memset(line, '#', sizeof line);
+    memcpy(line + sizeof line - 2, "\n", 2);
+    CHECK_STATUS(read_script(name, line, &script, message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    CHECK(sscanf(message, "line 1: a line of more than %d", &most) == 1);
+    for (int more = 0; more < 2; more++) { /* as it says */
+        CHECK_STATUS(read_script(name, line + sizeof line - 2 - most - more,
+                                 &script, message, sizeof message),
+                     more ? STATUS_INVALID_INPUT : STATUS_OK);
+        script_free(&script);
+    }
+    unlink(name);
+    CHECK_STATUS(script_read(name, &script, message, sizeof message),
+                 STATUS_FILE_FAILED);
+    script_free(&script);
+}
+
+TESTS(NULL, NULL)
