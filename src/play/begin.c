@@ -54,7 +54,7 @@ static Status pick_start(Player *player, const Command *command)
     if (!(scene->needs & NEEDS_START))
         return player_refuse(player, "this scene has no start to choose");
     int panes = past_panes(&player->past);
-    player_all_options(player, options);
+    player_options(player, options);
     for (int i = 0; i < panes; i++) {
         options[i].start[0] = command->x;
         options[i].start[1] = command->y;
@@ -67,7 +67,7 @@ static Status pick_start(Player *player, const Command *command)
 static Status begin_again(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    player_all_options(player, options);
+    player_options(player, options);
     if (player->halted && !player_explains(&options[0]))
         player->paused = false; /* nobody asked for this pause */
     player->lens = LENS_FITS;

@@ -74,11 +74,11 @@ Status player_change_all(Player *player, const Command *change)
     return player_change(player, change, 0, past_panes(&player->past));
 }
 
-void player_all_options(const Player *player,
-                        Options options[OPTIONS_MAX_PANES])
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
 {
     for (int p = 0; p < past_panes(&player->past); p++)
         options[p] = past_control(&player->past, p)->options;
+    return past_panes(&player->past);
 }
 
 /* ---- the step once more: the counterfactual ------------------------------ */
@@ -227,7 +227,7 @@ static Status restart_with(Player *player, const char *option,
     Options options[OPTIONS_MAX_PANES];
     Command edit = {.kind = COMMAND_SET};
     int active = player->active;
-    player_all_options(player, options);
+    player_options(player, options);
     for (int i = from; i < to; i++)
         if (options_set(&options[i], option, value, player->message,
                         sizeof player->message))
@@ -259,7 +259,7 @@ static Status set_option(Player *player, const char *text)
         return player_refuse(player, "no line search here");
     if (filter && !simulation_has_filter(simulation))
         return player_refuse(player, "nothing to project here");
-    Options options = *player_options(player);
+    Options options = *player_settings(player);
     if (options_set(&options, name, value, player->message,
                     sizeof player->message))
         return STATUS_INVALID_INPUT;
@@ -269,7 +269,7 @@ static Status set_option(Player *player, const char *text)
         return player_refuse(player, "a term of this scene refuses it");
     find_panes(player, name, &from, &to);
     const OptionRow *row = option_find(name);
-    option_value(row, player_options(player), old, sizeof old);
+    option_value(row, player_settings(player), old, sizeof old);
     option_value(row, &options, now, sizeof now);
     bool time = scene->needs & NEEDS_TIME;
     bool method = filter || search;
@@ -350,7 +350,7 @@ static Status select_number(Player *player, const Command *command)
 {
     (void)command;
     const OptionRow *number[OPTIONS_MOST];
-    int count = options_row(player_options(player), number);
+    int count = options_row(player_settings(player), number);
     int next = player->selected + 1;
     player_deselect(player);
     player->selected = next < count ? next : -1;
@@ -362,7 +362,7 @@ static Status select_number(Player *player, const Command *command)
 static Status switch_method(Player *player, const Command *command)
 {
     char text[COMMAND_TEXT_SIZE];
-    const Options *now = &*player_options(player);
+    const Options *now = &*player_settings(player);
     const Options *given = &player->given[0];
     bool search = command->kind == COMMAND_SEARCH;
     LineSearch l = given->line_search, line = LINE_SEARCH_NONE;

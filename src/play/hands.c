@@ -202,7 +202,7 @@ static Status type_key(Player *player, const char *key, bool *taken)
 /* The stretch that puts the edge under the mouse. */
 static Status drag_edge(Player *player, const Pick *pick)
 {
-    const Options *options = player_options(player);
+    const Options *options = player_settings(player);
     char value[32], now[32];
     double stretch = 2 * fabs(pick->point[0]) / options->side;
     snprintf(value, sizeof value, "%.2f", fmax(stretch, 0.02));
@@ -391,7 +391,7 @@ static Status left_pressed(Player *player, const Layout *layout, int clicks)
     case ZONE_PAGE:
         return page_clicked(player, layout);
     case ZONE_STRIP:
-        player_note(player, player_options(player)->page
+        player_note(player, player_settings(player)->page
                                 ? "Page Down and Page Up turn the pages, G "
                                   "lists them, 1 ... 9 open scenes"
                                 : "1 ... 9 open other scenes, ? lists them; "

@@ -9,7 +9,7 @@
 
 Status lesson_prepare(Player *player)
 {
-    const LecturePage *page = player_options(player)->page;
+    const LecturePage *page = player_settings(player)->page;
     const char *rest = page && page->open ? page->open : "";
     Status status = STATUS_OK;
     while (*rest && !status) {
@@ -50,7 +50,7 @@ static Status lesson_open(Player *player, const LecturePage *page,
 /* The first page and the last one have only one neighbour. */
 static Status turn_page(Player *player, const Command *command)
 {
-    const LecturePage *page = player_options(player)->page;
+    const LecturePage *page = player_settings(player)->page;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find(command->text);
         if (page)
@@ -79,7 +79,7 @@ static Status turn_page(Player *player, const Command *command)
 
 bool lesson_asks(const Player *player)
 {
-    const LecturePage *page = player_options(player)->page;
+    const LecturePage *page = player_settings(player)->page;
     const Simulation *simulation = player_simulation(player);
     return page && page->predict && !simulation->done;
 }

@@ -26,14 +26,14 @@ Status player_refuse(Player *player, const char *why)
     return STATUS_INVALID_INPUT;
 }
 
-const Options *player_options(const Player *player)
+const Options *player_settings(const Player *player)
 {
     return &past_control(&player->past, player->active)->options;
 }
 
 Options player_numbers(const Player *player)
 {
-    Options options = *player_options(player);
+    Options options = *player_settings(player);
     double h = player_simulation(player)->options.timestep;
     if (h != options.timestep) { /* nobody chose it: as the cards have it */
         char text[32];

@@ -21,7 +21,7 @@ extern const Deed walk_deeds[], change_deeds[], begin_deeds[], keep_deeds[],
 Status player_refuse(Player *player, const char *why);
 
 /* The options of the pane whose numbers are shown. */
-const Options *player_options(const Player *player);
+const Options *player_settings(const Player *player);
 
 /* The same with the numbers as they are now: a scene may change its time step
  * by itself. */
@@ -46,9 +46,8 @@ const double *glide_between(Player *player, int pane, double rest);
 Status player_change(Player *player, const Command *change, int from, int to);
 Status player_change_all(Player *player, const Command *change);
 
-/* The present options of all panes. */
-void player_all_options(const Player *player,
-                        Options options[OPTIONS_MAX_PANES]);
+/* The present options of all panes.  Returns how many. */
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
 
 /* The next row of the table of integrators that all terms allow. */
 const IntegratorMethod *player_next_method(const Simulation *simulation);

@@ -107,7 +107,7 @@ static Status switch_column(Player *player, const Command *command)
 {
     LectureColumn column =
         command->kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
-    if (column == LECTURE_CODE && !player_options(player)->page)
+    if (column == LECTURE_CODE && !player_settings(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
     player->help = false;

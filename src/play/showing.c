@@ -218,7 +218,7 @@ static void add_chip(Player *player, CommandKind kind, const char *key,
 static void fill_chips(Player *player)
 {
     const Simulation *simulation = player_simulation(player);
-    const Options *options = player_options(player);
+    const Options *options = player_settings(player);
     static const char *const next[] = {"next step", "next update", "next line"};
     static const char *const finer[] = {"updates", "lines", "steps"};
     bool time = simulation->scene->needs & NEEDS_TIME;

@@ -75,7 +75,7 @@ Status player_write_rest(Player *player)
 /* Another scene has a camera and cards of its own. */
 static void enter_scene(Player *player)
 {
-    const Options *options = player_options(player);
+    const Options *options = player_settings(player);
     if (options->scene == player->scene)
         return;
     player->scene = options->scene;

@@ -288,7 +288,7 @@ TEST(numbers_are_selected_in_turn)
 {
     const OptionRow *number[OPTIONS_MOST];
     begin("square --segments 2");
-    int count = options_row(player_options(&player), number);
+    int count = options_row(player_settings(&player), number);
     CHECK(count > 2);
     for (int i = 0; i < count; i++) {
         CHECK_STATUS(obey("select"), STATUS_OK);

@@ -912,7 +912,7 @@ TEST(a_cell_of_the_map_is_a_scene)
     begin("envelope --segments 3 --stretch 1.3");
     CHECK_STATUS(obey("step"), STATUS_OK);
     CHECK_STATUS(lesson_load(&player, CELL), STATUS_OK);
-    const Options *options = player_options(&player);
+    const Options *options = player_settings(&player);
     CHECK(options->scene == &scenes[0] && player.paused &&
           player.past.step == 0);
     CHECK(options->segments == 3 && options->stretch == 1.3);
@@ -926,7 +926,7 @@ TEST(a_cell_of_the_map_is_a_scene)
     CHECK_STATUS(obey("escape"), STATUS_OK);
     CHECK(player_simulation(&player)->scene->picture == PICTURE_ENVELOPE);
     CHECK(!player.quit && !player_is_open(&player));
-    CHECK(player_options(&player)->segments == 3);
+    CHECK(player_settings(&player)->segments == 3);
     end();
     begin(line);
     CHECK_STATUS(obey("step"), STATUS_OK);

@@ -218,7 +218,7 @@ static void compare(const char *verb, const char *rest)
 
 static void look(const char *verb, const char *rest)
 {
-    const LecturePage *page = player_options(&player)->page;
+    const LecturePage *page = player_settings(&player)->page;
     char name[32], value[64];
     int i = 0;
     if (strcmp(verb, "at") == 0)
