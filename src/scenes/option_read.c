@@ -34,13 +34,6 @@ static Status complain(const Complaint *why, const char *format, ...)
 
 enum { LONGEST = 40 }; /* letters that are compared */
 
-/* The name that is most like a text, of those that were looked at. */
-typedef struct Nearest {
-    const char *text;
-    const char *kind, *name; /* "--", "segments"; name NULL: none is like it */
-    int unlike;              /* letters that are wrong */
-} Nearest;
-
 /* As two names are compared: small letters, '-' for '_'. */
 static char plain(char c)
 {
@@ -68,39 +61,35 @@ static int distance(const char *a, const char *b)
     return (int)d[rows][columns];
 }
 
-/* Looks at one more name, of which at most a quarter may be wrong. */
-static void look_at_name(Nearest *nearest, const char *kind, const char *name)
+/* "; did you mean --timestep?"  Of the names until NULL the one that is most
+ * like a text; at most a quarter of its letters may be wrong, else "". */
+static Text meant(const char *text, const char *before,
+                  const char *(*names)(int i))
 {
-    const char *text = nearest->text;
-    int longer = (int)fmax(strlen(name), strlen(text));
-    if (longer == 0 || longer > LONGEST)
-        return;
-    int wrong = distance(name, text);
-    if (4 * wrong <= longer && (!nearest->name || wrong < nearest->unlike))
-        *nearest = (Nearest){text, kind, name, wrong};
+    Text hint = {""};
+    const char *name;
+    int least = LONGEST;
+    for (int i = 0; (name = names(i)); i++) {
+        int longer = (int)fmax(strlen(name), strlen(text));
+        int wrong =
+            name[0] && longer <= LONGEST ? distance(name, text) : longer;
+        if (4 * wrong > longer || wrong >= least)
+            continue;
+        least = wrong;
+        snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?", before,
+                 name);
+    }
+    return hint;
 }
 
-/* "did you mean --timestep?"  What an unknown word most likely means, with what
- * follows its '='; else where to look. */
-static Text suggestion(const char *word, const char *see)
+static const char *row_name(int i)
 {
-    Text name = typed(word + strspn(word, "-")), hint;
-    char *end = name.text + strcspn(name.text, "=");
-    const char *value = *end ? end + 1 : "";
-    *end = '\0';
-    Nearest near = {.text = name.text};
-    for (const OptionRow *row = option_rows; row->name; row++)
-        look_at_name(&near, "--", row->name);
-    for (const Scene *scene = scenes; scene->name; scene++)
-        look_at_name(&near, "the scene ", scene->name);
-    for (int i = 0; integrator_methods[i].name; i++)
-        look_at_name(&near, "--integrator ", integrator_methods[i].name);
-    if (near.name)
-        snprintf(hint.text, sizeof hint.text, "did you mean %s%s%s%.40s?",
-                 near.kind, near.name, value[0] ? " " : "", value);
-    else
-        snprintf(hint.text, sizeof hint.text, "see elasto %s", see);
-    return hint;
+    return option_rows[i].name;
+}
+
+static const char *scene_name(int i)
+{
+    return scenes[i].name;
 }
 
 /* ---- values ------------------------------------------------------------- */
@@ -195,19 +184,15 @@ static Status refuse_value(const OptionRow *row, int count, const char *text,
                            const Complaint *why)
 {
     Text list = {""};
-    Nearest near = {.text = text};
-    for (int i = 0; i < option_names(row); i++) {
+    for (int i = 0; i < option_names(row); i++)
         add_name(&list, "", row->names(i));
-        look_at_name(&near, "", row->names(i));
-    }
     if (row->kind == OPTION_PAGE)
         snprintf(list.text, sizeof list.text,
                  "the pages from 1 to %d, their names", lecture_count());
     if (row->names)
-        return complain(why, "--%s: '%s' is none of: %s%s%s%s", row->name,
+        return complain(why, "--%s: '%s' is none of: %s%s", row->name,
                         typed(text).text, list.text,
-                        near.name ? "; did you mean " : "",
-                        near.name ? near.name : "", near.name ? "?" : "");
+                        meant(text, "", row->names).text);
     return complain(why, "--%s: '%s' is not %s%s from %s to %s%s%s", row->name,
                     typed(text).text, count > 1 ? row->value : "",
                     count > 1                    ? ", each"
@@ -383,8 +368,9 @@ static Status find_option(const char *word, Line *line, const OptionRow **found)
     if (matches > 1)
         return complain(&line->why, "%s can be %s: write a few letters more",
                         shown.text, list.text);
-    return complain(&line->why, "no option %s; %s", shown.text,
-                    suggestion(word, "--help").text);
+    return complain(
+        &line->why, "no option %s; see elasto --help%s", shown.text,
+        meant(shown.text + strspn(shown.text, "-"), "--", row_name).text);
 }
 
 /* Reads the next word. */
@@ -421,8 +407,8 @@ static Status read_scene(const char *word, Line *line)
     line->options->scene = scene_find(word);
     if (line->options->scene)
         return STATUS_OK;
-    return complain(&line->why, "there is no scene '%s'; %s", typed(word).text,
-                    suggestion(word, "--list").text);
+    return complain(&line->why, "there is no scene '%s'; see elasto --list%s",
+                    typed(word).text, meant(word, "", scene_name).text);
 }
 
 /* First look: words that are wrong whatever they mean; the scene, or the page;

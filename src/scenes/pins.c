@@ -1,6 +1,8 @@
 #include "scenes/pins.h"
 
 #include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A node is meant that is on this side and, where `or` is not 0, on one of
@@ -16,43 +18,25 @@ static const struct PinWord {
     {"right", MESH_RIGHT, 0},
 };
 
-enum { PIN_WORDS = sizeof pin_words / sizeof *pin_words };
-
-/* Pins the nodes that the word names; false: it is no word. */
-static bool pin_word(const char *text, size_t length, const SquareMesh *shape,
+/* Pins what one item names; false: it is neither a word nor a node. */
+static bool pin_item(const char *item, const SquareMesh *shape,
                      unsigned char *pinned)
 {
-    for (int i = 0; i < PIN_WORDS; i++) {
-        const struct PinWord *word = &pin_words[i];
-        if (strlen(word->word) != length ||
-            strncmp(word->word, text, length) != 0)
-            continue;
-        for (int node = 0; pinned && node < shape->nodes; node++) {
-            int sides = square_mesh_sides(shape, node);
-            if ((sides & word->side) && (!word->or || (sides & word->or)))
-                pinned[node] = 1;
-        }
-        return true;
-    }
-    return false;
-}
-
-/* Pins the node of this number; false: it is no number of a node. */
-static bool pin_number(const char *text, size_t length, int nodes,
-                       unsigned char *pinned)
-{
-    long long number = 0;
-    if (length == 0)
+    const int words = sizeof pin_words / sizeof *pin_words;
+    const struct PinWord *word = pin_words;
+    while (word < pin_words + words && strcmp(word->word, item) != 0)
+        word++;
+    bool is_word = word < pin_words + words;
+    size_t digits = strspn(item, "0123456789");
+    long number = digits > 0 && digits < 10 ? atol(item) : -1;
+    if (!is_word && (item[digits] || number < 0 || number >= shape->nodes))
         return false;
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] < '0' || text[i] > '9')
-            return false;
-        number = 10 * number + (text[i] - '0');
-        if (number >= nodes)
-            return false;
+    for (int node = 0; pinned && node < shape->nodes; node++) {
+        int sides = is_word ? square_mesh_sides(shape, node) : 0;
+        if (is_word ? (sides & word->side) && (!word->or || (sides & word->or))
+                    : node == number)
+            pinned[node] = 1;
     }
-    if (pinned)
-        pinned[number] = 1;
     return true;
 }
 
@@ -60,9 +44,10 @@ Status pins_read(const char *text, const SquareMesh *shape,
                  unsigned char *pinned)
 {
     for (;; text++) {
+        char item[32];
         size_t length = strcspn(text, ",");
-        if (!pin_word(text, length, shape, pinned) &&
-            !pin_number(text, length, shape->nodes, pinned))
+        snprintf(item, sizeof item, "%.*s", (int)length, text);
+        if (length >= sizeof item || !pin_item(item, shape, pinned))
             return STATUS_INVALID_INPUT;
         text += length;
         if (*text == '\0')
