@@ -107,7 +107,7 @@ void aim_descent(Simulation *simulation);
 Local descent_at(const Simulation *simulation, Filter filter, double x,
                  double y);
 
-/* Its value alone; in the landscape the E of newton.c, to the last digit. */
+/* Its value alone. */
 double descent_value(const Simulation *simulation, double x, double y);
 
 /* p = -H^-1 g from the iterate with this filter, m, whatever the run's own

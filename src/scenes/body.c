@@ -93,6 +93,9 @@ static void place_node(const Options *options, const double rest[2],
     x[1] = s * x0 + c * x1 + options->at[1];
 }
 
+_Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS < CONTACT_MAX_OBSTACLES,
+               "there is room for the scene's own");
+
 /* The obstacles of the options, normals made units, and after them the scene's
  * own; returns how many. */
 static int list_obstacles(const Options *options,
