@@ -1,11 +1,15 @@
-/* exhibits.h - pictures of the lecture's small scenes, one source each, and the
- * card with a page's words.
+/* exhibits.h - the pictures, one source each, and the card with a page's words.
  */
 #ifndef ELASTO_EXHIBITS_H
 #define ELASTO_EXHIBITS_H
 
 #include "picture/picture.h"
 #include "picture/plot.h"
+
+/* Springs and nodes of a square, and what a step does to them; from the ground
+ * up: obstacles, rest shape, ghosts, folded cells, springs, nodes, pins,
+ * directions and forces as arrows, what the mouse holds. */
+extern const Picture square_picture;
 
 /* Integrators on the circle: trails around the exact one, radius over time.
  * One mass and the arrows of its next step. */

@@ -8,7 +8,6 @@
 #include "picture/exhibits.h"
 #include "picture/handles.h"
 #include "picture/plot.h"
-#include "picture/square_picture.h"
 #include "scenes/scene.h"
 
 /* By the kind that a scene names. */

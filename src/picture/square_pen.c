@@ -7,7 +7,6 @@
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
 #include "picture/plot.h"
-#include "picture/square_picture.h"
 #include "scenes/scene.h"
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
@@ -59,7 +58,7 @@ static void set_looks(SpringPen *pen)
     pen->contact = contact_of(pen->system);
     pen->ep = plasticity ? plasticity->ep : NULL;
     pen->plastic = !show->strain && !show->bare && pen->ep;
-    pen->strain = square_picture_strain_range(pen->simulation);
+    pen->strain = square_strain_range(pen->simulation);
     pen->range = show->strain   ? pen->strain
                  : pen->plastic ? plastic_range(pen->system, pen->ep)
                                 : 0;

@@ -53,6 +53,17 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 /* All springs of a small square, faintly, and its outline in dashes. */
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
+/* The node, spring or edge of the paused square under a pixel. */
+Pick square_pick(const Show *show, const Plot *stage, double x, double y);
+
+/* The small card beside a node or a spring under the mouse.  Node: m, x, v,
+ * force, x_tilde.  Spring: e, l2, strain, its 4x4 block of the Hessian and the
+ * eigenvalues before and after projection. */
+void square_note(Plot *stage, const Show *show);
+
+/* A range for the colours: half the strain of the start, at least 5 %. */
+double square_strain_range(const Simulation *simulation);
+
 /* Whether a cell has lost one of its six springs; segments * column + row, from
  * the lower left. */
 bool square_torn(const System *system, const SquareMesh *mesh, int cell);

@@ -1,4 +1,3 @@
-#include "picture/square_picture.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +6,6 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/hover.h"
 #include "model/fracture.h"
 #include "picture/plot.h"
 #include "picture/square_pen.h"
@@ -344,7 +342,7 @@ static void square_sample(const Simulation *simulation, History *history,
     history_add(history, simulation_time(simulation), value);
 }
 
-double square_picture_strain_range(const Simulation *simulation)
+double square_strain_range(const Simulation *simulation)
 {
     double strain = fabs(fabs(simulation->options.stretch) - 1);
     if (simulation->scene->strain > 0)
@@ -362,6 +360,6 @@ const Picture square_picture = {
     .bounds = square_bounds,
     .draw = square_draw,
     .pick = square_pick,
-    .hover = hover_square,
+    .hover = square_note,
     .sample = square_sample,
 };

@@ -12,7 +12,6 @@
 #include "picture/picture.h"
 #include "picture/plot.h"
 #include "picture/square_pen.h"
-#include "picture/square_picture.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
 #include "test.h"
