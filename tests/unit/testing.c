@@ -108,23 +108,6 @@ int random_below(Random *random, int limit)
     return (int)(random_bits(random) % (uint64_t)limit);
 }
 
-/* |d|/l of a spring in this state. */
-static double random_ratio(Random *random, SpringState state)
-{
-    switch (state) {
-    case SPRINGS_STRETCHED:
-        return random_uniform(random, 1.05, 2);
-    case SPRINGS_COMPRESSED:
-        return random_uniform(random, 0.3, 0.95);
-    case SPRINGS_SHORT:
-        return random_uniform(random, 0.1, 0.3);
-    case SPRINGS_MIXED:
-        return random_uniform(random, 0.1, 2);
-    default:
-        return random_logarithmic(random, 1e-9, 1e-7);
-    }
-}
-
 void random_system(Random *random, SpringState state, System *system, double *x)
 {
     int n = 3 + random_below(random, MAX_NODES - 2);
@@ -139,7 +122,9 @@ void random_system(Random *random, SpringState state, System *system, double *x)
         int i = s < n ? s : random_below(random, n);
         int j = (i + 1 + random_below(random, n - 1)) % n;
         double length = hypot(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
-        double rest = length / random_ratio(random, state);
+        double rest = length / (state == SPRINGS_MIXED
+                                    ? random_uniform(random, 0.1, 2)
+                                    : random_logarithmic(random, 1e-9, 1e-7));
         system->e[2 * s] = i;
         system->e[2 * s + 1] = j;
         system->l2[s] = rest * rest;

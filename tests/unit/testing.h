@@ -62,15 +62,9 @@ double random_uniform(Random *random, double low, double high);
 double random_logarithmic(Random *random, double low, double high);
 int random_below(Random *random, int limit);
 
-/* How long random springs are, against their rest length. */
-typedef enum SpringState {
-    SPRINGS_STRETCHED,  /* 1.05 ... 2 */
-    SPRINGS_COMPRESSED, /* 0.3 ... 0.95 */
-    SPRINGS_SHORT,      /* 0.1 ... 0.3: both eigenvalues are negative */
-    SPRINGS_MIXED,      /* 0.1 ... 2 */
-    SPRINGS_NEAR_ZERO,  /* 1e-9 ... 1e-7 */
-    SPRING_STATES
-} SpringState;
+/* How long random springs are, against their rest length: 0.1 ... 2, or 1e-9
+ * ... 1e-7. */
+typedef enum SpringState { SPRINGS_MIXED, SPRINGS_NEAR_ZERO } SpringState;
 
 enum { MAX_NODES = 12, MAX_SIZE = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 
