@@ -43,9 +43,11 @@ static void book(Spot *spot, Jet *sum, Real factor, Jet part)
 static Jet coordinate(Spot *spot, int c, bool of_u)
 {
     const Place *at = spot->at;
-    Real x = of_u ? at->u[c] : at->x[c];
-    if (at->averaged)
+    Real x;
+    if (at->averaged) /* x may be NULL */
         x = (of_u ? 0 : (Real)at->x_n[c]) + spot->t * at->u[c];
+    else
+        x = of_u ? at->u[c] : at->x[c];
     if (spot->p)
         x += (at->averaged ? spot->t : 1) * spot->alpha * spot->p[c];
     if (spot->jitter)
