@@ -1,69 +1,94 @@
 #!/bin/sh
-# The same run gives the same bits, by every compiler at hand, with and without
-# optimisation, with one and two BLAS threads asked for, in a window and
-# without.  The squares have 48 segments, so that their fronts are large enough
-# for BLAS to use threads and for sums to be taken in pieces.  `make same-bits`
-# runs it; what is not installed is counted as skipped.
+# One run has one hash: every scene after 50 steps, by gcc and clang with -O0 to
+# -O3, with one and two threads, in a window, and after going back and on; and
+# squares so large that sums are taken in pieces.  `make same-bits` runs it; what
+# is not installed is counted as skipped.
 set -u
-unset MAKEFLAGS MFLAGS MAKELEVEL # what is made below counts its own jobs
 elasto=$(realpath "${ELASTO:-build/elasto}")
+library=$(realpath build/release/libelasto.a)
+main=$(realpath build/release/main.o)
 sources=$PWD
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failed=0
-builds=0
+ways=0
 skipped=0
+failed=0
 
-# states PROGRAM: what it writes of three runs.
-states() {
-    "$1" --headless --quiet --segments 16 --steps 12 --solver newton \
-        --states - &&
-        "$1" --headless --quiet --segments 48 --steps 8 --states - &&
-        "$1" --headless --quiet --segments 48 --steps 6 --solver multigrid \
-            --stretch 0.7 --timestep 0.02 --states - &&
-        "$1" --headless --quiet --segments 40 --steps 2 --integrator avf4 \
-            --states -
+"$elasto" --list | sed 's/^ *[0-9]* //; s/ .*/ --steps 50/' >scenes
+cat scenes - >lines <<'END'
+square --segments 16 --steps 12 --solver newton
+square --segments 48 --steps 8
+square --segments 48 --steps 6 --solver multigrid --stretch 0.7 --timestep 0.02
+square --segments 40 --steps 2 --integrator avf4
+END
+
+# hashes LINES PROGRAM [OPTION...]: a hash for each line.
+hashes() {
+    list=$1
+    program=$2
+    shift 2
+    while read -r line; do
+        # shellcheck disable=SC2086
+        "$program" $line --size 300x200 "$@" 2>/dev/null |
+            sed -n 's/^state hash *//p' | grep . || echo none
+    done <"$list"
 }
 
-# compare NAME FILE: its hash against that of the first of this kind.
+# compare NAME FILE: with those of the first.
 compare() {
-    hash=$(sha256sum <"$2" | cut -c 1-16)
-    builds=$((builds + 1))
-    printf '%-36s %s\n' "$1" "$hash"
-    [ -s "$2" ] && [ "$(grep -c , "$2")" -gt 20000 ] || failed=1
-    [ -n "$first" ] || first=$hash
-    [ "$hash" = "$first" ] || failed=1
+    [ -s first ] || {
+        paste -d ' ' "$2" lines
+        ! grep -qx none "$2" || failed=1
+        cp "$2" first
+    }
+    ways=$((ways + 1))
+    paste -d ' ' "$2" first lines | head -n "$(wc -l <"$2")" | awk -v name="$1" '
+        $1 != $2 { bad++; print }
+        END { printf "%-22s %d of %d lines differ\n", name, bad, NR
+              exit bad > 0 }' || failed=1
 }
 
-# A copy of the sources to build in, with the libraries that were found.
-mkdir -p tree/build
-for part in Makefile include src tests; do
-    cp -R "$sources/$part" tree || exit 1
-done
-cp -p "$sources"/build/config.mk tree/build
-
-# build COMPILER LEVEL [MACROS]: tree/build/elasto
-build() {
-    rm -f tree/build/elasto
-    "${MAKE:-make}" -s -C tree build/elasto CC="$1" CFLAGS="$2 -w" \
-        CPPFLAGS="${3:-}" \
-        >log 2>&1 || tail -n 3 log
-}
-
-first=
 for threads in 1 2; do
-    ELASTO_THREADS=$threads states "$elasto" >table
-    compare "build/elasto, threads: $threads" table
+    ELASTO_THREADS=$threads hashes lines "$elasto" --headless >table
+    compare "$threads threads" table
 done
-# Multigrid's loops for each width of registers: FAST, see grid_loops.h.
-if grep -qw avx2 /proc/cpuinfo; then
-    for width in '' '__attribute__((target(\"avx2\")))'; do
-        build "${CC:-cc}" -O2 "-DFAST=\"$width\""
-        [ ! -x tree/build/elasto ] || states tree/build/elasto >table
-        compare "FAST=$width" table
-    done
+
+# Back to steps that are known, and on from there.
+awk 'BEGIN { srand(1); print "0 play"
+    for (newest = 9; newest < 50; newest += 9) {
+        print newest, "pause"; at = newest
+        for (i = 0; i < 3; i++) { to = int(rand() * newest)
+            print at, "goto", to; at = to }
+        print at, "play" } }' >script
+hashes scenes "$elasto" --headless --script script >table
+compare 'back and on' table
+
+if command -v xvfb-run >/dev/null; then
+    # shellcheck disable=SC2016
+    xvfb-run -a sh -c 'while read -r line; do
+        timeout 120 "$0" $line --size 300x200 --speed 8 2>/dev/null |
+            sed -n "s/^state hash *//p" | grep . || echo none
+        done <lines' "$elasto" >table
+    compare 'in a window' table
+else
+    echo 'skipped in a window: xvfb-run is not installed'
+    skipped=$((skipped + 1))
 fi
+
+# build COMPILER LEVEL: the rooms that calculate, by this compiler, in a program
+# of the others as they are.
+build() {
+    rm -rf program objects
+    mkdir objects
+    (cd "$sources" && ls src/base/*.c src/model/*.c src/solve/*.c src/step/*.c \
+        src/scenes/*.c) | xargs -P "$(nproc)" -I FILE sh -c '
+        cd "$0" && $1 $2 -std=c11 -D_GNU_SOURCE -Iinclude -Isrc -Ibuild/release \
+            -ffp-contract=off -w $3 -c FILE -o "$4/$(echo FILE | tr / _).o"' \
+        "$sources" "$1" "$2" "$DEP_CFLAGS" "$work/objects"
+    # shellcheck disable=SC2086
+    "$1" objects/*.o "$main" "$library" -o program $DEP_LIBS -lm
+}
 for compiler in gcc clang; do
     for level in -O0 -O2 -O3; do
         if ! command -v "$compiler" >/dev/null; then
@@ -72,26 +97,10 @@ for compiler in gcc clang; do
             continue
         fi
         build "$compiler" $level
-        states tree/build/elasto >table
+        hashes lines ./program --headless >table
         compare "$compiler $level" table
     done
 done
-
-# A shorter run, because each step is drawn.
-first=
-if command -v xvfb-run >/dev/null; then
-    "$elasto" --headless --segments 48 --steps 40 --quiet --states table
-    compare 'without a window' table
-    xvfb-run -a timeout 120 "$elasto" --segments 48 --steps 40 --quiet \
-        --states table
-    compare 'in a window' table
-else
-    echo 'skipped in a window: xvfb-run is not installed'
-    skipped=$((skipped + 1))
-fi
-if [ "$failed" -eq 0 ]; then
-    echo "$builds ways, one hash; $skipped skipped"
-else
-    echo 'the bits differ'
-fi
+echo "$ways ways, $(wc -l <lines) lines, $([ $failed = 0 ] && echo one hash each ||
+    echo different hashes); $skipped skipped"
 exit "$failed"
