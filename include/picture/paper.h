@@ -51,14 +51,11 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
 /* The width it would have. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 
-/* In at most `lines` lines of this width, broken at blanks; the last one ends
- * with an ellipsis if there is more.  Returns the lines it took. */
+/* In at most `lines` lines of the box's width, broken at blanks; the last one
+ * ends with an ellipsis if there is more.  lines 0: nothing is drawn, as many
+ * as it takes.  Returns the lines it took. */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
-
-/* The lines that the paragraph takes if it may. */
-int paper_lines(Paper *paper, Face face, double size, int width,
-                const char *markup);
 
 /* The picture that is kept for this purpose, if it has this size and was drawn
  * for this key; else a white one of this size, to be drawn now, with *drawn

@@ -22,6 +22,7 @@ typedef struct TextStyle {
     Face face;
     double size; /* pixels an em; below 5 nothing is drawn, at most 400 */
     Colour colour;
+    bool plain; /* no markup: every character is itself */
 } TextStyle;
 
 typedef struct Text Text;
@@ -44,9 +45,5 @@ int text_width(Text *text, const TextStyle *style, const char *markup);
 /* One line; y is its upper edge.  Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
-
-/* The same without markup: every character is itself. */
-int text_draw_plain(Text *text, Canvas *canvas, const TextStyle *style,
-                    double x, double y, const char *string);
 
 #endif

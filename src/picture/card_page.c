@@ -38,7 +38,8 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
     }
     int lines = 0, most = (int)((inside.y + inside.height - y) / line);
     if (!draw)
-        lines = paper_lines(paper, FACE_REGULAR, size, box.width, words->text);
+        lines =
+            paper_paragraph(paper, FACE_REGULAR, size, 0, box, 0, words->text);
     else if (most > 0)
         lines = paper_paragraph(paper, FACE_REGULAR, size, COLOUR_TEXT, box,
                                 most, words->text);

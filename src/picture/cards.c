@@ -217,7 +217,7 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
 {
     double size = 0.88, line = 1.24 * size * paper->em, y = inside.y;
     int columns = (int)(inside.width / (0.603 * size * paper->em)) - 1;
-    TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT};
+    TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true};
     for (int i = page->top; i < page->lines && columns > 10; i++) {
         const char *text = page->line[i];
         int indent = (int)strspn(text, " "), column = 0;
@@ -230,10 +230,10 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
             if (i < SHOW_CODE_LINES && page->lit[i])
                 canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
                                  (int)ceil(line), COLOUR_LIT);
-            text_draw_plain(paper->text, &paper->canvas, &style,
-                            inside.x + 0.3 * paper->em +
-                                column * 0.602 * size * paper->em,
-                            y, part);
+            text_draw(paper->text, &paper->canvas, &style,
+                      inside.x + 0.3 * paper->em +
+                          column * 0.602 * size * paper->em,
+                      y, ALIGN_LEFT, part);
             y += line;
             text += letters;
             column = indent + 4;

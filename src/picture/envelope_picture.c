@@ -43,40 +43,6 @@ static Box envelope_box(const Plot *stage, int column, int row)
     return (Box){left, top, (int)ceil(q[0]) - left, (int)ceil(p[1]) - top};
 }
 
-/* Powers of ten along the lower and the left edge. */
-static void envelope_axes(Plot *stage)
-{
-    Paper *paper = stage->paper;
-    for (int column = 0; column < ENVELOPE_COLUMNS; column += 4) {
-        Box box = envelope_box(stage, column, 0);
-        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_FAINT,
-                    box.x + 0.5 * box.width,
-                    box.y + box.height + 0.3 * paper->em, ALIGN_CENTRE,
-                    "10^{%g}", round(2 * log10(envelope_timestep(column))) / 2);
-    }
-    for (int row = 0; row < ENVELOPE_ROWS; row += 3) {
-        Box box = envelope_box(stage, 0, row);
-        paper_write(paper, FACE_REGULAR, 0.92, COLOUR_FAINT,
-                    box.x - 0.4 * paper->em,
-                    box.y + 0.5 * box.height - 0.7 * paper->em, ALIGN_RIGHT,
-                    "10^{%g}", round(log10(envelope_stiffness(row))));
-    }
-    Box last = envelope_box(stage, ENVELOPE_COLUMNS - 1, 0);
-    Box top = envelope_box(stage, 0, ENVELOPE_ROWS - 1);
-    double em = paper->em, below = last.y + last.height + 1.5 * em;
-    double above = top.y - 1.5 * em;
-    /* On the map itself where the numbers and the legend take all room. */
-    if (below + 1.4 * em > stage->box.y + stage->box.height)
-        below = last.y + last.height - 1.4 * em;
-    if (above < stage->box.y + 1.8 * em)
-        above = top.y + 0.1 * em;
-    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
-                last.x + last.width - 0.3 * em, below, ALIGN_RIGHT,
-                "time step h in s");
-    paper_write(paper, FACE_REGULAR, 0.95, COLOUR_TEXT, top.x + 0.3 * em, above,
-                ALIGN_LEFT, "stiffness k in J/m\u00b2");
-}
-
 /* A frame of four lines around a cell. */
 static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
 {
@@ -88,23 +54,23 @@ static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
         paper_line(paper, c[i], c[(i + 1) % 4], width, colour);
 }
 
+/* The cells lie on the axes' lines. */
 static void envelope_draw(Plot *stage, const Show *show)
 {
-    Paper *paper = stage->paper;
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    const EnvelopeMap *map = &simulation->exhibit.map;
+    const EnvelopeMap *map = &show->pane[stage->pane].simulation->exhibit.map;
+    plot_on(stage, &plot_room, (Axis){.log = true, .label = "h in s"},
+            (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             Box box = envelope_box(stage, column, row);
-            canvas_rectangle(&paper->canvas, box.x, box.y, box.width - 1,
+            canvas_rectangle(&stage->paper->canvas, box.x, box.y, box.width - 1,
                              box.height - 1,
                              envelope_colour(&map->cell[row][column]));
         }
-    envelope_frame(paper, envelope_box(stage, map->column, map->row), 2.4,
-                   COLOUR_TEXT);
+    envelope_frame(stage->paper, envelope_box(stage, map->column, map->row),
+                   2.4, COLOUR_TEXT);
     if (show->bare || !stage->text)
         return;
-    envelope_axes(stage);
     plot_legend(stage, envelope_shades[3], "converged: darker is more updates");
     plot_legend(stage, COLOUR_UNDONE,
                 "too loose a tolerance: nothing was done");
@@ -210,7 +176,7 @@ const Picture envelope_picture = {
     .name = "envelope",
     .cards = envelope_cards,
     .stretched = true,
-    .around = {-10.6, -8.6, 3.6, 17.6}, /* half a cell around */
+    .around = {-10.6, -8.6, 3.6, 18.4}, /* and room for words */
     .draw = envelope_draw,
     .pick = envelope_pick,
 };

@@ -42,7 +42,7 @@ void paper_line(Paper *paper, const double a[2], const double b[2],
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
-    return (TextStyle){face, size * paper->em, colour};
+    return (TextStyle){face, size * paper->em, colour, false};
 }
 
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
@@ -82,21 +82,6 @@ static size_t fitting_bytes(Paper *paper, Face face, double size, int width,
     return fits;
 }
 
-int paper_lines(Paper *paper, Face face, double size, int width,
-                const char *markup)
-{
-    int lines = 0;
-    while (*markup) {
-        size_t count = fitting_bytes(paper, face, size, width, markup);
-        if (count == 0)
-            break;
-        markup += count;
-        markup += strspn(markup, " ");
-        lines++;
-    }
-    return lines;
-}
-
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup)
 {
@@ -104,7 +89,7 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
     TextStyle style = paper_style(paper, face, size, colour);
     double y = box.y;
     int line = 0;
-    while (*markup && line < lines) {
+    while (*markup && (line < lines || lines == 0)) {
         size_t count = fitting_bytes(paper, face, size, box.width, markup);
         if (count == 0)
             break;
@@ -115,8 +100,9 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
         line++;
         if (*markup && line == lines && count + 4 < sizeof part)
             strcat(part, "\u2026");
-        text_draw(paper->text, &paper->canvas, &style, box.x, y, ALIGN_LEFT,
-                  part);
+        if (lines > 0)
+            text_draw(paper->text, &paper->canvas, &style, box.x, y, ALIGN_LEFT,
+                      part);
         y += text_line(style.size);
     }
     return line;

@@ -50,6 +50,7 @@ struct Text {
 
 /* ---- where the fonts are ------------------------------------------------ */
 
+/* Those that begin with ~ are in the home folder. */
 static const char *const font_folders[] = {
     "/usr/share/fonts/truetype/dejavu",   /* Debian, Ubuntu */
     "/usr/share/fonts/dejavu-sans-fonts", /* Fedora */
@@ -60,36 +61,27 @@ static const char *const font_folders[] = {
     "/Library/Fonts",                     /* macOS */
     "/opt/homebrew/share/fonts",
     "/usr/local/share/fonts",
+    "~/Library/Fonts",
+    "~/.local/share/fonts",
+    "~/.fonts",
 };
-
-static const char *const font_home_folders[] = {"Library/Fonts",
-                                                ".local/share/fonts", ".fonts"};
 
 static const char *const face_files[FACE_COUNT] = {
     "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
 
-/* folder/between/name, if it is a file that can be read. */
-static bool try_file(char *file, const char *folder, const char *between,
-                     const char *name)
-{
-    int length = snprintf(file, TEXT_NAME, "%s%s%s/%s", folder,
-                          between[0] ? "/" : "", between, name);
-    return length > 0 && length < TEXT_NAME && access(file, R_OK) == 0;
-}
-
 /* A face of DejaVu in one of the folders; file "" if there is none. */
-static bool find_face(Face face, char *file)
+static void find_face(Face face, char *file)
 {
-    const char *home = getenv("HOME"), *name = face_files[face];
-    for (size_t i = 0; i < sizeof font_folders / sizeof *font_folders; i++)
-        if (try_file(file, font_folders[i], "", name))
-            return true;
-    for (size_t i = 0;
-         home && i < sizeof font_home_folders / sizeof *font_home_folders; i++)
-        if (try_file(file, home, font_home_folders[i], name))
-            return true;
+    const char *home = getenv("HOME") ? getenv("HOME") : "";
+    for (size_t i = 0; i < sizeof font_folders / sizeof *font_folders; i++) {
+        const char *folder = font_folders[i];
+        bool at_home = *folder == '~';
+        int length = snprintf(file, TEXT_NAME, "%s%s/%s", at_home ? home : "",
+                              folder + at_home, face_files[face]);
+        if (length < TEXT_NAME && access(file, R_OK) == 0)
+            return;
+    }
     file[0] = '\0';
-    return false;
 }
 
 /* Fills text->file.  Returns false if there is no regular font. */
@@ -359,56 +351,43 @@ static void pen_markup(Pen *pen, const char *string, const char *end, int depth)
     }
 }
 
-/* Whether letters of this size can be seen. */
-static bool style_draws(const TextStyle *style)
-{
-    return style->size >= LEAST_SIZE && style->size <= MOST_SIZE;
-}
-
 double text_line(double size)
 {
     return LINE_HEIGHT * size;
 }
 
+/* Along the whole string, from (x, y) on. */
+static double pen_width(Text *text, Canvas *canvas, const TextStyle *style,
+                        double x, double y, const char *string)
+{
+    Pen pen = {.text = text,
+               .canvas = canvas,
+               .style = *style,
+               .x = x,
+               .baseline = y + ASCENT * style->size};
+    if (style->plain)
+        pen_string(&pen, string, string + strlen(string));
+    else
+        pen_markup(&pen, string, string + strlen(string), 0);
+    return pen.x;
+}
+
 int text_width(Text *text, const TextStyle *style, const char *markup)
 {
-    Pen pen = {.text = text, .style = *style};
-    if (!style_draws(style))
-        return 0;
-    pen_markup(&pen, markup, markup + strlen(markup), 0);
-    return (int)ceil(pen.x);
+    bool draws = style->size >= LEAST_SIZE && style->size <= MOST_SIZE;
+    return draws ? (int)ceil(pen_width(text, NULL, style, 0, 0, markup)) : 0;
 }
 
-/* Whether text at this place may be seen: what flies off has no pixel. */
-static bool is_near(double x, double y)
-{
-    return fabs(x) < 1e6 && fabs(y) < 1e6;
-}
-
-/* Letters start at whole pixels. */
+/* Letters start at whole pixels; what flies off has no pixel. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
-    if (!text || !style_draws(style) || !is_near(x, y))
-        return text_width(text, style, markup);
-    int width = align == ALIGN_LEFT ? 0 : text_width(text, style, markup);
+    int width = text_width(text, style, markup);
     double start = align == ALIGN_LEFT     ? x
                    : align == ALIGN_CENTRE ? x - 0.5 * width
                                            : x - width;
-    Pen pen = {
-        text, canvas, *style, floor(start + 0.5), y + ASCENT * style->size,
-        0,    0,      0};
-    pen_markup(&pen, markup, markup + strlen(markup), 0);
-    return (int)ceil(pen.x - start);
-}
-
-int text_draw_plain(Text *text, Canvas *canvas, const TextStyle *style,
-                    double x, double y, const char *string)
-{
-    Pen pen = {text, canvas, *style, floor(x + 0.5), y + ASCENT * style->size,
-               0,    0,      0};
-    if (!style_draws(style))
-        return 0;
-    pen_string(&pen, string, string + strlen(string));
-    return (int)ceil(pen.x - x);
+    if (!text || width == 0 || !(fabs(x) < 1e6) || !(fabs(y) < 1e6))
+        return width;
+    return (int)ceil(
+        pen_width(text, canvas, style, floor(start + 0.5), y, markup) - start);
 }

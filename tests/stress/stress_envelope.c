@@ -136,7 +136,7 @@ static char worse(const Envelope *envelope, int s, int k, int h)
 static void write_words(Text *words, Canvas *canvas, double x, double y,
                         Align align, const char *text)
 {
-    const TextStyle style = {FACE_REGULAR, LETTERS, ink};
+    const TextStyle style = {FACE_REGULAR, LETTERS, ink, false};
     text_draw(words, canvas, &style, x, y, align, text);
 }
 
@@ -175,7 +175,7 @@ static void draw_legend(Text *words, Canvas *canvas)
     const char *texts[] = {"converged", "too loose a tolerance: nothing done",
                            "reported", "wrong"};
     int x = LEFT;
-    const TextStyle style = {FACE_REGULAR, LETTERS, ink};
+    const TextStyle style = {FACE_REGULAR, LETTERS, ink, false};
     write_words(words, canvas, x, 12, ALIGN_LEFT,
                 "Three steps of the default square, the worse of both solvers: "
                 "time step (s, across) by stiffness (J/m^2, up)");

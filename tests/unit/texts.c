@@ -53,7 +53,7 @@ int __wrap_paper_paragraph(Paper *paper, Face face, double size, Colour colour,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
-    if (!within)
+    if (!within && !style->plain) /* code is none of its words */
         keep(x, y, markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
@@ -61,7 +61,8 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                            Box box, int lines, const char *markup)
 {
-    keep(box.x, box.y, markup);
+    if (lines > 0)
+        keep(box.x, box.y, markup);
     within = true;
     int used =
         __real_paper_paragraph(paper, face, size, colour, box, lines, markup);
