@@ -34,10 +34,6 @@ Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
 /* W, J. */
 double cell_value(const Corner *corner);
 
-/* Entries a triangle has in one triangle of the Hessian: aa, bb, cc: xx xy yy;
- * ab, ac, bc: xx xy yx yy. */
-enum { CELL_ENTRIES = 21 };
-
 /* ---- the term -------------------------------------------------------- */
 
 /* The term's data. */

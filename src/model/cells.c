@@ -109,59 +109,22 @@ static bool edge_hessian(const Corner *corner, Filter filter, double H[16])
     return filter == FILTER_ABS && c1 < 0;
 }
 
-/* Node a's rows and columns are minus the sums of the others': a common motion
- * changes nothing. */
-static bool cell_hessian(const Corner *corner, Filter filter,
-                         double H[CELL_ENTRIES])
+/* H [6][6] in x_a, x_b, x_c.  Rows and columns of a are minus the sums of the
+ * others': a common motion changes nothing. */
+static bool cell_hessian(const Corner *corner, Filter filter, double H[6][6])
 {
     double E[16];
     bool changed = edge_hessian(corner, filter, E);
-    H[3] = E[0]; /* bb */
-    H[4] = E[1];
-    H[5] = E[5];
-    H[6] = E[10]; /* cc */
-    H[7] = E[11];
-    H[8] = E[15];
-    double *ab = H + 9, *ac = H + 13, *bc = H + 17;
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            H[2 + r][2 + c] = E[4 * r + c];
     for (int r = 0; r < 2; r++)
-        for (int c = 0; c < 2; c++) {
-            bc[2 * r + c] = E[4 * r + 2 + c];
-            ab[2 * r + c] = -(E[4 * r + c] + E[4 * (2 + r) + c]);
-            ac[2 * r + c] = -(E[4 * r + 2 + c] + E[4 * (2 + r) + 2 + c]);
-        }
-    H[0] = -(ab[0] + ac[0]); /* aa */
-    H[1] = -(ab[1] + ac[1]);
-    H[2] = -(ab[3] + ac[3]);
+        for (int c = 2; c < 6; c++)
+            H[r][c] = H[c][r] = -(H[2 + r][c] + H[4 + r][c]);
+    for (int r = 0; r < 2; r++)
+        for (int c = 0; c < 2; c++)
+            H[r][c] = -(H[r][2 + c] + H[r][4 + c]);
     return changed;
-}
-
-/* y += B q, B = [[B0, B1], [B1, B2]] */
-static void multiply_own(const double B[3], const double *q, double *y)
-{
-    y[0] += B[0] * q[0] + B[1] * q[1];
-    y[1] += B[1] * q[0] + B[2] * q[1];
-}
-
-/* y_r += B q_c and y_c += B^T q_r, B row by row */
-static void multiply_pair(const double B[4], const double *q_r,
-                          const double *q_c, double *y_r, double *y_c)
-{
-    y_r[0] += B[0] * q_c[0] + B[1] * q_c[1];
-    y_r[1] += B[2] * q_c[0] + B[3] * q_c[1];
-    y_c[0] += B[0] * q_r[0] + B[2] * q_r[1];
-    y_c[1] += B[1] * q_r[0] + B[3] * q_r[1];
-}
-
-/* y += H q for the three nodes; q, y [2n]. */
-static void cell_multiply(const double H[CELL_ENTRIES], const int node[3],
-                          const double *q, double *y)
-{
-    const int pair[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    for (int k = 0; k < 3; k++) {
-        multiply_own(H + 3 * k, q + 2 * node[k], y + 2 * node[k]);
-        const int r = 2 * node[pair[k][0]], c = 2 * node[pair[k][1]];
-        multiply_pair(H + 9 + 4 * k, q + r, q + c, y + r, y + c);
-    }
 }
 
 /* Along a step with the edges P1, P2 J becomes J + J1 + J2. */
@@ -248,6 +211,12 @@ static void gradient(const Place *at, double *g)
     }
 }
 
+/* The blocks of a triangle that stand in the matrix, by corners: three of three
+ * entries, three of four. */
+enum { BLOCKS = 6, CELL_ENTRIES = 21 };
+static const int block[BLOCKS][2] = {{0, 0}, {1, 1}, {2, 2},
+                                     {0, 1}, {0, 2}, {1, 2}};
+
 static long long entries(const Place *at)
 {
     const Cells *cells = at->term->data;
@@ -257,13 +226,20 @@ static long long entries(const Place *at)
 static void pattern(const Place *at, Triplets *triplets)
 {
     const Cells *cells = at->term->data;
-    for (int t = 0; t < cells->triangles; t++) {
-        const int *node = cells->node + 3 * t;
-        for (int k = 0; k < 3; k++)
-            term_add_block(at->system, node[k], node[k], triplets);
-        term_add_block(at->system, node[0], node[1], triplets);
-        term_add_block(at->system, node[0], node[2], triplets);
-        term_add_block(at->system, node[1], node[2], triplets);
+    for (int t = 0; t < cells->triangles; t++)
+        for (int b = 0; b < BLOCKS; b++)
+            term_add_block(at->system, cells->node[3 * t + block[b][0]],
+                           cells->node[3 * t + block[b][1]], triplets);
+}
+
+/* w H through the slots of a triangle. */
+static void add_entries(double w, double H[6][6], const int *slot, double *out)
+{
+    for (int b = 0; b < BLOCKS; b++) {
+        int i = 2 * block[b][0], j = 2 * block[b][1];
+        for (int r = 0; r < 2; r++)
+            for (int c = i == j ? r : 0; c < 2; c++)
+                out[*slot++] += w * H[i + r][j + c];
     }
 }
 
@@ -275,14 +251,15 @@ static int hessian(const Place *at, Filter filter, const int *slot,
     Corner corner;
     for (int t = -1; next_squeezed(cells, at, &t, &corner);) {
         const int *node = cells->node + 3 * t;
-        double H[CELL_ENTRIES];
+        double H[6][6];
         projected += cell_hessian(&corner, filter, H);
-        for (int k = 0; k < CELL_ENTRIES; k++)
-            H[k] *= at->w;
-        if (q)
-            cell_multiply(H, node, q, out);
-        for (int k = 0; k < CELL_ENTRIES && !q; k++)
-            out[slot[CELL_ENTRIES * t + k]] += H[k];
+        if (!q)
+            add_entries(at->w, H, slot + CELL_ENTRIES * t, out);
+        for (int k = 0; q && k < 36; k++) {
+            int r = k / 6, c = k % 6;
+            out[2 * node[r / 2] + r % 2] +=
+                at->w * H[r][c] * q[2 * node[c / 2] + c % 2];
+        }
     }
     return projected;
 }

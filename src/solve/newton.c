@@ -12,7 +12,7 @@
  *
  *     p = -H^-1 grad E                           (direction.c)
  *     while |p|_inf / h > tolerance
- *         alpha: backtracking line search        (step_length.c)
+ *         alpha: backtracking line search        (line_search.c)
  *         x = x + alpha p
  *         p = -H^-1 grad E
  */

@@ -27,7 +27,7 @@ Status direction_next(Newton *newton);
  * Returns OK, NOT_A_MINIMUM, or a failure. */
 Status direction_judges_end(Newton *newton);
 
-/* ---- step_length.c: how far to go along p (slide: Algorithm 2). */
+/* ---- line_search.c: how far to go along p (slide: Algorithm 2). */
 
 /* Fills alpha, trials, slope and change of the record, u_trial and x_trial.
  * Returns OK, or why no step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT,
