@@ -8,7 +8,6 @@
 #define ELASTO_NEWTON_H
 
 #include "solve/line_search.h"
-#include "solve/multigrid.h"
 #include "solve/search_direction.h"
 
 typedef enum Solver {
@@ -106,6 +105,8 @@ typedef struct Rounding {
     double best;    /* m/s, smallest residual of this minimisation */
     int stagnant;   /* iterations since it was the smallest */
 } Rounding;
+
+typedef struct Multigrid Multigrid;
 
 typedef struct Newton {
     NewtonSettings settings; /* may be changed between iterations */

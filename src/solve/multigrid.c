@@ -31,7 +31,6 @@ struct Multigrid {
     Tiles tiles;
     Memory memory; /* all of their arrays, and these */
     Crew *crew;
-    MultigridCounters counters;
     MultigridRecord record;
     MultigridStep step;
     double *g, *p, *rest; /* [2 planes] grad E and direction at x, remainder */
@@ -163,7 +162,7 @@ static void evaluate(Multigrid *mg)
     mg->bound = mg->record.after =
         residual_of(mg, sqrt(2 / mg->grid.lightest * mg->square));
     mg->directed = mg->record.decided = mg->cycle.set_up = false;
-    mg->counters.gradients++;
+    mg->step.counters->gradients++;
 }
 
 /* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
@@ -183,7 +182,6 @@ static Status multigrid_test(Multigrid *mg)
         }
         mg->directed = decide_test(mg);
         mg->record.decided = true;
-        mg->counters.certificates++;
         mg->test_below = mg->bound / 2;
         if (!mg->directed || !(mg->record.after <= tolerance))
             return STATUS_RUNNING;
@@ -196,8 +194,9 @@ static Status multigrid_test(Multigrid *mg)
 /* Before a return: what the parts have done. */
 static Status count(Multigrid *mg, Status status)
 {
-    mg->counters.cycles = mg->cycle.cycles;
-    mg->counters.local = mg->tiles.sweeps;
+    mg->step.counters->cycles += mg->cycle.cycles;
+    mg->step.counters->local += mg->tiles.sweeps;
+    mg->cycle.cycles = mg->tiles.sweeps = 0;
     return status;
 }
 
@@ -237,7 +236,7 @@ Status multigrid_iterate(Multigrid *mg)
                                     bound > STALLS * mg->last_bound);
         mg->last_bound = bound;
         mg->iterations++;
-        mg->counters.iterations++;
+        mg->step.counters->iterations++;
         int tiles = mg->tiles.high * mg->tiles.wide;
         if (mg->stalls)
             mg->record.change +=
@@ -258,9 +257,4 @@ void multigrid_displacement(const Multigrid *mg, double *u)
 const MultigridRecord *multigrid_record(const Multigrid *mg)
 {
     return &mg->record;
-}
-
-const MultigridCounters *multigrid_counters(const Multigrid *mg)
-{
-    return &mg->counters;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "solve/multigrid.h"
 
 /* Algorithm 3 of the slides.  Like the course's Python it tests p before it
  * uses it, where the slide tests afterwards: one update less, the same

@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "model/mass_spring_energy.h"
+#include "solve/multigrid.h"
 
 /* Iterations that multigrid gets; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
@@ -68,17 +69,6 @@ bool newton_takes_multigrid(Newton *newton)
     return !newton->refusal;
 }
 
-/* What multigrid has done since the counters were these. */
-static void count(Newton *newton, const MultigridCounters *before)
-{
-    const MultigridCounters *now = multigrid_counters(newton->multigrid);
-    NewtonCounters *counters = &newton->counters;
-    counters->iterations += now->iterations - before->iterations;
-    counters->gradients += now->gradients - before->gradients;
-    counters->cycles += now->cycles - before->cycles;
-    counters->local += now->local - before->local;
-}
-
 /* u and x from multigrid; the residual as far as it is known. */
 static void fetch(Newton *newton)
 {
@@ -114,7 +104,6 @@ Status newton_multigrid_start(Newton *newton)
     if (status)
         return status;
     double start = clock_now();
-    MultigridCounters before = *multigrid_counters(newton->multigrid);
     const Iterate *at = &newton->at;
     Place place = place_at(system, at->E.x_n, at->u, at->x);
     MultigridStep step = {.version = system->version,
@@ -128,9 +117,9 @@ Status newton_multigrid_start(Newton *newton)
                           .weight = at->E.weight,
                           .h = settings->h,
                           .tolerance = settings->tolerance,
-                          .is_free = system_is_free(system)};
+                          .is_free = system_is_free(system),
+                          .counters = &newton->counters};
     status = multigrid_start(newton->multigrid, &step);
-    count(newton, &before);
     fetch(newton);
     newton->counters.seconds_multigrid += clock_now() - start;
     newton->first_change = 0;
@@ -168,7 +157,6 @@ Status newton_multigrid_iterate(Newton *newton)
 {
     double start = clock_now();
     NewtonRecord *record = &newton->record;
-    MultigridCounters before = *multigrid_counters(newton->multigrid);
     Status status = multigrid_iterate(newton->multigrid);
     const MultigridRecord *did = multigrid_record(newton->multigrid);
     record->iteration++;
@@ -179,7 +167,6 @@ Status newton_multigrid_iterate(Newton *newton)
     record->change = did->change;
     record->trials = did->trials;
     record->solver = SOLVER_MULTIGRID;
-    count(newton, &before);
     newton->counters.trials += record->trials;
     NewtonRecord done = *record;
     bool last = done.iteration + 1 >= newton_most_iterations(newton);

@@ -21,7 +21,7 @@ typedef struct Tiles {
     double *activity; /* [tiles] J s^2, what a tile may lower E by, < 0 */
     double *change;   /* [tiles] J s^2, by its last sweep */
     int *chosen;      /* [tiles] those that relax next */
-    long sweeps;      /* of tiles, done so far */
+    long sweeps;      /* of tiles, since somebody has set it to 0 */
 } Tiles;
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);

@@ -36,7 +36,7 @@ typedef struct VCycle {
     double length, mass; /* units of the levels, powers of two: 1/m, 1/kg */
     bool set_up;         /* the tensors are those at grid->x; set to false when
                             that moves */
-    long cycles;         /* done so far */
+    long cycles;         /* since somebody has set it to 0 */
 } VCycle;
 
 /* Where conjugate gradients may end. */

@@ -72,6 +72,8 @@ static void disturb(Random *random, bool pins)
 
 static const double H = 0.004;
 
+static NewtonCounters did; /* by all that step_of was given to */
+
 static MultigridStep step_of(void)
 {
     const System *system = problem.system;
@@ -85,7 +87,8 @@ static MultigridStep step_of(void)
                            .weight = H * H,
                            .h = H,
                            .tolerance = 1e-2,
-                           .is_free = !system->pinned};
+                           .is_free = !system->pinned,
+                           .counters = &did};
 }
 
 static IncrementalPotential potential_here(void)
@@ -425,6 +428,7 @@ TEST(what_is_not_decided_is_not_converged)
 TEST(bits_depend_on_the_step_alone)
 {
     static double first[LARGEST];
+    did = (NewtonCounters){0};
     for (int pins = 0; pins < 2; pins++) {
         Multigrid *multigrid[3];
         Random random = {5};
@@ -449,7 +453,7 @@ TEST(bits_depend_on_the_step_alone)
             multigrid_free(multigrid[2]);
             advance();
         }
-        CHECK(multigrid_counters(multigrid[0])->local > 0);
+        CHECK(did.local > 0);
         for (int i = 0; i < 2; i++)
             multigrid_free(multigrid[i]);
     }
@@ -463,16 +467,16 @@ TEST(smooth_steps_take_the_same_work_at_any_size)
         Multigrid *multigrid;
         begin_problem(segments, 1.4);
         CHECK_STATUS(multigrid_create(segments, 0, &multigrid), STATUS_OK);
-        const MultigridCounters *did = multigrid_counters(multigrid);
+        did = (NewtonCounters){0};
         for (int i = 0; i < 5; i++) {
             MultigridStep step = step_of();
             step.u = NULL;
             minimise(multigrid, &step);
             advance();
         }
-        CHECK_AT_MOST(did->iterations, 5 * 4);
-        CHECK_AT_MOST(did->cycles, 5 * 10);
-        CHECK(did->local == 0 && did->certificates >= 5);
+        CHECK_AT_MOST(did.iterations, 5 * 4);
+        CHECK_AT_MOST(did.cycles, 5 * 10);
+        CHECK(did.local == 0);
         multigrid_free(multigrid);
     }
 }

@@ -20,7 +20,7 @@
 #ifndef ELASTO_MULTIGRID_H
 #define ELASTO_MULTIGRID_H
 
-#include "base/status.h"
+#include "solve/newton.h"
 
 /* The parts of a time step; arrays as in system.h and square_mesh.h. */
 typedef struct MultigridStep {
@@ -35,6 +35,7 @@ typedef struct MultigridStep {
     double h;                    /* s, divides the residual */
     double tolerance;            /* m/s */
     bool is_free;                /* nothing acts on the centre of mass */
+    NewtonCounters *counters;    /* where what is done is added up */
 } MultigridStep;
 
 /* What one iteration did; or, after multigrid_start, where it begins. */
@@ -50,16 +51,6 @@ typedef struct MultigridRecord {
                         bound */
     bool decided;    /* which of both */
 } MultigridRecord;
-
-/* Done since the object was made. */
-typedef struct MultigridCounters {
-    long iterations, gradients;
-    long cycles;       /* V-cycles */
-    long certificates; /* tests decided by conjugate gradients */
-    long local;        /* sweeps of tiles */
-} MultigridCounters;
-
-typedef struct Multigrid Multigrid;
 
 /* Allocates for segments x segments cells.
  *   threads  1, 2; 0: what the machine has (ELASTO_THREADS limits it)
@@ -80,6 +71,5 @@ Status multigrid_iterate(Multigrid *multigrid);
 void multigrid_displacement(const Multigrid *multigrid, double *u);
 
 const MultigridRecord *multigrid_record(const Multigrid *multigrid);
-const MultigridCounters *multigrid_counters(const Multigrid *multigrid);
 
 #endif
