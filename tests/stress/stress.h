@@ -14,9 +14,8 @@
 /* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
 long double wide_energy(const IncrementalPotential *E, const double *u);
 
-/* P(x) and sum m |v|^2/2, J. */
+/* P(x), J. */
 long double wide_potential(const System *system, const double *x);
-long double wide_kinetic(const System *system, const double *v);
 
 /* What rounding of coordinates, and of the slope on the way by `way`, can make
  * of E there. */
@@ -46,7 +45,7 @@ typedef enum Verdict {
 } Verdict;
 
 /* Watches one run: nothing is behind a wall or turned, E is raised by no update
- * and by no step; of springs alone also residuals and momentum. */
+ * and by no step; of springs alone also residuals. */
 typedef struct Watch {
     TimeIntegrator *run;
     bool residuals;       /* solve again where a step says it converged */
@@ -58,8 +57,6 @@ typedef struct Watch {
     Wide *g, *H;          /* [2n], [2n 2n] workspace */
     long double start;    /* E at u = 0 */
     long double energy;   /* E at u */
-    long double through;  /* kg m/s, momenta that passed through */
-    long double earlier;  /* the largest of all steps */
     int updates;          /* of this minimisation */
     bool wrong;           /* in this step */
     char reason[512];     /* what was wrong first */
@@ -101,7 +98,8 @@ enum { STRESS_LINE = 512 };
  *   f  springs that flow, half of them without hardening, h to 1e4 s
  *   c, t, b, w  contact, friction, cells, flow, fracture, damping and what
  *      moves: scenes that fall and are pressed, tear, bend; a square among
- *      walls */
+ *      walls
+ *   l  large squares */
 void stress_line(const char *kinds, uint64_t seed, long number,
                  char line[STRESS_LINE]);
 
@@ -121,7 +119,7 @@ void stress_limit(long seconds);
 /* Options go, numbers become round, while it still fails. */
 void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *));
 
-/* ---- the list of cases (stress_cases.c, stress_answers.c) -------------- */
+/* ---- the list of cases (stress_cases.c) -------------------------------- */
 
 typedef struct StressCase {
     const char *name;
@@ -132,6 +130,57 @@ typedef struct StressCase {
 } StressCase;
 
 extern const StressCase stress_cases[]; /* ends with a NULL name */
+
+/* One watched simulation of a case. */
+typedef struct Case {
+    Tally *tally;
+    char *reason; /* [512] */
+    bool wrong;
+    Simulation simulation;
+    TimeIntegrator *run;
+    Watch watch;
+} Case;
+
+/* The first complaint is kept; returns false. */
+bool case_wrong(Case *c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Sets this command line up; close it in any case. */
+bool case_open(Case *c, const char *line);
+
+/* After a change of the system: the integrator made anew, with x, v and h of
+ * the old one, its tolerance times `finer`. */
+bool case_restart(Case *c, double finer);
+
+/* Steps that must not be WRONG; that must converge. */
+bool case_steps(Case *c, int steps);
+bool case_converges(Case *c, int steps);
+
+/* Frees all but the verdict, which it returns. */
+bool case_close(Case *c);
+
+/* Coordinates of all nodes. */
+int case_size(const Case *c);
+
+/* ---- large squares by multigrid (stress_large.c) ------------------------ */
+
+typedef enum LargeVerdict {
+    LARGE_PASSED,
+    LARGE_FAILED,
+    LARGE_UNDECIDED /* too close to the tolerance, or too slow */
+} LargeVerdict;
+
+/* The test of Algorithm 3 at the iterate of a minimisation by springs alone,
+ * not averaged. */
+LargeVerdict large_judge(const Newton *newton);
+
+/* So many steps of this command line by multigrid; false and a reason [512]
+ * where one that is called converged is not. */
+bool large_steps(const char *line, int steps, Tally *tally, char *reason);
+
+/* For the list of cases. */
+bool large_squares(Tally *tally, char *reason);
+bool random_large_squares(Tally *tally, char *reason);
 
 /* ---- the envelope (stress_envelope.c) ---------------------------------- */
 

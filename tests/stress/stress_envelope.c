@@ -1,7 +1,7 @@
 /* Where the default square converges: time step by stiffness by stretch, and
  * a picture of that.
  */
-#include "stress_cases.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -75,14 +75,6 @@ long double wide_potential(const System *system, const double *x)
     return oracle_energy(&spot, NULL).f;
 }
 
-long double wide_kinetic(const System *system, const double *v)
-{
-    long double sum = 0;
-    for (int i = 0; i < 2 * system->nodes; i++)
-        sum += 0.5L * system->m[i / 2] * v[i] * v[i];
-    return sum;
-}
-
 static Wide wide_abs(Wide a)
 {
     return a < 0 ? -a : a;

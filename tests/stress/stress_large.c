@@ -3,7 +3,7 @@
  * a lower bound of the clamped Hessian, so |p - exact|_M <= |r|_(M^-1), and the
  * residual is at most sqrt(2/m)/h |r|_(M^-1) away from that of p.
  */
-#include "stress_large.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -242,22 +242,9 @@ bool large_squares(Tally *tally, char *reason)
 
 bool random_large_squares(Tally *tally, char *reason)
 {
-    Random random = {12};
-    const char *const methods[] = {"backward-euler", "bdf2", "midpoint",
-                                   "sdirk2"};
-    for (int i = 0; i < 80; i++) {
-        char line[250];
-        snprintf(line, sizeof line,
-                 "--segments %d --stretch %.3g --timestep %.3g "
-                 "--stiffness %.3g --tolerance %.3g --integrator %s%s%s",
-                 5 + random_below(&random, 50),
-                 random_logarithmic(&random, 0.1, 3),
-                 random_logarithmic(&random, 1e-4, 0.1),
-                 random_logarithmic(&random, 1e2, 1e9),
-                 random_logarithmic(&random, 1e-5, 1),
-                 methods[random_below(&random, 4)],
-                 random_below(&random, 2) ? " --minimum" : "",
-                 random_below(&random, 3) ? "" : " --pin top --gravity 5");
+    char line[STRESS_LINE];
+    for (long i = 0; i < 80; i++) {
+        stress_line("l", 12, i, line);
         if (!large_steps(line, 4, tally, reason))
             return false;
     }

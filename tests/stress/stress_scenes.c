@@ -67,6 +67,12 @@ static const struct Draw {
     {"f", 4, " --damping <1e-5 10>"},
     {"ctbw", 3, " --damping <1e-5 10>"},
     {"cbw", 3, " --barrier <1e-4 0.004>,<1e3 1e8>"},
+    {"l", 1,
+     "square --segments (5 9 16 17 24 33 40 54) --stretch <0.1 3> --timestep "
+     "<1e-4 0.1> --stiffness <1e2 1e9> --tolerance <1e-5 1> --integrator "
+     "(backward-euler bdf2 midpoint sdirk2)"},
+    {"l", 3, " --pin top --gravity 5"},
+    {"l", 2, " --minimum"},
     {"s", 2, " shaken [1 1e6]"}};
 
 /* One of the words up to ')'. */

@@ -183,17 +183,6 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
     watch->energy = energy;
 }
 
-/* Momenta |m u|/h that pass through, whose rounding stays. */
-static void watch_momentum(Watch *watch, const double *u)
-{
-    const Newton *newton = watch->run->newton;
-    long double sum = 0;
-    for (int i = 0; i < watch_size(watch); i++)
-        sum += watch->run->system->m[i / 2] *
-               (fabsl(u[i]) + fabsl(newton->u_tilde[i]));
-    watch->through = fmaxl(watch->through, sum / newton->settings.h);
-}
-
 /* "No step helps" and "uphill" are said only where rounding does not hide the
  * slope: else it is rounding that must be named. */
 static void check_excuse(Watch *watch, const NewtonRecord *record)
@@ -246,7 +235,6 @@ static bool watch_record(void *user, const NewtonRecord *record)
     check_walls(watch, newton->at.x);
     memcpy(watch->u, newton->at.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
-    watch_momentum(watch, newton->at.u);
     if (record->status == STATUS_OK)
         judge_convergence(watch, newton->at.u, 1);
     return true;
@@ -334,84 +322,6 @@ static void check_failure(Watch *watch, Status status)
         blame(watch, "not_finite, but nothing is near overflow");
 }
 
-/* sum m v, of absolute values if `size`. */
-static long double momentum(const System *system, const double *v, int c,
-                            bool size)
-{
-    long double sum = 0;
-    for (int i = 0; i < system->nodes; i++) {
-        long double mv = (long double)system->m[i] * v[2 * i + c];
-        sum += size ? fabsl(mv) : mv;
-    }
-    return sum;
-}
-
-/* h times the sum of all spring forces at x, as large as they pass through an
- * explicit step. */
-static long double impulses(const System *system, const double *x, double h)
-{
-    long double sum = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        long double d =
-            hypotl((long double)x[i] - x[j], (long double)x[i + 1] - x[j + 1]);
-        sum += 2 * system->k[s] * d * (d * d / system->l2[s] + 1);
-    }
-    return 2 * h * sum;
-}
-
-/* Springs alone do not change the momentum. */
-static void check_momentum(Watch *watch)
-{
-    const System *system = watch->run->system;
-    const TimeIntegrator *run = watch->run;
-    if (!system_is_free(system))
-        return;
-    long double through = watch->through;
-    if (!run->newton)
-        through = impulses(system, watch->x, run->h) +
-                  impulses(system, run->x, run->h);
-    if (run->method->memory > 0) /* rounding of earlier steps is remembered */
-        through = watch->earlier = fmaxl(through, watch->earlier);
-    for (int c = 0; c < 2; c++) {
-        long double change = momentum(system, run->v, c, false) -
-                             momentum(system, watch->v, c, false);
-        long double size = momentum(system, run->v, c, true) +
-                           momentum(system, watch->v, c, true) + through;
-        if (!(fabsl(change) <= 4 * ROUNDINGS * DBL_EPSILON * size))
-            blame(watch, "momentum changes by %Lg of %Lg", change, size);
-    }
-}
-
-/* M |v1 - v0|^2/2 + P(x1) <= M |v0|^2/2 + P(x0), for backward Euler. */
-static void check_dissipation(Watch *watch)
-{
-    const TimeIntegrator *run = watch->run;
-    const System *system = run->system;
-    int n = watch_size(watch);
-    long double h2 = (long double)run->h * run->h, jump = 0;
-    if (strcmp(run->method->name, "backward-euler") != 0 ||
-        run->newton->settings.search == LINE_SEARCH_NONE)
-        return;
-    for (int i = 0; i < n; i++) {
-        long double dv = (long double)run->v[i] - watch->v[i];
-        jump += 0.5L * system->m[i / 2] * dv * dv;
-    }
-    long double after = jump + wide_potential(system, run->x);
-    long double before =
-        wide_kinetic(system, watch->v) + wide_potential(system, watch->x);
-    if (after <= before)
-        return;
-    memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x_n);
-    memset(watch->u, 0, (size_t)n * sizeof *watch->u);
-    long double rise = allowed_rise(watch, watch->u, run->newton->at.u,
-                                    h2 * (after + before)) /
-                       h2;
-    if (!(after - before <= rise))
-        blame(watch, "kinetic and elastic energy rise from %Lg to %Lg", before,
-              after);
-}
-
 /* What the last minimisation left, after the centre of mass was moved: E is
  * not above its start, and the residual is at most twice as large, because
  * the mean of the direction was taken away from it.  Multigrid moves the centre
@@ -432,7 +342,6 @@ static void check_last_minimisation(Watch *watch, Status status)
         if (!status && watch->run->system->springs > 0 && !centred)
             judge_convergence(watch, watch->u, 1);
     }
-    watch_momentum(watch, newton->at.u);
     if (newton->settings.search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->at.u, "as the step ends");
     if (newton->status == STATUS_OK)
@@ -455,9 +364,6 @@ static void check_state(Watch *watch, Status status)
         return;
     if (run->newton)
         check_last_minimisation(watch, status);
-    check_momentum(watch);
-    if (run->newton)
-        check_dissipation(watch);
 }
 
 void tally_add(const Watch *watch, Tally *tally)
@@ -474,7 +380,6 @@ Verdict watch_step(Watch *watch)
     size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
     memcpy(watch->x, run->x, bytes);
     memcpy(watch->v, run->v, bytes);
-    watch->through = 0;
     watch->wrong = false;
     watch->updates = 0;
     Status status = watch->status = time_integrator_step(run);

@@ -3,7 +3,6 @@
  */
 #include "test.h"
 #include "stress.h"
-#include "stress_large.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,17 +45,11 @@ TEST(random_scenes_keep_the_promise)
 }
 
 /* Steps that break one promise each, and else are those of the slides. */
-static void add_momentum(TimeIntegrator *run)
-{
-    integrator_methods[0].land(run);
-    run->new_v[0] += 1e-9;
-}
-
-static void gain_energy(TimeIntegrator *run)
+static void go_back_a_little(TimeIntegrator *run)
 {
     integrator_methods[0].land(run);
     for (size_t i = 0; i < run->size; i++)
-        run->new_v[i] *= 3;
+        run->newton->at.u[i] *= 0.9;
 }
 
 /* A tolerance that grows behind the judge's back. */
@@ -80,10 +73,9 @@ TEST(broken_promises_are_noticed)
     static const struct {
         void (*aim)(TimeIntegrator *), (*land)(TimeIntegrator *);
         const char *why;
-    } rows[] = {{NULL, add_momentum, "momentum"},
-                {NULL, gain_energy, "kinetic and elastic"},
+    } rows[] = {{NULL, go_back_a_little, "E rises"},
                 {be_content, be_strict_again, "the residual is"}};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 2; i++) {
         Watch watch;
         TimeIntegrator *run =
             &simulate("--segments 2 --tolerance 1e-6")->run[0];
