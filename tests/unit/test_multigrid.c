@@ -3,7 +3,7 @@
  * for every number of threads, whatever was before.
  */
 #include "test.h"
-#include "stress_large.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdlib.h>
