@@ -91,19 +91,22 @@ typedef enum CommandArguments {
     ARGUMENTS_TEXT          /* one or two words */
 } CommandArguments;
 
+enum {
+    REPEATS = 1, /* while the key is held down */
+    KEPT = 2     /* belongs into the script of a session */
+};
+
 typedef struct CommandRow {
-    CommandKind kind;
     const char *word; /* in scripts; NULL: not there */
-    CommandArguments arguments;
     const char *keys; /* "Space", "Ctrl+R", several: "?|F1"; or NULL */
     /* What it does, for the list of keys; "": told with the row before it;
      * NULL: not in the list. */
     const char *label;
-    bool repeats; /* while the key is held down */
-    bool kept;    /* belongs into the script of a session */
+    unsigned flags;
+    CommandArguments arguments;
 } CommandRow;
 
-/* The row of a kind; its kind is that one. */
+/* The row of a kind. */
 const CommandRow *command_row(CommandKind kind);
 
 /* The kind that a key asks for, COMMAND_NONE: none.  Digits are scenes.

@@ -89,11 +89,6 @@ Input view_input(View *view);
 /* Waits for an input, at most this long. */
 void view_wait(View *view, int milliseconds);
 
-/* During long computations: whether closing the window, or Q or Escape where
- * they end the program, waits.  Uncovered windows get the last frame again;
- * inputs stay in line. */
-bool view_quit_waits(View *view, bool q_ends, bool escape_ends);
-
 /* Pixel of the surface as 0xAARRGGBB; 0 if the view is a window. */
 Colour view_surface_pixel(const View *view, int x, int y);
 

@@ -83,7 +83,7 @@ static Status note_line(Player *player, const Command *command, long step,
 {
     Past *past = &player->past;
     bool same = past->now == now && past->runs == runs;
-    if (!command_row(command->kind)->kept)
+    if (!(command_row(command->kind)->flags & KEPT))
         return STATUS_OK;
     return script_insert(&past->branch[past->now].journal,
                          same ? told : past->branch[past->now].carried, step,

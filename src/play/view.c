@@ -11,13 +11,7 @@
 #include "play/event_wait.h"
 #include "scenes/one_line.h"
 
-enum {
-    WINDOW_WIDTH = 1280,
-    WINDOW_HEIGHT = 800,
-    WINDOW_LEAST = 200,
-    PEEK_EVENTS = 256,
-    SHOW_AGAIN = 200 /* ms */
-};
+enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
 
 struct View {
     SDL_Window *window;   /* NULL: a surface */
@@ -26,7 +20,6 @@ struct View {
     SDL_Texture *texture; /* of the size of the paper, or NULL */
     Paper paper;
     int before[2];    /* pixels, before it became as large as the screen */
-    Uint64 shown;     /* ms, when present() was called last */
     bool initialised; /* SDL's video is ours to end */
     bool fontless;    /* that there is no font was said */
     bool tab;         /* Tab is down and has asked for nothing yet */
@@ -324,7 +317,6 @@ static Status present(View *view)
     if (SDL_RenderCopy(view->renderer, view->texture, NULL, NULL))
         return STATUS_SCREEN_FAILED;
     SDL_RenderPresent(view->renderer);
-    view->shown = SDL_GetTicks64();
     return STATUS_OK;
 }
 
@@ -532,39 +524,6 @@ void view_wait(View *view, int milliseconds)
         return;
     if (milliseconds > 0)
         event_wait(view->window, milliseconds);
-}
-
-/* Whether this event asks for the end of the program. */
-static bool asks_for_end(const SDL_Event *event, bool q_ends, bool escape_ends)
-{
-    if (event->type == SDL_KEYDOWN)
-        return (escape_ends && event->key.keysym.sym == SDLK_ESCAPE) ||
-               (q_ends && latin_key(&event->key.keysym) == SDLK_q);
-    return event->type == SDL_QUIT ||
-           (event->type == SDL_WINDOWEVENT &&
-            window_input(&event->window) == INPUT_CLOSE);
-}
-
-bool view_quit_waits(View *view, bool q_ends, bool escape_ends)
-{
-    SDL_Event events[PEEK_EVENTS];
-    if (!view->window)
-        return false;
-    SDL_PumpEvents();
-    int count = SDL_PeepEvents(events, PEEK_EVENTS, SDL_PEEKEVENT,
-                               SDL_FIRSTEVENT, SDL_LASTEVENT);
-    bool uncovered = false;
-    for (int i = 0; i < count; i++) {
-        if (asks_for_end(&events[i], q_ends, escape_ends))
-            return true;
-        uncovered =
-            uncovered || (events[i].type == SDL_WINDOWEVENT &&
-                          window_input(&events[i].window) == INPUT_REDRAW);
-    }
-    if (uncovered && view->texture &&
-        SDL_GetTicks64() >= view->shown + SHOW_AGAIN)
-        present(view);
-    return false;
 }
 
 Colour view_surface_pixel(const View *view, int x, int y)

@@ -192,14 +192,6 @@ void view_wait(View *view, int milliseconds)
     (void)milliseconds;
 }
 
-bool view_quit_waits(View *view, bool q_ends, bool escape_ends)
-{
-    (void)view;
-    (void)q_ends;
-    (void)escape_ends;
-    return false;
-}
-
 Colour view_surface_pixel(const View *view, int x, int y)
 {
     const Canvas *canvas = &view->paper.canvas;

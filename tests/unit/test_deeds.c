@@ -114,27 +114,6 @@ TEST(every_list_labels_its_panes)
     end();
 }
 
-/* The key I names the level it leads to; K says where code is. */
-TEST(keys_say_what_they_do)
-{
-    static const char *const levels[] = {"updates", "lines", "steps",
-                                         "updates"};
-    begin("square --segments 2");
-    for (int i = 0; i < 4; i++) {
-        bool found = false;
-        player_fill(&player);
-        for (int k = 0; k < player.show.chips; k++)
-            found =
-                found || (strcmp(player.show.chip[k].key, "I") == 0 &&
-                          strcmp(player.show.chip[k].label, levels[i]) == 0);
-        CHECK(found);
-        CHECK_STATUS(obey("finer"), STATUS_OK);
-    }
-    CHECK_STATUS(obey("code"), STATUS_INVALID_INPUT);
-    CHECK(strstr(player.message, "Page Down") != NULL);
-    end();
-}
-
 static bool next_page_is_lit(const char *line)
 {
     bool lit = false;
@@ -268,37 +247,6 @@ TEST(defaults_are_the_scene_s)
     end();
 }
 
-TEST(methods_are_switched)
-{
-    begin("square --segments 2 --filter abs");
-    CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(past_control(&player.past, 0)->options.filter == FILTER_NONE);
-    CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(past_control(&player.past, 0)->options.filter == FILTER_ABS);
-    end();
-    begin("circle"); /* all at once: the first alone is the next */
-    CHECK(player_simulation(&player)->runs > 1);
-    CHECK(player_next_method(player_simulation(&player)) ==
-          &integrator_methods[0]);
-    end();
-}
-
-/* One number after the other, then none. */
-TEST(numbers_are_selected_in_turn)
-{
-    const OptionRow *number[OPTIONS_MOST];
-    begin("square --segments 2");
-    int count = options_row(player_settings(&player), number);
-    CHECK(count > 2);
-    for (int i = 0; i < count; i++) {
-        CHECK_STATUS(obey("select"), STATUS_OK);
-        CHECK(player.selected == i);
-    }
-    CHECK_STATUS(obey("select"), STATUS_OK);
-    CHECK(player.selected == -1);
-    end();
-}
-
 /* ---- the step once more ------------------------------------------------- */
 
 /* The step is made again where it was; a run goes on running, and a walk stays
@@ -324,33 +272,7 @@ TEST(a_step_is_taken_again_in_its_place)
     end();
 }
 
-/* Outcomes of which one explodes are put side by side, whichever comes first;
- * what is said compares them. */
-TEST(unlike_outcomes_are_put_side_by_side)
-{
-    begin("explosion --filter clamp");
-    obey_all((const char *const[]){"next", "projection", NULL});
-    CHECK(past_panes(&player.past) == 2);
-    CHECK(extent(0) > 100 * extent(1));
-    CHECK(strstr(player.note, "projection clamp: E ") == player.note);
-    CHECK(strstr(player.note, "; no projection: E ") != NULL);
-    end();
-}
-
 /* ---- panes -------------------------------------------------------------- */
-
-TEST(the_last_pane_goes)
-{
-    begin("square --segments 2 --timestep 0.01,0.005,0.002");
-    CHECK_STATUS(obey("pane 3"), STATUS_INVALID_INPUT);
-    obey_all((const char *const[]){"pane 2", "end-pane", NULL});
-    CHECK(past_panes(&player.past) == 2 && player.active == 1);
-    CHECK_STATUS(obey("pane 2"), STATUS_INVALID_INPUT);
-    CHECK_STATUS(obey("pane 0"), STATUS_OK);
-    CHECK_STATUS(obey("end-pane"), STATUS_OK);
-    CHECK(past_panes(&player.past) == 1 && player.active == 0);
-    end();
-}
 
 /* ---- hands -------------------------------------------------------------- */
 

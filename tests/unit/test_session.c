@@ -12,6 +12,7 @@
  *     scene NAME, page N       page 0: none
  *     number NAME VALUE        what the row shows
  *     says WORDS               in the last line
+ *     chip KEY LABEL           what a key does now, below the picture
  *     files N                  that were written
  *     replays LINE             Y's script leads to the same bits
  *     mark M [WHAT]            the picture without its message; or of it the
@@ -216,6 +217,17 @@ static void compare(const char *verb, const char *rest)
         fail_msg("not the %s %s as at %s", verb, what, rest);
 }
 
+static void look_for_chip(const char *key, const char *label)
+{
+    player_fill(&player);
+    for (int i = 0; i < player.show.chips; i++)
+        if (strcmp(player.show.chip[i].key, key) == 0) {
+            assert_string_equal(player.show.chip[i].label, label);
+            return;
+        }
+    fail_msg("there is no chip %s", key);
+}
+
 static void look(const char *verb, const char *rest)
 {
     const LecturePage *page = player_settings(&player)->page;
@@ -235,7 +247,10 @@ static void look(const char *verb, const char *rest)
         assert_string_equal(player_simulation(&player)->scene->name, rest);
     else if (strcmp(verb, "says") == 0 && !strstr(player.note, rest))
         fail_msg("it says '%s', not '%s'", player.note, rest);
-    else if (strcmp(verb, "number") == 0) {
+    else if (strcmp(verb, "chip") == 0) {
+        assert_int_equal(sscanf(rest, "%31s %63[^\n]", name, value), 2);
+        look_for_chip(name, value);
+    } else if (strcmp(verb, "number") == 0) {
         assert_int_equal(sscanf(rest, "%31s %63[^\n]", name, value), 2);
         assert_string_equal(number_shown(name, &i)->value, value);
     } else if (strcmp(verb, "says") != 0)
@@ -311,6 +326,23 @@ static const Session sessions[] = {
      LINES("begin square --paused", "key Tab Tab", "type 5", "key Escape",
            "number k 100000 J/m\u00b2", "ended 0", "key Tab Escape Escape",
            "says Esc once more", "ended 0", "key Escape", "ended 1")},
+    {"up to six are side by side, with one past",
+     LINES("begin square --segments 3 --timestep 0.0005 --paused", "key N N",
+           "key Tab+M Tab+M Tab+M Tab+M Tab+M",
+           "number method implicit midpoint", "key Tab+M",
+           "says no room for more", "mark a state", "key N N", "mark b state",
+           "key Left Left", "same a state", "key Right Right", "same b state",
+           "key Backspace Backspace Backspace Backspace",
+           "key Backspace Backspace", "says there is only one", "key Ctrl+Z",
+           "number method backward Euler")},
+    {"a key says what it does",
+     LINES("begin square --segments 2 --filter abs --paused", "chip I updates",
+           "key I", "chip I lines", "key I", "chip I steps", "key I",
+           "chip I updates", "chip P projection off", "key P",
+           "number projection none", "chip P projection on", "key P",
+           "number projection abs", "key K", "says Page Down", /**/
+           "begin race --paused", "key N P", "at 0",
+           "says from the start: projection none")},
     {"the title tells of other scenes",
      LINES("begin square --paused", "press 60 20",
            "says 1 ... 9 open other scenes")},
