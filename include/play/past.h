@@ -11,8 +11,7 @@
  *   branch 2               4"-5"       P at 5': step 5 again, made from 4'
  *
  * Branches are a stack.  Undo goes one down, to where that one was left; redo
- * one up; a change drops those above.  When there are MOST_BRANCHES the two
- * lowest become one.
+ * one up; a change drops those above.
  *
  * All panes have one time and one count of steps: a step is one of the pane
  * with the longest timestep, and as many of the others as fit into it.
@@ -25,7 +24,7 @@
 #include "scenes/control.h"
 #include "scenes/state.h"
 
-enum { MOST_BRANCHES = 64, MOST_PANES = OPTIONS_MAX_PANES };
+enum { MOST_PANES = OPTIONS_MAX_PANES };
 #define PAST_BYTES ((size_t)256 << 20) /* of states; they give way */
 
 typedef struct State {
@@ -79,7 +78,7 @@ typedef struct Branch {
     size_t told;    /* lines of the one below that lead to it */
     size_t
         carried; /* own lines, of a branch of the same gesture in its place */
-    Curves *curves[MOST_PANES]; /* as it was left, or NULL */
+    Curves *curves[MOST_PANES]; /* as it was left; NULL: long ago */
 } Branch;
 
 /* A simulation that stands at an entry. */
@@ -104,10 +103,11 @@ typedef struct Machine {
 } Machine;
 
 typedef struct Past {
-    Branch branch[MOST_BRANCHES];
-    int branches, now; /* those above `now` were undone */
-    long runs;         /* fresh branches so far */
-    long step;         /* shown, in all panes */
+    Branch *branch;
+    int branches, room; /* for so many */
+    int now;            /* the present one; those above it were undone */
+    long runs;          /* fresh branches so far */
+    long step;          /* shown, in all panes */
     Machine machine[MOST_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
     bool goes_on; /* when one of several panes fails the others go on */

@@ -131,8 +131,9 @@ static Status add_entries(Past *past, Branch *branch)
     return STATUS_OK;
 }
 
-/* Every second kept state of the branch with the finest ones goes; the one that
- * is shown comes last. */
+/* Every second kept state of the branch with the finest ones goes; at last that
+ * of its first entry, too, if there is a branch below.  The branch that is
+ * shown comes last. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -140,14 +141,16 @@ static bool thin_states(Past *past)
         Branch *branch = &past->branch[b];
         bool finer = !finest || branch->stride < finest->stride ||
                      (branch->stride == finest->stride && b != past->now);
-        if (branch->stride < branch->count && finer)
+        if (branch->stride < branch->count + !branch->fresh && finer)
             finest = branch;
     }
     if (!finest)
         return false;
     finest->stride *= 2;
+    bool all = !finest->fresh && finest->stride > finest->count;
     for (long i = 0; i < finest->count * finest->panes; i++)
-        if (i / finest->panes % finest->stride && !finest->entry[i].placed)
+        if ((all || i / finest->panes % finest->stride) &&
+            !finest->entry[i].placed)
             drop_state(past, &finest->entry[i]);
     return true;
 }
@@ -168,11 +171,14 @@ static Status keep_state(Past *past, int pane)
         return STATUS_OK;
     while (past->bytes + size > past->limit && thin_states(past))
         continue;
-    if (i % branch->stride && !entry->placed)
+    if ((i % branch->stride || branch->stride > branch->count) &&
+        !entry->placed)
         return STATUS_OK;
     entry->state = malloc(sizeof *entry->state + size);
     if (!entry->state)
-        return i > 0 && !entry->placed ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+        return (i > 0 || !branch->fresh) && !entry->placed
+                   ? STATUS_OK
+                   : STATUS_OUT_OF_MEMORY;
     entry->state->size = size;
     past->bytes += size;
     state_save(&machine->simulation, STATE_ALL, entry->state->bytes);
@@ -208,114 +214,47 @@ static void lose_machines(Past *past)
         past->machine[p].step = -1;
 }
 
-/* An entry of the lower branch as one of the upper. */
-static Status take_entry(Past *past, const Entry *from, Entry *to)
-{
-    *to = *from;
-    control_keep(to->control);
-    if (!from->state)
-        return STATUS_OK;
-    size_t size = sizeof *to->state + from->state->size;
-    to->state = malloc(size);
-    if (!to->state)
-        return STATUS_OUT_OF_MEMORY;
-    memcpy(to->state, from->state, size);
-    past->bytes += from->state->size;
-    return STATUS_OK;
-}
-
-/* Lines of one journal behind those of another. */
-static Status add_lines(Script *to, const Script *from, size_t count)
-{
-    Status status = STATUS_OK;
-    for (size_t i = 0; i < count && !status; i++)
-        status = script_add(to, from->line[i].step, &from->line[i].command);
-    return status;
-}
-
 Status past_script(const Past *past, Script *script)
 {
     Status status = STATUS_OK;
     *script = (Script){0};
-    for (int b = 0; b <= past->now && !status; b++) {
-        const Branch *branch = &past->branch[b];
-        status =
-            add_lines(script, &branch->journal,
-                      b < past->now ? branch[1].told : branch->journal.count);
+    for (int b = 0; b <= past->now; b++) {
+        const Script *journal = &past->branch[b].journal;
+        size_t lines =
+            b < past->now ? past->branch[b + 1].told : journal->count;
+        for (size_t i = 0; i < lines && !status; i++)
+            status = script_add(script, journal->line[i].step,
+                                &journal->line[i].command);
     }
     return status;
 }
 
-/* What led to the second branch becomes a part of its journal. */
-static Status take_lower_journal(Past *past)
-{
-    Branch *low = &past->branch[0], *up = &past->branch[1];
-    Script both = {0};
-    Status status = add_lines(&both, &low->journal, up->told);
-    if (!status)
-        status = add_lines(&both, &up->journal, up->journal.count);
-    if (status) {
-        script_free(&both);
-        return status;
-    }
-    if (past->branches > 2)
-        past->branch[2].told += up->told;
-    script_free(&up->journal);
-    up->journal = both;
-    return STATUS_OK;
-}
-
-/* What the second branch shows of the lowest becomes its own. */
-static Status take_lower_entries(Past *past)
-{
-    Branch *low = &past->branch[0], *up = &past->branch[1];
-    long below = up->first - low->first;
-    size_t row = (size_t)up->panes * sizeof(Entry);
-    Entry *entry = calloc((size_t)(below + up->count), row);
-    Status status = entry ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (long i = 0; i < below * up->panes && !status; i++) {
-        const Entry *from =
-            &low->entry[i / up->panes * low->panes + up->source[i % up->panes]];
-        status = take_entry(past, from, &entry[i]);
-    }
-    if (status) {
-        free(entry); /* what it had taken is lost: there is no memory */
-        return status;
-    }
-    memcpy(entry + below * up->panes, up->entry, (size_t)up->count * row);
-    free(up->entry);
-    up->entry = entry;
-    up->first = low->first;
-    up->count += below;
-    up->room = up->count;
-    up->fresh = true;
-    return STATUS_OK;
-}
-
-/* Room for one more branch: the two lowest become one. */
+/* Room for one more branch, in the place of those that were undone. */
 static Status make_room(Past *past)
 {
     drop_branches(past, past->now + 1);
-    if (past->branches < MOST_BRANCHES)
+    if (past->branches < past->room)
         return STATUS_OK;
-    if (take_lower_journal(past) ||
-        (!past->branch[1].fresh && take_lower_entries(past)))
+    int room = past->room ? 2 * past->room : 16;
+    Branch *grown = realloc(past->branch, (size_t)room * sizeof *grown);
+    if (!grown)
         return STATUS_OUT_OF_MEMORY;
-    drop_branch(past, &past->branch[0]);
-    memmove(past->branch, past->branch + 1,
-            (MOST_BRANCHES - 1) * sizeof *past->branch);
-    past->branch[MOST_BRANCHES - 1] = (Branch){0};
-    past->branches--;
-    past->now--;
-    lose_machines(past);
+    past->branch = grown;
+    past->room = room;
     return STATUS_OK;
 }
 
-/* The present branch is left, and can be come back to. */
+/* The present branch is left, and can be come back to; the curves of those that
+ * were left long ago are no longer known then. */
 static void leave_branch(Past *past)
 {
+    enum { LONG_AGO = 16 }; /* branches */
     Branch *branch = &past->branch[past->now];
     branch->left = past->step;
+    for (int p = 0; past->now >= LONG_AGO && p < MOST_PANES; p++) {
+        free(branch[-LONG_AGO].curves[p]);
+        branch[-LONG_AGO].curves[p] = NULL;
+    }
     for (int p = 0; p < branch->panes; p++) {
         if (!branch->curves[p])
             branch->curves[p] = malloc(sizeof *branch->curves[p]);
@@ -868,9 +807,9 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
             pop_branch(past);
             past->works = false;
         }
-        if (make_room(past))
-            return STATUS_OUT_OF_MEMORY;
     }
+    if (make_room(past))
+        return STATUS_OUT_OF_MEMORY;
     Branch *branch = push_branch(past, true, 0, panes, edit, gesture);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
@@ -1066,6 +1005,9 @@ void past_create(bool keeps, bool goes_on, Past *past)
 void past_free(Past *past)
 {
     drop_branches(past, 0);
+    free(past->branch);
+    past->branch = NULL;
+    past->room = 0;
     for (int p = 0; p < MOST_PANES; p++) {
         free_simulation(&past->machine[p]);
         rounds_free(&past->machine[p].rounds);
