@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -8,7 +9,7 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { SPRING_CORNERS = 120, SPRING_COILS = 12, PROFILE_POINTS = 200 };
+enum { SPRING_CORNERS = 120, SPRING_COILS = 12 };
 
 static const double SPRING_REACH = 1.7;   /* m, seen at least */
 static const double SPRING_ARROW = 0.005; /* m/N, of the force */
@@ -32,24 +33,17 @@ static SpringFacts facts_of(const Simulation *simulation)
 static void spring_circle(Plot *stage, double radius, Colour colour,
                           const char *word)
 {
-    Paper *paper = stage->paper;
-    double phase = 0, last[2], at[2];
-    for (int i = 0; i <= SPRING_CORNERS; i++) {
+    double phase = 0, from[2] = {radius, 0};
+    for (int i = 1; i <= SPRING_CORNERS; i++) {
         double s = SPRING_TURN * i / SPRING_CORNERS;
-        const double point[2] = {radius * cos(s), radius * sin(s)};
-        plot_place(stage, point, at);
-        if (i > 0)
-            canvas_dashes(&paper->canvas, last[0], last[1], at[0], at[1],
-                          1.4 * paper->unit, 7 * paper->unit, 5 * paper->unit,
-                          &phase, colour);
-        last[0] = at[0];
-        last[1] = at[1];
+        const double to[2] = {radius * cos(s), radius * sin(s)};
+        plot_dashes(stage, from, to, 1.4, &phase, colour);
+        memcpy(from, to, sizeof from);
     }
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
-    plot_place(stage, label, at);
     if (stage->text)
-        paper_write(paper, FACE_REGULAR, 0.95, colour, at[0] - 0.4 * paper->em,
-                    at[1] + 0.1 * paper->em, ALIGN_RIGHT, "%s", word);
+        plot_text(stage, label, -0.4, 0.1, 0.95, ALIGN_RIGHT, FACE_REGULAR,
+                  colour, "%s", word);
 }
 
 /* A zigzag from the held end to x. */
@@ -58,18 +52,13 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     double length = math_hypot(x[0], x[1]), from[2] = {0, 0};
     if (!(length > 0))
         return;
-    const double across[2] = {-x[1] / length, x[0] / length};
     for (int i = 1; i <= 2 * SPRING_COILS; i++) {
+        bool straight = i == 1 || i >= 2 * SPRING_COILS - 1;
+        double side = straight ? 0 : (i % 2 ? 0.06 : -0.06) / length;
         double t = (double)i / (2 * SPRING_COILS);
-        double side =
-            i == 2 * SPRING_COILS || i == 1 || i == 2 * SPRING_COILS - 1
-                ? 0
-                : (i % 2 ? 0.06 : -0.06);
-        const double to[2] = {t * x[0] + side * across[0],
-                              t * x[1] + side * across[1]};
+        const double to[2] = {t * x[0] - side * x[1], t * x[1] + side * x[0]};
         plot_line(stage, from, to, 2.4, colour);
-        from[0] = to[0];
-        from[1] = to[1];
+        memcpy(from, to, sizeof from);
     }
 }
 
@@ -87,7 +76,7 @@ static void spring_draw(Plot *stage, const Show *show)
     plot_pin(stage, origin, 6);
     plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
     plot_disc(stage, x, 9, COLOUR_X);
-    if (show->bare || !stage->text)
+    if (!stage->text)
         return;
     plot_legend(stage, COLOUR_FORCE, "force");
     plot_legend(stage, COLOUR_FAINT, "rest length");
@@ -178,37 +167,44 @@ static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* The energies over the signed length along d. */
+/* The energies at a signed length along d. */
+static SpringFacts facts_over(const void *data, double d)
+{
+    const System *system = data;
+    SpringFacts facts;
+    spring_facts((double[2]){d, 0}, system->l2[0], system->k[0], &facts);
+    return facts;
+}
+
+static double energy_over(const void *data, double d)
+{
+    return facts_over(data, d).energy;
+}
+
+static double root_over(const void *data, double d)
+{
+    return facts_over(data, d).root_energy;
+}
+
 static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     const System *system = &simulation->system;
-    SpringFacts now = facts_of(simulation), facts;
+    SpringFacts now = facts_of(simulation);
+    bool both = simulation->exhibit.parts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
-    spring_facts((double[2]){0, 0}, system->l2[0], system->k[0], &facts);
-    double tip = simulation->exhibit.parts ? facts.root_energy : facts.energy;
-    double high = plot_round_axis(1.1 * fmax(tip, now.energy));
+    double tip = (both ? root_over : energy_over)(system, 0);
     Axis x = {-reach, reach, false, false, "d in m"};
-    Axis y = {0, high, false, false, NULL};
+    Axis y = {0, plot_round_axis(1.1 * fmax(tip, now.energy)), false, false,
+              NULL};
     Plot plot = plot_create(paper, inside, x, y);
-    double from[2][2] = {{0, 0}, {0, 0}};
-    for (int i = 0; i <= PROFILE_POINTS; i++) {
-        const double d[2] = {reach * (2.0 * i / PROFILE_POINTS - 1), 0};
-        spring_facts(d, system->l2[0], system->k[0], &facts);
-        for (int root = 0; root < 2; root++) {
-            const double to[2] = {d[0],
-                                  root ? facts.root_energy : facts.energy};
-            if (i > 0 && (!root || simulation->exhibit.parts))
-                plot_line(&plot, from[root], to, root ? 1.8 : 2.4,
-                          root ? COLOUR_GHOST : COLOUR_X);
-            from[root][0] = to[0];
-            from[root][1] = to[1];
-        }
-    }
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
-    if (simulation->exhibit.parts)
+    plot_graph(&plot, energy_over, system, 2.4, COLOUR_X);
+    if (both) {
+        plot_graph(&plot, root_over, system, 1.8, COLOUR_GHOST);
         plot_disc(&plot, root, 5, COLOUR_GHOST);
+    }
     plot_disc(&plot, at, 6, COLOUR_TEXT);
 }
 
