@@ -215,7 +215,7 @@ help:
 	@echo 'INSTALL=no only names missing packages; V=1 shows commands;'
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
 
-.PHONY: all web elasto lecture run run-lecture test long-test suites stress envelope \
+.PHONY: all web test-web elasto lecture run run-lecture test long-test suites stress envelope \
         same-bits mutants analyse pictures bench figures handout install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:

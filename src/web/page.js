@@ -5,12 +5,14 @@
 const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
 const context = canvas.getContext('2d', { alpha: false });
-const began = performance.now();
 let Module = null;
 let FS = null;
 
+const types = (values) => values.map((value) => typeof value);
+const ask = (name, type, ...values) => Module.ccall(name, type, types(values), values);
+
 // What a test may ask for.
-const stats = { first: 0, frames: 0, busy: 0, longest: 0 };
+const stats = { first: 0, frames: 0, longest: 0 };
 
 // One line to whoever looks at the page; a good one goes by itself.
 let silence = 0;
@@ -49,18 +51,13 @@ const Page = {
   films: () => Boolean(filmKind()),
   film(name) {
     const type = filmKind();
-    const parts = [];
     recorder = new MediaRecorder(canvas.captureStream(60), { mimeType: type });
-    recorder.ondataavailable = (event) => parts.push(event.data);
-    recorder.onstop = () =>
-      parts.length && give(name.replace(/\w+$/, type.slice(6)), new Blob(parts, { type }));
-    recorder.drop = () => (parts.length = 0);
+    recorder.ondataavailable = ({ data }) => give(name.replace(/\w+$/, type.slice(6)), data);
     recorder.start();
   },
   filmEnd(keep) {
-    const film = recorder;
-    if (!keep) film.ondataavailable = null;
-    film.stop();
+    if (!keep) recorder.ondataavailable = null;
+    recorder.stop();
   },
 };
 
@@ -74,20 +71,17 @@ const give = (name, blob) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 };
 
-// New files of the program's folder become downloads when they are whole; a
-// folder of frames a file each.
+// Files of the program's folder become downloads when they are whole, and go.
 const OUT = '/out';
-const given = new Set();
 const download = (folder = OUT) => {
   for (const name of FS.readdir(folder)) {
     const path = `${folder}/${name}`;
-    if (name[0] === '.' || /\.part\d*$/.test(name) || given.has(path)) continue;
-    if (FS.isDir(FS.stat(path).mode)) {
-      download(path);
-      continue;
+    if (name[0] === '.' || /\.part\d*$/.test(name)) continue;
+    if (FS.isDir(FS.stat(path).mode)) download(path);
+    else {
+      give(name, new Blob([FS.readFile(path)]));
+      FS.unlink(path);
     }
-    given.add(path);
-    give(name, new Blob([FS.readFile(path)]));
   }
 };
 
@@ -110,8 +104,8 @@ let line = [];
 let bare = false;
 let shown = '';
 const fromAddress = () => {
-  const [words, ...marks] = location.hash.slice(1).split('&');
-  bare = marks.includes('bare');
+  const [words, mark] = location.hash.slice(1).split('&');
+  bare = mark === 'bare';
   return words ? words.split('+').filter(Boolean).map(decodeURIComponent) : ['--lecture'];
 };
 const toAddress = (words) =>
@@ -121,7 +115,7 @@ const toAddress = (words) =>
 
 // Scene, page and changed numbers stand in the address.
 const follow = () => {
-  const words = Module.ccall('web_address', 'string').split('\n').filter(Boolean);
+  const words = ask('web_address', 'string').split('\n').filter(Boolean);
   if (!words.length || toAddress(words) === shown) return;
   shown = toAddress(words);
   history.replaceState(null, '', shown);
@@ -131,35 +125,32 @@ addEventListener('hashchange', () => {
 });
 const copyLink = () => {
   follow();
-  navigator.clipboard?.writeText(location.href).then(
-    () => say('The link to this is copied.', true),
-    () => {},
-  );
+  const copied = navigator.clipboard?.writeText(location.href);
+  copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
 };
 
 // What the picture shows, in words.
 const describe = () => {
-  const text = Module.ccall('web_text', 'string').replace(/[{}^_\\]/g, '');
+  const text = ask('web_text', 'string').replace(/[{}^_\\]/g, '');
   if (text !== canvas.getAttribute('aria-label')) canvas.setAttribute('aria-label', text);
 };
 
 // ---- the loop ---------------------------------------------------------------
 
 // The program says for how many milliseconds nothing is due.
-let timer = 0;
-let asked = 0;
-let looked = 0;
+let [timer, asked, looked] = [0, 0, 0];
 const frame = () => {
   asked = 0;
   if (document.hidden && !canvas.hidden) return;
   const start = performance.now();
   const wait = Module._web_frame();
-  const took = performance.now() - start;
   stats.frames++;
-  stats.busy += took;
-  stats.longest = Math.max(stats.longest, took);
+  stats.longest = Math.max(stats.longest, performance.now() - start);
   download();
-  if (wait < 0) return;
+  if (wait < 0) {
+    const more = canvas.hidden || $('said').textContent;
+    return more || say('The end. Reload the page to begin again.', true);
+  }
   if (start - looked > 500 && !canvas.hidden) {
     looked = start;
     follow();
@@ -182,9 +173,8 @@ const begin = (words) => {
   $('said').textContent = $('summary').textContent = '';
   const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const still = calm && !words.some((word) => /^--(paused|steps|script|headless)/.test(word));
-  const code = Module.ccall('web_begin', 'number', ['string'], [
-    [...words, ...(still ? ['--paused'] : [])].join('\n'),
-  ]);
+  const all = still ? [...words, '--paused'] : words;
+  const code = ask('web_begin', 'number', all.join('\n'));
   download();
   if (code >= 0) return;
   line = words;
@@ -199,23 +189,21 @@ const begin = (words) => {
 
 // ---- keys -------------------------------------------------------------------
 
-const NAMES = { ArrowLeft: 'Left', ArrowRight: 'Right', ArrowUp: 'Up', ArrowDown: 'Down' };
-Object.assign(NAMES, { Enter: 'Return', ' ': 'Space' });
-for (const name of ['PageDown', 'PageUp', 'Home', 'End', 'Escape', 'Backspace', 'Delete'])
-  NAMES[name] = name;
-
 const key = (name, repeats) => {
-  Module.ccall('web_key', null, ['string', 'number'], [name, repeats ? 1 : 0]);
+  if (!FS) return;
+  ask('web_key', 'number', name, Number(repeats));
   wake();
 };
 
-// The letter on a keyboard that types none of ours.
-const letterOf = (event) =>
-  /^[a-z]$/i.test(event.key)
-    ? event.key.toUpperCase()
-    : event.key.length === 1 && event.key > '\x7f' && /^Key[A-Z]$/.test(event.code)
-      ? event.code[3]
-      : '';
+// What view.h calls a key; a letter also on a keyboard that types none of ours;
+// '' for signs and digits, which come as they are, and for what nobody needs.
+const NAMED = /^(Arrow\w+|Page\w+|Home|End|Escape|Enter|Backspace|Delete|F\d+| )$/;
+const nameOf = ({ key, code }) => {
+  if (/^[a-z]$/i.test(key)) return key.toUpperCase();
+  if (key.length === 1 && key > '\x7f' && /^Key[A-Z]$/.test(code)) return code[3];
+  if (!NAMED.test(key)) return '';
+  return key.replace('Arrow', '').replace('Enter', 'Return').replace(' ', 'Space');
+};
 
 let tabHeld = false;
 let tabAlone = false;
@@ -223,11 +211,10 @@ canvas.addEventListener('keydown', (event) => {
   if (event.altKey || event.metaKey || event.isComposing) return;
   if (event.key === 'Tab') {
     tabHeld = tabAlone = true;
-    event.preventDefault();
-    return;
+    return event.preventDefault();
   }
   const sign = event.key.length === 1 && !event.ctrlKey;
-  const plain = letterOf(event) || NAMES[event.key] || (/^F\d+$/.test(event.key) ? event.key : '');
+  const plain = nameOf(event);
   if (!plain && !sign) return;
   const held =
     (event.ctrlKey ? 'Ctrl+' : '') + (event.shiftKey ? 'Shift+' : '') + (tabHeld ? 'Tab+' : '');
@@ -249,9 +236,11 @@ canvas.addEventListener('blur', () => (tabHeld = tabAlone = false));
 const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
 const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
 const LONG_TOUCH = 500; // ms
+const ZOOM = 1.15; // of one notch of the wheel
 const STILL = 8; // points that a finger may move and still touch one place
 
 const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
+  if (!FS) return;
   const box = canvas.getBoundingClientRect();
   const scale = canvas.width / box.width;
   const [x, y] = [(at.clientX - box.left) * scale, (at.clientY - box.top) * scale];
@@ -306,9 +295,8 @@ const touchMove = (event) => {
   if (touch.pressed === MIDDLE && fingers.size === 2) {
     const now = between();
     tell(MOVE, now);
-    tell(WHEEL, now, 0, 1, Math.log(now.wide / touch.at.wide) / Math.log(1.15));
+    tell(WHEEL, now, 0, 1, Math.log(now.wide / touch.at.wide) / Math.log(ZOOM));
     touch.at = now;
-    return;
   }
   if (!touch.pressed && !near(event, touch.first)) {
     clearTimeout(touch.timer);
@@ -343,31 +331,25 @@ canvas.addEventListener('pointermove', (event) => {
   if (isTouch(event)) touchMove(event);
   else tell(MOVE, event);
 });
-for (const kind of ['pointerup', 'pointercancel'])
-  canvas.addEventListener(kind, (event) => {
-    if (isTouch(event)) touchUp(event);
-    else tell(RELEASE, event, BUTTONS[event.button] || 0);
-  });
-canvas.addEventListener('pointerleave', (event) => {
-  if (!isTouch(event)) tell(LEAVE, event);
-});
+const up = (event) => {
+  if (isTouch(event)) touchUp(event);
+  else tell(RELEASE, event, BUTTONS[event.button] || 0);
+};
+canvas.addEventListener('pointerup', up);
+canvas.addEventListener('pointercancel', up);
+canvas.addEventListener('pointerleave', (event) => isTouch(event) || tell(LEAVE, event));
 canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-canvas.addEventListener(
-  'wheel',
-  (event) => {
-    const lines = event.deltaMode ? event.deltaY : event.deltaY / 100;
-    tell(WHEEL, event, 0, 1, -lines);
-    event.preventDefault();
-  },
-  { passive: false },
-);
+canvas.onwheel = (event) => {
+  tell(WHEEL, event, 0, 1, -event.deltaY / (event.deltaMode ? 1 : 100));
+  event.preventDefault();
+};
 
 // ---- the beginning ----------------------------------------------------------
 
+const bytesOf = (letters) => Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
 const unpack = async (id) => {
-  const letters = atob($(id).textContent);
-  const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  const packed = new Blob([bytesOf($(id).textContent)]).stream();
+  const stream = packed.pipeThrough(new DecompressionStream('gzip'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 };
 
@@ -376,44 +358,43 @@ $('licences').onclick = async () => {
   $('notice').showModal();
 };
 
-// A function that returns a vector: (func (result v128) i32.const 0 i8x16.splat)
-const VECTOR = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0];
-VECTOR.push(10, 8, 1, 6, 0, 65, 0, 253, 15, 11);
+// A module with one function, which returns a vector of 16 zeros.
+const SIMD = 'AGFzbQEAAAABBQFgAAF7AwIBAAoIAQYAQQD9Dws=';
+const isAble = () => window.DecompressionStream && window.WebAssembly?.validate(bytesOf(SIMD));
 
 const failed = (error) =>
-  say(/memory/i.test(error) ? 'elasto: there is not enough memory for this; reload the page.'
-      : `elasto: ${error.message || error}; reload the page.`);
+  say(
+    /memory/i.test(error)
+      ? 'elasto: there is not enough memory for this; reload the page.'
+      : `elasto: ${error.message || error}; reload the page.`,
+  );
 addEventListener('error', (event) => failed(event.error || event.message));
 addEventListener('unhandledrejection', (event) => failed(event.reason));
 
 // The end of the page has arrived.
 const start = async () => {
-  if (!window.WebAssembly || !WebAssembly.validate(new Uint8Array(VECTOR)) ||
-      !window.DecompressionStream) {
-    say('elasto needs a browser with WebAssembly SIMD: Chrome 91, Firefox 113, Safari 16.4 or newer.');
-    return;
-  }
+  if (!isAble())
+    return say('elasto needs WebAssembly SIMD: Chrome 91, Firefox 113, Safari 16.4 or newer.');
   const script = document.createElement('script');
   script.textContent = $('module').textContent;
   document.body.append(script);
   Module = await createElasto({
     wasmBinary: await unpack('packed-program'),
     print: (text) => ($('summary').textContent += text + '\n'),
-    printErr: (text) => say(text),
+    printErr: (text) => say(text, !/^(elasto|script):/.test(text)),
   });
   FS = Module.FS;
   FS.mkdir(OUT);
   FS.chdir(OUT);
   $('loading').hidden = true;
   begin(fromAddress());
-  stats.first = performance.now() - began;
+  stats.first = performance.now();
   new ResizeObserver(() => tell(REDRAW, { clientX: 0, clientY: 0 })).observe(canvas);
 };
 
-// While the page arrives over a network.
-const SIZE = 1.2e6; // letters, about
+// While the page arrives over a network; it has about 1.2 million letters.
 const watch = setInterval(() => {
   const text = $('packed-program')?.textContent || '';
-  $('progress').value = text.length / SIZE;
+  $('progress').value = text.length / 1.2e6;
   if (document.readyState !== 'loading') clearInterval(watch);
 }, 100);

@@ -57,4 +57,8 @@ build/elasto.html: src/web/pack.py src/web/page.html src/web/page.js \
 	$(call shown,PACK)
 	$(Q)python3 $^ $(W)/elasto.wasm $(W)/libraries $@
 
+# In Chromium, with mouse, keys and touch.
+test-web: build/elasto build/elasto.html
+	@node tests/web/check_web.js $^
+
 -include $(wildcard $(W)/*/*.d)

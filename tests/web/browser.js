@@ -9,15 +9,14 @@ const path = require('path');
 
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-const launch = async (...more) => {
+const launch = async () => {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-web-'));
+  const flags =
+    '--headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run ' +
+    `--remote-debugging-pipe --user-data-dir=${profile}`;
   const chromium = spawn(
     process.env.CHROMIUM || 'chromium',
-    [
-      '--headless=new', '--no-sandbox', '--disable-gpu', '--remote-debugging-pipe',
-      '--host-resolver-rules=MAP * ~NOTFOUND', '--disable-dev-shm-usage',
-      `--user-data-dir=${profile}`, '--no-first-run', ...more, 'about:blank',
-    ],
+    [...flags.split(' '), '--host-resolver-rules=MAP * ~NOTFOUND', 'about:blank'],
     { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] },
   );
   const waiting = new Map();
@@ -58,18 +57,15 @@ const launch = async (...more) => {
       if (method === 'Log.entryAdded') tab.trouble.push(params.entry.text);
     });
     for (const domain of ['Page', 'Runtime', 'Network', 'Log']) await ask(domain + '.enable');
-    await ask('Emulation.setDeviceMetricsOverride', {
-      width, height, deviceScaleFactor: ratio, mobile: false,
-    });
-    await ask('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
+    const screen = { width, height, deviceScaleFactor: ratio, mobile: false };
+    await ask('Emulation.setDeviceMetricsOverride', screen);
     await ask('Emulation.setFocusEmulationEnabled', { enabled: true });
     if (before) await ask('Page.addScriptToEvaluateOnNewDocument', { source: before });
     await ask('Page.navigate', { url });
     tab.ask = ask;
     tab.run = async (expression) => {
-      const answer = await ask('Runtime.evaluate', {
-        expression, awaitPromise: true, returnByValue: true,
-      });
+      const how = { expression, awaitPromise: true, returnByValue: true };
+      const answer = await ask('Runtime.evaluate', how);
       if (answer.exceptionDetails) throw new Error(answer.exceptionDetails.exception.description);
       return answer.result.value;
     };
@@ -78,14 +74,14 @@ const launch = async (...more) => {
         if (await tab.run(expression)) return;
       throw new Error(`${url}: waited in vain for ${expression}`);
     };
-    tab.mouse = (type, x, y, more = {}) =>
-      ask('Input.dispatchMouseEvent', {
-        type, x, y, button: type === 'mouseMoved' ? 'none' : 'left', clickCount: 1, ...more,
-      });
-    tab.touch = (type, ...points) =>
-      ask('Input.dispatchTouchEvent', {
-        type, touchPoints: points.map(([x, y], id) => ({ x, y, id })),
-      });
+    tab.mouse = (type, x, y, more = {}) => {
+      const button = type === 'mouseMoved' ? 'none' : 'left';
+      return ask('Input.dispatchMouseEvent', { type, x, y, button, clickCount: 1, ...more });
+    };
+    tab.touch = (type, ...places) => {
+      const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+      return ask('Input.dispatchTouchEvent', { type, touchPoints });
+    };
     tab.key = async (name, modifiers = 0) => {
       const text = name.length === 1 && !(modifiers & 2) ? name : undefined;
       const code = /^[a-z]$/i.test(name) ? 'Key' + name.toUpperCase() : name;

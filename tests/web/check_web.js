@@ -16,7 +16,6 @@ const at = (line) => `file://${page}#${line.replace(/ /g, '+')}`;
 const native = (line, more = {}) =>
   spawnSync(elasto, line.split(' '), { encoding: 'utf8', cwd: folder, ...more });
 const hashIn = (text) => (/state(?: hash)? +([0-9a-f]{16})/.exec(text) || [])[1];
-const digest = (bytes) => crypto.createHash('sha256').update(bytes).digest('hex');
 
 let failed = 0;
 const verdict = (name, wrong) => {
@@ -26,13 +25,18 @@ const verdict = (name, wrong) => {
 
 // A line without a window, in a tab that is open already; its summary.
 const headless = async (tab, line) => {
-  await tab.run(`$('summary').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`);
+  await tab.run(
+    `$('summary').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`,
+  );
   await tab.until(`/state hash/.test($('summary').textContent) || $('said').textContent`);
   return tab.run(`$('summary').textContent || $('said').textContent`);
 };
 
 const names = (line) =>
-  native(line).stdout.trim().split('\n').map((row) => row.trim().split(/\s+/));
+  native(line)
+    .stdout.trim()
+    .split('\n')
+    .map((row) => row.trim().split(/\s+/));
 const SCENES = names('--list').map(([name]) => name);
 const PAGES = names('--list --lecture').map(([, name]) => '--lecture ' + name);
 
@@ -49,22 +53,26 @@ const sameHashes = async (browser) => {
   verdict('every_scene_and_page_ends_in_the_same_hash', [...wrong, ...tab.trouble]);
 };
 
-// Frames by the canvas's own drawing code, at 1x and 2x; the race shows times.
+// A tab whose downloads wait in `files`.
+const CATCH = `window.files = {}; HTMLAnchorElement.prototype.click = function () {
+  files[this.download] = fetch(this.href).then((file) => file.blob());
+}`;
+
+// Frames as the canvas shows them, at 1x and 2x; the race shows times.
 const samePixels = async (browser) => {
-  const tab = await browser.open(at('square --headless --steps 0'), {
-    before: 'HTMLAnchorElement.prototype.click = () => {}',
-  });
+  const tab = await browser.open(at('square --headless --steps 0'), { before: CATCH });
   const wrong = [];
-  const frame = 'frames/frame_000001.png';
   for (const what of [...SCENES, ...PAGES].filter((name) => !/race/.test(name)))
     for (const size of ['1280x800', '2560x1600']) {
       const line = `${what} --headless --steps 1 --size ${size} --frames frames`;
       native(line);
       await headless(tab, line);
-      const theirs = await tab.run(
-        `(() => { const b = FS.readFile('${frame}'); let s = ''; for (const c of b) s += String.fromCharCode(c); return btoa(s); })()`,
-      );
-      if (digest(fs.readFileSync(path.join(folder, frame))) !== digest(Buffer.from(theirs, 'base64')))
+      const theirs = await tab.run(`files['frame_000001.png'].then(async (file) => {
+        const digest = await crypto.subtle.digest('SHA-256', await file.arrayBuffer());
+        return [...new Uint8Array(digest)].map((n) => n.toString(16).padStart(2, '0')).join('');
+      })`);
+      const ours = fs.readFileSync(path.join(folder, 'frames/frame_000001.png'));
+      if (crypto.createHash('sha256').update(ours).digest('hex') !== theirs)
         wrong.push(`${what} ${size}`);
     }
   verdict('every_scene_and_page_has_the_same_pixels', [...wrong, ...tab.trouble]);
@@ -72,7 +80,6 @@ const samePixels = async (browser) => {
 
 // A session ends with Y: a hash, and a script that arrives as a download and
 // leads the program to it.
-const CTRL = 2;
 const SESSIONS = {
   mouse: async (tab) => {
     await tab.mouse('mousePressed', 450, 300);
@@ -82,16 +89,15 @@ const SESSIONS = {
     await tab.key('Space');
     await tab.mouse('mousePressed', 300, 400, { button: 'right' });
     await tab.mouse('mouseReleased', 300, 400, { button: 'right' });
-    await tab.ask('Input.dispatchMouseEvent', {
-      type: 'mouseWheel', x: 400, y: 300, deltaX: 0, deltaY: -200,
-    });
+    await tab.mouse('mouseWheel', 400, 300, { deltaX: 0, deltaY: -200 });
     await tab.key('n');
   },
   keys: async (tab) => {
     for (const key of ['Space', 'n', 'n', 'i', 'i', 'ArrowRight', 'ArrowRight', 'Escape', 'p', 'n'])
       await tab.key(key);
     await tab.key('Tab');
-    for (const key of ['0', '.', '0', '2', 'Enter', 'n', 'm', 'n', 'ArrowLeft', 'n']) await tab.key(key);
+    for (const key of ['0', '.', '0', '2', 'Enter', 'n', 'm', 'n', 'ArrowLeft', 'n'])
+      await tab.key(key);
   },
   touch: async (tab) => {
     await tab.touch('touchStart', [450, 300]);
@@ -130,7 +136,8 @@ const sessions = async (browser) => {
       const played = native(`${SQUARE} --headless --script ${file}`);
       if (!hashIn(text) || hashIn(text) !== hashIn(played.stdout) || played.stderr)
         wrong.push(`${text}, the program ${hashIn(played.stdout)} ${played.stderr}`);
-      if (name !== 'keys' && !/grab|drag/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no hand');
+      if (name !== 'keys' && !/grab|drag/.test(fs.readFileSync(file, 'utf8')))
+        wrong.push('no hand');
       if (name !== 'keys' && !/pin/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no pin');
       if (name === 'mouse') await dropped(browser, file, hashIn(text));
     }
@@ -151,7 +158,9 @@ const dropped = async (browser, file, hash) => {
   const wrong = [];
   await tab.run(`line = ${JSON.stringify((SQUARE + ' --headless').split(' '))}`);
   await drop(tab, 'mine.script', fs.readFileSync(file, 'utf8'));
-  await tab.until(`/state hash/.test($('summary').textContent) && !/steps +0\\n/.test($('summary').textContent)`);
+  await tab.until(
+    `/state hash/.test($('summary').textContent) && !/steps +0\\n/.test($('summary').textContent)`,
+  );
   const text = await tab.run(`$('summary').textContent`);
   if (hashIn(text) !== hash) wrong.push(`${hashIn(text)} for ${hash}`);
   verdict('a_dropped_script_is_played', [...wrong, ...tab.trouble]);
@@ -161,19 +170,20 @@ const dropped = async (browser, file, hash) => {
 const saved = async (browser) => {
   const wrong = [];
   for (const ratio of [1, 2]) {
-    const tab = await browser.open(at('hang --paused'), { width: 800, height: 500, ratio });
-    const same = await tab.run(`new Promise((done) => {
-      HTMLAnchorElement.prototype.click = async function () {
-        const picture = await createImageBitmap(await (await fetch(this.href)).blob());
-        const copy = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
-        copy.drawImage(picture, 0, 0);
-        const theirs = pixels(copy, picture);
-        done(canvas.width === picture.width && canvas.width === ${800 * ratio} &&
-          ours.every((value, i) => value === theirs[i]));
-      };
-      const pixels = (of, { width, height }) => of.getImageData(0, 0, width, height).data;
-      const ours = pixels(context, canvas);
-      key('S', false);
+    const tab = await browser.open(at('hang --paused'), {
+      width: 800,
+      height: 500,
+      ratio,
+      before: CATCH,
+    });
+    await tab.run(`ours = context.getImageData(0, 0, canvas.width, canvas.height).data`);
+    await tab.key('s');
+    await tab.until(`Object.keys(files).length === 1`);
+    const same = await tab.run(`Object.values(files)[0].then(createImageBitmap).then((picture) => {
+      const copy = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+      copy.drawImage(picture, 0, 0);
+      const theirs = copy.getImageData(0, 0, picture.width, picture.height).data;
+      return theirs.length === ${4 * 800 * 500 * ratio ** 2} && ours.every((n, i) => n === theirs[i]);
     })`);
     if (!same) wrong.push(ratio + 'x');
     wrong.push(...tab.trouble);
@@ -188,9 +198,9 @@ const addresses = async (browser) => {
   const follows = async (key, expected) => {
     if (key) await tab.key(key);
     await tab.run('looked = 0');
-    await tab.until(`location.hash === '#${expected}'`, 3000).catch(async () =>
-      wrong.push(`${key}: ${await tab.run('location.hash')}, not #${expected}`),
-    );
+    await tab
+      .until(`location.hash === '#${expected}'`, 3000)
+      .catch(async () => wrong.push(`${key}: ${await tab.run('location.hash')}, not #${expected}`));
   };
   await follows('', PAGES[0].replace(' ', '+').replace(/\+.*/, ''));
   await follows('PageDown', PAGES[1].replace(' ', '+'));
@@ -204,10 +214,15 @@ const addresses = async (browser) => {
   const bad = [];
   await tab.run(`location.hash = 'square+--segments+0'`);
   await tab.until(`$('said').textContent`);
-  const [ours, theirs] = [native('square --segments 0').stderr.trim(), await tab.run(`$('said').textContent`)];
+  const [ours, theirs] = [
+    native('square --segments 0').stderr.trim(),
+    await tab.run(`$('said').textContent`),
+  ];
   if (ours !== theirs) bad.push(`'${theirs}', not '${ours}'`);
   await drop(tab, 'x.script', '3 no such command\n');
-  await tab.until(`/no command/.test($('said').textContent)`, 3000).catch(() => bad.push('the bad script is not named'));
+  await tab
+    .until(`/no command/.test($('said').textContent)`, 3000)
+    .catch(() => bad.push('the bad script is not named'));
   const frames = await tab.run('stats.frames');
   await tab.key('Space');
   await tab.until(`stats.frames > ${frames}`, 3000).catch(() => bad.push('nothing goes on'));
@@ -225,7 +240,11 @@ const lacking = async (browser) => {
     await tab.close();
   };
   await said('WebAssembly.validate = () => false', /WebAssembly SIMD/);
-  await said('WebAssembly.Memory.prototype.grow = () => { throw new RangeError("no") }', /memory/, 'square --segments 300');
+  await said(
+    'WebAssembly.Memory.prototype.grow = () => { throw new RangeError("no") }',
+    /memory/,
+    'square --segments 300',
+  );
   verdict('what_a_browser_lacks_is_said', wrong);
 
   const tab = await browser.open(at('square'), {
@@ -240,8 +259,10 @@ const lacking = async (browser) => {
   await tab.run(`away = false; document.dispatchEvent(new Event('visibilitychange'))`);
   await tab.until(`stats.frames > ${after}`, 3000).catch(() => {});
   const back = await tab.run('stats.frames');
-  verdict('a_tab_in_the_background_stops',
-    after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`]);
+  verdict(
+    'a_tab_in_the_background_stops',
+    after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`],
+  );
 };
 
 (async () => {
