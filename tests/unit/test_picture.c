@@ -559,7 +559,7 @@ TEST(readme_shows_what_is_drawn)
         count++;
     }
     fclose(list);
-    CHECK(count == 11);
+    CHECK(count == 12);
 }
 
 /* A tolerance at which bodies could hang in the air is named on the stage; the
