@@ -7,7 +7,7 @@
 #ifndef ELASTO_STRESS_H
 #define ELASTO_STRESS_H
 
-#include "testing.h"
+#include "oracle.h"
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 

@@ -3,7 +3,6 @@
  * that occur, plain sums over springs, and a dense L D L^T.
  */
 #include "model/pull_energy.h"
-#include "oracle.h"
 #include "stress.h"
 
 #include <float.h>

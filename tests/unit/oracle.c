@@ -183,23 +183,30 @@ static void contacts(Spot *spot, Jet *sum, bool touch, bool rub)
         }
 }
 
+/* Whether triangle t of the cells has all its springs, and its area over that
+ * at rest. */
+static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
+{
+    const double *k = spot->at->system->k;
+    const int *node = cells->node + 3 * t, *side = cells->spring + 3 * t;
+    Jet e[2][2];
+    if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
+        return false;
+    for (int axis = 0; axis < 2; axis++)
+        for (int edge = 0; edge < 2; edge++)
+            e[edge][axis] = between(spot, node[1 + edge], node[0], axis, false);
+    *J = plus(times(e[0][0], e[1][1]), -1, times(e[0][1], e[1][0]));
+    *J = plus((Jet){0}, 1 / (2 * (Real)cells->area), *J);
+    return true;
+}
+
 /* A0 k_c f(J/J_hat): cells.h */
 static void cells(Spot *spot, Jet *sum, const Cells *cells)
 {
-    const double *k = spot->at->system->k;
-    for (int t = 0; t < cells->triangles; t++) {
-        const int *node = cells->node + 3 * t, *side = cells->spring + 3 * t;
-        Jet e[2][2];
-        if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
-            continue;
-        for (int axis = 0; axis < 2; axis++)
-            for (int edge = 0; edge < 2; edge++)
-                e[edge][axis] =
-                    between(spot, node[1 + edge], node[0], axis, false);
-        Jet J = plus(times(e[0][0], e[1][1]), -1, times(e[0][1], e[1][0]));
-        barrier(spot, sum, cells->c,
-                plus((Jet){0}, 1 / (2 * (Real)cells->area * 0.4L), J));
-    }
+    Jet J;
+    for (int t = 0; t < cells->triangles; t++)
+        if (triangle(spot, cells, t, &J))
+            barrier(spot, sum, cells->c, plus((Jet){0}, 1 / 0.4L, J));
 }
 
 /* sum c/2 |x - o|^2: pull_energy.h */
@@ -362,4 +369,41 @@ void make_psd(double a[16])
             sum += fmaxl(l[5 * k], 0) * q[i / 4 * 4 + k] * q[i % 4 * 4 + k];
         a[i] = (double)sum;
     }
+}
+
+/* ---- what must stay above 0 ---------------------------------------------- */
+
+double exact_gap(const System *system, const double *x, int node, int obstacle)
+{
+    const Contact *contact = contact_of(system);
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at};
+    Real n[2];
+    return (double)(contact->barrier.d_hat *
+                    gap(&spot, contact, node, obstacle, n).f);
+}
+
+double smallest_gap(const System *system, const double *x)
+{
+    const Contact *contact = contact_of(system);
+    double smallest = INFINITY;
+    for (int k = 0; contact && k < contact->obstacles; k++)
+        for (int i = 0; i < system->nodes; i++)
+            if (contact_has_pair(contact, system, i, k))
+                smallest = fmin(smallest, exact_gap(system, x, i, k));
+    return smallest;
+}
+
+double smallest_cell(const System *system, const double *x)
+{
+    const Term *term = system_find_term(system, &cell_energy);
+    const Cells *cells = term ? term->data : NULL;
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at};
+    double smallest = INFINITY;
+    Jet J;
+    for (int t = 0; cells && t < cells->triangles; t++)
+        if (triangle(&spot, cells, t, &J))
+            smallest = fmin(smallest, (double)J.f);
+    return smallest;
 }

@@ -115,6 +115,7 @@ static void step(void)
     CHECK_STATUS(time_integrator_step(&run), STATUS_OK);
 }
 
+/* Where f, which rises from low to high, has this value. */
 static double between(double low, double high, double aim,
                       double (*f)(double x))
 {

@@ -328,8 +328,8 @@ static double part_left(const Case *c, const double *x)
     double least = INFINITY;
     for (int i = 0; contact && i < c->system.nodes; i++)
         if (contact_has_pair(contact, &c->system, i, 0))
-            least = fmin(least, contact_pair_gap(contact, x, i, 0).d /
-                                    contact_pair_gap(contact, c->x, i, 0).d);
+            least = fmin(least, exact_gap(&c->system, x, i, 0) /
+                                    exact_gap(&c->system, c->x, i, 0));
     return contact
                ? least
                : smallest_cell(&c->system, x) / smallest_cell(&c->system, c->x);

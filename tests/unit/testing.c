@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/cells.h"
-#include "model/contact.h"
 #include "model/pull_energy.h"
 
 /* ---- checks ------------------------------------------------------------ */
@@ -136,32 +134,6 @@ double central_omega2(const System *system)
 {
     const Term *term = system_find_term(system, &central_field);
     return term ? ((const Pull *)term->data)->k : 0;
-}
-
-double smallest_gap(const System *system, const double *x)
-{
-    const Contact *contact = contact_of(system);
-    double smallest = INFINITY;
-    for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int i = 0; i < system->nodes; i++)
-            if (contact_has_pair(contact, system, i, k))
-                smallest = fmin(smallest, contact_pair_gap(contact, x, i, k).d);
-    return smallest;
-}
-
-double smallest_cell(const System *system, const double *x)
-{
-    const Term *term = system_find_term(system, &cell_energy);
-    const Cells *cells = term ? term->data : NULL;
-    double smallest = INFINITY;
-    for (int t = 0; cells && t < cells->triangles; t++) {
-        const int *i = cells->node + 3 * t, *s = cells->spring + 3 * t;
-        Corner corner = cell_corner(x + 2 * i[0], x + 2 * i[1], x + 2 * i[2],
-                                    cells->area, cells->c);
-        if (system->k[s[0]] > 0 && system->k[s[1]] > 0 && system->k[s[2]] > 0)
-            smallest = fmin(smallest, corner.J);
-    }
-    return smallest;
 }
 
 bool dense_solve(int n, long double *A, long double *b)

@@ -78,11 +78,6 @@ void random_system(Random *random, SpringState state, System *system,
 /* omega2 of the system's central field, 1/s^2; 0 where it has none. */
 double central_omega2(const System *system);
 
-/* The smallest gap, m, and the smallest J of a whole triangle of cells in
- * positions x [2n] m; infinite where there is none. */
-double smallest_gap(const System *system, const double *x);
-double smallest_cell(const System *system, const double *x);
-
 /* b = A^-1 b by Gaussian elimination with pivots; A [n n] is destroyed.
  * Returns false where A is singular. */
 bool dense_solve(int n, long double *A, long double *b);
