@@ -31,9 +31,6 @@ typedef struct Corner {
 Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
                    double area, double c);
 
-/* W, J. */
-double cell_value(const Corner *corner);
-
 /* ---- the term -------------------------------------------------------- */
 
 /* The term's data. */

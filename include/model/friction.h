@@ -16,13 +16,8 @@
 
 #include "model/contact.h"
 
-/* f0 in m, its first derivative, and its second in 1/m.  e > 0, m */
-double friction_value(double y, double e);
+/* f0'.  e > 0, m */
 double friction_slope(double y, double e);
-double friction_curvature(double y, double e);
-
-/* f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy. */
-double friction_remainder(double y, double t, double e);
 
 /* ---- the term -------------------------------------------------------- */
 

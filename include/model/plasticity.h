@@ -26,16 +26,12 @@ typedef struct SpringLaw {
     double e_n;   /* e at the step's start */
 } SpringLaw;
 
-double spring_law_value(SpringLaw law, double e);
 double spring_law_slope(SpringLaw law, double e);
 double spring_law_curvature(SpringLaw law, double e);
 
 /* V(e + t) - V(e) - V'(e) t >= 0, with full relative accuracy while H is not
  * many powers of ten below 1. */
 double spring_law_remainder(SpringLaw law, double e, double t);
-
-/* gamma >= 0: how far the spring flows at e. */
-double spring_law_flow(SpringLaw law, double e);
 
 /* ---- the term -------------------------------------------------------- */
 

@@ -24,7 +24,8 @@ Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
     return corner;
 }
 
-double cell_value(const Corner *corner)
+/* W, J. */
+static double cell_value(const Corner *corner)
 {
     return corner->c * barrier_value(corner->J / CELL_J_HAT);
 }

@@ -27,42 +27,28 @@ double fracture_strength(const Fracture *fracture, int s)
     return fracture->strength * (1 + fracture->scatter * scatter_of(s));
 }
 
-/* The most loaded candidates first, by a heap; equal loads by number. */
-static bool before(const Fracture *fracture, int a, int b)
+/* The most loaded candidates first; equal loads by number. */
+static int compare(const void *one, const void *other)
 {
-    return fracture->load[a] > fracture->load[b] ||
-           (fracture->load[a] == fracture->load[b] && a < b);
+    const Candidate *a = one, *b = other;
+    if (a->load != b->load)
+        return a->load > b->load ? -1 : 1;
+    return a->spring - b->spring;
 }
 
-static void sink(Fracture *fracture, int count, int place)
-{
-    int *heap = fracture->candidate, it = heap[place];
-    for (int child; (child = 2 * place + 1) < count; place = child) {
-        if (child + 1 < count && before(fracture, heap[child + 1], heap[child]))
-            child++;
-        if (!before(fracture, heap[child], it))
-            break;
-        heap[place] = heap[child];
-    }
-    heap[place] = it;
-}
-
-/* Collects the candidates; returns how many. */
+/* Collects and sorts them; returns how many. */
 static int find_candidates(Fracture *fracture, const System *system,
                            const double *x)
 {
     int count = 0;
     for (int s = 0; s < system->springs; s++) {
-        if (spring_is_broken(system, s))
-            continue;
         double d[2];
         double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
-        fracture->load[s] = strain / fracture_strength(fracture, s);
-        if (fracture->load[s] > 1)
-            fracture->candidate[count++] = s;
+        double load = strain / fracture_strength(fracture, s);
+        if (load > 1 && !spring_is_broken(system, s))
+            fracture->candidate[count++] = (Candidate){load, s};
     }
-    for (int place = count / 2 - 1; place >= 0; place--)
-        sink(fracture, count, place);
+    qsort(fracture->candidate, (size_t)count, sizeof(Candidate), compare);
     return count;
 }
 
@@ -79,12 +65,10 @@ static bool end(Term *term, System *system, const double *x, const double *v,
         return false;
     double energy = system_potential(system, x);
     memset(fracture->taken, 0, (size_t)system->nodes);
-    while (count > 0) {
-        int s = fracture->candidate[0];
+    for (int k = 0; k < count; k++) {
+        int s = fracture->candidate[k].spring;
         unsigned char *i = &fracture->taken[system->e[2 * s]];
         unsigned char *j = &fracture->taken[system->e[2 * s + 1]];
-        fracture->candidate[0] = fracture->candidate[--count];
-        sink(fracture, count, 0);
         if (*i || *j)
             continue;
         *i = *j = 1;
@@ -113,14 +97,13 @@ Status fracture_add(System *system, double strength, double scatter)
 {
     size_t springs = (size_t)system->springs;
     Fracture *data =
-        calloc(1, sizeof *data + springs * (sizeof(double) + sizeof(int)) +
+        calloc(1, sizeof *data + springs * sizeof *data->candidate +
                       (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = strength;
     data->scatter = scatter;
-    data->load = (double *)(data + 1);
-    data->candidate = (int *)(data->load + springs);
+    data->candidate = (Candidate *)(data + 1);
     data->taken = (unsigned char *)(data->candidate + springs);
     system->breaks = true;
     return system_add_term(system, &fracture, data);

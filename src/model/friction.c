@@ -5,7 +5,8 @@
 
 #include "model/mass_spring_energy.h"
 
-double friction_value(double y, double e)
+/* f0, m. */
+static double friction_value(double y, double e)
 {
     double a = fabs(y);
     return a < e ? a * a / e * (1 - a / (3 * e)) : a - e / 3;
@@ -17,7 +18,8 @@ double friction_slope(double y, double e)
     return copysign(a * (2 - a), y);
 }
 
-double friction_curvature(double y, double e)
+/* f0'', 1/m. */
+static double friction_curvature(double y, double e)
 {
     return 2 / e * fmax(0, 1 - fabs(y) / e);
 }
@@ -45,9 +47,10 @@ static double remainder_on_side(double y, double t, double e)
     return remainder_on_piece(y, e - y, e, e) + missing * missing * (z - e);
 }
 
-/* R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c) with b = 0 where
+/* f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy:
+ * R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c) with b = 0 where
  * the way passes it. */
-double friction_remainder(double y, double t, double e)
+static double friction_remainder(double y, double t, double e)
 {
     double z = y + t;
     if (y < 0) { /* f0 is even */

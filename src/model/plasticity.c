@@ -26,7 +26,7 @@ static double beyond(SpringLaw law, double e)
 
 /* Where |e| is far beyond Y, e^2 and the square of what is beyond are nearly
  * the same: so Y and what is beyond are looked at apart. */
-double spring_law_value(SpringLaw law, double e)
+static double spring_law_value(SpringLaw law, double e)
 {
     double over = beyond(law, e), change = e - law.e_n;
     double within = smaller(fabs(e), law.yield);
@@ -47,7 +47,8 @@ double spring_law_curvature(SpringLaw law, double e)
     return law.theta + (beyond(law, e) > 0 ? 1 - law.flow : 1);
 }
 
-double spring_law_flow(SpringLaw law, double e)
+/* gamma >= 0: how far the spring flows at e. */
+static double spring_law_flow(SpringLaw law, double e)
 {
     return law.flow * beyond(law, e);
 }

@@ -151,32 +151,26 @@ void grid_read_system(Grid *grid, const MultigridStep *step)
 void grid_read_state(Grid *grid, const MultigridStep *step)
 {
     const Rows *rows = &grid->rows;
-    for (int i = 0; i < rows->nodes; i++)
-        for (int odd = 0, node = i * rows->nodes; odd < 2; odd++)
-            for (int J = 0; J < rows->count[odd]; J++) {
-                int at = node + odd + 2 * J, q = place_of(rows, i, odd) + J;
-                bool held = step->pinned && step->pinned[at];
-                for (int c = 0; c < 2; c++, q += rows->plane) {
-                    double u = step->u ? step->u[2 * at + c] : 0;
-                    double u_tilde = step->u_tilde[2 * at + c];
-                    grid->x[q] = step->x_n[2 * at + c] + u;
-                    grid->x_tilde[q] =
-                        step->x_n[2 * at + c] + (held ? u : u_tilde);
-                    grid->away[q] = held ? 0 : u - u_tilde;
-                }
-            }
+    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
+        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
+        bool held = step->pinned && step->pinned[node];
+        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
+            double u = step->u ? step->u[k] : 0, u_tilde = step->u_tilde[k];
+            grid->x[q] = step->x_n[k] + u;
+            grid->x_tilde[q] = step->x_n[k] + (held ? u : u_tilde);
+            grid->away[q] = held ? 0 : u - u_tilde;
+        }
+    }
 }
 
 void grid_displacement(const Grid *grid, const MultigridStep *step, double *u)
 {
     const Rows *rows = &grid->rows;
-    for (int i = 0; i < rows->nodes; i++)
-        for (int odd = 0, node = i * rows->nodes; odd < 2; odd++)
-            for (int J = 0; J < rows->count[odd]; J++) {
-                int at = node + odd + 2 * J, q = place_of(rows, i, odd) + J;
-                if (step->pinned && step->pinned[at])
-                    continue;
-                for (int c = 0; c < 2; c++, q += rows->plane)
-                    u[2 * at + c] = step->u_tilde[2 * at + c] + grid->away[q];
-            }
+    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
+        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
+        if (step->pinned && step->pinned[node])
+            continue;
+        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane)
+            u[k] = step->u_tilde[k] + grid->away[q];
+    }
 }
