@@ -138,15 +138,9 @@ double simulation_bytes(const Options *options);
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */
 long long simulation_matrix_entries(const Simulation *simulation);
 
-/* The timestep, s, and the tolerance, m/s, from the next step on. */
-void simulation_set_timestep(Simulation *simulation, double h);
-void simulation_set_tolerance(Simulation *simulation, double tolerance);
-void simulation_set_solver(Simulation *simulation, Solver solver);
-
-/* mu of all obstacles and eta of the springs, s, from the next step on. Returns
- * OK, OUT_OF_MEMORY, TOO_LARGE. */
-Status simulation_set_friction(Simulation *simulation, double mu);
-Status simulation_set_damping(Simulation *simulation, double eta);
+/* Another number from the next step on, by its slot: of those that are live all
+ * but stiffness and integrator.  Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
+Status simulation_set(Simulation *simulation, int slot, double value);
 
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);
@@ -169,16 +163,14 @@ void simulation_release(Simulation *simulation);
  * allowed. */
 Status simulation_change(Simulation *simulation, const Options *options);
 
-/* Filter and line search while running: whether there is a Hessian to project
- * and a line to search (not in explicit integrators), and their change. */
+/* Whether there is a Hessian to project and a line to search (not in explicit
+ * integrators). */
 bool simulation_has_filter(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 
 /* Whether the blocks that a filter may change are those of the springs alone:
  * one each, and none of contact or cells. */
 bool simulation_projects_springs(const Simulation *simulation);
-void simulation_set_filter(Simulation *simulation, Filter filter);
-void simulation_set_line_search(Simulation *simulation, LineSearch search);
 
 /* The point that a scene is about, m: the iterate, or node 0 of run 0; at [2]
  * out.  Returns how many of its coordinates count: 1 where a minimum in one

@@ -94,20 +94,9 @@ static Status use_options(Simulation *simulation, const Options *wanted)
     if (now->integrator != wanted->integrator ||
         now->stiffness != wanted->stiffness)
         return simulation_change(simulation, wanted);
-    if (now->timestep != wanted->timestep)
-        simulation_set_timestep(simulation, wanted->timestep);
-    if (now->tolerance != wanted->tolerance)
-        simulation_set_tolerance(simulation, wanted->tolerance);
-    if (now->solver != wanted->solver)
-        simulation_set_solver(simulation, wanted->solver);
-    if (now->filter != wanted->filter)
-        simulation_set_filter(simulation, wanted->filter);
-    if (now->line_search != wanted->line_search)
-        simulation_set_line_search(simulation, wanted->line_search);
-    if (now->friction != wanted->friction)
-        status = simulation_set_friction(simulation, wanted->friction);
-    if (!status && now->damping != wanted->damping)
-        status = simulation_set_damping(simulation, wanted->damping);
+    for (int slot = 0; slot < OPTIONS_NUMBERS && !status; slot++)
+        if (now->number[slot] != wanted->number[slot])
+            status = simulation_set(simulation, slot, wanted->number[slot]);
     return status;
 }
 

@@ -181,33 +181,6 @@ double simulation_time(const Simulation *simulation)
     return simulation->run[0].clock;
 }
 
-void simulation_set_timestep(Simulation *simulation, double h)
-{
-    simulation->options.timestep = h;
-    for (int i = 0; i < simulation->runs; i++) {
-        TimeIntegrator *run = &simulation->run[i];
-        run->h = h;
-        if (run->newton)
-            run->newton->settings.h = h;
-    }
-}
-
-void simulation_set_tolerance(Simulation *simulation, double tolerance)
-{
-    simulation->options.tolerance = tolerance;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            simulation->run[i].newton->settings.tolerance = tolerance;
-}
-
-void simulation_set_solver(Simulation *simulation, Solver solver)
-{
-    simulation->options.solver = solver;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            simulation->run[i].newton->settings.solver = solver;
-}
-
 /* The term is there while there is friction. */
 static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
 {
@@ -224,33 +197,45 @@ static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
     return status;
 }
 
-Status simulation_set_friction(Simulation *simulation, double mu)
+/* The same of damping. */
+static Status set_damping(System *system, double eta)
 {
-    Options *options = &simulation->options;
-    Status status = STATUS_OK;
-    options->friction = mu;
-    for (int r = 0; r < simulation->runs && !status; r++) {
-        double grip = simulation->grip[r] > 0 ? simulation->grip[r] : 1;
-        status =
-            set_friction(&simulation->run[r], grip * mu, options->slip_speed);
-    }
-    return status;
+    Damping *data = damping_of(system);
+    if (eta == 0)
+        system_remove_term(system, &damping);
+    else if (data)
+        data->eta = eta;
+    else
+        return damping_add(system, eta);
+    return STATUS_OK;
 }
 
-Status simulation_set_damping(Simulation *simulation, double eta)
+Status simulation_set(Simulation *simulation, int slot, double value)
 {
+    Options *options = &simulation->options;
+    bool aims = slot == OPTION_SLOT(filter) || slot == OPTION_SLOT(line_search);
     Status status = STATUS_OK;
-    simulation->options.damping = eta;
+    options->number[slot] = value;
     for (int r = 0; r < simulation->runs && !status; r++) {
-        System *system = simulation->run[r].system;
-        Damping *data = damping_of(system);
-        if (eta == 0)
-            system_remove_term(system, &damping);
-        else if (data)
-            data->eta = eta;
-        else
-            status = damping_add(system, eta);
+        TimeIntegrator *run = &simulation->run[r];
+        double grip = simulation->grip[r] > 0 ? simulation->grip[r] : 1;
+        if (slot == OPTION_SLOT(timestep))
+            run->h = value;
+        if (run->newton) {
+            NewtonSettings *settings = &run->newton->settings;
+            settings->h = run->h;
+            settings->tolerance = options->tolerance;
+            settings->solver = options->solver;
+            settings->filter = options->filter;
+            settings->search = options->line_search;
+        }
+        if (slot == OPTION_SLOT(friction))
+            status = set_friction(run, grip * value, options->slip_speed);
+        if (slot == OPTION_SLOT(damping))
+            status = set_damping(run->system, value);
     }
+    if (aims && simulation->scene->aim && !simulation->done)
+        simulation->scene->aim(simulation);
     return status;
 }
 
@@ -521,31 +506,6 @@ bool simulation_projects_springs(const Simulation *simulation)
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
            !system_find_term(system, &cell_energy);
-}
-
-/* What scenes that show directions do after a change of method. */
-static void aim_again(Simulation *simulation)
-{
-    if (simulation->scene->aim && !simulation->done)
-        simulation->scene->aim(simulation);
-}
-
-void simulation_set_filter(Simulation *simulation, Filter filter)
-{
-    simulation->options.filter = filter;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            simulation->run[i].newton->settings.filter = filter;
-    aim_again(simulation);
-}
-
-void simulation_set_line_search(Simulation *simulation, LineSearch search)
-{
-    simulation->options.line_search = search;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].newton)
-            simulation->run[i].newton->settings.search = search;
-    aim_again(simulation);
 }
 
 /* Centre of mass, m, and its velocity, m/s, at [4] out.  Returns the mass. */

@@ -51,9 +51,11 @@ TEST(scenes_are_rows_of_options)
         Simulation *one = simulate("%s", rows[i].one);
         Simulation *other = simulate("%s", rows[i].other);
         if (rows[i].friction > 0)
-            CHECK(!simulation_set_friction(other, rows[i].friction));
+            CHECK(!simulation_set(other, OPTION_SLOT(friction),
+                                  rows[i].friction));
         if (rows[i].damping > 0)
-            CHECK(!simulation_set_damping(other, rows[i].damping));
+            CHECK(
+                !simulation_set(other, OPTION_SLOT(damping), rows[i].damping));
         make_steps(one, rows[i].steps);
         make_steps(other, rows[i].steps);
         CHECK(state_hash(one, 1) == state_hash(other, 1));
@@ -69,8 +71,9 @@ TEST(what_is_off_leaves_the_bits)
                                         "hang --segments 40"};
     for (int i = 0; i < 4; i++) {
         Simulation *scene = simulate("%s", lines[i]);
-        CHECK_STATUS(simulation_set_damping(scene, 0.1), STATUS_OK);
-        CHECK_STATUS(simulation_set_damping(scene, 0), STATUS_OK);
+        CHECK_STATUS(simulation_set(scene, OPTION_SLOT(damping), 0.1),
+                     STATUS_OK);
+        CHECK_STATUS(simulation_set(scene, OPTION_SLOT(damping), 0), STATUS_OK);
         CHECK(!damping_of(&scene->system));
         CHECK(state_hash(make_steps(scene, 30), 1) ==
               state_hash(make_steps(simulate("%s", lines[i]), 30), 1));
@@ -278,7 +281,7 @@ static Status meddle(Simulation *scene, int deed)
     case 5:
         return simulation_pin(scene, 9, deed % 8 == 3);
     case 4:
-        simulation_set_timestep(scene, 0.4 * options.timestep);
+        simulation_set(scene, OPTION_SLOT(timestep), 0.4 * options.timestep);
         return STATUS_OK;
     default:
         options.stiffness *= deed % 2 ? 0.5 : 3;
@@ -311,7 +314,7 @@ TEST(what_hands_do_is_work)
                                        "damping"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Simulation *scene = simulate("%s", lines[i]);
-        simulation_set_tolerance(scene, 1e-8);
+        simulation_set(scene, OPTION_SLOT(tolerance), 1e-8);
         int blocked = 0; /* the ceiling, by the node that is pinned */
         for (int n = 0; n < 24 * 5; n++) {
             Energies before = simulation_energies(scene, 0);

@@ -196,13 +196,14 @@ TEST(settings_change_while_running)
     Simulation *simulation = simulate("--segments 3");
     const Newton *newton = simulation->run[0].newton;
     for (int round = 0; round < 3; round++) {
-        simulation_set_filter(simulation, FILTER_CLAMP);
-        simulation_set_line_search(simulation, LINE_SEARCH_BACKTRACK);
+        simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
+        simulation_set(simulation, OPTION_SLOT(line_search),
+                       LINE_SEARCH_BACKTRACK);
         make_steps(simulation, 1);
         CHECK(newton->search.kind == CHOLESKY_DEFINITE);
         CHECK(newton->record.trials > 0);
-        simulation_set_filter(simulation, FILTER_NONE);
-        simulation_set_line_search(simulation, LINE_SEARCH_NONE);
+        simulation_set(simulation, OPTION_SLOT(filter), FILTER_NONE);
+        simulation_set(simulation, OPTION_SLOT(line_search), LINE_SEARCH_NONE);
         make_steps(simulation, 1);
         CHECK(newton->search.kind == CHOLESKY_INDEFINITE);
         CHECK(newton->record.trials == 0 && newton->record.alpha == 1);

@@ -454,7 +454,7 @@ TEST(claim_descent)
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
     CHECK(simulation->descent.slope > 0.1);
-    simulation_set_filter(simulation, FILTER_CLAMP);
+    simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
     CHECK(simulation->descent.slope < -0.1);
     for (int i = -8; i <= 8; i++)
         for (int j = -8; j <= 8; j++) {

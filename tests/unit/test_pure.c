@@ -37,11 +37,12 @@ static void disturb(const Options *options, Simulation *used)
     int last = used->system.nodes - 1;
     bool pinned = simulation_is_pinned(used, last);
     bool damps = used->run[0].method->at_end && used->system.springs > 0;
-    simulation_set_timestep(used, 2 * options->timestep);
+    simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
     CHECK_STATUS(simulation_pin(used, last, !pinned), STATUS_OK);
     CHECK_STATUS(simulation_grab(used, 0, 0.1, 0.2), STATUS_OK);
     if (damps)
-        CHECK_STATUS(simulation_set_damping(used, 1e8), STATUS_OK);
+        CHECK_STATUS(simulation_set(used, OPTION_SLOT(damping), 1e8),
+                     STATUS_OK);
     simulation_step(used);
     if (damps) {
         const Newton *newton = used->run[0].newton;
@@ -50,10 +51,12 @@ static void disturb(const Options *options, Simulation *used)
         CHECK(newton->rounding.stiffest == stiffest);
     }
     if (damps)
-        CHECK_STATUS(simulation_set_damping(used, options->damping), STATUS_OK);
+        CHECK_STATUS(
+            simulation_set(used, OPTION_SLOT(damping), options->damping),
+            STATUS_OK);
     simulation_release(used);
     CHECK_STATUS(simulation_pin(used, last, pinned), STATUS_OK);
-    simulation_set_timestep(used, options->timestep);
+    simulation_set(used, OPTION_SLOT(timestep), options->timestep);
 }
 
 /* From `first`, a simulation that was never used makes the next step, and one
@@ -174,7 +177,7 @@ TEST(another_timestep_begins_anew)
         CHECK_STATUS(simulation_create(&options, NULL, NULL, &fresh),
                      STATUS_OK);
         state_restore(bytes, STATE_BODY, &fresh);
-        simulation_set_timestep(&simulation, 2e-3);
+        simulation_set(&simulation, OPTION_SLOT(timestep), 2e-3);
         for (int i = 0; i < 3; i++) {
             CHECK_STATUS(simulation_step(&simulation), STATUS_OK);
             CHECK_STATUS(simulation_step(&fresh), STATUS_OK);

@@ -131,7 +131,8 @@ TEST(overshoot_converges_with_line_search)
         const Descent *descent = &simulation->descent;
         if (i == 3) {
             simulation_step(simulation);
-            simulation_set_line_search(simulation, LINE_SEARCH_BACKTRACK);
+            simulation_set(simulation, OPTION_SLOT(line_search),
+                           LINE_SEARCH_BACKTRACK);
         }
         CHECK_STATUS(run_to_end(simulation, 100), STATUS_OK);
         CHECK_NEAR(simulation->run[0].x[0], 0, 1e-10);
@@ -167,13 +168,13 @@ TEST(projection_is_switched_while_running)
         CHECK(record->slope > 0 && record->alpha == 0);
         CHECK(record->projected == 0);
     }
-    simulation_set_filter(simulation, FILTER_CLAMP);
+    simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
     make_steps(simulation, 50);
     CHECK(simulation->options.filter == FILTER_CLAMP);
     CHECK(simulation->unconverged == 3);
     CHECK(simulation_counters(simulation).projected > 0);
     simulation = simulate("unprojected --filter clamp");
-    simulation_set_filter(simulation, FILTER_NONE);
+    simulation_set(simulation, OPTION_SLOT(filter), FILTER_NONE);
     CHECK_STATUS(simulation_step(simulation), STATUS_NOT_DESCENT);
 }
 
@@ -185,7 +186,8 @@ TEST(landscape_starts_where_newton_goes_uphill)
 {
     Simulation *simulation = simulate("landscape --filter none");
     for (int i = 0; i < 3; i++) {
-        simulation_set_filter(simulation, i % 2 ? FILTER_CLAMP : FILTER_NONE);
+        simulation_set(simulation, OPTION_SLOT(filter),
+                       i % 2 ? FILTER_CLAMP : FILTER_NONE);
         CHECK(i % 2 ? simulation->descent.slope < -0.1
                     : simulation->descent.slope > 0.1);
     }
@@ -229,11 +231,11 @@ TEST(landscape_is_downhill_from_everywhere)
         const double *x = simulation->run[0].x;
         CHECK(simulation->descent.slope < 0);
         bool convex = !descent_bends_down(simulation, at[0], at[1]);
-        simulation_set_filter(simulation, FILTER_NONE);
+        simulation_set(simulation, OPTION_SLOT(filter), FILTER_NONE);
         uphill += simulation->descent.slope > 0;
         hollow += convex;
         CHECK(!convex || simulation->descent.slope < 0);
-        simulation_set_filter(simulation, FILTER_CLAMP);
+        simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
         CHECK_STATUS(run_to_end(simulation, 100), STATUS_OK);
         check_path(simulation);
         CHECK(!descent_bends_down(simulation, x[0], x[1]));
@@ -267,7 +269,8 @@ TEST(landscape_does_not_change)
             energy_by_hand(simulation->run[0].x[0], simulation->run[0].x[1]),
             1e-14);
         CHECK_STATUS(simulation_step(simulation), STATUS_OK);
-        simulation_set_filter(simulation, i % 2 ? FILTER_CLAMP : FILTER_NONE);
+        simulation_set(simulation, OPTION_SLOT(filter),
+                       i % 2 ? FILTER_CLAMP : FILTER_NONE);
     }
 }
 

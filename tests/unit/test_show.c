@@ -579,7 +579,7 @@ TEST(contacts_slide_or_hold)
         double angle = atan2(fabs(wall->n[0]), wall->n[1]);
         for (int k = 0; k < 2; k++) { /* with another mu, and as it is */
             double mu = k ? tan(angle) : 0.45;
-            simulation_set_friction(&simulation, mu);
+            simulation_set(&simulation, OPTION_SLOT(friction), mu);
             snprintf(expected, sizeof expected,
                      "%g \u03bc = %.3g tan %.3g\u00b0: %s", part[r],
                      part[r] * mu / tan(angle), angle * 180 / M_PI,
