@@ -546,8 +546,8 @@ double simulation_deforming(const Simulation *simulation, double *centre,
     for (int i = 0; i < nodes; i++) {
         double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
         double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
-        fastest =
-            fmax(fastest, math_hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]));
+        double speed = math_hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]);
+        fastest = speed <= fastest ? fastest : speed; /* NaN stays NaN */
     }
     return fastest;
 }

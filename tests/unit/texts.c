@@ -218,9 +218,9 @@ static void put_given(const Simulation *simulation)
  * made from the one before, with the same mesh. */
 static void put_state(bool stepped)
 {
-    for (int i = 0; i < player.lanes; i++) {
-        const Simulation *simulation = &lane(i)->track.simulation;
-        printf("{\"state\":%ld,\"lane\":%d,\"line\":", player.step, i);
+    for (int i = 0; i < past_panes(&player.past); i++) {
+        const Simulation *simulation = &machine(i)->simulation;
+        printf("{\"state\":%ld,\"lane\":%d,\"line\":", player.past.step, i);
         put_words(player.line);
         printf(",\"time\":%.17g", simulation_time(simulation));
         put_given(simulation);
@@ -274,8 +274,8 @@ static void put_frame(const char *name, Pick hover)
     put_words(name);
     printf(",\"step\":%ld,\"newest\":%ld,\"active\":%d,\"lanes\":%d,"
            "\"hover\":[%d,%d],\"panes\":[",
-           player.step, player.newest, player.active, player.lanes, hover.kind,
-           hover.index);
+           player.past.step, past_newest(&player.past), player.active,
+           past_panes(&player.past), hover.kind, hover.index);
     for (int i = 0; i < show->panes; i++) {
         printf("%s{\"lane\":%d", i ? "," : "", i);
         put_numbers("x", pane_x(&show->pane[i]),
