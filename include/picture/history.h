@@ -1,4 +1,5 @@
-/* history.h - a few quantities over time, for plots, in constant memory.
+/* history.h - a few quantities over time, for plots, in constant memory, and
+ * where the first nodes were in the newest steps.
  *
  * When it is full every second point goes and from then on only every second
  * one is taken; so it always spans the whole run.
@@ -6,7 +7,12 @@
 #ifndef ELASTO_HISTORY_H
 #define ELASTO_HISTORY_H
 
-enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
+enum {
+    HISTORY_SERIES = 16,
+    HISTORY_POINTS = 1024,
+    HISTORY_RUNS = 3,
+    HISTORY_TRAIL = 256
+};
 
 typedef struct History {
     int series;                       /* rows in use, at most HISTORY_SERIES */
@@ -19,6 +25,10 @@ typedef struct History {
     double high; /* largest, at least 0 */
     double time[HISTORY_POINTS];                  /* s, ascending */
     double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
+    int trail;                                    /* newest steps, at most
+                                                     HISTORY_TRAIL ... */
+    double when[HISTORY_TRAIL];                   /* s, oldest first */
+    double place[HISTORY_RUNS][HISTORY_TRAIL][2]; /* m, of node 0 of a run */
 } History;
 
 /* Empties it; it has no series any more. */
@@ -28,10 +38,15 @@ void history_clear(History *history);
  * where there is no room for another. */
 int history_series(History *history, const char *name);
 
-/* Appends a point; nothing happens if a number is not finite.
+/* Appends a point, unless a number is not finite.
  *   time   s, in: above the one before
  *   value  [series] in */
 void history_add(History *history, double time, const double *value);
+
+/* Appends a step of the trail.
+ *   place  [2 runs] m, in; runs at most HISTORY_RUNS */
+void history_follow(History *history, double time, int runs,
+                    const double *place);
 
 /* Forgets what is later than this time, for a run that goes on from an old
  * state. */

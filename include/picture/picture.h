@@ -45,8 +45,7 @@ typedef struct Picture {
     /* The small card beside what the mouse is over; may be NULL. */
     void (*hover)(Plot *stage, const Show *show);
     /* What is kept of each state for plots; may be NULL. */
-    void (*sample)(const Simulation *simulation, History *history,
-                   Trail *trail);
+    void (*sample)(const Simulation *simulation, History *history);
 } Picture;
 
 /* The row of a scene. */

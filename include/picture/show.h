@@ -14,7 +14,6 @@
 
 #include "picture/history.h"
 #include "picture/layout.h"
-#include "picture/trail.h"
 #include "scenes/pages.h"
 #include "scenes/simulation.h"
 
@@ -84,7 +83,6 @@ typedef struct Pane {
     const double *ghost; /* [2n] m, the outcome with other settings */
     const char *ghost_label; /* "without projection" */
     const History *history;  /* energies (or radii) over time */
-    const Trail *trail;      /* of node 0 of each run */
     const Trace *trace;
     const char *label; /* over the pane where there are several */
     Status trouble;    /* how the shown step ended */
@@ -261,8 +259,8 @@ void show_lecture(LectureColumn column, const struct LecturePage *left,
  * empty, from the active pane and its trace. */
 void show_describe(Show *show);
 
-/* Takes what histories and trails of this scene's picture keep of the state
- * now; once for each drawn state, in the order of time.  trail may be NULL. */
-void show_sample(const Simulation *simulation, History *history, Trail *trail);
+/* Takes what the history of this scene's picture keeps of the state now; once
+ * for each drawn state, in the order of time. */
+void show_sample(const Simulation *simulation, History *history);
 
 #endif

@@ -55,7 +55,6 @@ typedef struct Entry {
 /* What plots keep of the steps that were drawn. */
 typedef struct Curves {
     History history; /* of energies or radii */
-    Trail trail;
     long sampled; /* step up to which these know of it; -1: none */
 } Curves;
 

@@ -42,7 +42,7 @@ Status bench_frames(Bench *bench)
         status = simulation_create(&options, NULL, NULL, &simulation);
         if (!status) {
             history_clear(&history);
-            show_sample(&simulation, &history, NULL);
+            show_sample(&simulation, &history);
             show_create(&simulation, &show);
             show.pane[0].history = &history;
             show_describe(&show);

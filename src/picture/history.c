@@ -10,6 +10,7 @@ void history_clear(History *history)
     history->count = 0;
     history->stride = 1;
     history->calls = 0;
+    history->trail = 0;
     history->low = history->high = 0;
 }
 
@@ -75,10 +76,30 @@ void history_add(History *history, double time, const double *value)
     }
 }
 
+/* Everything moves by one place where it is full. */
+void history_follow(History *history, double time, int runs,
+                    const double *place)
+{
+    if (history->trail == HISTORY_TRAIL) {
+        history->trail--;
+        memmove(history->when, history->when + 1,
+                (HISTORY_TRAIL - 1) * sizeof *history->when);
+        for (int r = 0; r < runs; r++)
+            memmove(history->place[r][0], history->place[r][1],
+                    (HISTORY_TRAIL - 1) * sizeof history->place[r][0]);
+    }
+    for (int r = 0; r < runs; r++)
+        memcpy(history->place[r][history->trail], place + 2 * r,
+               2 * sizeof *place);
+    history->when[history->trail++] = time;
+}
+
 /* The range is that of the points which are left. */
 void history_cut(History *history, double time)
 {
     int count = history->count;
+    while (history->trail > 0 && history->when[history->trail - 1] > time)
+        history->trail--;
     while (count > 0 && history->time[count - 1] > time)
         count--;
     if (count == history->count)

@@ -26,19 +26,19 @@ static Colour run_colour(const Simulation *simulation, int run, Colour alone)
 }
 
 /* Where the runs have been; with a disc for each step. */
-static void draw_trails(Plot *stage, const Pane *pane, bool steps)
+static void draw_trails(const Plot *stage, const Pane *pane, bool steps)
 {
-    const Trail *trail = pane->trail;
-    for (int r = 0; trail && r < pane->simulation->runs; r++)
-        for (int i = 0; i < trail->count; i++) {
-            const double *at = trail->point[r][i];
+    const History *history = pane->history;
+    for (int r = 0; history && r < pane->simulation->runs; r++)
+        for (int i = 0; i < history->trail; i++) {
+            const double *at = history->place[r][i];
             Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
                                   : circle_colour(pane->simulation, r);
             if (steps)
                 plot_disc(stage, at, 3.5, colour);
             if (i > 0)
-                plot_line(stage, trail->point[r][i - 1], at, steps ? 1.6 : 2.2,
-                          colour);
+                plot_line(stage, history->place[r][i - 1], at,
+                          steps ? 1.6 : 2.2, colour);
         }
 }
 
@@ -48,21 +48,20 @@ static double mass_energy(const double *x, const double *v)
 }
 
 /* The trail of each run; on the circle its radius, else its energy. */
-static void mass_sample(const Simulation *simulation, History *history,
-                        Trail *trail)
+static void mass_sample(const Simulation *simulation, History *history)
 {
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
-    double value[HISTORY_SERIES] = {0}, point[2 * TRAIL_RUNS] = {0};
+    double value[HISTORY_SERIES] = {0}, place[2 * HISTORY_RUNS] = {0};
     history->series = simulation->runs;
     for (int r = 0; r < simulation->runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
         history->name[r] = simulation->run[r].method->label;
-        value[r] = circle ? math_hypot(x[0], x[1]) : mass_energy(x, v);
-        memcpy(point + 2 * r, x, 2 * sizeof *x);
+        value[r] = circle ? hypot(x[0], x[1]) : mass_energy(x, v);
+        memcpy(place + 2 * r, x, 2 * sizeof *x);
     }
     history_add(history, simulation_time(simulation), value);
-    if (trail)
-        trail_add(trail, simulation->runs, point);
+    history_follow(history, simulation_time(simulation), simulation->runs,
+                   place);
 }
 
 /* ---- the circle ---------------------------------------------------------- */

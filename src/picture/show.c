@@ -148,9 +148,9 @@ const double *pane_x(const Pane *pane)
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-void show_sample(const Simulation *simulation, History *history, Trail *trail)
+void show_sample(const Simulation *simulation, History *history)
 {
     const Picture *picture = picture_of(simulation->scene);
     if (picture->sample)
-        picture->sample(simulation, history, trail);
+        picture->sample(simulation, history);
 }

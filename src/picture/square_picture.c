@@ -330,12 +330,10 @@ static void square_draw(Plot *stage, const Show *show)
 }
 
 /* All energies of the first run, J; cards leave out those that are 0. */
-static void square_sample(const Simulation *simulation, History *history,
-                          Trail *trail)
+static void square_sample(const Simulation *simulation, History *history)
 {
     Energies energies = simulation_energies(simulation, 0);
     double value[HISTORY_SERIES] = {0};
-    (void)trail;
     for (int i = 0; i < energies.rows; i++)
         value[history_series(history, energies.row[i].name)] =
             energies.row[i].value;

@@ -61,9 +61,7 @@ Status player_change(Player *player, const Command *change, int from, int to)
             continue; /* what is kept of the present state is taken again */
         history_cut(&machine->curves.history,
                     nextafter(machine_time(machine), -INFINITY));
-        trail_cut(&machine->curves.trail, 1);
-        show_sample(&machine->simulation, &machine->curves.history,
-                    &machine->curves.trail);
+        show_sample(&machine->simulation, &machine->curves.history);
     }
     return status;
 }

@@ -266,7 +266,6 @@ static void leave_branch(Past *past)
 static void clear_curves(Curves *curves)
 {
     history_clear(&curves->history);
-    trail_clear(&curves->trail);
     curves->sampled = -1;
 }
 
@@ -276,8 +275,6 @@ static void cut_curves(Curves *curves, long step, double time)
     if (curves->sampled <= step)
         return;
     history_cut(&curves->history, time);
-    trail_cut(&curves->trail,
-              (int)fmin((double)(curves->sampled - step), TRAIL_POINTS));
     curves->sampled = step;
 }
 

@@ -268,7 +268,6 @@ static void fill_pane(Player *player, int p, double rest, Trace *trace)
     long last;
     *pane = (Pane){.simulation = simulation,
                    .history = &machine->curves.history,
-                   .trail = &machine->curves.trail,
                    .ghost = side->ghost,
                    .ghost_label = side->ghost_label};
     if (past_is_over(&player->past, p, player->past.step, &last))

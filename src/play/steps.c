@@ -158,7 +158,7 @@ void player_sample(Player *player)
             continue;
         curves->sampled = past->step;
         if (!past_is_over(past, p, past->step, &last))
-            show_sample(&machine->simulation, &curves->history, &curves->trail);
+            show_sample(&machine->simulation, &curves->history);
     }
 }
 

@@ -254,8 +254,17 @@ TEST(history_spans_the_run)
     history_add(&history, 201, next);
     CHECK(history.time[history.count - 1] == 201);
     CHECK(history.time[history.count - 2] == cut); /* it was due */
+    for (int i = 0; i < 2 * HISTORY_TRAIL; i++)    /* the newest stay */
+        history_follow(&history, i, 2, (const double[4]){i, 1, -i, 2});
+    history_cut(&history, 2 * HISTORY_TRAIL - 3);
+    CHECK(history.trail == HISTORY_TRAIL - 2);
+    for (int i = 0; i < history.trail; i++)
+        for (int k = 0; k < 2; k++) {
+            CHECK(history.place[k][i][0] == (k ? -1 : 1) * (i + HISTORY_TRAIL));
+            CHECK(history.place[k][i][1] == k + 1);
+        }
     history_cut(&history, -1);
-    CHECK(history.count == 0 && history.high == 0);
+    CHECK(history.count == 0 && history.high == 0 && history.trail == 0);
 }
 
 TEST(axes_end_at_round_numbers)

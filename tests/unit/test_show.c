@@ -20,7 +20,6 @@
 
 static Simulation simulation;
 static History history;
-static Trail trail;
 static Show show;
 static Paper paper;
 static Layout layout;
@@ -38,17 +37,15 @@ static void stand_up(const char *line, int steps)
     simulation_free(&simulation);
     simulation_from_line(line, NULL, NULL, &simulation);
     history_clear(&history);
-    memset(&trail, 0, sizeof trail);
-    show_sample(&simulation, &history, &trail);
+    show_sample(&simulation, &history);
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
         assert_true(!status || status_is_unconverged(status) ||
                     simulation.done);
-        show_sample(&simulation, &history, &trail);
+        show_sample(&simulation, &history);
     }
     show_create(&simulation, &show);
     show.pane[0].history = &history;
-    show.pane[0].trail = &trail;
     set_size(1280, 800);
 }
 
