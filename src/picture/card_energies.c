@@ -214,14 +214,13 @@ Axis energies_axis(const Show *show, double *joule, double *last)
 static int draw_word(Paper *paper, Box *row, int x, double size, Colour colour,
                      const char *name, double value)
 {
-    char number[48], words[128];
+    char words[128];
     EnergyUnit unit = energy_unit(fabs(value));
-    if (!isnan(value)) {
-        plot_number(number, sizeof number, value / unit.joule);
-        snprintf(words, sizeof words, "%s %s %s", name, number, unit.name);
-    } else {
+    if (isnan(value))
         snprintf(words, sizeof words, "%s", name);
-    }
+    else
+        snprintf(words, sizeof words, "%s %s %s", name,
+                 number_of(value / unit.joule).text, unit.name);
     int width = paper_width(paper, FACE_REGULAR, size, words);
     if (x > row->x && x + width > row->x + row->width) {
         x = row->x;

@@ -35,7 +35,7 @@ static double exact_value(const Trace *trace, double alpha)
  * are told in words. */
 static void fill_curves(const Trace *trace, Curves *curves)
 {
-    double end = BEYOND * (trace->first > 0 ? trace->first : 1);
+    double end = BEYOND * trace_alpha(trace, 1);
     double low = 0, high = 0;
     for (int i = 0; i < LINE_POINTS; i++) {
         double alpha = end * i / (LINE_POINTS - 1);
@@ -102,15 +102,12 @@ static Box draw_words(Paper *paper, Box inside, const Trace *trace)
     draw_word(paper, inside, FACE_REGULAR, COLOUR_X, "exact", &row);
     draw_word(paper, inside, FACE_REGULAR, COLOUR_P, "quadratic model", &row);
     if (trace->trials > 0) {
-        char number[48], length[32], words[128];
-        double first = trace->first > 0 ? trace->first : 1;
-        double alpha = ldexp(first, 1 - trace->trials);
+        char words[128];
+        double alpha = trace_alpha(trace, trace->trials);
         double value = exact_value(trace, alpha);
-        plot_number(number, sizeof number, value);
-        alpha_text(length, sizeof length, alpha);
-        snprintf(words, sizeof words, "{alpha} = %s %s: %s%s", length,
-                 trace->accepted ? "taken" : "refused", value > 0 ? "+" : "",
-                 number);
+        snprintf(words, sizeof words, "{alpha} = %s %s: %s%s",
+                 alpha_of(alpha).text, trace->accepted ? "taken" : "refused",
+                 value > 0 ? "+" : "", number_of(value).text);
         draw_word(paper, inside, FACE_BOLD,
                   trace->accepted ? COLOUR_ALPHA : COLOUR_WARNING, words, &row);
     }
@@ -130,13 +127,12 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
     Axis y = {curves.low, curves.high, false, false, NULL};
     Plot plot = plot_create(paper, draw_words(paper, inside, trace), x, y);
-    double first = trace->first > 0 ? trace->first : 1;
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     for (int t = 0; t < trace->trials; t++) {
-        double end = ldexp(first, -t), at = end;
+        double end = trace_alpha(trace, t + 1), at = end;
         bool last = t == trace->trials - 1;
         if (last &&
             trace->line == LINE_SEARCH) /* it hops from the one before */

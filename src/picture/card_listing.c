@@ -7,7 +7,7 @@
 #include "picture/plot.h"
 #include "scenes/scene.h"
 
-enum { LISTING_VALUE = 96 };
+enum { LISTING_VALUE = 128 };
 
 /* A line of a listing: its place in the run, indent, markup. */
 typedef struct Row {
@@ -138,14 +138,14 @@ static Listing find_listing(const Show *show)
 }
 
 /* 1/2, 1/4, ... where it is one of them. */
-void alpha_text(char *text, size_t size, double alpha)
+Number alpha_of(double alpha)
 {
     int exponent;
+    Number number = number_of(alpha);
     if (alpha > 0 && alpha < 1 && frexp(alpha, &exponent) == 0.5 &&
         exponent > -9)
-        snprintf(text, size, "1/%d", 1 << (1 - exponent));
-    else
-        plot_number(text, size, alpha);
+        snprintf(number.text, sizeof number.text, "1/%d", 1 << (1 - exponent));
+    return number;
 }
 
 /* "52 of 72 springs", or "60 blocks" of springs, contacts and cells */
@@ -166,14 +166,13 @@ static void projected_value(char *value, const Simulation *simulation,
 static void search_value(char *value, const Simulation *simulation,
                          const Trace *trace)
 {
-    char number[32];
     if (simulation->options.line_search == LINE_SEARCH_NONE) {
         snprintf(value, LISTING_VALUE, "off: {alpha} = 1");
     } else if (trace->trials > 0 && trace->given_up && !trace->accepted) {
         snprintf(value, LISTING_VALUE, "no {alpha} found");
     } else if (trace->trials > 0) {
-        alpha_text(number, sizeof number, trace_alpha(trace, trace->trials));
-        snprintf(value, LISTING_VALUE, "{alpha} = %s%s", number,
+        snprintf(value, LISTING_VALUE, "{alpha} = %s%s",
+                 alpha_of(trace_alpha(trace, trace->trials)).text,
                  trace->accepted ? "" : ": refused");
     }
 }
@@ -183,15 +182,15 @@ static void test_value(char *value, const Trace *trace, Line line,
                        const char *unit)
 {
     bool above = trace->residual > trace->tolerance;
-    char a[32], b[32];
-    plot_number(a, sizeof a, trace->residual);
-    plot_number(b, sizeof b, trace->tolerance);
+    const Number tolerance = number_of(trace->tolerance);
     if (!trace->passed)
-        snprintf(value, LISTING_VALUE, "%s %s %s%s%s", a,
-                 above ? ">" : "\u2264", b, unit,
+        snprintf(value, LISTING_VALUE, "%s %s %s%s%s",
+                 number_of(trace->residual).text, above ? ">" : "\u2264",
+                 tolerance.text, unit,
                  above && trace->given_up ? ": given up" : "");
     else if (line == LINE_TEST)
-        snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", b, unit);
+        snprintf(value, LISTING_VALUE, "\u2264 %s%s: it ends", tolerance.text,
+                 unit);
 }
 
 /* What stands at the right of a line that has been reached. */
@@ -200,17 +199,15 @@ static void line_value(char *value, const Simulation *simulation,
 {
     bool by_gradient = simulation->descent.by_gradient;
     bool known = isfinite(trace->residual);
-    char p[32];
     if (line == LINE_PROJECT)
         projected_value(value, simulation, trace->projected);
     if (line == LINE_SEARCH)
         search_value(value, simulation, trace);
     if (line == (by_gradient ? LINE_DO : LINE_TEST) && known)
         test_value(value, trace, line, by_gradient ? "" : " m/s");
-    if (line == LINE_SOLVE && !by_gradient && known && !trace->passed) {
-        plot_number(p, sizeof p, trace->residual * trace->h);
-        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s m", p);
-    }
+    if (line == LINE_SOLVE && !by_gradient && known && !trace->passed)
+        snprintf(value, LISTING_VALUE, "\u2016{p}\u2016_{\u221e} = %s m",
+                 number_of(trace->residual * trace->h).text);
 }
 
 /* One line: number, text, value; lit or struck through. */

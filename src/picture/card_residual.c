@@ -78,9 +78,8 @@ static void draw_updates(const Plot *plot, const NewtonRecord *records,
 static void draw_tolerance(const Plot *plot, double tolerance, double h)
 {
     Paper *paper = plot->paper;
-    char number[48], words[80] = "\u03b5";
+    char words[80] = "\u03b5";
     double p[2], q[2], unit = paper->unit, em = paper->em;
-    plot_number(number, sizeof number, h * tolerance);
     plot_place(plot, (double[2]){plot->x.low, tolerance}, p);
     plot_place(plot, (double[2]){plot->x.high, tolerance}, q);
     canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
@@ -88,7 +87,8 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
                   NULL, COLOUR_TEXT);
     bool below = p[1] + 1.05 * em <= plot->box.y + plot->box.height;
     if (below && h > 0)
-        snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m", number);
+        snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m",
+                 number_of(h * tolerance).text);
     paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
                 p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);
 }

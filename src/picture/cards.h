@@ -77,7 +77,7 @@ const Trace *cards_trace(const Show *show, DescentTrace *space);
 /* The step length of trial 1, 2, ... */
 double trace_alpha(const Trace *trace, int trial);
 
-/* "1/4": a step length as people write it; text [size] out. */
-void alpha_text(char *text, size_t size, double alpha);
+/* "1/4": a step length as people write it. */
+Number alpha_of(double alpha);
 
 #endif

@@ -58,13 +58,9 @@ static const char *ordinal(int number)
 static void describe_line(const Simulation *simulation, const Trace *trace,
                           char *s)
 {
-    char alpha[32], h[48], residual[48], tolerance[48];
+    const Number tolerance = number_of(trace->tolerance);
     int shown = trace->trials > 1 ? trace->trials : 1;
     int time = trace->iteration + 1;
-    alpha_text(alpha, sizeof alpha, trace_alpha(trace, shown));
-    plot_number(h, sizeof h, trace->h);
-    plot_number(residual, sizeof residual, trace->residual);
-    plot_number(tolerance, sizeof tolerance, trace->tolerance);
     if (trace->line == LINE_START)
         say(s, "line 1: the iterate begins where the step does");
     if (trace->line == LINE_DO)
@@ -89,7 +85,8 @@ static void describe_line(const Simulation *simulation, const Trace *trace,
             "the largest |{p}_{x}| + |{p}_{y}| of a node",
             trace->slope > 0 ? "uphill" : "downhill");
     if (trace->line == LINE_SEARCH)
-        say(s, "line 5: {alpha} = %s %s", alpha,
+        say(s, "line 5: {alpha} = %s %s",
+            alpha_of(trace_alpha(trace, shown)).text,
             trace->accepted ? "is taken" : "is refused: E would rise");
     if (trace->line == LINE_UPDATE)
         say(s, "line 6: the square moves by {alpha} {p}");
@@ -97,13 +94,15 @@ static void describe_line(const Simulation *simulation, const Trace *trace,
         say(s,
             "line 7: \u2016{p}\u2016_{\u221e}/h is not above %s m/s: its "
             "%s is below, and {p} is not needed",
-            tolerance, trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
+            tolerance.text,
+            trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
     if (trace->line == LINE_TEST)
-        say(s, "line 7: the residual is %s m/s, %s %s", residual,
+        say(s, "line 7: the residual is %s m/s, %s %s",
+            number_of(trace->residual).text,
             trace->residual > trace->tolerance ? "above" : "not above",
-            tolerance);
+            tolerance.text);
     if (trace->line == LINE_END)
-        say(s, "line 8: the step of %s s is done", h);
+        say(s, "line 8: the step of %s s is done", number_of(trace->h).text);
 }
 
 static void describe_method(const Show *show, const Simulation *simulation,

@@ -151,9 +151,6 @@ typedef struct Number {
 } Number;
 Number number_of(double value);
 
-/* The same into a text of this size. */
-void plot_number(char *text, size_t size, double value);
-
 /* The numbers in a text that printf made, written as people do: "1.5e-06" is
  * 1.5 x 10^{-6}, and a minus is no hyphen.  text [size] in, markup out. */
 void plot_numbers(char *text, size_t size);

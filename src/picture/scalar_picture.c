@@ -294,12 +294,10 @@ static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
               update.second);
     lines_add(&lines, COLOUR_P, "{p} = \u2212g / E\u2033 = %.8g", p);
     if (update.alpha > 0) {
-        char alpha[32];
-        alpha_text(alpha, sizeof alpha, update.alpha);
         x = update.x0 + update.alpha * p;
         lines_add(&lines, COLOUR_X, "x^{%d} = %.8g%s%s", update.number + 1, x,
                   update.alpha < 1 ? ",  {alpha} = " : "",
-                  update.alpha < 1 ? alpha : "");
+                  update.alpha < 1 ? alpha_of(update.alpha).text : "");
     } else {
         lines_add(&lines, COLOUR_X, "x^{%d} + {p} = %.8g", update.number, x);
     }

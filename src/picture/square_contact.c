@@ -96,12 +96,10 @@ void square_contact_forces(const SpringPen *pen, double most)
 
 void square_contact_legend(const SpringPen *pen, double most)
 {
-    char number[48];
     if (!(most > 0))
         return;
-    plot_number(number, sizeof number, plot_round_up(most));
     plot_key(pen->stage, FORCE_ROOM, COLOUR_FORCE, "contact force %s N",
-             number);
+             number_of(plot_round_up(most)).text);
     if (system_find_term(pen->system, &friction_energy))
         plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }

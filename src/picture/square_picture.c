@@ -114,15 +114,14 @@ static void draw_direction(const SpringPen *pen)
     const Trace *trace = pen->pane->trace;
     double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
     double apart = ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
-    char number[48];
     double factor = plot_arrows(pen->stage, pen->system->nodes,
                                 (int)fmax(apart, 1), pen->x, trace->p, grown,
                                 0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0)
         return;
-    plot_number(number, sizeof number, factor);
     plot_legend(pen->stage, COLOUR_P, "search direction p%s%s",
-                factor == 1 ? "" : " \u00d7 ", factor == 1 ? "" : number);
+                factor == 1 ? "" : " \u00d7 ",
+                factor == 1 ? "" : number_of(factor).text);
 }
 
 /* The start of the hand's spring, and the spring. */
@@ -281,13 +280,10 @@ static void draw_forces(const SpringPen *pen)
 static void draw_tolerance(const SpringPen *pen)
 {
     double needed;
-    char number[48];
-    if (!simulation_is_loose(pen->simulation, &needed))
-        return;
-    plot_number(number, sizeof number, needed);
-    plot_legend(pen->stage, COLOUR_WARNING,
-                "\u03b5 is loose: above %s m/s bodies may hang or freeze",
-                number);
+    if (simulation_is_loose(pen->simulation, &needed))
+        plot_legend(pen->stage, COLOUR_WARNING,
+                    "\u03b5 is loose: above %s m/s bodies may hang or freeze",
+                    number_of(needed).text);
 }
 
 /* From the ground up; of several runs the first one is drawn last, and no wall

@@ -56,11 +56,6 @@ Number number_of(double value)
     return out;
 }
 
-void plot_number(char *text, size_t size, double value)
-{
-    snprintf(text, size, "%s", number_of(value).text);
-}
-
 /* The part from e on of "1e-06" as markup; returns where it ends. */
 static const char *power_text(const char *power, bool one, char *text,
                               size_t size)
