@@ -84,57 +84,50 @@ TEST(what_is_off_leaves_the_bits)
  * methods it serves. */
 TEST(starts_that_make_no_sense_are_refused)
 {
-    static const char touches[] = "; it must be above 0";
     static const struct {
-        const char *line, *message, *end;
+        const char *line, *message; /* who, or all of it */
+        const char *node, *distance;
     } rows[] = {
-        {"square --stretch 1 --ground 0,1,0,-0.4",
-         "--ground 0,1,0,-0.4: node 0 would begin at a distance of -0.1 m",
-         touches},
+        {"square --stretch 1 --ground 0,1,0,-0.4", "--ground 0,1,0,-0.4",
+         "node 0", "-0.1"},
         {"square --stretch 1 --ground 0,2,0,-0.5", /* exactly on it */
-         "--ground 0,2,0,-0.5: node 0 would begin at a distance of 0 m",
-         touches},
+         "--ground 0,2,0,-0.5", "node 0", "0"},
         {"square --stretch 1 --ground 0,1,0,-0.6 --ball 0.75,0.5,0.3",
-         "--ball 0.75,0.5,0.3: node 24 would begin at a distance of -0.05 m",
-         touches},
-        {"square --stretch 1 --ball 0.125,0.125,0.05", "", ""}, /* in a cell */
+         "--ball 0.75,0.5,0.3", "node 24", "-0.05"},
+        {"square --stretch 1 --ball 0.125,0.125,0.05", "", NULL,
+         NULL}, /* in a cell */
         {"square --stretch 1 --ground 0,0,1,0",
-         "--ground 0,0,1,0: ", "the normal is 0,0; it must point somewhere"},
+         "--ground 0,0,1,0: the normal is 0,0; it must point somewhere", NULL,
+         NULL},
         {"square --stretch 1 --ball 3,0,0",
-         "--ball 3,0,0: ", "the radius must be above 0"},
-        {"square --stretch 0 --cells on", "--stretch: 0 turns cell 0 over ",
-         "(0 of its area), and all others; above 0, or --cells off"},
-        {"square --stretch 1 --pin bottom --ground 0,1,0,-0.4", "", ""},
+         "--ball 3,0,0: the radius must be above 0", NULL, NULL},
+        {"square --stretch 0 --cells on",
+         "--stretch: 0 turns cell 0 over (0 of its area), and all others; "
+         "above 0, or --cells off",
+         NULL, NULL},
+        {"square --stretch 1 --pin bottom --ground 0,1,0,-0.4", "", NULL, NULL},
         {"square --stretch 1 --pin bottom --ground 0,1,0,-0.2",
-         "--ground 0,1,0,-0.2: node 1 would begin at a distance of -0.05 m",
-         touches},
-        {"squeeze --at 0,1", "", ""},
-        {"squeeze --at 0,0.5 --turn 45 --segments 4",
-         "the ceiling: node 24 would begin at a distance of -0.197107 m",
-         touches},
-        {"bend --at 0,0.3 --segments 16",
-         "the falling ball: node 34 would begin at a distance of -0.125 m",
-         touches},
-        {"bend --ball 0,0.6,0.3",
-         "--ball 0,0.6,0.3: the falling ball would begin at a distance of "
-         "-0.2975 m",
-         touches},
-        {"tear --ground 1,0,-0.5,0 --segments 4",
-         "--ground 1,0,-0.5,0: node 0 would begin at a distance of 0 m",
-         touches},
+         "--ground 0,1,0,-0.2", "node 1", "-0.05"},
+        {"squeeze --at 0,1", "", NULL, NULL},
+        {"squeeze --at 0,0.5 --turn 45 --segments 4", "the ceiling", "node 24",
+         "-0.197107"},
+        {"bend --at 0,0.3 --segments 16", "the falling ball", "node 34",
+         "-0.125"},
+        {"bend --ball 0,0.6,0.3", "--ball 0,0.6,0.3", "the falling ball",
+         "-0.2975"},
+        {"tear --ground 1,0,-0.5,0 --segments 4", "--ground 1,0,-0.5,0",
+         "node 0", "0"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char copy[256], expected[256], message[512] = "";
-        char *words[32] = {(char[]){"elasto"}};
-        int count = 1;
+        char expected[256], message[512];
         Options options;
-        snprintf(copy, sizeof copy, "%s", rows[i].line);
-        snprintf(expected, sizeof expected, "%s%s", rows[i].message,
-                 rows[i].end);
-        for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
-            words[count++] = word;
-        Status status =
-            options_parse(count, words, 0, &options, message, sizeof message);
+        snprintf(expected, sizeof expected, "%s", rows[i].message);
+        if (rows[i].node)
+            snprintf(expected, sizeof expected,
+                     "%s: %s would begin at a distance of %s m; it must be "
+                     "above 0",
+                     rows[i].message, rows[i].node, rows[i].distance);
+        Status status = parse_line(rows[i].line, 0, &options, message);
         assert_string_equal(message, expected);
         CHECK_STATUS(status, expected[0] ? STATUS_INVALID_INPUT : STATUS_OK);
     }
@@ -146,14 +139,12 @@ TEST(other_methods_refuse_damping)
 {
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
-        char message[512], name[64],
-            *words[] = {(char[]){"elasto"}, (char[]){"--damping"},
-                        (char[]){"0.1"}, (char[]){"--integrator"}, name};
+        char message[512], line[80];
+        const char *name = method->name;
         Options options;
         Simulation *damped = simulate("--damping 0.1");
-        snprintf(name, sizeof name, "%s", method->name);
-        Status status =
-            options_parse(5, words, 0, &options, message, sizeof message);
+        snprintf(line, sizeof line, "--damping 0.1 --integrator %s", name);
+        Status status = parse_line(line, 0, &options, message);
         CHECK_STATUS(status, method->at_end ? STATUS_OK : STATUS_INVALID_INPUT);
         CHECK(!status || (strstr(message, "damping") && strstr(message, name)));
         CHECK(integrator_method_refuses(method, &damped->system) == !!status);

@@ -11,28 +11,11 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-/* Words of a line, separated by single spaces; "''" is an empty one.
- *   message  [512] out */
-static Status parse(const char *line, int pane, Options *options, char *message)
-{
-    static char copy[1024];
-    char *argv[sizeof copy / 2 + 1] = {(char[]){"elasto"}};
-    int argc = 1;
-    snprintf(copy, sizeof copy, "%s", line);
-    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " ")) {
-        if (strcmp(word, "''") == 0)
-            word[0] = '\0';
-        argv[argc++] = word;
-    }
-    message[0] = '\0';
-    return options_parse(argc, argv, pane, options, message, 512);
-}
-
 static Options parse_good(const char *line)
 {
     Options options;
     char message[512];
-    Status status = parse(line, 0, &options, message);
+    Status status = parse_line(line, 0, &options, message);
     if (status)
         print_error("%s: %s\n", line, message);
     CHECK_STATUS(status, STATUS_OK);
@@ -302,7 +285,7 @@ TEST(bad_lines_are_answered)
         const char *const *words = bad_lines[i];
         Options options;
         char message[512];
-        Status status = parse(words[0], 0, &options, message);
+        Status status = parse_line(words[0], 0, &options, message);
         bool names = message[0] != '\0' && !strchr(message, '\n');
         for (int k = 1; k < 4; k++)
             names = names && (!words[k] || strstr(message, words[k]));
@@ -529,13 +512,13 @@ TEST(lists_are_side_by_side)
     char message[512];
     Options options;
     for (int pane = 0; pane < 4; pane++) {
-        CHECK_STATUS(parse("--timestep 0.1,0.2 --filter clamp,none", pane,
-                           &options, message),
+        CHECK_STATUS(parse_line("--timestep 0.1,0.2 --filter clamp,none", pane,
+                                &options, message),
                      STATUS_OK);
         CHECK(options.panes == 4 && options.timestep == h[pane]);
         CHECK(options.filter == (pane % 2 ? FILTER_NONE : FILTER_CLAMP));
     }
-    CHECK_STATUS(parse("--timestep 1,,2", 1, &options, message),
+    CHECK_STATUS(parse_line("--timestep 1,,2", 1, &options, message),
                  STATUS_INVALID_INPUT);
     CHECK(strstr(message, "--timestep: ''") != NULL);
 }

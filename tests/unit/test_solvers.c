@@ -69,8 +69,8 @@ TEST(multigrid_serves_all_that_springs_do)
     static const char *const lines[] = {
         "square --segments 40 --damping 0.005 --tolerance 1e-7",
         "hang --segments 40 --damping 0.05 --tolerance 1e-7",
-        "square --segments 36 --damping 0.001 --tear 0.5 --stretch 1.26 "
-        "--tolerance 5e-7",
+        ("square --segments 36 --damping 0.001 --tear 0.5 --stretch 1.26 "
+         "--tolerance 5e-7"),
         "square --segments 36 --tear 0.5 --stretch 1.26 --tolerance 5e-7"};
     for (int i = 0; i < 4; i++) {
         Simulation *it = check_same_minimum(lines[i], multigrid, 8, 100);

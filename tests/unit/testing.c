@@ -179,16 +179,27 @@ void dense_from_sparse(const Sparse *A, double *dense)
         }
 }
 
+Status parse_line(const char *line, int pane, Options *options, char *message)
+{
+    static char copy[1024];
+    char *argv[sizeof copy / 2 + 1] = {(char[]){"elasto"}};
+    int argc = 1;
+    snprintf(copy, sizeof copy, "%s", line);
+    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " ")) {
+        if (strcmp(word, "''") == 0)
+            word[0] = '\0';
+        argv[argc++] = word;
+    }
+    message[0] = '\0';
+    return options_parse(argc, argv, pane, options, message, 512);
+}
+
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation)
 {
-    char copy[512], message[256] = "", *argv[64] = {(char[]){"elasto"}};
-    int argc = 1;
+    char message[512];
     Options options;
-    snprintf(copy, sizeof copy, "%s", line);
-    for (char *word = strtok(copy, " "); word; word = strtok(NULL, " "))
-        argv[argc++] = word;
-    if (options_parse(argc, argv, 0, &options, message, sizeof message))
+    if (parse_line(line, 0, &options, message))
         print_error("%s\n", message);
     CHECK(message[0] == '\0');
     CHECK_STATUS(simulation_create(&options, observer, user, simulation),

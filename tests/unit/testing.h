@@ -85,8 +85,11 @@ bool dense_solve(int n, long double *A, long double *b);
 /* Full matrix [size size] of a sparse one. */
 void dense_from_sparse(const Sparse *A, double *dense);
 
-/* The simulation that this command line sets up, words separated by single
- * spaces; free it with simulation_free. */
+/* options_parse of the words of a line, separated by single spaces; "''" is an
+ * empty one.  message [512] out */
+Status parse_line(const char *line, int pane, Options *options, char *message);
+
+/* The simulation that this line sets up; free it with simulation_free. */
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);
 
