@@ -470,6 +470,12 @@ def explosion(f):
     return [int(np.argmax(rises)) + 1, len(records), max(rises),
             (max(np.abs(r.x).max() for r in records), 4)]
 
+def overflow(f):
+    """The first step that is none, and the last one of a size to be drawn."""
+    size = [np.ptp(f.states[f.lane, n].x, axis=0).max()
+            for n in range(f.raw["newest"] + 1)]
+    return [len(size), max(n for n, a in enumerate(size) if a < 10 * size[0])]
+
 def folded(f):
     """Cells with a triangle that has turned over, in any of the panes."""
     counts, n = [], int(f.s.b.segments)
@@ -676,6 +682,8 @@ RULES = [
     ("within the tolerance, not at rest: ε = # m/s lets # m pass in each step of # s; "
      "a smaller one goes on",
      lambda f, *_: [f.s.b.tolerance, f.s.b.tolerance * f.s.h, f.s.h]),
+    ("step # ends beyond all numbers; shown is step #, the last below ten times the "
+     "size", lambda f, *_: overflow(f)),
     ("# side by side · ~", lambda f, n, how: [f.raw["lanes"]]),
     ("nothing deforms any more: free as it is, it drifts on at # m/s~",
      lambda f, v, _: [(np.hypot(*f.s.v.mean(0)), 2)]),
