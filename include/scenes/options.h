@@ -137,9 +137,6 @@ const OptionRow *option_find(const char *name);
 /* How many names the values of a row have; 0: they are numbers. */
 int option_names(const OptionRow *row);
 
-/* The row whose number, or one of whose numbers, is in this slot, or NULL. */
-const OptionRow *option_at(int slot);
-
 /* A single number as somebody types it, "1/60", "0,02", "4 ms", "clamp".
  *   value  out
  * Returns whether it can be read and is in the row's range. */
@@ -190,10 +187,6 @@ Status options_of_line(const char *line, Options *options, char *message,
  * what this scene cannot make use of is refused, as above. */
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
-
-/* The same of a number that is one already. */
-Status options_set_number(Options *options, int slot, double value,
-                          char *message, size_t size);
 
 /* The chosen integrator; NULL: the scene's choice. */
 const IntegratorMethod *options_integrator(const Options *options);

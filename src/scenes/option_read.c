@@ -136,13 +136,6 @@ static double number_meant(const OptionRow *row, const char *text)
     return NAN;
 }
 
-static bool is_in_range(const OptionRow *row, double value)
-{
-    int names = option_names(row);
-    return value >= row->low && value <= (names > 0 ? names - 1 : row->high) &&
-           (row->kind == OPTION_NUMBER || value == floor(value));
-}
-
 /* As many numbers as the row has, each in its range; a single one may have a
  * decimal comma.  number [count] out.  Returns whether they can be read. */
 static bool read_numbers(const OptionRow *row, int count, const char *text,
@@ -160,7 +153,8 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
         for (char *comma; count == 1 && (comma = strchr(at, ','));)
             *comma = '.';
         number[i] = number_meant(row, at);
-        if (!is_in_range(row, number[i]))
+        if (!(number[i] >= row->low && number[i] <= row->high) ||
+            (row->kind == OPTION_WHOLE && number[i] != floor(number[i])))
             return false;
         at = next + 1;
     }
@@ -289,22 +283,6 @@ Status options_set(Options *options, const char *name, const char *value,
     if (!status)
         status = apply(row, value, options, &why);
     return status ? status : check_integrator(options, &why);
-}
-
-Status options_set_number(Options *options, int slot, double value,
-                          char *message, size_t size)
-{
-    const Complaint why = {message, size};
-    const OptionRow *row = option_at(slot);
-    if (!row)
-        return complain(&why, "there is no number %d", slot);
-    Status status = check_scene(row, options, &why);
-    if (!status && !is_in_range(row, value) && value != row->standard)
-        status = refuse_value(row, 1, number_text(value).text, &why);
-    if (status)
-        return status;
-    options->number[slot] = value;
-    return check_integrator(options, &why);
 }
 
 /* ---- words -------------------------------------------------------------- */

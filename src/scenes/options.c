@@ -221,18 +221,6 @@ const OptionRow *option_find(const char *name)
     return NULL;
 }
 
-const OptionRow *option_at(int slot)
-{
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        int count = row->count ? row->count : 1;
-        count *= row->times ? row->times : 1;
-        if (row->name[0] && row->kind <= OPTION_NAME && slot >= row->slot &&
-            slot < row->slot + count)
-            return row;
-    }
-    return NULL;
-}
-
 int option_names(const OptionRow *row)
 {
     int count = 0;

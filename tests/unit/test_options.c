@@ -156,25 +156,22 @@ TEST(values_are_read)
 TEST(names_are_read)
 {
     static const struct {
-        int slot, standard;
+        const char *option;
+        int standard;
         const char *names[10];
     } rows[] = {
-        {OPTION_SLOT(solver), SOLVER_AUTO, {"newton", "multigrid", "auto"}},
-        {OPTION_SLOT(filter),
-         FILTER_CLAMP,
-         {"clamp", "none", "abs", "on-demand"}},
-        {OPTION_SLOT(line_search),
-         LINE_SEARCH_BACKTRACK,
-         {"backtrack", "none"}},
-        {OPTION_SLOT(cells), 0, {"off", "on"}},
-        {OPTION_SLOT(integrator),
+        {"solver", SOLVER_AUTO, {"newton", "multigrid", "auto"}},
+        {"filter", FILTER_CLAMP, {"clamp", "none", "abs", "on-demand"}},
+        {"line-search", LINE_SEARCH_BACKTRACK, {"backtrack", "none"}},
+        {"cells", 0, {"off", "on"}},
+        {"integrator",
          -1,
          {"backward-euler", "forward-euler", "symplectic-euler", "verlet",
           "bdf2", "midpoint", "sdirk2", "avf", "avf4"}},
     };
     const Options standard = parse_good("");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const OptionRow *row = option_at(rows[i].slot);
+        const OptionRow *row = option_find(rows[i].option);
         CHECK(standard.number[row->slot] == rows[i].standard);
         for (int k = 0; rows[i].names[k]; k++) {
             char line[64], value[64];
@@ -185,40 +182,6 @@ TEST(names_are_read)
             assert_string_equal(value, rows[i].names[k]);
         }
     }
-}
-
-/* A number that is one already is held against the same rows. */
-TEST(slots_are_held_against_their_rows)
-{
-    static const struct {
-        int slot;
-        double good, bad;
-    } rows[] = {{OPTION_SLOT(timestep), 0.1, 0},
-                {OPTION_SLOT(segments), 7, 7.5},
-                {OPTION_SLOT(filter), FILTER_ABS, FILTER_COUNT},
-                {OPTION_SLOT(cells), 1, -1},
-                {OPTION_SLOT(yield), 0, 1e-10}, /* 0: by default */
-                {OPTION_SLOT(at[1]), -2, NAN},
-                {OPTION_SLOT(ground[1][2]), 5, INFINITY}};
-    char message[512];
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Options options = parse_good("");
-        int slot = rows[i].slot;
-        CHECK_STATUS(options_set_number(&options, slot, rows[i].good, message,
-                                        sizeof message),
-                     STATUS_OK);
-        CHECK(options.number[slot] == rows[i].good);
-        CHECK_STATUS(options_set_number(&options, slot, rows[i].bad, message,
-                                        sizeof message),
-                     STATUS_INVALID_INPUT);
-        CHECK(options.number[slot] == rows[i].good);
-        CHECK(strstr(message, option_at(slot)->name) != NULL);
-    }
-    Options circle = parse_good("circle");
-    CHECK_STATUS(options_set_number(&circle, OPTION_SLOT(side), 2, message,
-                                    sizeof message),
-                 STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "has no square") != NULL);
 }
 
 /* The line, and what its message must name: option, value, range; or what may
