@@ -22,6 +22,24 @@ Status body_create(const Options *options, const NewtonSettings *settings,
 /* The only run of a scene, which is this body. */
 Status create_square(Simulation *simulation, const NewtonSettings *settings);
 
+/* What the command line has no words for (contact_scenes.c): what moves, what
+ * is cut. */
+
+/* Three blocks on slopes; friction, which the option gives for the second
+ * number below as what just holds, is 0.5, 0.9 and 1.1 times that. */
+Status create_slope(Simulation *simulation, const NewtonSettings *settings);
+
+/* A ceiling comes down on the square and goes up again. */
+Obstacle squeeze_ceiling(const Options *options);
+Status create_squeeze(Simulation *simulation, const NewtonSettings *settings);
+
+/* Both sides are drawn apart; a slit in the middle opens and runs. */
+Status create_tear(Simulation *simulation, const NewtonSettings *settings);
+
+/* A beam with a notch lies on two balls, and a heavy third falls on it. */
+Obstacle bend_ball(const Options *options);
+Status create_bend(Simulation *simulation, const NewtonSettings *settings);
+
 /* What the options ask for that only a step whose result is the minimiser
  * knows, in words; NULL: nothing. */
 const char *body_needs_end_of_step(const Options *options);

@@ -1,5 +1,3 @@
-#include "scenes/contact_scenes.h"
-
 #include <math.h>
 #include <stdlib.h>
 

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/contact_scenes.h"
 #include "scenes/small_scenes.h"
 #include "scenes/body.h"
 
