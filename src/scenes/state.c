@@ -120,32 +120,11 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
         system_changed(run->system, false);
 }
 
-/* A minimisation that is under way: the iterate, its direction, and what
- * decides how it goes on. */
-static void pass_newton(Cursor *cursor, TimeIntegrator *run, size_t array)
-{
-    Newton *newton = run->newton;
-    pass(cursor, run->new_x, array); /* where it began */
-    pass(cursor, newton->at.u, 5 * array);
-    PASS(newton->record);
-    PASS(newton->status);
-    PASS(newton->residual);
-    PASS(newton->kind);
-    PASS(newton->clamps);
-    PASS(newton->saddles);
-    PASS(newton->bends_down);
-    PASS(newton->rounding);
-    PASS(newton->working);
-    PASS(newton->sum);
-    PASS(newton->size);
-}
-
 /* What a scene shows beside its system. */
 static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
-    size_t array = array_size(simulation) * sizeof(double);
     if (!scene->step && !scene->grips)
         return;
     PASS(simulation->exhibit);
@@ -156,9 +135,7 @@ static void pass_exhibit(Cursor *cursor, Simulation *simulation)
     PASS(run->h);
     pass(cursor, simulation->system.k,
          (size_t)simulation->system.springs * sizeof(double));
-    if (run->newton && scene->aim)
-        pass_newton(cursor, run, array);
-    else if (run->newton)
+    if (run->newton)
         run->newton->settings.h = run->h;
 }
 
