@@ -101,7 +101,6 @@ typedef struct Player {
     bool rests;        /* nothing moves any more, */
     bool balances;     /* and the forces are in balance */
     bool drifts;       /* it moves, and nothing deforms any more */
-    bool from_map;     /* the scene is a cell of the envelope */
     bool leaving;      /* the last command was Escape, with nothing open */
     bool by_hand;      /* commands come from keys and mouse */
     bool by_run;       /* the step that is made was not asked for, */

@@ -152,18 +152,9 @@ Status lesson_load(Player *player, long cell)
     player->halted = false;
     if (!status)
         status = player_obey(player, &restart);
-    player->from_map = true;
-    player_note(player, "this cell as a scene; Esc leads back to the map%s",
+    player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
                 map.page ? ", Page Down goes on" : "");
     return status;
-}
-
-Status lesson_back_to_map(Player *player)
-{
-    Command scene = {.kind = COMMAND_SCENE, .text = "envelope"};
-    player->from_map = false;
-    return player->left ? lesson_open(player, player->left, &scene)
-                        : player_obey(player, &scene);
 }
 
 const Deed lesson_deeds[] = {

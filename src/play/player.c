@@ -93,7 +93,7 @@ uint64_t player_hash(const Player *player)
 bool player_is_open(const Player *player)
 {
     return player->help || player->column || player->blank ||
-           player->selected >= 0 || player->from_map ||
+           player->selected >= 0 ||
            (player->view && view_is_full(player->view));
 }
 

@@ -131,9 +131,6 @@ Status lesson_prepare(Player *player);
 /* Loads a cell of the envelope as a square of its own. */
 Status lesson_load(Player *player, long cell);
 
-/* Back from there to the envelope. */
-Status lesson_back_to_map(Player *player);
-
 /* Whether a click on a place of this scene is a guess. */
 bool lesson_asks(const Player *player);
 

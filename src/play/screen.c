@@ -49,8 +49,6 @@ static Status leave(Player *player, const Command *command)
         player->blank = false;
     else if (player->view && view_is_full(player->view))
         view_set_full(player->view, false);
-    else if (player->from_map)
-        return lesson_back_to_map(player);
     else
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;

@@ -79,7 +79,6 @@ static void enter_scene(Player *player)
     if (options->scene == player->scene)
         return;
     player->scene = options->scene;
-    player->from_map = false;
     player->speed = player_first_speed(options);
     player->lens = LENS_FITS;
     player->closed = 0;

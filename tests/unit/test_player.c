@@ -792,7 +792,7 @@ TEST(what_makes_no_sense_is_said)
     }
 }
 
-/* A cell of the map as a scene: commands that a script repeats, and Escape
+/* A cell of the map as a scene: commands that a script repeats, and undo
  * leads back. */
 TEST(a_cell_of_the_map_is_a_scene)
 {
@@ -800,6 +800,8 @@ TEST(a_cell_of_the_map_is_a_scene)
     char line[160];
     begin("envelope --segments 3 --stretch 1.3");
     CHECK_STATUS(obey("step"), STATUS_OK);
+    player.by_hand = true;
+    player.gesture = 1; /* a click */
     CHECK_STATUS(lesson_load(&player, CELL), STATUS_OK);
     const Options *options = player_settings(&player);
     CHECK(options->scene == &scenes[0] && player.paused &&
@@ -812,7 +814,8 @@ TEST(a_cell_of_the_map_is_a_scene)
              envelope_stiffness(CELL / ENVELOPE_COLUMNS));
     CHECK_STATUS(obey("step"), STATUS_OK);
     uint64_t hash = player_hash(&player);
-    CHECK_STATUS(obey("escape"), STATUS_OK);
+    CHECK_STATUS(obey("undo"), STATUS_OK);
+    CHECK(player.past.step == 1);
     CHECK(player_simulation(&player)->scene->picture == PICTURE_ENVELOPE);
     CHECK(!player.quit && !player_is_open(&player));
     CHECK(player_settings(&player)->segments == 3);
