@@ -581,24 +581,31 @@ static void stop_work(Past *past)
     past->making = past->works = past->again = false;
 }
 
+/* Whether it is the computer that cannot go on. */
+static bool lacks(Status status)
+{
+    return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
+}
+
 /* A step could not be made. */
 static Status fail(Past *past, Status status)
 {
     Machine *machine = &past->machine[past->pane];
-    bool lacks = status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
-    if (past->making && past->goes_on && past_panes(past) > 1 && !lacks) {
+    if (past->making && past->goes_on && past_panes(past) > 1 &&
+        !lacks(status)) {
         end_pane(past, past->pane, status);
         past->moved = true;
         past->worst = status;
         return STATUS_RUNNING;
     }
     stop_work(past);
-    if (!lacks && machine->run) {
+    if (!lacks(status) && machine->run) {
         machine->failed = machine->known = true;
         machine->told.status = status;
     }
-    past->step = past->aim =
-        past->step > past_newest(past) ? past_newest(past) : past->step;
+    if (past->keeps) /* some of its runs may have made the step */
+        machine->step = -1;
+    past->aim = past->step;
     return status;
 }
 
@@ -615,9 +622,8 @@ static Status stepped(Past *past, Status status)
     if (past->keeps && rounds_end(&machine->rounds, &simulation->options))
         return fail(past, STATUS_OUT_OF_MEMORY);
     bool moved = simulation->steps > machine->before;
-    bool lacks = status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
     sum_up(machine, status);
-    if (status && !moved && (lacks || !simulation->done))
+    if (status && !moved && (lacks(status) || !simulation->done))
         return fail(past, status);
     machine->known = past->keeps;
     machine->substeps += moved;
@@ -805,11 +811,13 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
             past->works = false;
         }
     }
-    if (make_room(past))
+    Branch *branch = make_room(past)
+                         ? NULL
+                         : push_branch(past, true, 0, panes, edit, gesture);
+    if (!branch) {
+        script_free(&journal);
         return STATUS_OUT_OF_MEMORY;
-    Branch *branch = push_branch(past, true, 0, panes, edit, gesture);
-    if (!branch)
-        return STATUS_OUT_OF_MEMORY;
+    }
     branch->journal = journal;
     branch->carried = journal.count;
     Status status = STATUS_OK;
@@ -884,74 +892,95 @@ static Status change_control(const Control *from, const Command *edit,
     return STATUS_OK;
 }
 
-/* An entry whose machine stands at it is changed. */
+/* An entry whose machine stands at it is changed; edit NULL: only its control
+ * is another one. */
 static Status change_entry(Past *past, int pane, const Control *to,
                            const Command *edit)
 {
     Machine *machine = &past->machine[pane];
     Entry *entry = entry_of(past, pane, past->step);
-    int number = (int)edit->number;
+    bool drags = edit && edit->kind == COMMAND_HANDLE;
+    bool flips = edit && edit->kind == COMMAND_FLIP;
     control_drop(entry->control);
-    entry->control = to;
+    entry->control = control_keep(to);
     stand(past, pane, past->step);
     Status status = use_control(machine, to);
-    entry->placed = entry->placed || edit->kind == COMMAND_HANDLE ||
-                    edit->kind == COMMAND_FLIP;
+    entry->placed = entry->placed || drags || flips;
     entry->substeps += entry->substeps == 0; /* it may go on again */
     if (status)
         return status;
-    if (edit->kind == COMMAND_HANDLE)
-        exhibit_drag(&machine->simulation, number, edit->x, edit->y);
-    if (edit->kind == COMMAND_FLIP)
-        exhibit_flip(&machine->simulation, number);
+    if (drags)
+        exhibit_drag(&machine->simulation, (int)edit->number, edit->x, edit->y);
+    if (flips)
+        exhibit_flip(&machine->simulation, (int)edit->number);
     return keep_state(past, pane);
+}
+
+/* The controls of all panes at a step after a change in some of them. */
+static Status change_controls(const Past *past, long step, const Command *edit,
+                              int from, int to, const Control *control[],
+                              char *message, size_t size)
+{
+    Status status = STATUS_OK;
+    for (int p = 0; p < past_panes(past) && !status; p++) {
+        const Control *now = past_entry(past, p, step)->control;
+        if (p >= from && p < to)
+            status = change_control(now, edit, &control[p], message, size);
+        else
+            control[p] = control_keep(now);
+    }
+    return status;
+}
+
+/* The change with these controls; then: those of the step that is made again,
+ * or NULL. */
+static Status make_edit(Past *past, const Command *edit, int from, int to,
+                        int gesture, const Control *const control[],
+                        const Control *const then[])
+{
+    int panes = past_panes(past);
+    const Branch *now = &past->branch[past->now];
+    bool joins = gesture && now->gesture == gesture && !then &&
+                 past->step == past_newest(past);
+    if (!joins) {
+        Branch *branch = make_room(past)
+                             ? NULL
+                             : push_branch(past, false, past->step - !!then,
+                                           panes, edit, gesture);
+        if (!branch)
+            return STATUS_OUT_OF_MEMORY;
+        for (int p = 0; p < panes && then; p++) {
+            branch->then[p] = control_keep(then[p]);
+            control_drop(branch->entry[p].control);
+            branch->entry[p].control = control_keep(control[p]);
+        }
+    }
+    Status status = STATUS_OK;
+    for (int p = 0; p < panes && !then && !status; p++) {
+        bool own = p >= from && p < to;
+        if (own || !joins)
+            status = change_entry(past, p, control[p], own ? edit : NULL);
+    }
+    return status;
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture, char *message, size_t size)
 {
     const Control *control[MOST_PANES] = {NULL}, *then[MOST_PANES] = {NULL};
-    int panes = past_panes(past);
-    long first = past->step - again;
     Status status = settle(past);
-    for (int p = from; p < to && !status; p++) {
+    for (int p = from; p < to && !status; p++)
         status = check_edit(&past->machine[p].simulation, edit, message, size);
-        if (!status)
-            status = change_control(past_entry(past, p, first)->control, edit,
-                                    &control[p], message, size);
-        if (!status && again)
-            status = change_control(past_control(past, p), edit, &then[p],
-                                    message, size);
-    }
-    const Branch *now = &past->branch[past->now];
-    bool joins = gesture && now->gesture == gesture && !again &&
-                 past->step == past_newest(past);
-    if (!status && !joins) {
-        for (int p = 0; p < panes && again; p++)
-            if (!then[p])
-                then[p] = control_keep(past_control(past, p));
-        status = make_room(past) ? STATUS_OUT_OF_MEMORY : settle(past);
-        Branch *branch =
-            status ? NULL
-                   : push_branch(past, false, first, panes, edit, gesture);
-        status = branch || status ? status : STATUS_OUT_OF_MEMORY;
-        for (int p = 0; p < panes && branch && again; p++) {
-            branch->then[p] = then[p];
-            then[p] = NULL;
-        }
-    }
-    for (int p = 0; p < panes; p++) {
-        if (!status && !again && (!joins || control[p])) {
-            const Control *same = past_control(past, p);
-            status = change_entry(
-                past, p, control[p] ? control[p] : control_keep(same), edit);
-            control[p] = NULL;
-        } else if (!status && again && control[p]) {
-            Entry *entry = entry_of(past, p, first);
-            control_drop(entry->control);
-            entry->control = control[p];
-            control[p] = NULL;
-        }
+    if (!status)
+        status = change_controls(past, past->step - again, edit, from, to,
+                                 control, message, size);
+    if (!status && again)
+        status = change_controls(past, past->step, edit, from, to, then,
+                                 message, size);
+    if (!status)
+        status = make_edit(past, edit, from, to, gesture, control,
+                           again ? then : NULL);
+    for (int p = 0; p < MOST_PANES; p++) {
         control_drop(control[p]);
         control_drop(then[p]);
     }

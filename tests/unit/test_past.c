@@ -365,6 +365,32 @@ TEST(dropped_work_leaves_no_trace)
     }
 }
 
+/* Nor does a step that could not be made. */
+TEST(failed_steps_leave_no_trace)
+{
+    static const char *const some[] = {"square --integrator forward-euler",
+                                       "circle --timestep 1e30"};
+    for (int i = 0; i < 2; i++) {
+        uint64_t hash = 0, before = 0;
+        Status status = STATUS_OK;
+        begin_past(some[i]);
+        while (!status) {
+            before = hash;
+            hash = hash_now();
+            past_aim(&past, past.step + 1, false);
+            status = work();
+        }
+        long last = past.step;
+        CHECK(status == STATUS_NOT_FINITE && past.machine[0].failed);
+        CHECK(past_newest(&past) == last && show(last) == hash);
+        past_aim(&past, last + 1, false);
+        CHECK_STATUS(work(), STATUS_NOT_FINITE);
+        CHECK(past.step == last && show(last - 1) == before);
+        CHECK(show(last) == hash);
+        past_free(&past);
+    }
+}
+
 /* Another stiffness while the run goes on leaves what elements have been
  * through: plastic strains, broken springs, obstacles that moved; and the
  * ledger books what it did to the energy as work, so that nothing else in it

@@ -465,7 +465,7 @@ static const Session sessions[] = {
            "scene circle")},
     {"a cell of the map leaves the lecture where it was",
      LINES("begin --lecture trust --paused", "key N", "press 300 500",
-           "release +0 +0", "scene square", "page 0", "key Escape", "page 32",
+           "release +0 +0", "scene square", "page 0", "key Ctrl+Z", "page 32",
            "scene envelope", "press 300 500", "release +0 +0", "key PageUp",
            "page 32")},
     {"a double click gives the page's number back",
