@@ -238,26 +238,15 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
 
 /* CHOLMOD's complex matrices, which there are none of: an archive of it asks
  * for these, too. */
-void zgemm_(void);
-void zherk_(void);
-void ztrsm_(void);
-void zpotrf_(void);
-
-void zgemm_(void)
-{
-}
-
-void zherk_(void)
-{
-}
-
-void ztrsm_(void)
-{
-}
-
-void zpotrf_(void)
-{
-}
+#define NOTHING(name)                                                          \
+    void name(void);                                                           \
+    void name(void)                                                            \
+    {                                                                          \
+    }
+NOTHING(zgemm_)
+NOTHING(zherk_)
+NOTHING(ztrsm_)
+NOTHING(zpotrf_)
 
 /* OpenMP would wake a team of threads for each of CHOLMOD's supernodes, which
  * takes longer than most of them do: its loops run where they are called. */

@@ -185,17 +185,14 @@ FAST void grid_move(const Grid *grid, double a, const double *p)
     }
 }
 
-FAST void grid_shift(const Grid *grid, const double by[2])
+void grid_shift(const Grid *grid, const double by[2])
 {
-    const Rows rows = grid->rows;
-    for (int i = 0; i < 4 * rows.nodes; i++) {
-        int from = place_of(&rows, i / 4, i % 2) + i / 2 % 2 * rows.plane;
-        const double shift = by[i / 2 % 2], *const x_tilde =
-                                                grid->x_tilde + from;
-        double *const away = grid->away + from, *const x = grid->x + from;
-        EACH_OF (rows.count[i % 2]) {
-            away[e] += shift;
-            x[e] = x_tilde[e] + away[e];
+    const Rows *rows = &grid->rows;
+    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
+        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
+        for (int c = 0; c < 2; c++, q += rows->plane) {
+            grid->away[q] += by[c];
+            grid->x[q] = grid->x_tilde[q] + grid->away[q];
         }
     }
 }
