@@ -348,6 +348,9 @@ TEST(pairs_are_those_that_can_move)
 
 /* ---- whole scenes ------------------------------------------------------ */
 
+/* As many as the scenes here have at most. */
+enum { NODES = 1024, SPRINGS = 8 * NODES };
+
 /* What is seen at each iterate. */
 typedef struct Watch {
     const Simulation *simulation;
@@ -412,13 +415,14 @@ TEST(nothing_penetrates_turns_over_or_comes_back)
         "hang --damping 0.1",
         "square --damping 0.01 --filter on-demand",
         "square --damping 0.01 --filter abs"};
-    static double v[SIMULATION_MAX_RUNS][2 * 1024];
+    static double v[SIMULATION_MAX_RUNS][2 * NODES];
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Watch watch = {NULL, INFINITY, INFINITY, 0};
         Simulation *scene =
             simulate_watched(watch_iterate, &watch, "%s", lines[i]);
         bool searched = !strstr(lines[i], "none");
         watch.simulation = scene;
+        CHECK(scene->system.nodes <= NODES);
         for (int n = 0; n < 120; n++) {
             Energies start[SIMULATION_MAX_RUNS];
             for (int r = 0; r < scene->runs; r++) {
@@ -469,7 +473,7 @@ static double dissipated_in(const TimeIntegrator *it, double *k,
                             const double *x_n, const double *v_n, Real P)
 {
     System whole = *it->system;
-    static double dx[2 * 1024];
+    static double dx[2 * NODES];
     whole.k = k;
     Real sum = P + wall_work(&whole, it->x, it->h);
     for (int c = 0; c < 2 * whole.nodes; c++) {
@@ -503,10 +507,11 @@ TEST(the_ledger_adds_up)
         "tear",    "squeeze --segments 6 --damping 0.01",
         "bend",    "drop",
         "squeeze", "dent"};
-    static double x[2 * 1024], v[2 * 1024], k[8 * 1024];
+    static double x[2 * NODES], v[2 * NODES], k[SPRINGS];
     for (int i = 0; i < (tests_are_long() ? 8 : 4); i++) {
         Simulation *scene = simulate("%s --tolerance 1e-8", lines[i]);
         double sum[SIMULATION_MAX_RUNS] = {0}, most = 0;
+        CHECK(scene->system.nodes <= NODES && scene->system.springs <= SPRINGS);
         for (int n = 0; n < 110; n++)
             for (int r = 0; r < scene->runs; r++) {
                 TimeIntegrator *it = &scene->run[r];
@@ -559,10 +564,11 @@ TEST(damping_takes_what_is_lost)
  * broken was not overstretched, or shares a node with one that was more so. */
 TEST(breaking_books_its_energy)
 {
-    static double k[8 * 1024], load[8 * 1024], most[1024];
+    static double k[SPRINGS], load[SPRINGS], most[NODES];
     Simulation *scene = simulate("tear");
     System *system = &scene->system;
     int broken = 0;
+    CHECK(system->nodes <= NODES && system->springs <= SPRINGS);
     for (int n = 0; n < 120; n++) {
         double lost = energy_now(scene, 0, "fracture");
         const double *x = scene->run[0].x;
@@ -633,17 +639,6 @@ static void is_symmetric(Simulation *scene)
     CHECK(energy_now(scene, 0, "plastic") > 1000);
 }
 
-/* Springs that could flow, but never do, are the elastic ones. */
-static void flows_not_at_all(Simulation *scene)
-{
-    Simulation *plain =
-        make_steps(simulate("--damping 0.01 --tolerance 1e-10"), 50);
-    for (size_t i = 0; i < scene->run[0].size; i++)
-        CHECK_NEAR(scene->run[0].x[i], plain->run[0].x[i], 1e-12);
-    CHECK_NEAR(energy_now(scene, 0, "damping"), energy_now(plain, 0, "damping"),
-               1e-5);
-}
-
 TEST(laws_of_scenes)
 {
     static const struct {
@@ -655,7 +650,6 @@ TEST(laws_of_scenes)
         {"squeeze --segments 8 --gravity 0 --yield 0.05", 500, stays_dented},
         {"dent --segments 8 --velocity 0,-2 --tolerance 1e-8", 150,
          is_symmetric},
-        {"--damping 0.01 --tolerance 1e-10 --yield 100", 50, flows_not_at_all},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         rows[i].law(make_steps(simulate("%s", rows[i].line), rows[i].steps));

@@ -32,6 +32,7 @@ static void begin_problem(int segments, double stretch)
     problem.system = &square->system;
     problem.x_n = square->run[0].x;
     problem.size = 2 * square->system.nodes;
+    CHECK(problem.size <= LARGEST);
     memset(problem.u, 0, sizeof problem.u);
     memset(problem.u_tilde, 0, sizeof problem.u_tilde);
 }
