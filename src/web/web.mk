@@ -7,7 +7,7 @@ WEB_NEEDS = /usr/bin/emcc:emscripten /usr/bin/pyftsubset:fonttools \
             /usr/bin/xz:xz-utils /usr/bin/bzip2:bzip2 $(FONTS):fonts-dejavu-core
 EMCC = NODE_PATH=/usr/share/nodejs emcc -O2 -msimd128 -mbulk-memory
 WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
-             -ffp-contract=off -Wall -Wextra
+             -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers
 
 # In a page other sources are window and film: the same headers answered.
 WEB_SOURCES = $(filter-out src/play/view.c src/play/event_wait.c \

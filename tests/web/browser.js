@@ -2,7 +2,7 @@
 // mouse, keys and touch.  Host names lead nowhere; whatever a tab asks for or
 // complains of is kept.
 'use strict';
-const { spawn } = require('child_process');
+const { spawn, spawnSync } = require('child_process');
 const fs = require('fs');
 const os = require('os');
 const path = require('path');
@@ -100,10 +100,14 @@ const launch = async () => {
     return tab;
   };
   const close = async () => {
-    await Promise.race([send('Browser.close').catch(() => {}), sleep(2000)]);
+    const gone = new Promise((done) => chromium.once('exit', done));
+    await Promise.race([send('Browser.close').catch(() => {}), sleep(5000)]);
     chromium.kill();
-    await sleep(200);
-    fs.rmSync(profile, { recursive: true, force: true, maxRetries: 20 });
+    await gone;
+    for (let tries = 0; fs.existsSync(profile) && tries < 20; tries++) {
+      await sleep(100); // its helpers may still write there
+      spawnSync('rm', ['-rf', profile]);
+    }
   };
   return { open, close };
 };
