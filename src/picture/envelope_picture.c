@@ -169,12 +169,10 @@ static const Card card_cell = {
     .draw = envelope_draw_cell,
 };
 
-static const Card *const envelope_cards[] = {&card_page, &card_envelope_numbers,
-                                             &card_cell, NULL};
-
 const Picture envelope_picture = {
     .name = "envelope",
-    .cards = envelope_cards,
+    .cards = (const Card *const[]){&card_page, &card_envelope_numbers,
+                                   &card_cell, NULL},
     .stretched = true,
     .around = {-10.6, -8.6, 3.6, 18.4}, /* and room for words */
     .draw = envelope_draw,

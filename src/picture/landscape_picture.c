@@ -291,12 +291,10 @@ static void landscape_draw(Plot *stage, const Show *show)
         draw_words(stage, descent, simulation->exhibit.parts);
 }
 
-static const Card *const landscape_cards[] = {&card_page, &card_listing,
-                                              &card_line, &card_residual, NULL};
-
 const Picture landscape_picture = {
     .name = "landscape",
-    .cards = landscape_cards,
+    .cards = (const Card *const[]){&card_page, &card_listing, &card_line,
+                                   &card_residual, NULL},
     .places = true,
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = landscape_draw,
@@ -368,11 +366,9 @@ static const Card card_dial_numbers = {
     .draw = dial_draw_numbers,
 };
 
-static const Card *const dial_cards[] = {&card_page, &card_dial_numbers, NULL};
-
 const Picture dial_picture = {
     .name = "dial",
-    .cards = dial_cards,
+    .cards = (const Card *const[]){&card_page, &card_dial_numbers, NULL},
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = dial_draw,
 };

@@ -120,12 +120,10 @@ static Pick circle_pick(const Show *show, const Plot *stage, double x, double y)
     return pick;
 }
 
-static const Card *const circle_cards[] = {&card_page, &card_radius,
-                                           &card_methods, NULL};
-
 const Picture circle_picture = {
     .name = "circle",
-    .cards = circle_cards,
+    .cards =
+        (const Card *const[]){&card_page, &card_radius, &card_methods, NULL},
     .around = {-1.75, -1.75, 1.75, 1.75},
     .draw = circle_draw,
     .pick = circle_pick,
@@ -322,12 +320,10 @@ static const Card card_mass_numbers = {
     .draw = draw_mass_numbers,
 };
 
-static const Card *const mass_cards[] = {&card_page, &card_mass_numbers,
-                                         &card_energies, NULL};
-
 const Picture mass_picture = {
     .name = "mass",
-    .cards = mass_cards,
+    .cards = (const Card *const[]){&card_page, &card_mass_numbers,
+                                   &card_energies, NULL},
     .places = true,
     .bounds = mass_bounds,
     .draw = mass_draw,

@@ -85,11 +85,9 @@ static const Card card_race_numbers = {
     .draw = race_draw_numbers,
 };
 
-static const Card *const race_cards[] = {&card_page, &card_race_numbers, NULL};
-
 const Picture race_picture = {
     .name = "race",
-    .cards = race_cards,
+    .cards = (const Card *const[]){&card_page, &card_race_numbers, NULL},
     .stretched = true,
     .around = {-6.3, -9.3, 0.3, 1}, /* powers of ten: s across, m */
     .draw = race_draw,

@@ -147,12 +147,10 @@ static void curve_draw(Plot *stage, const Show *show)
         plot_legend(stage, COLOUR_WARNING, "refused lengths");
 }
 
-static const Card *const curve_cards[] = {&card_page, &card_listing, &card_line,
-                                          &card_residual, NULL};
-
 const Picture curve_picture = {
     .name = "curve",
-    .cards = curve_cards,
+    .cards = (const Card *const[]){&card_page, &card_listing, &card_line,
+                                   &card_residual, NULL},
     .stretched = true,
     .places = true,
     .around = {-1.08 * 14, 1.25 * -6, 1.05 * 14, 1.1 * 14},
@@ -317,12 +315,10 @@ static const Card card_tangent_numbers = {
     .draw = tangent_draw_numbers,
 };
 
-static const Card *const tangent_cards[] = {&card_page, &card_tangent_numbers,
-                                            &card_residual, NULL};
-
 const Picture tangent_picture = {
     .name = "tangent",
-    .cards = tangent_cards,
+    .cards = (const Card *const[]){&card_page, &card_tangent_numbers,
+                                   &card_residual, NULL},
     .stretched = true,
     .own_handles = true,
     .bounds = tangent_bounds,

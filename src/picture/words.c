@@ -56,46 +56,36 @@ Number number_of(double value)
     return out;
 }
 
-/* The part from e on of "1e-06" as markup; returns where it ends. */
-static const char *power_text(const char *power, bool one, char *text,
-                              size_t size)
-{
-    char *end;
-    long exponent = strtol(power + 1, &end, 10);
-    snprintf(text, size, "%s10^{%s%ld}", one ? "" : "\u00b7",
-             exponent < 0 ? "\u2212" : "", labs(exponent));
-    return end;
-}
-
 void plot_numbers(char *text, size_t size)
 {
-    char out[WORDS_TEXT] = "";
+    char out[WORDS_TEXT] = "", *from = text;
     size_t used = 0;
-    const char *from = text;
     bool word = false; /* within a word, digits are no number */
-    while (*from && used + 32 < sizeof out) {
-        bool minus = *from == '-' && !word && isdigit((unsigned char)from[1]);
-        const char *digits = from + minus;
-        size_t length = strspn(digits, "0123456789.");
-        if (word || length == 0) {
+    while (*from && used + 64 < sizeof out) {
+        bool minus = *from == '-' && isdigit((unsigned char)from[1]);
+        if (word || !(minus || isdigit((unsigned char)*from))) {
             word = isalpha((unsigned char)*from) || (*from & 0x80) ||
                    (word && isdigit((unsigned char)*from));
             out[used++] = *from++;
             continue;
         }
-        const char *after = digits + length;
+        from += minus;
+        size_t length = strspn(from, "0123456789.");
+        const char *after = from + length;
         bool power = *after == 'e' && (after[1] == '-' || after[1] == '+') &&
                      isdigit((unsigned char)after[2]);
-        bool one = power && length == 1 && *digits == '1';
-        if (length > 24)
-            break;
+        bool one = power && length == 1 && *from == '1';
+        int digits = one ? 0 : length < 24 ? (int)length : 24;
         used += (size_t)snprintf(out + used, sizeof out - used, "%s%.*s",
-                                 minus ? "\u2212" : "", one ? 0 : (int)length,
-                                 digits);
-        if (power)
-            after = power_text(after, one, out + used, sizeof out - used);
-        used += strlen(out + used);
-        from = after;
+                                 minus ? "\u2212" : "", digits, from);
+        from += length;
+        if (power) {
+            int exponent = (int)strtol(from + 1, &from, 10);
+            used +=
+                (size_t)snprintf(out + used, sizeof out - used, "%s10^{%s%d}",
+                                 one ? "" : "\u00b7",
+                                 exponent < 0 ? "\u2212" : "", abs(exponent));
+        }
     }
     out[used] = '\0';
     snprintf(text, size, "%s", out);
