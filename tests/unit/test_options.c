@@ -146,6 +146,10 @@ TEST(values_are_read)
     o = parse_good("overshoot --start 3");
     CHECK(o.start[0] == 3 && o.start[1] == 0);
     CHECK(parse_good("landscape --start 1,2").start[1] == 2);
+    /* what is given stands instead of the scene's own */
+    CHECK(parse_good("drop").grounds == 3);
+    o = parse_good("drop --ground 0,1,0,-2");
+    CHECK(o.grounds == 1 && o.ground[0][3] == -2);
     /* the scene stands anywhere */
     CHECK(parse_good("--segments 3 hang --side 2").scene == scene_find("hang"));
     CHECK(parse_good("--segments 3 7").scene == scene_find("hang"));

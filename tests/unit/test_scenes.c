@@ -244,6 +244,20 @@ TEST(landscape_is_downhill_from_everywhere)
     CHECK(uphill > 5 && hollow > 100);
 }
 
+/* On demand the Hessian is projected where it is not positive definite. */
+TEST(landscape_projects_on_demand)
+{
+    Simulation *simulation = simulate("landscape --filter on-demand");
+    const Descent *descent = &simulation->descent;
+    while (!simulation->done) {
+        const double *x = simulation->run[0].x;
+        bool convex = !descent_bends_down(simulation, x[0], x[1]);
+        CHECK_STATUS(simulation_step(simulation), STATUS_OK);
+        CHECK((descent->record[descent->count - 1].projected == 0) == convex);
+    }
+    CHECK(descent->record[0].projected > 0);
+}
+
 /* E = |x - (0.2, 0.3)|^2 / 2 + 0.2^2 sum 2.25 100/2 (|x - pin|^2/2.25 - 1)^2,
  * J s^2. */
 static double energy_by_hand(double x, double y)
