@@ -249,6 +249,8 @@ static long looked;    /* how often a property said something */
 static void near(const char *what, Real got, Real expected, Real tolerance)
 {
     looked++;
+    if (got == expected) /* both infinite: behind a wall */
+        return;
     if (!(fabsl(got - expected) <= tolerance))
         print_error("%s: ", row->name);
     check_near(what, got, expected, tolerance, __FILE__, __LINE__);
