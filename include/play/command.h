@@ -93,7 +93,9 @@ typedef enum CommandArguments {
 
 enum {
     REPEATS = 1, /* while the key is held down */
-    KEPT = 2     /* belongs into the script of a session */
+    KEPT = 2,    /* belongs into the script of a session */
+    SCREEN = 4   /* concerns what is shown: obeyed while a step is computed;
+                    all else ends that work first */
 };
 
 typedef struct CommandRow {

@@ -34,12 +34,11 @@ typedef struct State {
 
 /* What is told of a step when its iterations are long forgotten. */
 typedef struct Told {
-    int updates;     /* of Newton, in all its substeps */
-    Status status;   /* the worst */
-    double change;   /* of E, J s^2 */
-    double residual; /* m/s, at the end */
-    double extent;   /* m, the largest coordinate of run 0 */
-    double time;     /* s, after it */
+    int updates;   /* of Newton, in all its substeps */
+    Status status; /* the worst */
+    double change; /* of E, J s^2 */
+    double extent; /* m, the largest coordinate of run 0 */
+    double time;   /* s, after it */
 } Told;
 
 /* One step of one pane: the state after it, and how the next one is made. */
@@ -55,7 +54,7 @@ typedef struct Entry {
 /* What plots keep of the steps that were drawn. */
 typedef struct Curves {
     History history; /* of energies or radii */
-    long sampled; /* step up to which these know of it; -1: none */
+    long sampled;    /* step up to which these know of it; -1: none */
 } Curves;
 
 typedef struct Branch {

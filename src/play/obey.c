@@ -62,20 +62,6 @@ static bool keeps_note(const Player *player, CommandKind kind)
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
 
-/* Whether it is obeyed while a step is still being computed: it only concerns
- * the screen.  Everything else ends the work first. */
-static bool waits_for_nothing(CommandKind kind)
-{
-    return kind == COMMAND_REDRAW || kind == COMMAND_QUIT ||
-           kind == COMMAND_PLAY || kind == COMMAND_PAUSE ||
-           (kind >= COMMAND_ZOOM && kind <= COMMAND_ENLARGE) ||
-           kind == COMMAND_PAGES || kind == COMMAND_CODE ||
-           kind == COMMAND_FULL || kind == COMMAND_BLANK ||
-           kind == COMMAND_FASTER || kind == COMMAND_SLOWER ||
-           kind == COMMAND_SELECT || kind == COMMAND_SHOT ||
-           kind == COMMAND_FILM || kind == COMMAND_HASH;
-}
-
 /* Writes down what was done: in the journal of the branch that it began, in
  * front of what it did in turn, else in that of before. */
 static Status note_line(Player *player, const Command *command, long step,
@@ -119,7 +105,7 @@ Status player_obey(Player *player, const Command *command)
         player->note[0] = '\0';
     if (past->works && resolved.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
-    if (past->works && !waits_for_nothing(resolved.kind)) {
+    if (past->works && !(command_row(resolved.kind)->flags & SCREEN)) {
         past_drop(past);
         player->then = THEN_NOTHING;
         if (resolved.kind == COMMAND_ESCAPE)

@@ -347,7 +347,6 @@ static bool watch(void *user, const NewtonRecord *record)
     if (!machine->stepping)
         return true;
     machine->told.updates += record->iteration >= 0;
-    machine->told.residual = record->residual;
     if (machine->simulation.scene->step) /* an update is a step */
         machine->told.change = record->change;
     const Newton *newton = listened_to(&machine->simulation);

@@ -977,4 +977,33 @@ TEST(many_steps_a_frame_end_in_time)
     end();
 }
 
+/* A step that takes long is made a frame's time at a time: what concerns the
+ * screen is obeyed meanwhile, one on is the same wish, Escape gives it up, and
+ * everything else, too; the bits are those of the step as a whole. */
+TEST(a_long_step_is_made_in_slices)
+{
+    const char *line = "--segments 90 --solver newton";
+    Simulation plain;
+    simulation_from_line(line, NULL, NULL, &plain);
+    CHECK_STATUS(simulation_step(&plain), STATUS_OK);
+    begin(line);
+    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    player.window = true;
+    uint64_t start = player_hash(&player);
+    obey_all((const char *const[]){"next", "colours", "next", NULL});
+    CHECK(player.past.works && player.past.step == 0);
+    while (player.past.works)
+        CHECK_STATUS(player_frame(&player), STATUS_OK);
+    CHECK(player.past.step == 1 && past_newest(&player.past) == 1);
+    CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
+    obey_all((const char *const[]){"next", "escape", NULL});
+    CHECK(!player.quit && player.past.step == 1 && !player.past.works);
+    CHECK(player_hash(&player) == state_hash(&plain, STATE_HASH_SEED));
+    obey_all((const char *const[]){"next", "home", NULL});
+    CHECK(player.past.step == 0 && player_hash(&player) == start);
+    CHECK(past_newest(&player.past) == 1);
+    simulation_free(&plain);
+    end();
+}
+
 TESTS(NULL, NULL)
