@@ -106,8 +106,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
         char was[64], is[64], option[64];
         if (!row->label || panes > 1)
             continue;
-        option_value(row, &base, was, sizeof was);
-        option_value(row, &now[0], is, sizeof is);
+        option_write(row, base.number[row->slot], was, sizeof was);
+        option_write(row, now[0].number[row->slot], is, sizeof is);
         if (strcmp(was, is) == 0)
             continue;
         snprintf(option, sizeof option, "--%s", row->name);
