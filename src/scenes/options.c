@@ -297,14 +297,11 @@ static double factor_paced(double value, double paces)
     double pace = 6 * log10(value);
     if (paces != rint(paces))
         return value * pow(10, paces / 6);
-    double near = floor(pace + 0.5);
-    for (double p = near - 1; p <= near + 1; p++)
-        if (fabs(round_value(p) - value) <= 1e-9 * value)
-            return round_value(p + paces);
-    double below = near - 2;
-    while (round_value(below + 1) < value)
+    double below = floor(pace) - 1;
+    while (round_value(below + 1) <= value * (1 + 1e-9))
         below++;
-    return round_value(paces > 0 ? below + paces : below + 1 + paces);
+    bool round = fabs(round_value(below) - value) <= 1e-9 * value;
+    return round_value(round || paces > 0 ? below + paces : below + 1 + paces);
 }
 
 double option_paced(const OptionRow *row, const Options *options, double paces)
