@@ -14,10 +14,9 @@ typedef struct Plot Plot; /* plot.h: where a pane is drawn, and how */
 /* A card in the column. */
 typedef struct Card {
     const char *name;  /* as tables and scripts call it: "listing" */
-    const char *title; /* markup */
-    const char *(*titled)(const Show *show); /* one that follows the state, or
-                                                NULL */
-    double least;                            /* ems, the height it needs */
+    const char *title; /* markup; or one that follows the state: */
+    const char *(*titled)(const Show *show);
+    double least; /* ems, the height it needs */
     /* The same for a card that is so many ems wide inside; NULL: least. */
     double (*needs)(const Show *show, double wide);
     double weight;     /* share of the height that is left */

@@ -333,7 +333,6 @@ static const char *energies_title(const Show *show)
 
 const Card card_energies = {
     .name = "energies",
-    .title = "Energies over time",
     .titled = energies_title,
     .least = 8,
     .weight = 1,

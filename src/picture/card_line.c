@@ -168,7 +168,6 @@ static const char *line_title(const Show *show)
 
 const Card card_line = {
     .name = "line",
-    .title = "E along p",
     .titled = line_title,
     .least = 8,
     .weight = 1.2,

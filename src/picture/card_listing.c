@@ -278,7 +278,6 @@ static const char *listing_title(const Show *show)
 
 const Card card_listing = {
     .name = "listing",
-    .title = "Algorithm 3",
     .titled = listing_title,
     .least = 14.6,
     .needs = listing_needs,

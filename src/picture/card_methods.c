@@ -42,32 +42,24 @@ static const Formula formulas[] = {
     {"avf4", "five steps of the averaged field:",
      "g h, g h, (1 \u2212 4g) h, g h, g h;  g = 1/(4 \u2212 4^{1/3})",
      "stays on the circle, hardly late"},
+    {NULL, "", "", ""},
 };
-enum { FORMULAS = sizeof formulas / sizeof *formulas };
-
-static const Formula *find_formula(const IntegratorMethod *method)
-{
-    for (int i = 0; i < FORMULAS; i++)
-        if (method && strcmp(formulas[i].method, method->name) == 0)
-            return &formulas[i];
-    return NULL;
-}
-
 /* Name, both lines and what they do to the circle, run by run. */
 static void draw_methods(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     double block = fmin(6.1, inside.height / paper->em / simulation->runs);
-    double line = block / 4.5;
+    double step = block / 4.5 * paper->em, x = inside.x + 0.3 * paper->em;
     for (int r = 0; r < simulation->runs; r++) {
         const IntegratorMethod *method = simulation->run[r].method;
-        const Formula *formula = find_formula(method);
         double y = inside.y + r * block * paper->em;
-        double step = line * paper->em, x = inside.x + 0.3 * paper->em;
+        int i = 0;
+        while (formulas[i].method &&
+               strcmp(formulas[i].method, method->name) != 0)
+            i++;
+        const Formula *formula = &formulas[i];
         paper_write(paper, FACE_BOLD, 1, circle_colour(simulation, r), x, y,
                     ALIGN_LEFT, "%s", method->label);
-        if (!formula)
-            continue;
         paper_write(paper, FACE_REGULAR, 1, COLOUR_TEXT, x, y + step,
                     ALIGN_LEFT, "%s", formula->first);
         paper_write(paper, FACE_REGULAR, 1, COLOUR_TEXT, x, y + 2 * step,

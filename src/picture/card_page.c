@@ -123,7 +123,6 @@ static const char *page_title(const Show *show)
 
 const Card card_page = {
     .name = "page",
-    .title = "the page",
     .titled = page_title,
     .least = 12,
     .needs = page_needs,

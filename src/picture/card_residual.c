@@ -162,7 +162,6 @@ static const char *residual_title(const Show *show)
 
 const Card card_residual = {
     .name = "residual",
-    .title = "residual of each update",
     .titled = residual_title,
     .least = 8,
     .weight = 1,

@@ -24,9 +24,6 @@ static const Picture *const pictures[PICTURE_COUNT] = {
     [PICTURE_ENVELOPE] = &envelope_picture,
 };
 
-/* Letters below this size are only noise. */
-static const double LEAST_EM = 7;
-
 const Picture *picture_of(const struct Scene *scene)
 {
     return pictures[scene->picture];
@@ -89,7 +86,7 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                   .box = layout->pane[pane],
                   .camera = show_camera(show, layout, pane),
                   .pane = pane,
-                  .text = !show->bare && paper->em >= LEAST_EM,
+                  .text = !show->bare,
                   .em = paper->em};
     Box before = canvas_clip(&paper->canvas, stage.box);
     picture->draw(&stage, show);
