@@ -258,6 +258,8 @@ TEST(what_was_placed_comes_back)
         if (step % 5 != 2)
             continue;
         edit(COMMAND_HANDLE, 0, 0.1 * step, 0.5);
+        const double *x = past.machine[0].simulation.run[0].x;
+        CHECK(x[0] == 0.1 * step && x[1] == 0.5);
         hash[step] = hash_now();
     }
     check_all_steps(20, hash);
