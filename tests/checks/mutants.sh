@@ -33,7 +33,7 @@ run_killer() { # name
         set -- "build/release/tests/unit/test_$1"
         ;;
     esac
-    passes "$@" || passes "$@" # not by chance
+    passes "$@" || { [ "$1" = sh ] && passes "$@"; } # a check may by chance
 }
 passes() { # command...
     (
