@@ -15,10 +15,7 @@
 /* 0xAARRGGBB; A = 255 is opaque. */
 typedef uint32_t Colour;
 
-enum {
-    CANVAS_MAX_SIZE = 16384, /* pixels a side */
-    CANVAS_MAX_WIDTH = 4096  /* pixels, of a line */
-};
+enum { CANVAS_MAX_SIZE = 16384 }; /* pixels a side */
 
 /* A rectangle in pixels. */
 typedef struct Box {

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MOST_WIDTH = 4096 }; /* pixels, of a line */
+
 /* Numbers of 16 bits before and 16 bits after the binary point. */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
@@ -262,8 +264,7 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
 {
     double line[4] = {x0, y0, x1, y1};
     const Box *clip = &canvas->clip;
-    if (!(width > 0) || width > CANVAS_MAX_WIDTH ||
-        !box_cut(clip, width + 1, line))
+    if (!(width > 0) || width > MOST_WIDTH || !box_cut(clip, width + 1, line))
         return;
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
     const int from[2] = {clip->x, clip->y};

@@ -155,8 +155,3 @@ void factor_text(char *text, size_t size, double value)
         return;
     snprintf(text, size, "(%.4g)", value);
 }
-
-void point_text(char *text, size_t size, const double point[2])
-{
-    snprintf(text, size, "(%.3g, %.3g)", point[0] + 0.0, point[1] + 0.0);
-}

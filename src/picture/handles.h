@@ -41,7 +41,4 @@ void lines_draw(Paper *paper, Box inside, const Lines *lines);
  * exponent: in parentheses where it has a sign or a power of ten. */
 void factor_text(char *text, size_t size, double value);
 
-/* "(1.00, 0.50)" */
-void point_text(char *text, size_t size, const double point[2]);
-
 #endif

@@ -263,10 +263,18 @@ static void mass_draw(Plot *stage, const Show *show)
 
 /* ---- the formula with its numbers --------------------------------------- */
 
+/* "(1.00, 0.50)" */
+static Number point_text(const double point[2])
+{
+    Number text;
+    snprintf(text.text, sizeof text.text, "(%.3g, %.3g)", point[0] + 0.0,
+             point[1] + 0.0);
+    return text;
+}
+
 static void add_mass_lines(const Simulation *simulation, Lines *lines)
 {
     MassStep step;
-    char x[64], v[64], a[64], new_x[64], new_v[64];
     double h = simulation->run[0].h;
     if (!mass_next_step(simulation, 0, &step)) {
         lines_add(lines, COLOUR_FAINT, "%s has more stages than arrows",
@@ -275,19 +283,16 @@ static void add_mass_lines(const Simulation *simulation, Lines *lines)
     }
     bool backward = simulation->run[0].method->implicit;
     bool forward = step.by_old_v;
-    point_text(x, sizeof x, step.x);
-    point_text(v, sizeof v, step.v);
-    point_text(a, sizeof a, backward ? step.new_a : step.a);
-    point_text(new_x, sizeof new_x, step.new_x);
-    point_text(new_v, sizeof new_v, step.new_v);
+    Number new_v = point_text(step.new_v), v = point_text(step.v);
     lines_add(lines, COLOUR_TEXT, "v\u2032 = v + h a(%s)",
               backward ? "x\u2032" : "x");
-    lines_add(lines, COLOUR_VELOCITY, "    = %s + %.3g %s = %s", v, h, a,
-              new_v);
+    lines_add(lines, COLOUR_VELOCITY, "    = %s + %.3g %s = %s", v.text, h,
+              point_text(backward ? step.new_a : step.a).text, new_v.text);
     lines_add(lines, COLOUR_TEXT, "{x}\u2032 = {x} + h %s",
               forward ? "v" : "v\u2032");
-    lines_add(lines, COLOUR_X, "    = %s + %.3g %s = %s", x, h,
-              forward ? v : new_v, new_x);
+    lines_add(lines, COLOUR_X, "    = %s + %.3g %s = %s",
+              point_text(step.x).text, h, forward ? v.text : new_v.text,
+              point_text(step.new_x).text);
     lines_add(lines, COLOUR_TEXT, "%s", "");
 }
 
