@@ -3,7 +3,7 @@
  *
  *   --seed S     other random scenes (1)
  *   --line LINE  only this one, ten steps; made smaller if it fails
- *   --quick      a hundredth of the random scenes, no slow case, no envelope
+ *   --quick      a tenth of the random scenes, no slow case, no envelope
  *   --envelope CSV PNG   only the envelope, into these files
  */
 #include "stress.h"
@@ -88,7 +88,7 @@ static void run_random(uint64_t seed, bool quick, Tally *sum)
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         char reason[512];
         Tally tally = {0};
-        long count = families[i].count / (quick ? 100 : 1);
+        long count = families[i].count / (quick ? 10 : 1);
         begin_case(families[i].name);
         if (!stress_scenes(families[i].kinds, seed, count, families[i].steps,
                            &tally, reason))
