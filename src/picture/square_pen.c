@@ -122,11 +122,12 @@ void square_pen_springs(const SpringPen *pen)
         double dx = pen->x[2 * e[0]] - pen->x[2 * e[1]];
         double dy = pen->x[2 * e[0] + 1] - pen->x[2 * e[1] + 1];
         double d2 = dx * dx + dy * dy;
+        double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour colour = COLOUR_X;
         if (spring_is_broken(system, s))
             continue;
-        if (told_colour(pen, pen->ep ? pen->ep[s] : 0, sqrt(d2 / l2) - 1,
-                        d2 < l2, &colour) &&
+        if (told_colour(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2,
+                        &colour) &&
             pen->range == 0)
             width *= 1.15;
         canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
@@ -235,7 +236,8 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
             turned = (d[1] - d[0]) / sqrt(d2[k]);
     }
     double strain = (sqrt(d2[0]) + sqrt(d2[1])) / (2 * sqrt(l2)) - 1;
-    square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
+    if (pen->ep)
+        square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
