@@ -3,8 +3,7 @@
 # WebAssembly, from the unchanged sources of Debian 12, which stay in the folder.
 set -eu
 mkdir -p "$1/sources" "$1/include"
-folder=$(cd "$1" && pwd)
-cd "$folder"
+cd "$1" # names are from here on, so that the page is the same in any folder
 
 # The mirror that apt uses; a file of another checksum is refused.
 mirror=$(apt-get --print-uris download node-acorn |
@@ -20,7 +19,7 @@ source() { # where in the pool, checksum; its folder goes to $from
     rm -rf "$name"
     mkdir "$name"
     tar -xf "$file" -C "$name" --strip-components=1
-    from=$folder/$name
+    from=$name
 }
 
 # One archive of these files.
