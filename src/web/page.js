@@ -4,7 +4,7 @@
 
 const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
-const context = canvas.getContext('2d', { alpha: false });
+const context = canvas.getContext('2d');
 let Module = null;
 let FS = null;
 
