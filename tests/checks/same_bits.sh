@@ -96,7 +96,7 @@ for compiler in gcc clang; do
             skipped=$((skipped + 1))
             continue
         fi
-        build "$compiler" $level
+        build "$compiler" "$level"
         hashes lines ./program --headless >table
         compare "$compiler $level" table
     done
