@@ -34,7 +34,7 @@ typedef struct State {
 
 /* What is told of a step when its iterations are long forgotten. */
 typedef struct Told {
-    int updates;   /* of Newton, in all its substeps */
+    int updates;   /* records of Newton, in all its substeps */
     Status status; /* the worst */
     double change; /* of E, J s^2 */
     double extent; /* m, the largest coordinate of run 0 */
@@ -111,14 +111,14 @@ typedef struct Past {
     bool goes_on; /* when one of several panes fails the others go on */
     size_t bytes, limit;
     /* Work that is under way, a Newton iteration at a time. */
-    bool works;
+    bool works;    /* the rest means nothing otherwise */
     long aim;      /* the step that is to be shown */
-    int pane;      /* whose turn it is */
-    bool making;   /* the step is new */
-    bool again;    /* it is made again, and the one before it */
-    double target; /* s, where it ends */
-    bool moved;    /* by any of its panes */
-    Status worst;
+    int pane;      /* whose turn it is; those before it stand at the aim */
+    bool making;   /* the aim is a new step; its entries are there */
+    bool again;    /* a known step is made again, and the one before it */
+    double target; /* of a new step: s, where it ends, */
+    bool moved;    /* whether any pane has made it, */
+    Status worst;  /* and with what */
 } Past;
 
 void past_create(bool keeps, bool goes_on, Past *past);
@@ -152,12 +152,14 @@ Status past_set_panes(Past *past, int panes, int gesture, const Command *edit);
  *   again  it is made once more, to know its rounds and those before it */
 void past_aim(Past *past, long step, bool again);
 
-/* One Newton iteration of the work.  RUNNING: there is more.  OK, or an
+/* A piece of the work: one Newton iteration, or the beginning of a step; of a
+ * step without a minimisation all of it.  RUNNING: there is more.  OK, or an
  * unconverged status: the aim is shown, if it is a new step that any pane could
  * make.  A failure: the last whole step is shown. */
 Status past_iterate(Past *past);
 
-/* Unfinished work is forgotten; past_iterate shows the last whole step. */
+/* Gives up the work that is under way: past_iterate leads back to the step that
+ * was shown before it. */
 void past_drop(Past *past);
 
 /* One branch down (-1) or up (1), where past_iterate leads.  Returns what was

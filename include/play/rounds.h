@@ -2,8 +2,10 @@
  * Algorithm 3: for the cards, and to be walked through line by line.
  *
  * Whoever iterates the solver looks at it: before each iteration x^i and p^i
- * stand there to be copied.  Rounds 0 ... count-1 made an update; round `count`
- * is the one whose direction passed the test.
+ * stand there to be copied.  Rounds 0 ... count-1 are those that have a record:
+ * each made an update, but for a last one whose line search found no step
+ * (alpha = 0).  Round `count` is where the solver is then: its direction passed
+ * the test.
  */
 #ifndef ELASTO_ROUNDS_H
 #define ELASTO_ROUNDS_H
@@ -41,7 +43,7 @@ typedef struct Rounds {
     long step;           /* the one that they are of; 0: none */
     double h, tolerance; /* s, m/s, that it was made with */
     int size;            /* 2n */
-    int count;           /* updates */
+    int count;           /* rounds with a record */
     int room;            /* of the arrays, one more */
     Round *round;
     NewtonRecord *record; /* [count] */
@@ -49,7 +51,7 @@ typedef struct Rounds {
                           /* other settings; 0: not known */
     int before_room;
     NewtonRecord *record_before;
-    bool ended;      /* round [count] is there */
+    bool ended;      /* round [count] is there: the last one made an update */
     bool passed;     /* its test was passed without a direction */
     double *x_tilde; /* [size] m */
     bool tilde;      /* it is known */
@@ -83,8 +85,8 @@ void rounds_free(Rounds *rounds);
  * Returns the index; -1 or rounds->places where it leaves the step. */
 int rounds_walk(const Rounds *rounds, int fine, int place, int way);
 
-/* The same line of the same round as before the step was made again, or the
- * last one before it. */
+/* The last place of this round that is not behind this line; where there is no
+ * such round, the last place of all. */
 int rounds_find(const Rounds *rounds, int round, Line line);
 
 /* The place where E was highest, if the step has raised it by far more than it

@@ -559,9 +559,12 @@ static void end_pane(Past *past, int pane, Status status)
         history_cut(history, history->time[history->count - 2]);
 }
 
-/* The work ends; the last whole step stays. */
+/* Work that is under way ends; the last whole step stays, but machines that
+ * have left it stand at none. */
 static void stop_work(Past *past)
 {
+    if (!past->works)
+        return;
     for (int p = 0; p < past_panes(past); p++) {
         Machine *machine = &past->machine[p];
         if (machine->stepping)
@@ -700,6 +703,11 @@ Status past_iterate(Past *past)
             rounds_look(&machine->rounds, newton);
         return stepped(past, simulation_iterate(&machine->simulation));
     }
+    /* Nothing is being computed.  The panes come to the goal one after the
+     * other: from the nearest state that is kept, and by steps that are made
+     * once more from there.  `making`: the goal's entry is new and has no
+     * state yet.  `again`: two steps are made whatever is kept, for the rounds
+     * of the last one and of the one before. */
     long newest = past_newest(past);
     long goal = past->aim < newest ? past->aim : newest;
     long from = past->again ? (goal > 2 ? goal - 2 : 0) : goal;
@@ -721,8 +729,8 @@ Status past_iterate(Past *past)
 
 void past_aim(Past *past, long step, bool again)
 {
+    stop_work(past);
     long most = past_newest(past) + 1;
-    past_drop(past);
     past->aim = step < 0 ? 0 : step > most ? most : step;
     past->works = true;
     past->pane = 0;
@@ -735,12 +743,8 @@ void past_aim(Past *past, long step, bool again)
 
 void past_drop(Past *past)
 {
-    if (!past->works)
-        return;
-    stop_work(past);
-    past->aim = past->step;
-    past->pane = 0;
-    past->works = true;
+    if (past->works)
+        past_aim(past, past->step, false);
 }
 
 /* ---- what is done -------------------------------------------------------- */
@@ -749,7 +753,7 @@ void past_drop(Past *past)
 static Status settle(Past *past)
 {
     Status status = STATUS_RUNNING;
-    past_drop(past);
+    stop_work(past);
     for (int p = 0; p < past_panes(past); p++)
         past->works = past->works || !stands(past, p, past->step);
     past->pane = 0;
@@ -800,8 +804,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Script journal = {0};
     memcpy(own, options, (size_t)panes * sizeof *own);
     if (past->branches > 0) {
-        past_drop(past);
-        past->works = false;
+        stop_work(past);
         const Branch *now = &past->branch[past->now];
         if (gesture && now->gesture == gesture && now->fresh && past->now > 0) {
             journal = past->branch[past->now].journal;
@@ -1003,8 +1006,7 @@ const Command *past_undo(Past *past, int way)
     int to = past->now + way;
     if (to < 0 || to >= past->branches)
         return NULL;
-    past_drop(past);
-    past->works = false;
+    stop_work(past);
     leave_branch(past);
     past->now = to;
     Branch *branch = &past->branch[to];

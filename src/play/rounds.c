@@ -199,8 +199,9 @@ static NewtonRecord as_line(const NewtonRecord *record)
     return line;
 }
 
-/* The round that comes next: where the solver is now.  A test that a bound
- * decides leaves no direction that belongs there. */
+/* The round that comes next: where the solver is now.  Where a bound decided
+ * the test, no direction was computed, and p is still that of the round before.
+ */
 static void keep_next(Rounds *rounds, const Newton *newton)
 {
     Round *round = &rounds->round[rounds->count];
@@ -261,7 +262,7 @@ static void add_place(Rounds *rounds, int round, Line line, int trials)
     rounds->place[rounds->places++] = (Station){round, line, trials};
 }
 
-/* The lines of a round that made an update. */
+/* The lines of a round that has a record. */
 static void add_round(Rounds *rounds, const Options *options, int i)
 {
     const NewtonRecord *record = &rounds->record[i];
