@@ -747,10 +747,10 @@ TEST(outputs_have_one_file_beside_their_name)
         CHECK_STATUS(output_open(name, &output), STATUS_OK);
         CHECK_STATUS(output_open(name, &second), STATUS_FILE_FAILED);
         assert_int_equal(errno, EBUSY);
-        fputs("abc" + i, output.file);
+        fputs(&"abc"[i], output.file);
         CHECK(mkdir(name, 0700) == 0);
         CHECK_STATUS(output_close(&output), STATUS_FILE_FAILED);
-        free(check_text(part, "abc" + i));
+        free(check_text(part, &"abc"[i]));
         CHECK(rmdir(name) == 0);
     }
     CHECK_STATUS(output_open(name, &output), STATUS_OK);
