@@ -207,7 +207,8 @@ static void write_ladder(Bench *bench, const Problem *problem,
     for (int i = 0; i < ladder->rungs; i++) {
         const Rung *rung = &ladder->rung[i];
         bench_row(bench, "%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%.6g,%ld,%d",
-                  problem->motion->name, problem->simulation.options.segments,
+                  problem->motion->name,
+                  (int)problem->simulation.options.segments,
                   ladder->method->name, solver_of(ladder),
                   ladder->method->order, rung->steps, rung->tolerance,
                   rung->seconds, fmin(rung->error, 1e300),

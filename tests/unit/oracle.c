@@ -39,6 +39,14 @@ static void book(Spot *spot, Jet *sum, Real factor, Jet part)
         (Jet){fabsl(part.f), fabsl(part.p), fabsl(part.q), fabsl(part.pq)});
 }
 
+/* A length that a double cannot hold to the last digit. */
+static Real jittered(Spot *spot, Real x)
+{
+    return spot->jitter
+               ? x * (1 + DBL_EPSILON * random_uniform(spot->jitter, -1, 1))
+               : x;
+}
+
 /* Coordinate c of x, or of the step u that leads there. */
 static Jet coordinate(Spot *spot, int c, bool of_u)
 {
@@ -50,9 +58,8 @@ static Jet coordinate(Spot *spot, int c, bool of_u)
         x = of_u ? at->u[c] : at->x[c];
     if (spot->p)
         x += (at->averaged ? spot->t : 1) * spot->alpha * spot->p[c];
-    if (spot->jitter)
-        x *= 1 + DBL_EPSILON * random_uniform(spot->jitter, -1, 1);
-    return (Jet){x, spot->p ? spot->p[c] : 0, spot->q ? spot->q[c] : 0, 0};
+    return (Jet){jittered(spot, x), spot->p ? spot->p[c] : 0,
+                 spot->q ? spot->q[c] : 0, 0};
 }
 
 static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
@@ -118,7 +125,7 @@ static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
     for (int axis = 0; axis < 2; axis++) {
         d[axis] = it->node >= 0 ? between(spot, i, it->node, axis, false)
                                 : coordinate(spot, 2 * i + axis, false);
-        d[axis].f -= it->node >= 0 ? 0 : it->o[axis];
+        d[axis].f -= it->node >= 0 ? 0 : jittered(spot, it->o[axis]);
         n[axis] = it->n[axis];
     }
     if (it->kind == OBSTACLE_BALL) {
@@ -151,7 +158,8 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     Real s = gap(&before, contact, i, k, n).f;
     if (!(s < 1))
         return;
-    Jet y = {.f = -spot->h * (n[0] * it->v[1] - n[1] * it->v[0])};
+    Jet y = {.f = -spot->h * (n[0] * jittered(spot, it->v[1]) -
+                              n[1] * jittered(spot, it->v[0]))};
     for (int axis = 0; axis < 2; axis++)
         y = plus(y, axis ? n[0] : -n[1],
                  it->node >= 0 ? between(spot, i, it->node, axis, true)

@@ -234,9 +234,9 @@ static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
         spot.jitter = &random;
         for (int i = 0; i < 8; i++) {
             Jet other = oracle_energy(&spot, kind);
-            noise->f += 80 * fabsl(other.f - part.f);
-            noise->p += 80 * fabsl(other.p - part.p);
-            noise->pq += 80 * fabsl(other.pq - part.pq);
+            noise->f += 400 * fabsl(other.f - part.f);
+            noise->p += 400 * fabsl(other.p - part.p);
+            noise->pq += 400 * fabsl(other.pq - part.pq);
         }
     }
     return sum;
