@@ -80,6 +80,7 @@ typedef struct Command {
     long number;
     double x, y;
     char text[COMMAND_TEXT_SIZE];
+    bool joins; /* undone together with the one before it: "& set ..." */
 } Command;
 
 /* What stands behind the word of a command. */

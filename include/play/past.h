@@ -20,7 +20,7 @@
 #define ELASTO_PAST_H
 
 #include "play/rounds.h"
-#include "play/script.h"
+#include "play/command.h"
 #include "scenes/control.h"
 #include "scenes/state.h"
 
@@ -72,11 +72,7 @@ typedef struct Branch {
                                change this branch's end */
     Command edit;           /* what began it */
     const Control *then[MOST_PANES]; /* from its entry 1 on; NULL: the same */
-    Script journal; /* what was done while it was the present one */
-    size_t told;    /* lines of the one below that lead to it */
-    size_t
-        carried; /* own lines, of a branch of the same gesture in its place */
-    Curves *curves[MOST_PANES]; /* as it was left; NULL: long ago */
+    Curves *curves[MOST_PANES];      /* as it was left; NULL: long ago */
 } Branch;
 
 /* A simulation that stands at an entry. */
@@ -162,14 +158,9 @@ Status past_iterate(Past *past);
  * was shown before it. */
 void past_drop(Past *past);
 
-/* One branch down (-1) or up (1), where past_iterate leads.  Returns what was
+/* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
  * undone or done again; NULL: nothing was. */
 const Command *past_undo(Past *past, int way);
-
-/* All that was done, as a script that leads to the present branch.
- *   script  out, free it in any case
- * Returns OK, OUT_OF_MEMORY. */
-Status past_script(const Past *past, Script *script);
 
 int past_panes(const Past *past);
 long past_newest(const Past *past);

@@ -97,17 +97,24 @@ typedef struct Player {
     bool warned;     /* paused once because a step did not converge */
     bool holds;      /* the hand has not let go since it took a node */
     bool paused;
-    bool halted;       /* by itself: at rest, at an end, after a failure */
-    bool rests;        /* nothing moves any more, */
-    bool balances;     /* and the forces are in balance */
-    bool drifts;       /* it moves, and nothing deforms any more */
-    bool leaving;      /* the last command was Escape, with nothing open */
-    bool by_hand;      /* commands come from keys and mouse */
-    bool by_run;       /* the step that is made was not asked for, */
-    bool known;        /* and it is not new */
-    int gesture;       /* so many keys, clicks, turns of the wheel */
-    int grip;          /* < 0: the last gesture of a script that takes a node */
-    int fine;          /* one on is: 0 a step, 1 an update, 2 a line */
+    bool halted;         /* by itself: at rest, at an end, after a failure */
+    bool rests;          /* nothing moves any more, */
+    bool balances;       /* and the forces are in balance */
+    bool drifts;         /* it moves, and nothing deforms any more */
+    bool leaving;        /* the last command was Escape, with nothing open */
+    bool by_hand;        /* commands come from keys and mouse */
+    bool by_run;         /* the step that is made was not asked for, */
+    bool known;          /* and it is not new */
+    int gesture;         /* so many keys, clicks, turns of the wheel */
+    int grip;            /* the same of a script, < 0: of its present line, */
+    int held;            /* of its last grab, which drags go on with, */
+    int lines;           /* and the last one that was given */
+    int noted;           /* gesture of the journal's last line; 0: no hand's */
+    int within;          /* commands that are obeyed, one within the other */
+    bool outermost_kept; /* the first of them is a line of the journal, */
+    size_t before;       /* which had so many when it began */
+    Script journal;      /* all that was done, undo and redo, too */
+    int fine;            /* one on is: 0 a step, 1 an update, 2 a line */
     int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
     long sampled;      /* step of the last frame that was drawn; -1: none */
     bool refused;      /* a line of the script made no sense */

@@ -6,8 +6,10 @@
  *     0 set timestep 0.01
  *     0 play
  *     40 grab 12
- * The lines are obeyed in their order.  A line waits until the run has reached
- * its step; a run that is paused, or at its end, waits for nothing.
+ * `40 & set stretch 1.2` is undone together with the line before it, as what
+ * one drag does is.  The lines are obeyed in their order.  A line waits until
+ * the run has reached its step; a run that is paused, or at its end, waits for
+ * nothing.
  */
 #ifndef ELASTO_SCRIPT_H
 #define ELASTO_SCRIPT_H

@@ -20,18 +20,6 @@ static void find_panes(const Player *player, const char *option, int *from,
     *to = one ? player->active + 1 : past_panes(&player->past);
 }
 
-/* The gesture that a change belongs to: of the mouse, or of a script from
- * taking a node to letting it go; 0: none. */
-static int gesture_of(Player *player, CommandKind kind)
-{
-    bool takes =
-        kind == COMMAND_GRAB || kind == COMMAND_DRAG || kind == COMMAND_RELEASE;
-    if (player->by_hand)
-        return player->gesture;
-    player->grip -= kind == COMMAND_GRAB;
-    return takes ? player->grip : 0;
-}
-
 /* A change; again: of the step that is shown, which is to be made once more. */
 static Status change_panes(Player *player, const Command *change, int from,
                            int to, bool again)
@@ -42,9 +30,9 @@ static Status change_panes(Player *player, const Command *change, int from,
     if (player->rests && player->halted) /* something may move again */
         player->paused = player->halted = false;
     player->rests = player->drifts = false;
-    Status status = past_edit(past, change, from, to, again,
-                              gesture_of(player, change->kind), player->message,
-                              sizeof player->message);
+    Status status =
+        past_edit(past, change, from, to, again, player_gesture(player),
+                  player->message, sizeof player->message);
     if (status)
         return status;
     for (int p = from; p < to; p++)
@@ -185,9 +173,10 @@ static Status put_beside(Player *player)
     long step = past->step;
     player->retake.alone = false;
     past_undo(past, -1);
-    Status status = past_set_panes(past, 2, 0, &beside);
+    player_next_gesture(player, COMMAND_ADD_PANE);
+    Status status = past_set_panes(past, 2, player->grip, &beside);
     if (!status)
-        status = past_edit(past, &player->retake.edit, 0, 1, true, 0,
+        status = past_edit(past, &player->retake.edit, 0, 1, true, player->grip,
                            player->message, sizeof player->message);
     if (!status)
         status = player_fork(player, step - 1);
@@ -428,8 +417,8 @@ static Status add_pane(Player *player, const Command *command)
     if (!past->keeps)
         return player_refuse(player, "nothing to be put beside it here");
     snprintf(change.text, sizeof change.text, "integrator %s", next->name);
-    Status status = past_set_panes(
-        past, panes + 1, player->by_hand ? player->gesture : 0, command);
+    Status status =
+        past_set_panes(past, panes + 1, player_gesture(player), command);
     if (!status)
         status = player_work(player);
     if (!status)
@@ -445,7 +434,8 @@ static Status end_pane(Player *player, const Command *command)
     Past *past = &player->past;
     if (past_panes(past) < 2)
         return player_refuse(player, "there is only one");
-    Status status = past_set_panes(past, past_panes(past) - 1, 0, command);
+    Status status = past_set_panes(past, past_panes(past) - 1,
+                                   player_gesture(player), command);
     if (!status)
         status = player_fork(player, past->step);
     return status ? status : player_work(player);
@@ -510,13 +500,21 @@ static Status pull(Player *player, const Command *command)
 /* A point of the scene moves; a minimisation begins anew with it, at step 0. */
 static Status move_handle(Player *player, const Command *command)
 {
+    Past *past = &player->past;
     const Simulation *simulation = player_simulation(player);
     Status status = STATUS_OK;
     unsigned needs = simulation->scene->needs;
+    double at[SCENE_MAX_HANDLES][2];
+    long step = past->step;
+    int now = past->now;
     if ((needs & NEEDS_START) && !(needs & NEEDS_TIME) &&
-        simulation->scene->grips)
+        command->number < exhibit_handles(simulation, at))
         status = player_show(player, 0, false, THEN_NOTHING);
-    return status ? status : player_change_all(player, command);
+    if (!status)
+        status = player_change_all(player, command);
+    if (past->now > now)
+        past->branch[now].left = step; /* where undo leads back to */
+    return status;
 }
 
 const Deed change_deeds[] = {

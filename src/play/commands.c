@@ -197,6 +197,10 @@ Status command_parse(const char *line, Command *command, char *message,
 {
     char word[COMMAND_TEXT_SIZE], rest[COMMAND_TEXT_SIZE], text[128];
     *command = (Command){.kind = COMMAND_NONE};
+    while (isspace((unsigned char)*line))
+        line++;
+    command->joins = *line == '&';
+    line += command->joins;
     if (!take_word(&line, word))
         return refuse(message, size, "%sno command", "");
     for (int i = 0; i < COMMAND_KINDS; i++) {
@@ -223,7 +227,9 @@ Status command_parse(const char *line, Command *command, char *message,
 void command_format(const Command *command, char *line, size_t size)
 {
     const CommandRow *row = &command_rows[command->kind];
-    const char *word = row->word ? row->word : "";
+    char word[COMMAND_TEXT_SIZE];
+    snprintf(word, sizeof word, "%s%s", command->joins ? "& " : "",
+             row->word ? row->word : "");
     switch (row->arguments) {
     case ARGUMENTS_NUMBER:
         snprintf(line, size, "%s %ld", word, command->number);

@@ -91,8 +91,15 @@ static Status tell_hash(Player *player, const Command *command)
     char name[80];
     unsigned long long hash = player_hash(player);
     const char *scene = player_simulation(player)->scene->name;
-    Script script;
-    Status status = past_script(&player->past, &script);
+    const Script *journal = &player->journal;
+    Script script = {0};
+    Status status = STATUS_OK;
+    for (size_t i = 0; i < journal->count && !status; i++)
+        status = script_add(&script, journal->line[i].step,
+                            &journal->line[i].command);
+    if (!status && !player->paused && script.count > 0)
+        status = script_add(&script, player->past.step,
+                            &(Command){.kind = COMMAND_PAUSE});
     if (script.count == 0) {
         player_note(player, "state %016llx: %.80s --steps %ld", hash,
                     player->line, player->past.step);

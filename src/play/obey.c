@@ -26,6 +26,19 @@ Status player_refuse(Player *player, const char *why)
     return STATUS_INVALID_INPUT;
 }
 
+int player_gesture(const Player *player)
+{
+    return player->by_hand ? player->gesture : player->grip;
+}
+
+void player_next_gesture(Player *player, CommandKind kind)
+{
+    bool holds = kind == COMMAND_DRAG || kind == COMMAND_RELEASE;
+    player->grip = holds ? player->held : --player->lines;
+    if (kind == COMMAND_GRAB)
+        player->held = player->grip;
+}
+
 const Options *player_settings(const Player *player)
 {
     return &past_control(&player->past, player->active)->options;
@@ -62,18 +75,41 @@ static bool keeps_note(const Player *player, CommandKind kind)
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
 }
 
-/* Writes down what was done: in the journal of the branch that it began, in
- * front of what it did in turn, else in that of before. */
-static Status note_line(Player *player, const Command *command, long step,
-                        long runs, int now, size_t told)
+/* Whether a drag goes on: of two lines the last one is enough. */
+static bool replaces(const ScriptLine *line, const Command *command, long step)
 {
-    Past *past = &player->past;
-    bool same = past->now == now && past->runs == runs;
+    const Command *last = &line->command;
+    size_t name = strcspn(command->text, " ");
+    return line->step == step && last->kind == command->kind &&
+           last->number == command->number &&
+           (command->kind == COMMAND_START || command->kind == COMMAND_HANDLE ||
+            (command->kind == COMMAND_SET &&
+             strncmp(last->text, command->text, name + 1) == 0));
+}
+
+/* Writes down what was done, in front of what it did in turn.  Nothing is ever
+ * taken out but the way of a drag: undo and redo are lines, too. */
+static Status note_line(Player *player, const Command *command, long step,
+                        size_t at)
+{
+    Script *journal = &player->journal;
+    Command line = *command;
+    bool drags = player->by_hand && player->gesture == player->noted;
     if (!(command_row(command->kind)->flags & KEPT))
         return STATUS_OK;
-    return script_insert(&past->branch[past->now].journal,
-                         same ? told : past->branch[past->now].carried, step,
-                         command);
+    bool held =
+        command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE;
+    bool within = player->within > 0 &&
+                  (player->outermost_kept || journal->count > player->before);
+    line.joins = command->joins || within || (drags && !held);
+    if (drags && at > 0 && at == journal->count &&
+        replaces(&journal->line[at - 1], &line, step)) {
+        line.joins = journal->line[at - 1].command.joins;
+        journal->line[at - 1].command = line;
+        return STATUS_OK;
+    }
+    player->noted = player->by_hand ? player->gesture : 0;
+    return script_insert(journal, at, step, &line);
 }
 
 /* Later steps that a change has left behind. */
@@ -94,9 +130,15 @@ Status player_obey(Player *player, const Command *command)
     Past *past = &player->past;
     Command resolved = resolve(player, command);
     bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
-    long step = past->step, newest = past_newest(past), runs = past->runs;
+    long step = past->step, newest = past_newest(past);
     int now = past->now;
-    size_t told = past->branch[now].journal.count;
+    size_t at = player->journal.count;
+    if (player->within == 0) {
+        player->before = at;
+        player->outermost_kept = command_row(resolved.kind)->flags & KEPT;
+    }
+    if (!player->by_hand && player->within == 0 && !command->joins)
+        player_next_gesture(player, command->kind);
     player->changed = true;
     player->message[0] = '\0';
     if (resolved.kind != COMMAND_REDRAW)
@@ -112,12 +154,14 @@ Status player_obey(Player *player, const Command *command)
             return player_work(player);
     }
     DeedFunction *act = find_deed(resolved.kind);
+    player->within++;
     Status status = act ? act(player, &resolved) : STATUS_OK;
+    player->within--;
     bool undo = resolved.kind == COMMAND_UNDO || resolved.kind == COMMAND_REDO;
     if (!undo && past->now > now)
         tell_left(player, step, newest);
-    if (status != STATUS_INVALID_INPUT && !undo &&
-        note_line(player, &resolved, step, runs, now, told))
+    if (status != STATUS_INVALID_INPUT &&
+        note_line(player, &resolved, step, at))
         return STATUS_OUT_OF_MEMORY;
     player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||

@@ -196,7 +196,6 @@ static void drop_branch(Past *past, Branch *branch)
         free(branch->curves[p]);
     }
     free(branch->entry);
-    script_free(&branch->journal);
     *branch = (Branch){0};
 }
 
@@ -212,21 +211,6 @@ static void lose_machines(Past *past)
 {
     for (int p = 0; p < MOST_PANES; p++)
         past->machine[p].step = -1;
-}
-
-Status past_script(const Past *past, Script *script)
-{
-    Status status = STATUS_OK;
-    *script = (Script){0};
-    for (int b = 0; b <= past->now; b++) {
-        const Script *journal = &past->branch[b].journal;
-        size_t lines =
-            b < past->now ? past->branch[b + 1].told : journal->count;
-        for (size_t i = 0; i < lines && !status; i++)
-            status = script_add(script, journal->line[i].step,
-                                &journal->line[i].command);
-    }
-    return status;
 }
 
 /* Room for one more branch, in the place of those that were undone. */
@@ -298,7 +282,6 @@ static Branch *push_branch(Past *past, bool fresh, long first, int panes,
     past->runs += fresh;
     branch->run = fresh ? past->runs : past->branch[past->now].run;
     int below = past->branches > 0 ? past->branch[past->now].panes : 0;
-    branch->told = below ? past->branch[past->now].journal.count : 0;
     for (int p = 0; p < panes; p++) {
         branch->source[p] = p < below ? p : below - 1;
         if (p >= below && !fresh)
@@ -801,14 +784,11 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
     Options own[MOST_PANES]; /* they may be those of a branch that goes */
-    Script journal = {0};
     memcpy(own, options, (size_t)panes * sizeof *own);
     if (past->branches > 0) {
         stop_work(past);
         const Branch *now = &past->branch[past->now];
         if (gesture && now->gesture == gesture && now->fresh && past->now > 0) {
-            journal = past->branch[past->now].journal;
-            past->branch[past->now].journal = (Script){0};
             pop_branch(past);
             past->works = false;
         }
@@ -816,12 +796,8 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Branch *branch = make_room(past)
                          ? NULL
                          : push_branch(past, true, 0, panes, edit, gesture);
-    if (!branch) {
-        script_free(&journal);
+    if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    }
-    branch->journal = journal;
-    branch->carried = journal.count;
     Status status = STATUS_OK;
     for (int p = 0; p < panes && !status; p++)
         status = begin_pane(past, p, &own[p]);
@@ -1001,17 +977,27 @@ Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
     return status;
 }
 
+/* Whether the branch above it is of the same gesture. */
+static bool is_continued(const Past *past, int branch)
+{
+    int gesture = past->branch[branch].gesture;
+    return gesture && gesture == past->branch[branch + 1].gesture;
+}
+
 const Command *past_undo(Past *past, int way)
 {
     int to = past->now + way;
     if (to < 0 || to >= past->branches)
         return NULL;
+    while (way < 0 && to > 0 && is_continued(past, to))
+        to--;
+    while (way > 0 && to + 1 < past->branches && is_continued(past, to))
+        to++;
+    int top = way < 0 ? past->now : to;
     stop_work(past);
     leave_branch(past);
     past->now = to;
     Branch *branch = &past->branch[to];
-    if (way > 0) /* what was done in between led nowhere */
-        branch[-1].journal.count = branch->told;
     for (int p = 0; p < branch->panes; p++) {
         clear_curves(&past->machine[p].curves);
         if (branch->curves[p])
@@ -1019,7 +1005,7 @@ const Command *past_undo(Past *past, int way)
     }
     past->step = branch->left;
     past_aim(past, branch->left, false);
-    return &past->branch[way < 0 ? to + 1 : to].edit;
+    return &past->branch[top].edit;
 }
 
 void past_create(bool keeps, bool goes_on, Past *past)

@@ -452,7 +452,7 @@ Status player_create(const Options *options, int count, const char *line,
                               &(Command){.kind = COMMAND_RESTART});
     Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
     if (!status && player->paused)
-        status = script_add(&player->past.branch[0].journal, 0, &pause);
+        status = script_add(&player->journal, 0, &pause);
     player->left = options->page;
     if (!status && options->page && player->window && !options->script)
         status = lesson_prepare(player);
@@ -484,4 +484,5 @@ void player_free(Player *player)
         player->side[p].ghost = player->side[p].from = NULL;
     }
     script_free(&player->script);
+    script_free(&player->journal);
 }

@@ -27,6 +27,13 @@ const Options *player_settings(const Player *player);
  * by itself. */
 Options player_numbers(const Player *player);
 
+/* What belongs together and is undone at once: of the mouse or a key > 0, of a
+ * command of a script < 0. */
+int player_gesture(const Player *player);
+
+/* Without a hand: another one begins, or that of the last grab goes on. */
+void player_next_gesture(Player *player, CommandKind kind);
+
 /* ---- walk.c ------------------------------------------------------------- */
 
 /* What was wished for the step that is shown now. */

@@ -53,6 +53,7 @@ Status player_write_rest(Player *player)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
+    long shown = past->step;
     if (!past->keeps || past->branches == 0 ||
         (!player->recording.states.file && !player->recording.log.file))
         return STATUS_OK;
@@ -67,6 +68,9 @@ Status player_write_rest(Player *player)
         if (!status || status_is_unconverged(status))
             status = record_step(player);
     }
+    past_aim(past, shown, false);
+    while (past_iterate(past) == STATUS_RUNNING)
+        ;
     return status;
 }
 
@@ -106,8 +110,8 @@ Status player_begin(Player *player, const Options *options, int count,
 {
     Past *past = &player->past;
     bool again = past->branches > 0;
-    Status status = past_begin(past, options, count,
-                               player->by_hand ? player->gesture : 0, edit);
+    Status status =
+        past_begin(past, options, count, player_gesture(player), edit);
     if (status && again) { /* what was there before is shown again */
         snprintf(player->message, sizeof player->message, "%s",
                  status_text(status));
@@ -286,6 +290,7 @@ static Status let_go(Player *player)
     Command release = {.kind = COMMAND_RELEASE};
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
+    player_next_gesture(player, COMMAND_NONE);
     return player_change_all(player, &release); /* as a script does by itself */
 }
 

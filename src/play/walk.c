@@ -4,6 +4,7 @@
  * a second.
  */
 #include <math.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -268,13 +269,14 @@ static Status undo(Player *player, const Command *command)
                                              : "nothing was undone");
     player->paused = true;
     player->halted = player->holds = player->drifts = false;
-    const Branch *upper = &past->branch[way < 0 ? now : now + 1];
-    long fork = upper->run == past->branch[now + way].run && !upper->fresh
-                    ? upper->first
-                    : -1;
-    command_format(past_undo(past, way), line, sizeof line);
-    Status status =
-        player_fork(player, past->branch[past->now].run == run ? fork : -1);
+    Command edit = *past_undo(past, way);
+    edit.joins = false;
+    command_format(&edit, line, sizeof line);
+    long fork = past->branch[past->now].run == run ? LONG_MAX : -1;
+    int low = past->now < now ? past->now : now, high = past->now + now - low;
+    for (int b = low + 1; b <= high; b++)
+        fork = past->branch[b].first < fork ? past->branch[b].first : fork;
+    Status status = player_fork(player, fork);
     player->by_run = false;
     player->then = THEN_NOTHING;
     for (int p = 0; p < past_panes(past); p++)

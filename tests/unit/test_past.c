@@ -507,7 +507,8 @@ TEST(commands_are_written_as_they_are_read)
         CHECK(strcmp(line, good[i]) == 0);
     }
     for (int kind = COMMAND_QUIT; kind < COMMAND_KINDS; kind++) {
-        Command command = {(CommandKind)kind, 7, 0.1, -3, "a b"}, read;
+        Command command = {(CommandKind)kind, 7, 0.1, -3, "a b", kind % 2 == 0},
+                read;
         if (!command_row((CommandKind)kind)->word)
             continue;
         command_format(&command, line, sizeof line);
