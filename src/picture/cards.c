@@ -236,7 +236,7 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
                       y, ALIGN_LEFT, part);
             y += line;
             text += letters;
-            column = indent + 4;
+            column = indent + 4 < columns - 8 ? indent + 4 : columns - 8;
         } while (*text);
     }
 }
