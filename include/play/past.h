@@ -24,8 +24,10 @@
 #include "scenes/control.h"
 #include "scenes/state.h"
 
-enum { MOST_PANES = OPTIONS_MAX_PANES };
 #define PAST_BYTES ((size_t)256 << 20) /* of states; they give way */
+
+/* Beyond so many times its size in the first step nobody can see a state. */
+#define PAST_EXPLODED 10
 
 typedef struct State {
     size_t size;
@@ -33,13 +35,13 @@ typedef struct State {
 } State;
 
 /* What is told of a step when its iterations are long forgotten. */
-typedef struct Told {
+typedef struct Outcome {
     int updates;   /* records of Newton, in all its substeps */
     Status status; /* the worst */
     double change; /* of E, J s^2 */
     double extent; /* m, the largest coordinate of run 0 */
     double time;   /* s, after it */
-} Told;
+} Outcome;
 
 /* One step of one pane: the state after it, and how the next one is made. */
 typedef struct Entry {
@@ -48,7 +50,7 @@ typedef struct Entry {
     bool placed; /* somebody has moved a point in it: it cannot be made again */
     int substeps; /* steps of its own in it: with a shorter h several; 0: it has
                      ended before, or its scene is over */
-    Told told;
+    Outcome outcome;
 } Entry;
 
 /* What plots keep of the steps that were drawn. */
@@ -56,6 +58,12 @@ typedef struct Curves {
     History history; /* of energies or radii */
     long sampled;    /* step up to which these know of it; -1: none */
 } Curves;
+
+/* A list that grows. */
+typedef struct Records {
+    NewtonRecord *row; /* [count] */
+    int count, room;
+} Records;
 
 typedef struct Branch {
     bool fresh;  /* starts from options; else goes on from the one below */
@@ -66,13 +74,15 @@ typedef struct Branch {
     long left;   /* the step shown when it was left */
     long stride; /* every so manyth state is kept, and that of entry 0 */
     int panes;
-    int source[MOST_PANES]; /* the pane below that each one goes on from */
-    Entry *entry;           /* [count][panes] */
-    int gesture;            /* of the mouse; 0: none.  Changes of the same one
-                               change this branch's end */
-    Command edit;           /* what began it */
-    const Control *then[MOST_PANES]; /* from its entry 1 on; NULL: the same */
-    Curves *curves[MOST_PANES];      /* as it was left; NULL: long ago */
+    int source[OPTIONS_MAX_PANES]; /* the pane below that each one goes on from
+                                    */
+    Entry *entry;                  /* [count][panes] */
+    int gesture;  /* of the mouse; 0: none.  Changes of the same one
+                     change this branch's end */
+    Command edit; /* what began it */
+    const Control
+        *then[OPTIONS_MAX_PANES];      /* from its entry 1 on; NULL: the same */
+    Curves *curves[OPTIONS_MAX_PANES]; /* as it was left; NULL: long ago */
 } Branch;
 
 /* A simulation that stands at an entry. */
@@ -85,14 +95,12 @@ typedef struct Machine {
     bool stepping;          /* a step of the simulation is begun */
     int substeps;           /* made of the step after it */
     long before;            /* the simulation's steps before the last of them */
-    Told told;              /* of the step that is made, or the last one */
+    Outcome outcome;        /* of the step that is made, or the last one */
     bool failed;            /* that one could not be made */
     double start;           /* J, total energy at step 0 */
     Rounds rounds;
-    bool known;   /* they are of the step it stands at, or failed after it */
-    long records; /* all that Newton told of that step, for the log */
-    long record_room;
-    NewtonRecord *record;
+    bool known;      /* they are of the step it stands at, or failed after it */
+    Records records; /* all that Newton told of that step, for the log */
     Curves curves;
 } Machine;
 
@@ -102,7 +110,7 @@ typedef struct Past {
     int now;            /* the present one; those above it were undone */
     long runs;          /* fresh branches so far */
     long step;          /* shown, in all panes */
-    Machine machine[MOST_PANES];
+    Machine machine[OPTIONS_MAX_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
     bool goes_on; /* when one of several panes fails the others go on */
     size_t bytes, limit;
@@ -110,7 +118,8 @@ typedef struct Past {
     bool works;    /* the rest means nothing otherwise */
     long aim;      /* the step that is to be shown */
     int pane;      /* whose turn it is; those before it stand at the aim */
-    bool making;   /* the aim is a new step; its entries are there */
+    bool making;   /* the aim is a new step, and all panes have come to the
+                      newest one that is known */
     bool again;    /* a known step is made again, and the one before it */
     double target; /* of a new step: s, where it ends, */
     bool moved;    /* whether any pane has made it, */
@@ -158,11 +167,15 @@ Status past_iterate(Past *past);
  * was shown before it. */
 void past_drop(Past *past);
 
-/* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
- * undone or done again; NULL: nothing was. */
-const Command *past_undo(Past *past, int way);
+/* One gesture down (-1) or up (1), where past_iterate leads.
+ *   fork  out: the step up to which the past is the same as before; -1: it is
+ *         another run
+ * Returns what was undone or done again; NULL: nothing was. */
+const Command *past_undo(Past *past, int way, long *fork);
 
 int past_panes(const Past *past);
+
+/* The newest step that is known; one that is being made is not yet. */
 long past_newest(const Past *past);
 
 /* NULL: there is none. */
@@ -172,9 +185,17 @@ const Entry *past_entry(const Past *past, int pane, long step);
 const Control *past_control(const Past *past, int pane);
 const Control *past_start(const Past *past, int pane);
 
-/* Whether a pane takes no more steps since one of them failed, at this step of
- * those of all panes.  last out: its last one. */
-bool past_is_over(const Past *past, int pane, long step, long *last);
+/* The last step that a pane could make, if it has ended before the one that is
+ * shown because a step of it failed; else -1. */
+long past_ended(const Past *past, int pane);
+
+/* The last step up to this one whose state can still be seen: at most
+ * PAST_EXPLODED times as large as after step 1, or after step `from`, before
+ * which none is looked for. */
+long past_last_seen(const Past *past, int pane, long step, long from);
+
+/* What plots have kept of a pane; NULL: memory is missing. */
+Curves *past_curves(const Past *past, int pane);
 
 /* s, and s of one step; 0 and 1 in scenes without time. */
 double machine_time(const Machine *machine);

@@ -43,14 +43,8 @@ static Status change_panes(Player *player, const Command *change, int from,
 Status player_change(Player *player, const Command *change, int from, int to)
 {
     Status status = change_panes(player, change, from, to, false);
-    for (int p = from; p < to && !status; p++) {
-        Machine *machine = &player->past.machine[p];
-        if (machine->curves.sampled < player->past.step)
-            continue; /* what is kept of the present state is taken again */
-        history_cut(&machine->curves.history,
-                    nextafter(machine_time(machine), -INFINITY));
-        show_sample(&machine->simulation, &machine->curves.history);
-    }
+    if (!status)
+        player_sample(player);
     return status;
 }
 
@@ -70,12 +64,12 @@ int player_options(const Player *player, Options options[OPTIONS_MAX_PANES])
 /* ---- the step once more: the counterfactual ------------------------------ */
 
 /* "E +206 in 12 updates" */
-static void tell_outcome(const Told *told, char *text, size_t size)
+static void tell_outcome(const Outcome *outcome, char *text, size_t size)
 {
-    snprintf(text, size, "E %+.3g in %d update%s%s%s", told->change,
-             told->updates, told->updates == 1 ? "" : "s",
-             told->status ? ", " : "",
-             told->status ? status_text(told->status) : "");
+    snprintf(text, size, "E %+.3g in %d update%s%s%s", outcome->change,
+             outcome->updates, outcome->updates == 1 ? "" : "s",
+             outcome->status ? ", " : "",
+             outcome->status ? status_text(outcome->status) : "");
 }
 
 /* What a value is called in a sentence. */
@@ -98,7 +92,7 @@ static bool is_method(const char *option)
 /* The largest coordinate in the whole step, m. */
 static double extent_of(const Machine *machine)
 {
-    return fmax(machine->told.extent,
+    return fmax(machine->outcome.extent,
                 machine->known ? rounds_extent(&machine->rounds) : 0);
 }
 
@@ -144,8 +138,8 @@ static Status retake_step(Player *player, const Command *change,
                     simulation_is_handled(&machine->simulation);
     value_words(option, old, was, sizeof was);
     value_words(option, value, retake->is, sizeof retake->is);
-    tell_outcome(failed ? &machine->told
-                        : &past_entry(past, player->active, step)->told,
+    tell_outcome(failed ? &machine->outcome
+                        : &past_entry(past, player->active, step)->outcome,
                  had, sizeof had);
     snprintf(retake->had, sizeof retake->had, "%s: %s", was, had);
     bool paused = player->paused, holds = player->holds;
@@ -172,7 +166,8 @@ static Status put_beside(Player *player)
     const Command beside = {.kind = COMMAND_ADD_PANE};
     long step = past->step;
     player->retake.alone = false;
-    past_undo(past, -1);
+    long fork;
+    past_undo(past, -1, &fork);
     player_next_gesture(player, COMMAND_ADD_PANE);
     Status status = past_set_panes(past, 2, player->grip, &beside);
     if (!status)
@@ -200,7 +195,7 @@ Status player_tell_retake(Player *player)
     if (retake->round >= 0 && machine->known && machine->rounds.places > 2)
         player->side[player->active].place =
             rounds_find(&machine->rounds, retake->round, retake->line);
-    tell_outcome(&machine->told, has, sizeof has);
+    tell_outcome(&machine->outcome, has, sizeof has);
     player_note(player, "%s; %s: %s", retake->had, retake->is, has);
     return STATUS_OK;
 }

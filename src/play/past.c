@@ -8,9 +8,6 @@
 
 #include "scenes/scene.h"
 
-/* A state beyond this times the first one's size is no longer to be seen. */
-static const double EXPLODED = 10;
-
 /* ---- entries ------------------------------------------------------------- */
 
 int past_panes(const Past *past)
@@ -18,10 +15,16 @@ int past_panes(const Past *past)
     return past->branches > 0 ? past->branch[past->now].panes : 0;
 }
 
-long past_newest(const Past *past)
+/* The step of the newest entry, one that is being made included. */
+static long newest_entry(const Past *past)
 {
     const Branch *branch = &past->branch[past->now];
     return branch->first + branch->count - 1;
+}
+
+long past_newest(const Past *past)
+{
+    return newest_entry(past) - past->making;
 }
 
 /* The entry of a step as a branch sees it: its own, or one below.
@@ -71,16 +74,33 @@ const Control *past_start(const Past *past, int pane)
 /* Whether the pane can make no more steps from here. */
 static bool has_failed(const Entry *entry)
 {
-    Status status = entry->told.status;
+    Status status = entry->outcome.status;
     return entry->substeps == 0 && status && !status_is_unconverged(status);
 }
 
-bool past_is_over(const Past *past, int pane, long step, long *last)
+long past_ended(const Past *past, int pane)
 {
-    *last = step;
-    while (*last > 0 && has_failed(past_entry(past, pane, *last)))
-        --*last;
-    return *last < step;
+    long last = past->step;
+    while (last > 0 && has_failed(past_entry(past, pane, last)))
+        last--;
+    return last < past->step ? last : -1;
+}
+
+long past_last_seen(const Past *past, int pane, long step, long from)
+{
+    const Entry *first = past_entry(past, pane, from > 0 ? from : 1);
+    if (!first)
+        return step;
+    double most = PAST_EXPLODED * fmax(first->outcome.extent, 1e-300);
+    while (step > from &&
+           !(past_entry(past, pane, step)->outcome.extent <= most))
+        step--;
+    return step;
+}
+
+Curves *past_curves(const Past *past, int pane)
+{
+    return (Curves *)&past->machine[pane].curves;
 }
 
 static void drop_state(Past *past, Entry *entry)
@@ -191,7 +211,7 @@ static void drop_branch(Past *past, Branch *branch)
 {
     for (long i = 0; i < branch->count * branch->panes; i++)
         drop_entry(past, &branch->entry[i]);
-    for (int p = 0; p < MOST_PANES; p++) {
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         control_drop(branch->then[p]);
         free(branch->curves[p]);
     }
@@ -209,7 +229,7 @@ static void drop_branches(Past *past, int from)
 /* No machine stands anywhere any more. */
 static void lose_machines(Past *past)
 {
-    for (int p = 0; p < MOST_PANES; p++)
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++)
         past->machine[p].step = -1;
 }
 
@@ -235,7 +255,7 @@ static void leave_branch(Past *past)
     enum { LONG_AGO = 16 }; /* branches */
     Branch *branch = &past->branch[past->now];
     branch->left = past->step;
-    for (int p = 0; past->now >= LONG_AGO && p < MOST_PANES; p++) {
+    for (int p = 0; past->now >= LONG_AGO && p < OPTIONS_MAX_PANES; p++) {
         free(branch[-LONG_AGO].curves[p]);
         branch[-LONG_AGO].curves[p] = NULL;
     }
@@ -291,8 +311,8 @@ static Branch *push_branch(Past *past, bool fresh, long first, int panes,
         const Entry *entry = past_entry(past, branch->source[p], first);
         branch->entry[p].control = control_keep(entry->control);
         branch->entry[p].substeps = entry->substeps;
-        branch->entry[p].told = entry->told;
-        cut_curves(&past->machine[p].curves, first, entry->told.time);
+        branch->entry[p].outcome = entry->outcome;
+        cut_curves(&past->machine[p].curves, first, entry->outcome.time);
     }
     past->now = past->branches++;
     past->step = past->aim = first;
@@ -329,22 +349,23 @@ static bool watch(void *user, const NewtonRecord *record)
     Machine *machine = user;
     if (!machine->stepping)
         return true;
-    machine->told.updates += record->iteration >= 0;
+    machine->outcome.updates += record->iteration >= 0;
     if (machine->simulation.scene->step) /* an update is a step */
-        machine->told.change = record->change;
+        machine->outcome.change = record->change;
     const Newton *newton = listened_to(&machine->simulation);
     if (newton && machine->rounds.step > 0)
         rounds_add(&machine->rounds, newton, record);
-    if (machine->records == machine->record_room) {
-        long room = machine->record_room ? 2 * machine->record_room : 64;
+    Records *records = &machine->records;
+    if (records->count == records->room) {
+        int room = records->room ? 2 * records->room : 64;
         NewtonRecord *grown =
-            realloc(machine->record, (size_t)room * sizeof *grown);
+            realloc(records->row, (size_t)room * sizeof *grown);
         if (!grown)
             return true;
-        machine->record = grown;
-        machine->record_room = room;
+        records->row = grown;
+        records->room = room;
     }
-    machine->record[machine->records++] = *record;
+    records->row[records->count++] = *record;
     return true;
 }
 
@@ -357,7 +378,7 @@ static void free_simulation(Machine *machine)
     machine->step = -1;
     machine->stepping = machine->failed = machine->known = false;
     machine->substeps = 0;
-    machine->records = 0;
+    machine->records.count = 0;
 }
 
 /* A simulation of the present run, at its step 0. */
@@ -443,7 +464,7 @@ static Status load(Past *past, int pane, long goal)
         return status;
     state_restore(kept->state->bytes, STATE_ALL, &machine->simulation);
     machine->known = machine->failed = false;
-    machine->told = kept->told;
+    machine->outcome = kept->outcome;
     machine->substeps = 0;
     stand(past, pane, from);
     return use_control(machine, past_entry(past, pane, from)->control);
@@ -470,15 +491,15 @@ static double next_time(const Past *past)
 static void sum_up(Machine *machine, Status status)
 {
     const Simulation *simulation = &machine->simulation;
-    Told *told = &machine->told;
-    told->status = status ? status : told->status;
-    told->time = machine_time(machine);
-    told->extent = 0;
+    Outcome *outcome = &machine->outcome;
+    outcome->status = status ? status : outcome->status;
+    outcome->time = machine_time(machine);
+    outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        told->extent = fmax(told->extent, fabs(simulation->run[0].x[i]));
+        outcome->extent = fmax(outcome->extent, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            told->change += simulation->run[r].newton->change;
+            outcome->change += simulation->run[r].newton->change;
 }
 
 /* The machine has come to the entry behind the one where it stood. */
@@ -495,7 +516,7 @@ static Status arrive(Past *past)
         bool second = machine->step == branch->first && then;
         to->control = control_keep(second ? then : from->control);
         to->substeps = machine->substeps;
-        to->told = machine->told;
+        to->outcome = machine->outcome;
     }
     past->moved = past->moved || machine->substeps > 0;
     machine->substeps = 0;
@@ -514,23 +535,17 @@ static void end_pane(Past *past, int pane, Status status)
 {
     Branch *branch = &past->branch[past->now];
     Machine *machine = &past->machine[pane];
-    const Entry *first =
-        past_entry(past, pane, branch->first > 0 ? branch->first : 1);
-    double most = EXPLODED * first->told.extent;
-    long last = machine->step;
-    while (last > branch->first &&
-           !(past_entry(past, pane, last)->told.extent <= most))
-        last--;
+    long last = past_last_seen(past, pane, machine->step, branch->first);
     const Entry *good = past_entry(past, pane, last);
-    cut_curves(&machine->curves, last, good->told.time);
-    for (long step = last + 1; step <= past_newest(past); step++) {
+    cut_curves(&machine->curves, last, good->outcome.time);
+    for (long step = last + 1; step <= newest_entry(past); step++) {
         Entry *entry = entry_of(past, pane, step);
-        int updates = entry->told.updates;
+        int updates = entry->outcome.updates;
         drop_entry(past, entry);
-        *entry =
-            (Entry){.control = control_keep(good->control), .told = good->told};
-        entry->told.updates = updates;
-        entry->told.status = status;
+        *entry = (Entry){.control = control_keep(good->control),
+                         .outcome = good->outcome};
+        entry->outcome.updates = updates;
+        entry->outcome.status = status;
     }
     machine->step = -1;
     machine->substeps = 0;
@@ -538,7 +553,7 @@ static void end_pane(Past *past, int pane, Status status)
      * others. */
     History *history = &machine->curves.history;
     while (history->count > 1 && history->value[0][history->count - 1] >
-                                     EXPLODED * fabs(history->value[0][0]))
+                                     PAST_EXPLODED * fabs(history->value[0][0]))
         history_cut(history, history->time[history->count - 2]);
 }
 
@@ -560,7 +575,7 @@ static void stop_work(Past *past)
     if (past->making) {
         drop_newest(past);
         for (int p = 0; p < past_panes(past); p++)
-            if (past->machine[p].step > past_newest(past))
+            if (past->machine[p].step > newest_entry(past))
                 past->machine[p].step = -1;
     }
     past->making = past->works = past->again = false;
@@ -586,7 +601,7 @@ static Status fail(Past *past, Status status)
     stop_work(past);
     if (!lacks(status) && machine->run) {
         machine->failed = machine->known = true;
-        machine->told.status = status;
+        machine->outcome.status = status;
     }
     if (past->keeps) /* some of its runs may have made the step */
         machine->step = -1;
@@ -630,13 +645,13 @@ static Status begin_step(Past *past)
     const Entry *from = past_entry(past, pane, machine->step);
     const Entry *to = past_entry(past, pane, machine->step + 1);
     if (machine->substeps == 0) {
-        machine->told = (Told){.time = machine_time(machine)};
-        machine->records = 0;
+        machine->outcome = (Outcome){.time = machine_time(machine)};
+        machine->records.count = 0;
         machine->failed = machine->known = false;
     }
     if (to->control ? to->substeps == 0 : has_failed(from)) {
-        machine->told = to->control ? to->told : from->told;
-        machine->told.updates = 0;
+        machine->outcome = to->control ? to->outcome : from->outcome;
+        machine->outcome.updates = 0;
         return arrive(past);
     }
     if (past->keeps && rounds_begin(&machine->rounds, &machine->simulation))
@@ -650,7 +665,7 @@ static Status begin_step(Past *past)
  * step begins. */
 static Status end_turn(Past *past)
 {
-    long newest = past_newest(past);
+    long newest = newest_entry(past);
     if (!past->making && past->aim > newest) {
         past->target = next_time(past);
         past->pane = 0;
@@ -691,7 +706,7 @@ Status past_iterate(Past *past)
      * once more from there.  `making`: the goal's entry is new and has no
      * state yet.  `again`: two steps are made whatever is kept, for the rounds
      * of the last one and of the one before. */
-    long newest = past_newest(past);
+    long newest = newest_entry(past);
     long goal = past->aim < newest ? past->aim : newest;
     long from = past->again ? (goal > 2 ? goal - 2 : 0) : goal;
     for (; past->pane < past_panes(past); past->pane++) {
@@ -713,7 +728,7 @@ Status past_iterate(Past *past)
 void past_aim(Past *past, long step, bool again)
 {
     stop_work(past);
-    long most = past_newest(past) + 1;
+    long most = newest_entry(past) + 1;
     past->aim = step < 0 ? 0 : step > most ? most : step;
     past->works = true;
     past->pane = 0;
@@ -772,7 +787,7 @@ static Status begin_pane(Past *past, int pane, const Options *options)
     entry->control = control;
     entry->substeps = 1;
     machine->control = control_keep(control);
-    machine->told = (Told){.status = machine->simulation.status};
+    machine->outcome = (Outcome){.status = machine->simulation.status};
     clear_curves(&machine->curves);
     rounds_clear(&machine->rounds);
     machine->rounds.step = 0;
@@ -783,7 +798,8 @@ static Status begin_pane(Past *past, int pane, const Options *options)
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
-    Options own[MOST_PANES]; /* they may be those of a branch that goes */
+    Options
+        own[OPTIONS_MAX_PANES]; /* they may be those of a branch that goes */
     memcpy(own, options, (size_t)panes * sizeof *own);
     if (past->branches > 0) {
         stop_work(past);
@@ -879,6 +895,7 @@ static Status change_entry(Past *past, int pane, const Control *to,
     Entry *entry = entry_of(past, pane, past->step);
     bool drags = edit && edit->kind == COMMAND_HANDLE;
     bool flips = edit && edit->kind == COMMAND_FLIP;
+    double time = entry->outcome.time;
     control_drop(entry->control);
     entry->control = control_keep(to);
     stand(past, pane, past->step);
@@ -891,6 +908,9 @@ static Status change_entry(Past *past, int pane, const Control *to,
         exhibit_drag(&machine->simulation, (int)edit->number, edit->x, edit->y);
     if (flips)
         exhibit_flip(&machine->simulation, (int)edit->number);
+    if (edit) /* the state that it was is no longer drawn */
+        cut_curves(&machine->curves, past->step - 1,
+                   nextafter(time, -INFINITY));
     return keep_state(past, pane);
 }
 
@@ -919,7 +939,7 @@ static Status make_edit(Past *past, const Command *edit, int from, int to,
     int panes = past_panes(past);
     const Branch *now = &past->branch[past->now];
     bool joins = gesture && now->gesture == gesture && !then &&
-                 past->step == past_newest(past);
+                 past->step == newest_entry(past);
     if (!joins) {
         Branch *branch = make_room(past)
                              ? NULL
@@ -945,7 +965,8 @@ static Status make_edit(Past *past, const Command *edit, int from, int to,
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture, char *message, size_t size)
 {
-    const Control *control[MOST_PANES] = {NULL}, *then[MOST_PANES] = {NULL};
+    const Control *control[OPTIONS_MAX_PANES] = {NULL},
+                  *then[OPTIONS_MAX_PANES] = {NULL};
     Status status = settle(past);
     for (int p = from; p < to && !status; p++)
         status = check_edit(&past->machine[p].simulation, edit, message, size);
@@ -958,7 +979,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     if (!status)
         status = make_edit(past, edit, from, to, gesture, control,
                            again ? then : NULL);
-    for (int p = 0; p < MOST_PANES; p++) {
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         control_drop(control[p]);
         control_drop(then[p]);
     }
@@ -984,16 +1005,21 @@ static bool is_continued(const Past *past, int branch)
     return gesture && gesture == past->branch[branch + 1].gesture;
 }
 
-const Command *past_undo(Past *past, int way)
+const Command *past_undo(Past *past, int way, long *fork)
 {
-    int to = past->now + way;
+    int from = past->now, to = from + way;
     if (to < 0 || to >= past->branches)
         return NULL;
     while (way < 0 && to > 0 && is_continued(past, to))
         to--;
     while (way > 0 && to + 1 < past->branches && is_continued(past, to))
         to++;
-    int top = way < 0 ? past->now : to;
+    int top = way < 0 ? from : to, low = way < 0 ? to : from;
+    bool same = past->branch[from].run == past->branch[to].run;
+    *fork = same ? LONG_MAX : -1;
+    for (int b = low + 1; b <= top; b++)
+        if (past->branch[b].first < *fork)
+            *fork = past->branch[b].first;
     stop_work(past);
     leave_branch(past);
     past->now = to;
@@ -1021,12 +1047,11 @@ void past_free(Past *past)
     free(past->branch);
     past->branch = NULL;
     past->room = 0;
-    for (int p = 0; p < MOST_PANES; p++) {
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free_simulation(&past->machine[p]);
         rounds_free(&past->machine[p].rounds);
-        free(past->machine[p].record);
-        past->machine[p].record = NULL;
-        past->machine[p].record_room = 0;
+        free(past->machine[p].records.row);
+        past->machine[p].records = (Records){0};
     }
     past->now = -1;
 }

@@ -42,10 +42,7 @@ double player_time(const Player *player)
 {
     const Past *past = &player->past;
     int pane = player->active;
-    long last;
-    for (int p = 0;
-         p < past_panes(past) && past_is_over(past, pane, past->step, &last);
-         p++)
+    for (int p = 0; p < past_panes(past) && past_ended(past, pane) >= 0; p++)
         pane = p;
     return machine_time(&past->machine[pane]);
 }
@@ -155,7 +152,7 @@ void player_know_step(Player *player)
             past_entry(past, p, past->step)->substeps == 0)
             continue;
         work += 2 * simulation->system.nodes * /* with the step before it */
-                (1 + past_entry(past, p, past->step)->told.updates);
+                (1 + past_entry(past, p, past->step)->outcome.updates);
     }
     if (!player->paused || !player->attended || past->works ||
         past->step == 0 || work == 0 || work > LONG ||

@@ -265,15 +265,15 @@ static void fill_pane(Player *player, int p, double rest, Trace *trace)
     const Simulation *simulation = &machine->simulation;
     const Side *side = &player->side[p];
     Pane *pane = &player->show.pane[p];
-    long last;
+    const Curves *curves = past_curves(&player->past, p);
     *pane = (Pane){.simulation = simulation,
-                   .history = &machine->curves.history,
+                   .history = curves ? &curves->history : NULL,
                    .ghost = side->ghost,
                    .ghost_label = side->ghost_label};
-    if (past_is_over(&player->past, p, player->past.step, &last))
+    if (past_ended(&player->past, p) >= 0)
         pane->trouble = STATUS_NOT_FINITE;
     else
-        pane->trouble = machine->told.status;
+        pane->trouble = machine->outcome.status;
     if (past_panes(&player->past) > 1)
         pane->label = side->label;
     bool newton =
@@ -307,7 +307,7 @@ static void fill_bars(Player *player)
     static long room;
     Show *show = &player->show;
     const Past *past = &player->past;
-    long newest = past_newest(past) - past->making;
+    long newest = past_newest(past);
     if (!past->keeps)
         return;
     if (newest > room) {
@@ -318,9 +318,10 @@ static void fill_bars(Player *player)
         room = 2 * newest;
     }
     for (long step = 1; step <= newest; step++) {
-        const Told *told = &past_entry(past, player->active, step)->told;
+        const Outcome *outcome =
+            &past_entry(past, player->active, step)->outcome;
         bar[step - 1] =
-            (StepBar){told->updates, status_is_unconverged(told->status)};
+            (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
     }
     show->bars = newest;
     show->bar = bar;
@@ -333,7 +334,7 @@ void player_label_panes(Player *player)
         const Options *options = &past_control(past, p)->options;
         char *label = player->side[p].label;
         size_t used = 0, size = sizeof player->side[p].label;
-        long last;
+        long last = past_ended(past, p);
         label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
             char value[SHOW_VALUE];
@@ -346,7 +347,7 @@ void player_label_panes(Player *player)
                                      used ? ", " : "", alone ? "" : row->label,
                                      alone ? "" : " ", value);
         }
-        if (past_is_over(past, p, past->step, &last) && used < size)
+        if (last >= 0 && used < size)
             snprintf(label + used, size - used, "%sended at step %ld",
                      used ? ", " : "", last);
     }
@@ -359,7 +360,7 @@ static void fill_time(Player *player)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
     double wanted = player_rate(player) * machine_pace(player_machine(player));
-    long newest = past_newest(past) - past->making;
+    long newest = past_newest(past);
     size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
                                    turn ? turn : "step", past->step);
     if (newest > past->step)
@@ -396,7 +397,7 @@ void player_fill(Player *player)
     show->paused = player->paused;
     if (player->past.making && clock_now() - player->began > LONG_WORK)
         snprintf(show->state, SHOW_VALUE, "computing, update %d",
-                 player_machine(player)->told.updates);
+                 player_machine(player)->outcome.updates);
     else if (player->rests)
         snprintf(show->state, SHOW_VALUE, "%s",
                  player->balances ? "at rest" : "within \u03b5");

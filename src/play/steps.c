@@ -22,8 +22,8 @@ static Status record_updates(Player *player, long step)
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
         const Machine *machine = &player->past.machine[p];
-        for (long i = 0; i < machine->records && !status; i++) {
-            NewtonRecord row = machine->record[i];
+        for (int i = 0; i < machine->records.count && !status; i++) {
+            NewtonRecord row = machine->records.row[i];
             if (recording->panes > 1)
                 row.step = step;
             status = recording_update(recording, &row, p + 1);
@@ -154,14 +154,12 @@ void player_sample(Player *player)
 {
     Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
-        Machine *machine = &past->machine[p];
-        Curves *curves = &machine->curves;
-        long last;
-        if (curves->sampled >= past->step || past->works)
+        Curves *curves = past_curves(past, p);
+        if (!curves || curves->sampled >= past->step || past->works)
             continue;
         curves->sampled = past->step;
-        if (!past_is_over(past, p, past->step, &last))
-            show_sample(&machine->simulation, &curves->history);
+        if (past_ended(past, p) < 0)
+            show_sample(&past->machine[p].simulation, &curves->history);
     }
 }
 
@@ -169,15 +167,8 @@ void player_sample(Player *player)
  * be seen, at most ten times as large as the first. */
 static Status show_last_good(Player *player)
 {
-    enum { TIMES = 10 };
     Past *past = &player->past;
-    long step = past->step, failed = step + 1;
-    const Entry *first = past_entry(past, 0, 1);
-    if (step < 1 || !first)
-        return STATUS_OK;
-    double most = TIMES * fmax(first->told.extent, 1e-300);
-    while (step > 0 && !(past_entry(past, 0, step)->told.extent <= most))
-        step--;
+    long failed = past->step + 1, step = past_last_seen(past, 0, past->step, 0);
     if (step == past->step)
         return STATUS_OK;
     Status status = player_show(player, step, false, THEN_NOTHING);
@@ -194,8 +185,8 @@ static void tell_ended(Player *player)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         Side *side = &player->side[p];
-        long last;
-        bool over = past_is_over(&player->past, p, player->past.step, &last);
+        long last = past_ended(&player->past, p);
+        bool over = last >= 0;
         if (over && !side->over) {
             player_note(player,
                         "pane %d ended at step %ld, beyond all numbers: its "
@@ -322,7 +313,7 @@ static bool is_idle(const Machine *machine)
     const TimeIntegrator *run = &simulation->run[0];
     if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
         simulation->runs > 1 || machine->control->hand >= 0 ||
-        machine->told.updates > 0 || simulation->steps == 0)
+        machine->outcome.updates > 0 || simulation->steps == 0)
         return false;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
         if (fabs(run->v[i]) > simulation->options.tolerance)
@@ -423,14 +414,13 @@ void player_pause_if_due(Player *player)
     for (int p = 0; p < panes; p++) {
         const Machine *machine = &player->past.machine[p];
         Side *side = &player->side[p];
-        long last;
-        if (past_is_over(&player->past, p, player->past.step, &last))
+        if (past_ended(&player->past, p) >= 0)
             continue;
         going++;
         ended = ended && (machine->simulation.done || machine->failed);
         rests = is_at_rest(machine, side, &balances) && rests;
         drifting = drifts(machine, side) && drifting;
-        trouble = trouble || machine->told.status;
+        trouble = trouble || machine->outcome.status;
     }
     rests = rests && going > 0;
     if (rests && !player->rests && balances)

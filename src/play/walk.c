@@ -4,7 +4,6 @@
  * a second.
  */
 #include <math.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,7 +131,7 @@ static void show_peaks(Player *player)
             "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
             "are %.4g m away; N goes on",
             machine->rounds.place[peak].round + 1, machine->rounds.count, rise,
-            fmax(machine->told.extent, rounds_extent(&machine->rounds)));
+            fmax(machine->outcome.extent, rounds_extent(&machine->rounds)));
         player->warning = true;
     }
 }
@@ -262,20 +261,17 @@ static Status undo(Player *player, const Command *command)
 {
     Past *past = &player->past;
     char line[2 * COMMAND_TEXT_SIZE];
-    int way = command->kind == COMMAND_UNDO ? -1 : 1, now = past->now;
-    long run = now >= 0 ? past->branch[now].run : 0;
-    if (now + way < 0 || now + way >= past->branches)
+    int way = command->kind == COMMAND_UNDO ? -1 : 1;
+    long fork;
+    const Command *made = past_undo(past, way, &fork);
+    if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
     player->paused = true;
     player->halted = player->holds = player->drifts = false;
-    Command edit = *past_undo(past, way);
+    Command edit = *made;
     edit.joins = false;
     command_format(&edit, line, sizeof line);
-    long fork = past->branch[past->now].run == run ? LONG_MAX : -1;
-    int low = past->now < now ? past->now : now, high = past->now + now - low;
-    for (int b = low + 1; b <= high; b++)
-        fork = past->branch[b].first < fork ? past->branch[b].first : fork;
     Status status = player_fork(player, fork);
     player->by_run = false;
     player->then = THEN_NOTHING;

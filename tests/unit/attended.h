@@ -87,14 +87,14 @@ static inline Side *side(int pane)
 static inline double extent(int pane)
 {
     double inside = rounds_extent(&machine(pane)->rounds);
-    double after = machine(pane)->told.extent;
+    double after = machine(pane)->outcome.extent;
     return inside > after ? inside : after;
 }
 
 /* What is told of a step. */
-static inline const Told *told(int pane, long step)
+static inline const Outcome *told(int pane, long step)
 {
-    return &past_entry(&player.past, pane, step)->told;
+    return &past_entry(&player.past, pane, step)->outcome;
 }
 
 #endif

@@ -15,6 +15,8 @@
 
 enum { STEPS = 70 };
 
+static long forked; /* by the last undo */
+
 /* hash [to + 1] out: of the steps from ... to. */
 static void run(long from, long to, uint64_t *hash)
 {
@@ -183,17 +185,17 @@ TEST(changes_come_back_and_go)
         CHECK(past_control(&past, 0)->options.timestep == 0.004);
         show(ALL);
         for (int k = CHANGES - 1; k >= 0; k--) {
-            CHECK(past_undo(&past, -1) != NULL && work() == STATUS_OK);
+            CHECK(past_undo(&past, -1, &forked) != NULL && work() == STATUS_OK);
             CHECK(past.step == 4 * k + 3 && past_newest(&past) == 4 * k + 4);
             CHECK(show(4 * k + 4) == before[k]);
             show(4 * k + 3);
         }
-        CHECK(!past_undo(&past, -1));
+        CHECK(!past_undo(&past, -1, &forked));
         for (int k = 0; k < 3 * CHANGES; k++) { /* up and down */
-            past_undo(&past, random_below(&random, 3) ? 1 : -1);
+            past_undo(&past, random_below(&random, 3) ? 1 : -1, &forked);
             CHECK_STATUS(work(), STATUS_OK);
         }
-        while (past_undo(&past, 1))
+        while (past_undo(&past, 1, &forked))
             CHECK_STATUS(work(), STATUS_OK);
         CHECK(show(ALL) == hash[ALL]);
         check_all_steps(ALL, hash);
@@ -237,10 +239,10 @@ TEST(a_gesture_is_undone_as_a_whole)
     CHECK(past.branches == 2);
     check_all_steps(8, hash);
     show(8);
-    past_undo(&past, -1);
+    past_undo(&past, -1, &forked);
     CHECK_STATUS(work(), STATUS_OK);
     CHECK(past.step == 3 && hash_now() == hash[3] && past_newest(&past) == 3);
-    past_undo(&past, 1);
+    past_undo(&past, 1, &forked);
     CHECK_STATUS(work(), STATUS_OK);
     CHECK(past.step == 8 && hash_now() == hash[8]);
     past_free(&past);
@@ -285,10 +287,10 @@ TEST(all_changes_can_be_undone)
     check_all_steps(ALL, hash);
     show(ALL);
     for (int i = ALL - 1; i >= 0; i--) {
-        CHECK(past_undo(&past, -1) && work() == STATUS_OK);
+        CHECK(past_undo(&past, -1, &forked) && work() == STATUS_OK);
         CHECK(past.step == i && hash_now() == hash[i]);
     }
-    CHECK(!past_undo(&past, -1));
+    CHECK(!past_undo(&past, -1, &forked));
     past_free(&past);
 }
 
@@ -303,11 +305,11 @@ TEST(a_new_run_can_be_undone)
     CHECK_STATUS(past_begin(&past, &options, 1, 0, &restart), STATUS_OK);
     CHECK(past.step == 0 && past_newest(&past) == 0);
     run(0, 5, drop);
-    past_undo(&past, -1);
+    past_undo(&past, -1, &forked);
     CHECK_STATUS(work(), STATUS_OK);
     CHECK(past.step == 10 && hash_now() == hash[10]);
     check_all_steps(10, hash);
-    past_undo(&past, 1);
+    past_undo(&past, 1, &forked);
     CHECK_STATUS(work(), STATUS_OK);
     CHECK(past.step == 5 && hash_now() == drop[5]);
     options.stretch = -1; /* cannot begin: what was there stays */

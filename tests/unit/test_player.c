@@ -75,7 +75,7 @@ TEST(a_toggle_tells_both_outcomes)
         char had[32], has[32];
         begin(rows[i].line);
         obey_all((const char *const[]){"next", "next", NULL});
-        const Told *row = told(0, 2);
+        const Outcome *row = told(0, 2);
         snprintf(had, sizeof had, "%s%+.3g in %d", rows[i].was, row->change,
                  row->updates);
         CHECK_STATUS(obey(rows[i].key), STATUS_OK);
@@ -161,7 +161,7 @@ TEST(at_rest_it_says_so_and_stops)
     begin("square --segments 2");
     run_until_it_pauses();
     CHECK(player.rests && player.halted && player.paused);
-    CHECK(machine(0)->told.updates == 0); /* slow steps came before */
+    CHECK(machine(0)->outcome.updates == 0); /* slow steps came before */
     CHECK(strncmp(player.note, "at rest", 7) == 0);
     player_fill(&player);
     CHECK(strcmp(player.show.state, "at rest") == 0);
@@ -256,7 +256,7 @@ TEST(rest_is_told_from_tolerance)
         CHECK(player.rests && player.balances == rows[i].rests);
         CHECK(rows[i].rests || /* twice, or it may be a turning point */
               told(0, player.past.step - 1)->updates == 0);
-        CHECK(machine(0)->told.updates == 0);
+        CHECK(machine(0)->outcome.updates == 0);
         CHECK((strncmp(player.note, "at rest", 7) == 0) == rows[i].rests);
         CHECK((strncmp(player.note, "within the tolerance, ", 22) == 0) !=
               rows[i].rests);
@@ -459,7 +459,7 @@ TEST(energies_of_a_step_taken_again_have_its_changes)
     begin("square");
     obey_all((const char *const[]){"next", "next", "set stiffness 150000",
                                    "projection", NULL});
-    const History *history = &machine(0)->curves.history;
+    const History *history = &past_curves(&player.past, 0)->history;
     double now = simulation_energies(player_simulation(&player), 0).total;
     CHECK_NEAR(history->value[0][history->count - 1], now, 1e-9 * now);
     end();
@@ -733,10 +733,11 @@ TEST(what_is_dragged_is_shown_as_it_is)
 {
     begin("arrows --integrator forward-euler");
     for (int step = 0; step < 3; step++) {
-        const Curves *curves = &machine(0)->curves;
         player_sample(&player);
         CHECK_STATUS(obey("handle 0 0.5 0.25"), STATUS_OK);
         CHECK_STATUS(obey("handle 1 1.5 2.25"), STATUS_OK);
+        player_sample(&player);
+        const Curves *curves = past_curves(&player.past, 0);
         CHECK(curves->history.count == step + 1 &&
               curves->history.trail == step + 1);
         /* (0.5^2 + 0.25^2 + 1^2 + 2^2) / 2 */
@@ -875,9 +876,9 @@ TEST(old_steps_are_neither_kept_twice_nor_for_ever)
 {
     begin("square --segments 2");
     obey_all((const char *const[]){"step", "step", "step", "back", NULL});
-    long count = machine(0)->curves.history.calls;
+    long count = past_curves(&player.past, 0)->history.calls;
     player_sample(&player);
-    CHECK(count > 0 && machine(0)->curves.history.calls == count);
+    CHECK(count > 0 && past_curves(&player.past, 0)->history.calls == count);
     CHECK(player.past.step == 2 && past_newest(&player.past) == 3);
     CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
     CHECK(player.past.step == 2 && past_newest(&player.past) == 2);
