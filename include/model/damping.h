@@ -33,10 +33,10 @@ typedef struct Damping {
  * over the step.  data: Damping. */
 extern const TermKind damping;
 
-/* In the list it comes right after the springs: before fracture, which takes
- * their energy.
+/* Adds the term, gives it another eta, or takes it out (0).  In the list it
+ * comes right after the springs: before fracture, which takes their energy.
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status damping_add(System *system, double eta);
+Status damping_set(System *system, double eta);
 
 /* The system's damping, or NULL. */
 Damping *damping_of(const System *system);

@@ -22,7 +22,7 @@ static const double DEGREE = 0.017453292519943295; /* pi/180 */
 /* All numbers are doubles that are seen as an array, too: a slot is the place
  * of one in it.  Whole numbers, switches (0 or 1) and names (their place in the
  * row's list) are among them. */
-enum { OPTIONS_NUMBERS = 99 };
+enum { OPTIONS_NUMBERS = 128 }; /* room: there may be fewer */
 
 typedef struct Options {
     union {
@@ -99,6 +99,13 @@ typedef enum OptionKind {
     OPTION_PAGE,   /* of the lecture; the value may be left out */
 } OptionKind;
 
+/* When another number takes effect. */
+typedef enum Effect {
+    EFFECT_START, /* another system, or another start: a new run from step 0 */
+    EFFECT_LIVE,  /* from the next step on */
+    EFFECT_AGAIN  /* and the present step is made once more with it */
+} Effect;
+
 typedef struct OptionRow {
     const char *name;  /* without its dashes; "": help begins a section of
                           --help; NULL ends the table */
@@ -120,7 +127,11 @@ typedef struct OptionRow {
     unsigned needs; /* of enum SceneNeeds, one of them; 0: nothing */
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
-    bool live;         /* it may change from one step to the next */
+    Effect effect;
+    /* Adds the term that this number is all of, gives it another one, or takes
+     * it out (0); NULL: it is not that of a term alone.
+     * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+    Status (*term)(System *system, double number);
     const char *label; /* in the window, in the markup of text.h; of all whose
                           lists of values are side by side; or NULL */
     int place;         /* in the row of numbers, from 1; 0: not there */
@@ -190,6 +201,9 @@ Status options_set(Options *options, const char *name, const char *value,
 
 /* The chosen integrator; NULL: the scene's choice. */
 const IntegratorMethod *options_integrator(const Options *options);
+
+/* The same, or the first of the table. */
+const IntegratorMethod *options_method(const Options *options);
 
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);

@@ -12,7 +12,6 @@
 
 #include "model/contact.h"
 
-struct NewtonSettings;
 struct Options;
 struct Simulation;
 
@@ -77,8 +76,7 @@ typedef struct Scene {
     double aspect, cell_stiffness;
     bool moving_pins;
     /* Fills simulation->system, mesh and the start. */
-    Status (*create)(struct Simulation *simulation,
-                     const struct NewtonSettings *settings);
+    Status (*create)(struct Simulation *simulation);
     /* The obstacle that comes with the scene beside those of the options, as it
      * begins, o a ball's centre too; own_name is what messages call it.  NULL:
      * there is none. */

@@ -87,6 +87,13 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation);
 void simulation_free(Simulation *simulation);
 
+/* For a scene's create: what its options say to Newton's method; and run 0, 1,
+ * ... of it, as time_integrator_create makes it. */
+NewtonSettings newton_settings_of(const Options *options);
+Status simulation_start(Simulation *simulation, int run,
+                        const IntegratorMethod *method, System *system,
+                        const double *x, const double *v);
+
 /* One step: of time in every run, or one Newton iteration; none where
  * simulation->done.  A pure function of the state (state.h) and the settings:
  * solvers keep nothing from step to step that changes a bit.
@@ -138,8 +145,18 @@ double simulation_bytes(const Options *options);
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */
 long long simulation_matrix_entries(const Simulation *simulation);
 
-/* Another number from the next step on, by its slot: of those that are live all
- * but stiffness and integrator.  Returns OK, OUT_OF_MEMORY, TOO_LARGE. */
+/* When another number of this row takes effect here: as the row says, but in
+ * scenes of other runs, and where each run has a method of its own, at a
+ * start. */
+Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
+
+/* Goes on from the present state with other options: all that is no matter of
+ * the start may differ.  What this does to the energy is booked as work; a hand
+ * lets go where springs or method are others.  Returns as simulation_create;
+ * after a failure only simulation_free is allowed. */
+Status simulation_change(Simulation *simulation, const Options *options);
+
+/* The same of one number, by its slot. */
 Status simulation_set(Simulation *simulation, int slot, double value);
 
 /* Whether a hand can take hold of its nodes. */
@@ -155,13 +172,6 @@ bool simulation_is_pinned(const Simulation *simulation, int node);
  * place), TOO_LARGE. */
 Status simulation_grab(Simulation *simulation, int node, double x, double y);
 void simulation_release(Simulation *simulation);
-
-/* Goes on from the present state with other options, such as another stiffness
- * or integrator; the scene, the mesh and the start must be the same ones.  Pins
- * are those of the new options, and no hand holds anything.
- * Returns as simulation_create; after a failure only simulation_free is
- * allowed. */
-Status simulation_change(Simulation *simulation, const Options *options);
 
 /* Whether there is a Hessian to project and a line to search (not in explicit
  * integrators). */

@@ -47,11 +47,11 @@
 /* ---- one mass, one spring ------------------------------------------------ */
 
 /* Run 0 forward, 1 symplectic, 2 backward Euler; with --integrator that one. */
-Status create_circle(Simulation *simulation, const NewtonSettings *settings);
-Status create_mass(Simulation *simulation, const NewtonSettings *settings);
+Status create_circle(Simulation *simulation);
+Status create_mass(Simulation *simulation);
 
 /* Node 0 is free, node 1 held at the origin; l = 1 m, k = 100 J/m^2, 1 kg. */
-Status create_spring(Simulation *simulation, const NewtonSettings *settings);
+Status create_spring(Simulation *simulation);
 
 /* A step of arrows, omega2 = 1/s^2: of t_n, and of t_n + h with new_.
  *   forward     x' = x + h v     v' = v + h a(x)
@@ -91,9 +91,9 @@ void spring_facts(const double d[2], double l2, double k, SpringFacts *facts);
 
 /* Of one unknown: node 0 is the point (x, E(x)).  Of two: node 0 is free, nodes
  * 1 and 2 are pinned. */
-Status create_overshoot(Simulation *simulation, const NewtonSettings *settings);
-Status create_tangent(Simulation *simulation, const NewtonSettings *settings);
-Status create_landscape(Simulation *simulation, const NewtonSettings *settings);
+Status create_overshoot(Simulation *simulation);
+Status create_tangent(Simulation *simulation);
+Status create_landscape(Simulation *simulation);
 
 /* One Newton update (Algorithm 1), with projection (Algorithm 3, line 3) and
  * line search (Algorithm 2) as the options say.  The loop tests |g| in one
@@ -133,7 +133,7 @@ static inline double landscape_part_value(const Simulation *simulation,
 }
 
 /* Turns the dial: h times 10^(1/10), up to 10 s; node 0 is the minimiser. */
-Status create_dial(Simulation *simulation, const NewtonSettings *settings);
+Status create_dial(Simulation *simulation);
 Status step_dial(Simulation *simulation);
 void dial_restart(Simulation *simulation);
 
@@ -152,7 +152,7 @@ enum { RACE_METHODS = 6, RACE_STEP_SIZES = 7 };
 enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
 
 /* Stretch 1.1, where the motion is no chaos. */
-Status create_race(Simulation *simulation, const NewtonSettings *settings);
+Status create_race(Simulation *simulation);
 
 /* One run more; done after RACE_METHODS x RACE_STEP_SIZES of them.  The methods
  * take turns, each from its longest time step to its shortest. */
@@ -175,7 +175,7 @@ double envelope_timestep(int column);
 double envelope_stiffness(int row);
 
 /* Run 0 is the cell that is shown; at first the one nearest to the options. */
-Status create_envelope(Simulation *simulation, const NewtonSettings *settings);
+Status create_envelope(Simulation *simulation);
 
 /* The next row, from the softest to the stiffest. */
 Status step_envelope(Simulation *simulation);

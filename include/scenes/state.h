@@ -12,20 +12,16 @@
 
 #include "scenes/simulation.h"
 
-/* All of it, or without what integrators remember: the state of the body alone
- * fits another method and another stiffness of the same scene. */
-typedef enum StatePart { STATE_ALL, STATE_BODY } StatePart;
-
 /* Bytes of a saved state. */
-size_t state_bytes(const Simulation *simulation, StatePart part);
+size_t state_bytes(const Simulation *simulation);
 
 /* bytes [state_bytes] out. */
-void state_save(const Simulation *simulation, StatePart part, void *bytes);
+void state_save(const Simulation *simulation, void *bytes);
 
 /* As it was when these bytes were saved.  Springs that are whole get the
  * stiffness of the simulation's options.
  *   bytes  [state_bytes] in, of a simulation with the same system */
-void state_restore(const void *bytes, StatePart part, Simulation *simulation);
+void state_restore(const void *bytes, Simulation *simulation);
 
 /* 64 bits of steps, positions and velocities of all runs (FNV-1a): equal
  * states have equal hashes. */

@@ -80,10 +80,17 @@ const TermKind damping = {
     .end_of_step = true,
 };
 
-Status damping_add(System *system, double eta)
+Status damping_set(System *system, double eta)
 {
     size_t springs = (size_t)system->springs;
-    Damping *data = calloc(1, sizeof *data + 3 * springs * sizeof(double));
+    Damping *data = damping_of(system);
+    if (eta == 0)
+        system_remove_term(system, &damping);
+    else if (data)
+        data->eta = eta;
+    if (eta == 0 || data)
+        return STATUS_OK;
+    data = calloc(1, sizeof *data + 3 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->eta = eta;

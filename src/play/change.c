@@ -226,7 +226,6 @@ static Status restart_with(Player *player, const char *option,
 static Status set_option(Player *player, const char *text)
 {
     const Simulation *simulation = player_simulation(player);
-    const Scene *scene = simulation->scene;
     Command change = {.kind = COMMAND_SET};
     char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
     char old[COMMAND_TEXT_SIZE], now[COMMAND_TEXT_SIZE];
@@ -253,12 +252,9 @@ static Status set_option(Player *player, const char *text)
     const OptionRow *row = option_find(name);
     option_value(row, player_settings(player), old, sizeof old);
     option_value(row, &options, now, sizeof now);
-    bool time = scene->needs & NEEDS_TIME;
-    bool method = filter || search;
-    bool iterates = scene->needs & NEEDS_START; /* a step is an update */
-    bool live = row->live && (time || (method && iterates)) &&
-                (simulation->runs == 1 || strcmp(name, "integrator") != 0);
-    if (!live) {
+    Effect effect = simulation_effect(simulation, row);
+    bool method = row->effect == EFFECT_AGAIN;
+    if (effect == EFFECT_START) {
         Status status = restart_with(player, name, value, from, to);
         if (!status && method) /* races and maps of other runs */
             player_note(player, "from the start: %s %s", row->label, value);

@@ -185,7 +185,7 @@ static Status keep_state(Past *past, int pane)
     long i = machine->step - branch->first;
     Entry *entry = &branch->entry[i * branch->panes + machine->pane];
     size_t size =
-        past->keeps ? state_bytes(&machine->simulation, STATE_ALL) : 0;
+        past->keeps ? state_bytes(&machine->simulation) : 0;
     drop_state(past, entry);
     if (size == 0)
         return STATUS_OK;
@@ -201,7 +201,7 @@ static Status keep_state(Past *past, int pane)
                    : STATUS_OUT_OF_MEMORY;
     entry->state->size = size;
     past->bytes += size;
-    state_save(&machine->simulation, STATE_ALL, entry->state->bytes);
+    state_save(&machine->simulation, entry->state->bytes);
     return STATUS_OK;
 }
 
@@ -462,7 +462,7 @@ static Status load(Past *past, int pane, long goal)
         status = use_control(machine, kept->control);
     if (status)
         return status;
-    state_restore(kept->state->bytes, STATE_ALL, &machine->simulation);
+    state_restore(kept->state->bytes, &machine->simulation);
     machine->known = machine->failed = false;
     machine->outcome = kept->outcome;
     machine->substeps = 0;
@@ -525,7 +525,7 @@ static Status arrive(Past *past)
     if (!status && fresh)
         status = keep_state(past, pane);
     else if (!status && to->placed)
-        state_restore(to->state->bytes, STATE_ALL, &machine->simulation);
+        state_restore(to->state->bytes, &machine->simulation);
     return status ? status : STATUS_RUNNING;
 }
 

@@ -137,45 +137,83 @@ static Barrier barrier_of(const Options *options)
     return (Barrier){d_hat, 0.5 * area * d_hat * kappa};
 }
 
-/* Contact and friction. */
-static Status add_obstacles(const Options *options, const SquareMesh *mesh,
+/* Contact and friction.  Where obstacles are is a matter of the start. */
+static Status set_obstacles(const Options *options, const SquareMesh *mesh,
                             System *system)
 {
+    const Barrier barrier = barrier_of(options);
+    Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    Barrier barrier = barrier_of(options);
-    int count = list_obstacles(options, list);
-    if (count == 0)
-        return STATUS_OK;
-    if (system->nodes > mesh->nodes)
+    int count = contact ? 0 : list_obstacles(options, list);
+    Status status = STATUS_OK;
+    if (count > 0 && system->nodes > mesh->nodes)
         list[count - 1].node = mesh->nodes;
-    Status status = contact_add(system, &barrier, count, list);
-    return status || !(options->friction > 0)
-               ? status
-               : friction_add(system, options->slip_speed);
+    if (count > 0)
+        status = contact_add(system, &barrier, count, list);
+    contact = contact_of(system);
+    if (status || !contact)
+        return status;
+    contact->barrier = barrier;
+    for (int k = 0; k < contact->obstacles; k++)
+        contact->obstacle[k].friction = options->friction;
+    if (options->friction == 0)
+        system_remove_term(system, &friction_energy);
+    else if (!system_find_term(system, &friction_energy))
+        return friction_add(system, options->slip_speed);
+    return STATUS_OK;
 }
 
-static Status add_terms(const Options *options, const SquareMesh *mesh,
+static Status set_plasticity(const Options *options, const SquareMesh *mesh,
+                             System *system)
+{
+    (void)mesh;
+    return options->yield > 0 && !plasticity_of(system)
+               ? plasticity_set(system, options->yield, options->hardening)
+               : STATUS_OK;
+}
+
+static Status set_cells(const Options *options, const SquareMesh *mesh,
                         System *system)
 {
     double part = options->scene->cell_stiffness;
-    Status status = add_obstacles(options, mesh, system);
-    if (!status && options->yield > 0)
-        status = plasticity_set(system, options->yield, options->hardening);
-    if (!status && options->cells)
-        status = cells_add(system, mesh,
-                           (part > 0 ? part : 0.5) * options->stiffness);
-    if (!status && options->damping > 0)
-        status = damping_add(system, options->damping);
-    if (!status && options->tear > 0)
-        status = fracture_add(system, options->tear, TEAR_SCATTER);
+    double stiffness = (part > 0 ? part : 0.5) * options->stiffness;
+    Cells *cells = system_data(system, &cell_energy);
+    if (cells)
+        cells->c = cells->area * stiffness;
+    return options->cells && !cells ? cells_add(system, mesh, stiffness)
+                                    : STATUS_OK;
+}
+
+static Status set_fracture(const Options *options, const SquareMesh *mesh,
+                           System *system)
+{
+    (void)mesh;
+    return options->tear > 0 && !fracture_of(system)
+               ? fracture_add(system, options->tear, TEAR_SCATTER)
+               : STATUS_OK;
+}
+
+/* Adds the terms that the options ask for, and gives those that are there
+ * already their numbers: those of several options here, of one its row does. */
+static Status set_terms(const Options *options, const SquareMesh *mesh,
+                        System *system)
+{
+    static Status (*const terms[])(const Options *, const SquareMesh *,
+                                   System *) = {set_obstacles, set_plasticity,
+                                                set_cells, set_fracture};
+    Status status = STATUS_OK;
+    for (size_t i = 0; i < sizeof terms / sizeof *terms && !status; i++)
+        status = terms[i](options, mesh, system);
+    for (const OptionRow *row = option_rows; row->name && !status; row++)
+        if (row->term)
+            status = row->term(system, options->number[row->slot]);
     return status;
 }
 
 /* The run from where the options put the body, and where the scene's ball is,
  * which is the last node. */
-static Status start_run(const Options *options, const NewtonSettings *settings,
-                        const SquareMesh *mesh, System *system,
-                        TimeIntegrator *run)
+static Status start_run(Simulation *simulation, int run, const Options *options,
+                        const SquareMesh *mesh, System *system)
 {
     size_t size = 2 * (size_t)system->nodes;
     double *x = malloc(size * sizeof *x), *v = calloc(size, sizeof *v);
@@ -190,30 +228,42 @@ static Status start_run(const Options *options, const NewtonSettings *settings,
         memcpy(x + 2 * mesh->nodes, options->scene->own(options).o,
                2 * sizeof *x);
     if (!status)
-        status = time_integrator_create(
-            &integrator_methods[(int)fmax(options->integrator, 0)], system,
-            settings, x, v, run);
+        status = simulation_start(simulation, run, options_method(options),
+                                  system, x, v);
     free(x);
     free(v);
     return status;
 }
 
-Status body_create(const Options *options, const NewtonSettings *settings,
-                   SquareMesh *mesh, System *system, TimeIntegrator *run)
+Status body_create(Simulation *simulation, int run, const Options *options,
+                   SquareMesh *mesh, System *system)
 {
     const Scene *scene = options->scene;
     bool ball = scene->own && scene->own(options).kind == OBSTACLE_BALL;
     Status status = create_system(options, ball, mesh, system);
     if (!status)
-        status = add_terms(options, mesh, system);
-    return status ? status : start_run(options, settings, mesh, system, run);
+        status = set_terms(options, mesh, system);
+    return status ? status : start_run(simulation, run, options, mesh, system);
 }
 
-Status create_square(Simulation *simulation, const NewtonSettings *settings)
+Status body_follow(Simulation *simulation, int run)
+{
+    System *system = simulation->run[run].system;
+    Options options = simulation->options;
+    if (simulation->grip[run] > 0)
+        options.friction *= simulation->grip[run];
+    for (int s = 0; s < system->springs; s++)
+        if (!spring_is_broken(system, s))
+            system->k[s] = options.stiffness;
+    system_changed(system, false);
+    return set_terms(&options, &simulation->mesh, system);
+}
+
+Status create_square(Simulation *simulation)
 {
     simulation->runs = 1;
-    return body_create(&simulation->options, settings, &simulation->mesh,
-                       &simulation->system, &simulation->run[0]);
+    return body_create(simulation, 0, &simulation->options, &simulation->mesh,
+                       &simulation->system);
 }
 
 const char *body_needs_end_of_step(const Options *options)

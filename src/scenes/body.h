@@ -12,33 +12,38 @@
 /* The square, or of its rows the part that the scene has; without arrays. */
 SquareMesh body_shape(const Options *options);
 
-/* Mesh, system with all terms of the options, and a run of it from where the
- * options put it.  A ball that comes with the scene is the last node.
- *   mesh, system, run  out; free them in any case
+/* Mesh, system with all terms of the options, and the simulation's run of this
+ * number from where the options put it.  A ball that comes with the scene is
+ * the last node.
+ *   mesh, system  out; free them in any case
  * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
-Status body_create(const Options *options, const NewtonSettings *settings,
-                   SquareMesh *mesh, System *system, TimeIntegrator *run);
+Status body_create(Simulation *simulation, int run, const Options *options,
+                   SquareMesh *mesh, System *system);
+
+/* Terms and springs of a run that goes on get the numbers of the simulation's
+ * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status body_follow(Simulation *simulation, int run);
 
 /* The only run of a scene, which is this body. */
-Status create_square(Simulation *simulation, const NewtonSettings *settings);
+Status create_square(Simulation *simulation);
 
 /* What the command line has no words for (contact_scenes.c): what moves, what
  * is cut. */
 
 /* Three blocks on slopes; friction, which the option gives for the second
  * number below as what just holds, is 0.5, 0.9 and 1.1 times that. */
-Status create_slope(Simulation *simulation, const NewtonSettings *settings);
+Status create_slope(Simulation *simulation);
 
 /* A ceiling comes down on the square and goes up again. */
 Obstacle squeeze_ceiling(const Options *options);
-Status create_squeeze(Simulation *simulation, const NewtonSettings *settings);
+Status create_squeeze(Simulation *simulation);
 
 /* Both sides are drawn apart; a slit in the middle opens and runs. */
-Status create_tear(Simulation *simulation, const NewtonSettings *settings);
+Status create_tear(Simulation *simulation);
 
 /* A beam with a notch lies on two balls, and a heavy third falls on it. */
 Obstacle bend_ball(const Options *options);
-Status create_bend(Simulation *simulation, const NewtonSettings *settings);
+Status create_bend(Simulation *simulation);
 
 /* What the options ask for that only a step whose result is the minimiser
  * knows, in words; NULL: nothing. */

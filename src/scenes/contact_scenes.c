@@ -7,7 +7,7 @@
 /* ---- slope ------------------------------------------------------------- */
 
 /* Each run is lower than the one before, with its own friction. */
-Status create_slope(Simulation *simulation, const NewtonSettings *settings)
+Status create_slope(Simulation *simulation)
 {
     static const double part[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
     Status status = STATUS_OK;
@@ -21,10 +21,9 @@ Status create_slope(Simulation *simulation, const NewtonSettings *settings)
         options.at[1] += up;
         for (int i = 0; i < options.grounds; i++)
             options.ground[i][3] += up;
-        status =
-            body_create(&options, settings, run ? &mesh : &simulation->mesh,
-                        run ? &simulation->more[run] : &simulation->system,
-                        &simulation->run[run]);
+        status = body_create(
+            simulation, run, &options, run ? &mesh : &simulation->mesh,
+            run ? &simulation->more[run] : &simulation->system);
         square_mesh_free(&mesh);
     }
     return status;
@@ -46,9 +45,9 @@ Obstacle squeeze_ceiling(const Options *options)
 }
 
 /* Small velocities to the side, so that it may buckle. */
-Status create_squeeze(Simulation *simulation, const NewtonSettings *settings)
+Status create_squeeze(Simulation *simulation)
 {
-    Status status = create_square(simulation, settings);
+    Status status = create_square(simulation);
     unsigned state = 1;
     for (int i = 0; i < simulation->mesh.nodes && !status; i++) {
         state = state * 1664525u + 1013904223u; /* Numerical Recipes, 7.1 */
@@ -76,11 +75,11 @@ static void cut(Simulation *simulation, double x, double low, double high)
 
 /* The pins of the left half go left, the others right, at 0.2 sides a
  * second. */
-Status create_tear(Simulation *simulation, const NewtonSettings *settings)
+Status create_tear(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
     System *system = &simulation->system;
-    Status status = create_square(simulation, settings);
+    Status status = create_square(simulation);
     if (status)
         return status;
     system->pin_v = calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
@@ -104,10 +103,10 @@ Obstacle bend_ball(const Options *options)
         .kind = OBSTACLE_BALL, .o = {0, half + 0.18 + 0.05}, .radius = 0.18};
 }
 
-Status create_bend(Simulation *simulation, const NewtonSettings *settings)
+Status create_bend(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
-    Status status = create_square(simulation, settings);
+    Status status = create_square(simulation);
     if (status)
         return status;
     double a = mesh->spacing, half = 0.5 * mesh->rows * a;

@@ -86,20 +86,6 @@ void control_drop(const Control *control)
         free(own);
 }
 
-/* Options, as far as they differ. */
-static Status use_options(Simulation *simulation, const Options *wanted)
-{
-    const Options *now = &simulation->options;
-    Status status = STATUS_OK;
-    if (now->integrator != wanted->integrator ||
-        now->stiffness != wanted->stiffness)
-        return simulation_change(simulation, wanted);
-    for (int slot = 0; slot < OPTIONS_NUMBERS && !status; slot++)
-        if (now->number[slot] != wanted->number[slot])
-            status = simulation_set(simulation, slot, wanted->number[slot]);
-    return status;
-}
-
 /* The hand, where it is not already. */
 static Status use_hand(Simulation *simulation, const Control *control)
 {
@@ -117,7 +103,7 @@ static Status use_hand(Simulation *simulation, const Control *control)
 
 Status simulation_use(Simulation *simulation, const Control *control)
 {
-    Status status = use_options(simulation, &control->options);
+    Status status = simulation_change(simulation, &control->options);
     for (int i = 0, at = 0; i < simulation->system.nodes && !status; i++) {
         bool pinned = at < control->pins && control->pin[at] == i;
         at += pinned;

@@ -288,16 +288,14 @@ Status step_descent(Simulation *simulation)
 
 /* Node 0 starts at x, and the search aims.  Of two unknowns it is a step of
  * backward Euler, but nobody makes steps of time. */
-static Status begin_descent(Simulation *simulation,
-                            const NewtonSettings *settings, const double *x)
+static Status begin_descent(Simulation *simulation, const double *x)
 {
     const double v[2 * LANDSCAPE_NODES] = {0};
     simulation->runs = 1;
     const char *method =
         simulation->descent.scalar ? "forward-euler" : "backward-euler";
-    Status status =
-        time_integrator_create(integrator_method(method), &simulation->system,
-                               settings, x, v, &simulation->run[0]);
+    Status status = simulation_start(simulation, 0, integrator_method(method),
+                                     &simulation->system, x, v);
     if (status)
         return status;
     aim_descent(simulation);
@@ -305,29 +303,28 @@ static Status begin_descent(Simulation *simulation,
                                                      : simulation->status;
 }
 
-static Status create_scalar(Simulation *simulation,
-                            const NewtonSettings *settings, ScalarEnergy *f)
+static Status create_scalar(Simulation *simulation, ScalarEnergy *f)
 {
     Status status = system_create(1, 0, &simulation->system);
     if (status)
         return status;
     simulation->system.m[0] = 1;
     simulation->descent.scalar = f;
-    return begin_descent(simulation, settings, simulation->options.start);
+    return begin_descent(simulation, simulation->options.start);
 }
 
-Status create_overshoot(Simulation *simulation, const NewtonSettings *settings)
+Status create_overshoot(Simulation *simulation)
 {
-    return create_scalar(simulation, settings, log_two_cosh);
+    return create_scalar(simulation, log_two_cosh);
 }
 
-Status create_tangent(Simulation *simulation, const NewtonSettings *settings)
+Status create_tangent(Simulation *simulation)
 {
     simulation->exhibit.target[0] = LINE_TARGET;
-    return create_scalar(simulation, settings, line_energy);
+    return create_scalar(simulation, line_energy);
 }
 
-Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
+Status create_landscape(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
@@ -337,5 +334,5 @@ Status create_landscape(Simulation *simulation, const NewtonSettings *settings)
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.parts = PART_BOTH;
-    return begin_descent(simulation, settings, x);
+    return begin_descent(simulation, x);
 }

@@ -79,9 +79,9 @@ void dial_restart(Simulation *simulation)
     show_minimiser(simulation);
 }
 
-Status create_dial(Simulation *simulation, const NewtonSettings *settings)
+Status create_dial(Simulation *simulation)
 {
-    Status status = create_landscape(simulation, settings);
+    Status status = create_landscape(simulation);
     if (status)
         return status;
     dial_restart(simulation);

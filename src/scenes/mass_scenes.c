@@ -12,8 +12,7 @@ static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, at rest */
 
 /* A mass with a = -omega2 x, from x with v. */
-static Status create_orbit(Simulation *simulation,
-                           const NewtonSettings *settings, double omega2,
+static Status create_orbit(Simulation *simulation, double omega2,
                            const double x[2], const double v[2])
 {
     static const char *const names[SIMULATION_MAX_RUNS] = {
@@ -28,24 +27,22 @@ static Status create_orbit(Simulation *simulation,
     memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
-        status = time_integrator_create(
-            chosen ? chosen : integrator_method(names[i]), &simulation->system,
-            settings, x, v, &simulation->run[i]);
+        status = simulation_start(simulation, i,
+                                  chosen ? chosen : integrator_method(names[i]),
+                                  &simulation->system, x, v);
     return status;
 }
 
-Status create_circle(Simulation *simulation, const NewtonSettings *settings)
+Status create_circle(Simulation *simulation)
 {
     const double x[2] = {1, 0}, v[2] = {0, CIRCLE_OMEGA};
-    return create_orbit(simulation, settings, CIRCLE_OMEGA * CIRCLE_OMEGA, x,
-                        v);
+    return create_orbit(simulation, CIRCLE_OMEGA * CIRCLE_OMEGA, x, v);
 }
 
-Status create_mass(Simulation *simulation, const NewtonSettings *settings)
+Status create_mass(Simulation *simulation)
 {
     const double v[2] = {0, 1};
-    return create_orbit(simulation, settings, MASS_OMEGA2,
-                        simulation->options.start, v);
+    return create_orbit(simulation, MASS_OMEGA2, simulation->options.start, v);
 }
 
 bool mass_next_step(const Simulation *simulation, int run, MassStep *step)
@@ -105,7 +102,7 @@ void spring_facts(const double d[2], double l2, double k, SpringFacts *facts)
     }
 }
 
-Status create_spring(Simulation *simulation, const NewtonSettings *settings)
+Status create_spring(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     System *system = &simulation->system;
@@ -123,7 +120,6 @@ Status create_spring(Simulation *simulation, const NewtonSettings *settings)
     system->l2[0] = SPRING_LENGTH * SPRING_LENGTH;
     system->k[0] = SPRING_STIFFNESS;
     simulation->runs = 1;
-    return time_integrator_create(
-        &integrator_methods[(int)fmax(options->integrator, 0)], system,
-        settings, x, v, &simulation->run[0]);
+    return simulation_start(simulation, 0, options_method(options), system, x,
+                            v);
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/damping.h"
 #include "model/square_mesh.h"
 #include "scenes/pages.h"
 #include "scenes/pins.h"
@@ -103,7 +104,9 @@ static const char *nothing_flows(const Options *options)
 #define NEEDS(what)           .needs = NEEDS_##what
 #define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
 #define LIST(text)            .label = text
-#define LIVE                  .live = true
+#define LIVE                  .effect = EFFECT_LIVE
+#define AGAIN                 .effect = EFFECT_AGAIN
+#define TERM(set)             .term = set
 #define IDLE(why)             .idle = why
 #define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds
 
@@ -165,7 +168,7 @@ const OptionRow option_rows[] = {
      NEEDS(BODY), LIST("tear")},
     {NUMBER(damping, "ETA", "of the springs' strain rate (Kelvin-Voigt)", "s",
             0, 0, 1e6),
-     NEEDS(BODY), LIST("\u03b7"), LIVE, ROW(7, 8, 0)},
+     NEEDS(BODY), LIST("\u03b7"), LIVE, TERM(damping_set), ROW(7, 8, 0)},
 
     {SECTION("how it moves:")},
     {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),
@@ -179,10 +182,10 @@ const OptionRow option_rows[] = {
      LIST("solver"), LIVE, ROW(11, 15, 0)},
     {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(MESH)},
     {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_name),
-     NEEDS(SPRINGS), LIST("projection"), LIVE, ROW(9, 9, 0)},
+     NEEDS(SPRINGS), LIST("projection"), AGAIN, ROW(9, 9, 0)},
     {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK,
           line_search_name),
-     NEEDS(MINIMUM), LIST("line search"), LIVE, ROW(10, 9, 0)},
+     NEEDS(MINIMUM), LIST("line search"), AGAIN, ROW(10, 9, 0)},
 
     {SECTION("how long, and what is left behind:")},
     {RANGE(WHOLE, "steps", steps, "N", "then end; without a screen after 100",
@@ -231,8 +234,12 @@ int option_names(const OptionRow *row)
 
 const IntegratorMethod *options_integrator(const Options *options)
 {
-    int i = (int)options->integrator;
-    return i < 0 ? NULL : &integrator_methods[i];
+    return options->integrator < 0 ? NULL : options_method(options);
+}
+
+const IntegratorMethod *options_method(const Options *options)
+{
+    return &integrator_methods[(int)fmax(options->integrator, 0)];
 }
 
 /* ---- numbers as text ---------------------------------------------------- */

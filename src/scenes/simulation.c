@@ -6,13 +6,11 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
-#include "model/damping.h"
 #include "model/friction.h"
 #include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
-#include "model/plasticity.h"
 #include "scenes/scene.h"
-#include "scenes/state.h"
+#include "scenes/body.h"
 #include "base/mathematics.h"
 
 /* More updates than any step needs that ends at all; 1024 segments need some
@@ -30,6 +28,28 @@ static void begin_ledger(Simulation *simulation)
                 -simulation_energies(simulation, i).dissipated;
 }
 
+NewtonSettings newton_settings_of(const Options *options)
+{
+    return (NewtonSettings){.h = options->timestep,
+                            .tolerance = options->tolerance,
+                            .solver = options->solver,
+                            .minimum = options->minimum,
+                            .filter = options->filter,
+                            .search = options->line_search,
+                            .max_iterations = MAX_NEWTON_ITERATIONS};
+}
+
+Status simulation_start(Simulation *simulation, int run,
+                        const IntegratorMethod *method, System *system,
+                        const double *x, const double *v)
+{
+    NewtonSettings settings = newton_settings_of(&simulation->options);
+    settings.observer = simulation->observer;
+    settings.user = simulation->user;
+    return time_integrator_create(method, system, &settings, x, v,
+                                  &simulation->run[run]);
+}
+
 Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation)
 {
@@ -37,18 +57,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
                                .options = *options,
                                .observer = observer,
                                .user = user};
-    NewtonSettings settings = {
-        .h = options->timestep,
-        .tolerance = options->tolerance,
-        .solver = options->solver,
-        .minimum = options->minimum,
-        .filter = options->filter,
-        .search = options->line_search,
-        .max_iterations = MAX_NEWTON_ITERATIONS,
-        .observer = observer,
-        .user = user,
-    };
-    Status status = options->scene->create(simulation, &settings);
+    Status status = options->scene->create(simulation);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1 && options->scene->parts[i])
             exhibit_flip(simulation, i);
@@ -181,64 +190,6 @@ double simulation_time(const Simulation *simulation)
     return simulation->run[0].clock;
 }
 
-/* The term is there while there is friction. */
-static Status set_friction(TimeIntegrator *run, double mu, double slip_speed)
-{
-    Contact *contact = contact_of(run->system);
-    Status status = STATUS_OK;
-    if (!contact)
-        return STATUS_OK;
-    for (int k = 0; k < contact->obstacles; k++)
-        contact->obstacle[k].friction = mu;
-    if (mu == 0)
-        system_remove_term(run->system, &friction_energy);
-    else if (!system_find_term(run->system, &friction_energy))
-        status = friction_add(run->system, slip_speed);
-    return status;
-}
-
-/* The same of damping. */
-static Status set_damping(System *system, double eta)
-{
-    Damping *data = damping_of(system);
-    if (eta == 0)
-        system_remove_term(system, &damping);
-    else if (data)
-        data->eta = eta;
-    else
-        return damping_add(system, eta);
-    return STATUS_OK;
-}
-
-Status simulation_set(Simulation *simulation, int slot, double value)
-{
-    Options *options = &simulation->options;
-    bool aims = slot == OPTION_SLOT(filter) || slot == OPTION_SLOT(line_search);
-    Status status = STATUS_OK;
-    options->number[slot] = value;
-    for (int r = 0; r < simulation->runs && !status; r++) {
-        TimeIntegrator *run = &simulation->run[r];
-        double grip = simulation->grip[r] > 0 ? simulation->grip[r] : 1;
-        if (slot == OPTION_SLOT(timestep))
-            run->h = value;
-        if (run->newton) {
-            NewtonSettings *settings = &run->newton->settings;
-            settings->h = run->h;
-            settings->tolerance = options->tolerance;
-            settings->solver = options->solver;
-            settings->filter = options->filter;
-            settings->search = options->line_search;
-        }
-        if (slot == OPTION_SLOT(friction))
-            status = set_friction(run, grip * value, options->slip_speed);
-        if (slot == OPTION_SLOT(damping))
-            status = set_damping(run->system, value);
-    }
-    if (aims && simulation->scene->aim && !simulation->done)
-        simulation->scene->aim(simulation);
-    return status;
-}
-
 /* A system whose last pin is gone is the one that never had any: its centre of
  * mass is free again. */
 static void drop_empty_pins(System *system)
@@ -345,31 +296,87 @@ void simulation_release(Simulation *simulation)
     system_remove_term(&simulation->system, &hand_energy);
 }
 
+/* The run goes on with another method. */
+static Status change_method(Simulation *simulation, int r)
+{
+    TimeIntegrator *run = &simulation->run[r], old = *run;
+    Status status =
+        simulation_start(simulation, r, options_method(&simulation->options),
+                         old.system, old.x, old.v);
+    run->steps = old.steps;
+    run->status = old.status;
+    run->clock = old.clock;
+    run->moved = old.moved;
+    run->work = old.work;
+    if (old.newton)
+        newton_counters_add(&old.newton->counters, &simulation->counted);
+    time_integrator_free(&old);
+    return status;
+}
+
+/* What the options say, to what goes by them in a run. */
+static Status change_run(Simulation *simulation, int r, const Options *before)
+{
+    const Options *options = &simulation->options;
+    TimeIntegrator *run = &simulation->run[r];
+    bool stiffer = options->stiffness != before->stiffness;
+    Status status = STATUS_OK;
+    if (simulation->scene->needs & NEEDS_BODY)
+        status = body_follow(simulation, r);
+    if (!status && options->integrator != before->integrator)
+        return change_method(simulation, r);
+    if (stiffer)
+        run->memory_h = 0;
+    run->h = options->timestep;
+    if (run->newton) {
+        NewtonSettings *own = &run->newton->settings, old = *own;
+        *own = newton_settings_of(options);
+        own->averaged = old.averaged;
+        own->observer = old.observer;
+        own->user = old.user;
+    }
+    return status;
+}
+
 Status simulation_change(Simulation *simulation, const Options *options)
 {
-    double start[SIMULATION_MAX_RUNS], had[SIMULATION_MAX_RUNS];
-    NewtonCounters counted = simulation_counters(simulation);
-    const Exhibit exhibit = simulation->exhibit;
-    NewtonObserver observer = simulation->observer;
-    void *user = simulation->user;
-    simulation_release(simulation);
-    memcpy(start, simulation->start, sizeof start);
-    dissipated_so_far(simulation, had);
-    void *state = malloc(state_bytes(simulation, STATE_BODY));
-    if (!state)
-        return STATUS_OUT_OF_MEMORY;
-    state_save(simulation, STATE_BODY, state);
-    simulation_free(simulation);
-    Status status = simulation_create(options, observer, user, simulation);
-    simulation->counted = counted;
-    if (!status) {
-        state_restore(state, STATE_BODY, simulation);
-        simulation->exhibit = exhibit;
-        memcpy(simulation->start, start, sizeof start);
-        book_change(simulation, had);
+    const Options before = simulation->options;
+    double had[SIMULATION_MAX_RUNS];
+    Status status = STATUS_OK;
+    if (options->stiffness != before.stiffness ||
+        options->integrator != before.integrator) {
+        simulation_release(simulation);
+        simulation->prediction = (Prediction){0};
     }
-    free(state);
+    dissipated_so_far(simulation, had);
+    simulation->options = *options;
+    for (int r = 0; r < simulation->runs && !status; r++)
+        status = change_run(simulation, r, &before);
+    if (!status)
+        book_change(simulation, had);
+    if (simulation->scene->aim && !simulation->done &&
+        (options->filter != before.filter ||
+         options->line_search != before.line_search))
+        simulation->scene->aim(simulation);
     return status;
+}
+
+Status simulation_set(Simulation *simulation, int slot, double value)
+{
+    Options options = simulation->options;
+    options.number[slot] = value;
+    return simulation_change(simulation, &options);
+}
+
+Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
+{
+    unsigned needs = simulation->scene->needs;
+    bool update = (needs & NEEDS_START) && row->effect == EFFECT_AGAIN;
+    bool other_methods =
+        simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
+    if (!(needs & NEEDS_TIME) ? !update : other_methods)
+        return EFFECT_START;
+    return row->effect;
 }
 
 /* Adds to the row of this name, or makes one. */
@@ -463,7 +470,7 @@ static bool expects_multigrid(const Options *options)
              options->segments > AUTO_NEWTON_SEGMENTS)) &&
            options->filter == FILTER_CLAMP && !options->minimum &&
            options->line_search == LINE_SEARCH_BACKTRACK &&
-           !integrator_methods[(int)fmax(options->integrator, 0)].averaged;
+           !options_method(options)->averaged;
 }
 
 double simulation_bytes(const Options *options)
@@ -471,7 +478,7 @@ double simulation_bytes(const Options *options)
     if (!(options->scene->needs & NEEDS_MESH))
         return 0;
     double row = options->segments + 1.0, n = row * row;
-    if (!integrator_methods[(int)fmax(options->integrator, 0)].implicit)
+    if (!options_method(options)->implicit)
         return 250 * n;
     if (expects_multigrid(options))
         return 655 * n;

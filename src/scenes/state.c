@@ -16,7 +16,6 @@ static size_t array_size(const Simulation *simulation)
 /* What is done with each piece of a state: counted, saved or restored. */
 typedef struct Cursor {
     enum { COUNT, SAVE, RESTORE } way;
-    StatePart part;
     unsigned char *at; /* NULL while counting */
     size_t bytes;
 } Cursor;
@@ -110,10 +109,8 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     PASS(run->status);
     pass(cursor, run->x, array);
     pass(cursor, run->v, array);
-    if (cursor->part == STATE_ALL) {
-        PASS(run->memory_h);
-        pass(cursor, run->memory, (size_t)run->method->memory * array);
-    }
+    PASS(run->memory_h);
+    pass(cursor, run->memory, (size_t)run->method->memory * array);
     if (!is_known(simulation, r))
         pass_system(cursor, run->system, &simulation->options);
     if (cursor->way == RESTORE)
@@ -142,28 +139,27 @@ static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 static void pass_all(Cursor *cursor, Simulation *simulation)
 {
     pass_counters(cursor, simulation);
-    if (cursor->part == STATE_ALL)
-        pass_exhibit(cursor, simulation);
+    pass_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);
 }
 
-size_t state_bytes(const Simulation *simulation, StatePart part)
+size_t state_bytes(const Simulation *simulation)
 {
-    Cursor cursor = {COUNT, part, NULL, 0};
+    Cursor cursor = {COUNT, NULL, 0};
     pass_all(&cursor, (Simulation *)simulation); /* counting changes nothing */
     return cursor.bytes;
 }
 
-void state_save(const Simulation *simulation, StatePart part, void *bytes)
+void state_save(const Simulation *simulation, void *bytes)
 {
-    Cursor cursor = {SAVE, part, bytes, 0};
+    Cursor cursor = {SAVE, bytes, 0};
     pass_all(&cursor, (Simulation *)simulation);
 }
 
-void state_restore(const void *bytes, StatePart part, Simulation *simulation)
+void state_restore(const void *bytes, Simulation *simulation)
 {
-    Cursor cursor = {RESTORE, part, (unsigned char *)bytes, 0};
+    Cursor cursor = {RESTORE, (unsigned char *)bytes, 0};
     simulation->prediction = (Prediction){0}; /* it was of another step */
     pass_all(&cursor, simulation);
 }

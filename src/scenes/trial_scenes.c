@@ -13,13 +13,7 @@ static Status trial_run(const Options *options, const IntegratorMethod *method,
                         System *system, const TimeIntegrator *from, long steps,
                         TimeIntegrator *run)
 {
-    const NewtonSettings settings = {.h = options->timestep,
-                                     .tolerance = options->tolerance,
-                                     .solver = options->solver,
-                                     .minimum = options->minimum,
-                                     .filter = options->filter,
-                                     .search = options->line_search,
-                                     .max_iterations = 10000};
+    const NewtonSettings settings = newton_settings_of(options);
     Status worst = time_integrator_create(method, system, &settings, from->x,
                                           from->v, run);
     bool goes_on = worst == STATUS_OK;
@@ -58,10 +52,10 @@ static Status run_to_end(Simulation *simulation, const IntegratorMethod *method,
 }
 
 /* Run 1 is the reference: it stands at its end. */
-Status create_race(Simulation *simulation, const NewtonSettings *settings)
+Status create_race(Simulation *simulation)
 {
     long finest = (long)RACE_FIRST_STEPS << (RACE_STEP_SIZES - 1);
-    Status status = create_square(simulation, settings);
+    Status status = create_square(simulation);
     if (status)
         return status;
     status = run_to_end(simulation, integrator_method("verlet"),
@@ -212,10 +206,10 @@ Status envelope_visit(Simulation *simulation, int column, int row)
 }
 
 /* Run 1 is the start of all of them. */
-Status create_envelope(Simulation *simulation, const NewtonSettings *settings)
+Status create_envelope(Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    Status status = create_square(simulation, settings);
+    Status status = create_square(simulation);
     simulation->run[1] = simulation->run[0];
     simulation->run[0] = (TimeIntegrator){0};
     if (status)

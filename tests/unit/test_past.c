@@ -94,7 +94,7 @@ TEST(thinned_states_come_back)
          i += (size_t)stride(1, 2)) {
         uint64_t hash[STEPS + 1];
         begin_past(lines[i]);
-        size_t size = state_bytes(&past.machine[0].simulation, STATE_ALL);
+        size_t size = state_bytes(&past.machine[0].simulation);
         past.limit = 5 * size;
         run(0, STEPS, hash);
         CHECK(past.bytes <= past.limit && past.branch[0].stride >= STEPS / 8);

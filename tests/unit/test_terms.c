@@ -148,7 +148,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         }
     }
     if (row->damping > 0)
-        CHECK_STATUS(damping_add(system, row->damping), STATUS_OK);
+        CHECK_STATUS(damping_set(system, row->damping), STATUS_OK);
 }
 
 /* Random u that all terms allow, and two directions. */
