@@ -81,8 +81,8 @@ if [ "$$missing" ]; then as=; [ "$$(id -u)" = 0 ] || as=sudo; \
     ! command -v $${as:-sh} >/dev/null; then \
     echo "elasto needs$$missing (as Debian calls them). There:$${get#sudo}"; \
     echo 'Fedora: dnf install SDL2-devel freetype-devel dejavu-sans-fonts'; \
-    echo '  dejavu-sans-mono-fonts suitesparse-devel libpng-devel libcmocka-devel'; \
-    echo 'Arch: pacman -S sdl2 freetype2 ttf-dejavu suitesparse libpng cmocka'; \
+    echo '  dejavu-sans-mono-fonts suitesparse-devel lapack-devel libpng-devel libcmocka-devel'; \
+    echo 'Arch: pacman -S sdl2 freetype2 ttf-dejavu suitesparse lapack libpng cmocka'; \
     echo 'macOS: brew install sdl2 freetype font-dejavu suite-sparse libpng \'; \
     echo '  cmocka pkg-config'; exit 1; fi; \
   echo "Installing$$missing: $$get"; export DEBIAN_FRONTEND=noninteractive; \
@@ -93,12 +93,13 @@ endef
 # its calls of BLAS, and a program that has it loads no library of BLAS.
 ALONE = $(foreach l,cholmod colamd ccolamd camd amd suitesparseconfig,-l:lib$(l).a) \
         -l:libmetis.so.5 -lgomp
+LAPACK = $(if $(filter Darwin,$(shell uname)),-framework Accelerate,-llapack)
 build/config.mk: Makefile
 	@mkdir -p build; $(call need,pkg-config:pkg-config sdl2:libsdl2-dev freetype2:libfreetype-dev \
 	  libpng:libpng-dev cholmod.h:libsuitesparse-dev $(FONTS):fonts-dejavu-core); \
 	echo 'int main(void) { return 0; }' >build/try.c; blas='-lblas -llapack'; \
 	cholmod='$(ALONE)'; $(CC) build/try.c -o build/try $$cholmod $$blas -lm \
-	  2>/dev/null || { blas=; cholmod=$$(pkg-config --libs CHOLMOD || \
+	  2>/dev/null || { blas='$(LAPACK)'; cholmod=$$(pkg-config --libs CHOLMOD || \
 	  echo -L/usr/local/lib -L/opt/homebrew/lib -lcholmod) 2>/dev/null; }; \
 	{ echo "DEP_CFLAGS := $(SUITESPARSE) \
 	  $$(pkg-config --cflags sdl2 freetype2 libpng)"; \

@@ -6,12 +6,12 @@
  *   MassSpringEnergy.py  spring_val, spring_grad, spring_hess
  *   time_integrator.py   ip_val, ip_grad, ip_hess, search_dir,
  *                        line_search: Algorithm 2, step_forward: Algorithm 3
- *   explicit steps       forward_euler, symplectic_euler
+ *   explicit steps       explicit_euler: forward or symplectic Euler
  *   simulator.py         draw, main
  * Nothing is kept from one Newton iteration to the next; nothing is clever.
  *   cc -O2 lecture.c -o lecture $(sdl2-config --cflags --libs) \
- *      -I/usr/include/suitesparse -lcholmod -lm
- *   ./lecture                         a window; Esc closes it
+ *      -I/usr/include/suitesparse -lcholmod -llapack -lm
+ *   ./lecture                         a window: pull at a node; Esc closes it
  *   ./lecture k=1e6 n_seg=8           other parameters: see main
  *   ./lecture steps=50 states=FILE    no window: Newton's updates, and x and v
  */
@@ -32,6 +32,7 @@ static Vec2 add(Vec2 a, Vec2 b) { return (Vec2){a.x + b.x, a.y + b.y}; }
 static Vec2 sub(Vec2 a, Vec2 b) { return (Vec2){a.x - b.x, a.y - b.y}; }
 static Vec2 mul(double s, Vec2 a) { return (Vec2){s * a.x, s * a.y}; }
 static double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+static double distance(Vec2 a, Vec2 b) { return hypot(a.x - b.x, a.y - b.y); }
 /* clang-format on */
 
 /* Ends with one line.  code 2: an argument is wrong; 1: something failed. */
@@ -145,50 +146,24 @@ static void inertia_hess(const Solid *solid, cholmod_triplet *H)
 }
 
 /* ==== Projection to positive semi-definite (utils.py: make_PSD) =========== */
-static void rotate(double *a, double *b, double cosine, double sine)
-{
-    double old = *a;
-    *a = cosine * old - sine * *b;
-    *b = sine * old + cosine * *b;
-}
-
-/* A = Q L Q^T, numpy's eigh, by Jacobi's method: a rotation in the plane of r
- * and c, by the angle whose tangent is t, makes a[r][c] zero.  It spoils older
- * zeros, but ten sweeps are plenty.  Eigenvalues end on the diagonal of a,
- * eigenvectors in the columns of q. */
-static void eigh(double a[4][4], double q[4][4])
-{
-    for (int i = 0; i < 16; i++)
-        q[i / 4][i % 4] = i / 4 == i % 4;
-    for (int sweep = 0; sweep < 10; sweep++)
-        for (int r = 0; r < 4; r++)
-            for (int c = r + 1; c < 4; c++) {
-                if (a[r][c] == 0)
-                    continue;
-                double theta = (a[c][c] - a[r][r]) / (2 * a[r][c]);
-                double t = copysign(1, theta) / (fabs(theta) + hypot(1, theta));
-                double cosine = 1 / hypot(1, t), sine = t * cosine;
-                for (int i = 0; i < 4; i++) {
-                    rotate(&a[i][r], &a[i][c], cosine, sine);
-                    rotate(&q[i][r], &q[i][c], cosine, sine);
-                }
-                for (int i = 0; i < 4; i++)
-                    rotate(&a[r][i], &a[c][i], cosine, sine);
-                a[r][c] = a[c][r] = 0;
-            }
-}
+/* LAPACK's, which numpy's eigh calls, too: A = Q L Q^T.  Eigenvectors replace A
+ * (in C's order of numbers its rows), l gets the eigenvalues. */
+void dsyev_(const char *vectors, const char *triangle, const int *n, double *A,
+            const int *lda, double *l, double *work, const int *size,
+            int *info);
 
 /* Negative eigenvalues become 0: hess = Q max(L, 0) Q^T. */
 static void make_psd(double hess[4][4])
 {
-    double l[4][4], q[4][4];
-    memcpy(l, hess, sizeof l);
-    eigh(l, q);
+    double q[4][4], l[4], work[64];
+    memcpy(q, hess, sizeof q);
+    dsyev_("V", "U", &(int){4}, q[0], &(int){4}, l, work, &(int){64},
+           &(int){0});
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) {
             hess[r][c] = 0;
             for (int i = 0; i < 4; i++)
-                hess[r][c] += q[r][i] * fmax(l[i][i], 0) * q[c][i];
+                hess[r][c] += q[i][r] * fmax(l[i], 0) * q[i][c];
         }
 }
 
@@ -317,8 +292,7 @@ static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
 /* ==== Backtracking line search (Algorithm 2) ============================== */
 /* alpha = 1, 1/2, 1/4, ... until E does not rise; x_new = x + alpha p.  Why
  * does that end?  p leads downhill.  The slide has no limit: this loop needs
- * one for numbers that overflow, and where rounding hides what is left to gain.
- */
+ * one where numbers overflow, or rounding hides what is left to gain. */
 static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
                           const Vec2 *x_tilde, double h, Vec2 *x_new)
 {
@@ -329,8 +303,7 @@ static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
         if (ip_val(solid, x_new, x_tilde, h) <= E_last)
             return alpha;
     }
-    FAIL(1,
-         "no step tried lowers E: overflow, or tol below rounding errors\n");
+    FAIL(1, "no step tried lowers E: overflow, or tol below rounding errors\n");
 }
 
 /* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */
@@ -380,38 +353,32 @@ static void step_forward(Solid *solid, double h, double tol, int step,
 }
 
 /* ==== Forward and symplectic Euler ======================================== */
-/* Nothing to solve, but each step adds energy until the square explodes. */
-static void forward_euler(Solid *solid, double h)
+/* Nothing to solve.  Forward Euler moves x with the old v: each step adds
+ * energy until the square explodes.  Symplectic Euler moves x with the new v:
+ * the energy stays near the true one, as long as h is small: 0.01/n_seg s for
+ * main's start; 0.025/n_seg s explodes. */
+static void explicit_euler(Solid *solid, double h, bool symplectic)
 {
     Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
     spring_grad(solid, x, 1, g); /* the force on node i is -g[i] */
     for (int i = 0; i < solid->nodes; i++) {
-        x[i] = add(x[i], mul(h, v[i]));
-        v[i] = sub(v[i], mul(h / solid->m[i], g[i]));
-    }
-    free(g);
-}
-
-/* The same, but x moves with the new v: the energy stays near the true one, as
- * long as h is small: 0.01/n_seg s for main's start; 0.025/n_seg s explodes. */
-static void symplectic_euler(Solid *solid, double h)
-{
-    Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
-    spring_grad(solid, x, 1, g);
-    for (int i = 0; i < solid->nodes; i++) {
-        v[i] = sub(v[i], mul(h / solid->m[i], g[i]));
-        x[i] = add(x[i], mul(h, v[i]));
+        Vec2 v_n = v[i];
+        v[i] = sub(v_n, mul(h / solid->m[i], g[i]));
+        x[i] = add(x[i], mul(h, symplectic ? v[i] : v_n));
     }
     free(g);
 }
 
 /* ==== Drawing (simulator.py) ============================================== */
 #define FOLDER "lecture_pictures"
-enum { PIXELS = 600, PICTURES = 100 };
+enum { PIXELS = 600, PICTURES = 100, HEAVY = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
     double scale, radius; /* pixels in a metre; of a node */
+    Vec2 *start, mouse;   /* [nodes] m, positions at the beginning; m */
+    int held;             /* the node that the mouse pulls, or -1 */
+    bool paused;
 } Screen;
 
 /* From metres, y upwards, to pixels, y downwards. */
@@ -425,21 +392,22 @@ static Vec2 screen_projection(const Screen *screen, Vec2 x)
  * this is a blue polygon, and around it a ring in which the colour fades. */
 static void draw_line(const Screen *screen, Vec2 a, Vec2 b, double radius)
 {
-    enum { N = 24 }; /* corners */
-    SDL_Vertex vertex[2 * N];
+    enum { N = 24 };          /* corners */
+    SDL_Vertex vertex[2 * N]; /* of the polygon, and around it */
     int index[9 * N];
     a = screen_projection(screen, a);
     b = screen_projection(screen, b);
     if (!(dot(a, a) + dot(b, b) < 1e8))
         return; /* too far away for SDL */
     double direction = atan2(b.y - a.y, b.x - a.x);
+    for (int i = 0; i < 2 * N; i++) {
+        double angle = 2 * M_PI * (i + 0.5) / N, far = radius - 0.5 + i / N;
+        Vec2 way = {cos(direction + angle), sin(direction + angle)};
+        Vec2 at = add(cos(angle) > 0 ? b : a, mul(far, way));
+        Uint8 opaque = i < N ? 255 : 0;
+        vertex[i] = (SDL_Vertex){{at.x, at.y}, {0, 0, 255, opaque}, {0, 0}};
+    }
     for (int i = 0; i < N; i++) {
-        double angle = 2 * M_PI * (i + 0.5) / N;
-        Vec2 out = {cos(direction + angle), sin(direction + angle)};
-        Vec2 in = add(cos(angle) > 0 ? b : a, mul(radius - 0.5, out));
-        vertex[i] = (SDL_Vertex){{in.x, in.y}, {0, 0, 255, 255}, {0, 0}};
-        vertex[N + i] =
-            (SDL_Vertex){{in.x + out.x, in.y + out.y}, {0, 0, 255, 0}, {0, 0}};
         int next = (i + 1) % N;
         int triangles[] = {0, i, next, i, next, N + i, N + i, next, N + next};
         memcpy(index + 9 * i, triangles, sizeof triangles);
@@ -462,7 +430,9 @@ static void draw(const Screen *screen, const Solid *solid)
 static Screen open_screen(const Solid *solid)
 {
     double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
-    Screen screen = {.scale = PIXELS / (4 * size)};
+    Screen screen = {.scale = PIXELS / (4 * size), .held = -1};
+    screen.start = allocate(solid->nodes, sizeof(Vec2));
+    memcpy(screen.start, solid->x, (size_t)solid->nodes * sizeof(Vec2));
     screen.radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
     SDL_Window *window = NULL;
     if (SDL_Init(SDL_INIT_VIDEO) == 0 &&
@@ -470,9 +440,8 @@ static Screen open_screen(const Solid *solid)
         strcmp(SDL_GetCurrentVideoDriver(), "offscreen") != 0)
         SDL_CreateWindowAndRenderer(PIXELS, PIXELS, SDL_WINDOW_RESIZABLE,
                                     &window, &screen.renderer);
-    SDL_SetWindowTitle(window, "lecture");
-    if (window)
-        printf("Esc closes the window\n");
+    SDL_SetWindowTitle(
+        window, "lecture: pull at a node; Space pauses, R restarts, Esc ends");
     if (!window) {
         printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
         mkdir(FOLDER, 0777); /* if that fails, saving a picture will say so */
@@ -487,8 +456,36 @@ static Screen open_screen(const Solid *solid)
     return screen;
 }
 
+/* Space, R, Esc, and the mouse: it holds the nearest node, which is so heavy
+ * meanwhile that no spring turns it from its way.  False: that was the end. */
+static bool handle(Screen *screen, Solid *solid, const SDL_Event *event)
+{
+    SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
+    screen->paused ^= key == SDLK_SPACE;
+    for (int i = 0; i < solid->nodes && key == SDLK_r; i++) {
+        solid->x[i] = screen->start[i];
+        solid->v[i] = (Vec2){0, 0};
+    }
+    if (event->type == SDL_MOUSEMOTION)
+        screen->mouse = (Vec2){(event->motion.x - PIXELS / 2) / screen->scale,
+                               (PIXELS / 2 - event->motion.y) / screen->scale};
+    if (event->type == SDL_MOUSEBUTTONDOWN && screen->held < 0) {
+        screen->held = 0;
+        for (int i = 1; i < solid->nodes; i++)
+            if (distance(solid->x[i], screen->mouse) <
+                distance(solid->x[screen->held], screen->mouse))
+                screen->held = i;
+        solid->m[screen->held] *= HEAVY;
+    }
+    if (event->type == SDL_MOUSEBUTTONUP && screen->held >= 0) {
+        solid->m[screen->held] /= HEAVY;
+        screen->held = -1;
+    }
+    return event->type != SDL_QUIT && key != SDLK_ESCAPE;
+}
+
 /* Shows the solid for a while, or saves a picture.  False: that was the end. */
-static bool show(const Screen *screen, const Solid *solid, int step)
+static bool show(Screen *screen, Solid *solid, double h, int step)
 {
     draw(screen, solid);
     if (screen->picture) {
@@ -500,16 +497,18 @@ static bool show(const Screen *screen, const Solid *solid, int step)
         }
         return step < PICTURES;
     }
-    SDL_Event event;
-    int left = step == 0 ? 1000 : 40; /* ms: real time would be too fast */
-    Uint32 end = SDL_GetTicks() + (Uint32)left;
-    while (SDL_WaitEventTimeout(&event, SDL_max(left, 0))) {
-        if (event.type == SDL_QUIT ||
-            (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE))
+    SDL_Event event; /* 40 ms a step: real time would be too fast */
+    Uint32 end = SDL_GetTicks() + (step == 0 ? 1000 : 40);
+    while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end)) {
+        if (!SDL_WaitEventTimeout(&event, 10))
+            continue;
+        if (!handle(screen, solid, &event))
             return false;
-        if (event.type == SDL_WINDOWEVENT)
-            draw(screen, solid); /* it was uncovered or resized */
-        left = (int)(end - SDL_GetTicks());
+        draw(screen, solid); /* it may have been uncovered or resized */
+    }
+    if (screen->held >= 0) { /* a third of its way to the mouse */
+        Vec2 way = sub(screen->mouse, solid->x[screen->held]);
+        solid->v[screen->held] = mul(1 / (3 * h), way);
     }
     return true;
 }
@@ -566,13 +565,13 @@ int main(int argc, char **argv)
     char part[2 * FILENAME_MAX];
     snprintf(part, sizeof part, "%s%s", states,
              strncmp(states, "/dev/", 5) == 0 ? "" : ".part");
-    FILE *file = fopen(part, "w"), *table = steps.value < 0 ? NULL : stdout;
+    FILE *file = fopen(part, "w");
     if (!file)
         FAIL(1, "cannot write %s: %s\n", part, strerror(errno));
     fputs("step,time,node,x,y,vx,vy\n", file);
-    if (table)
-        fputs("step,iteration,residual,alpha\n", table);
-    Screen screen = table ? (Screen){0} : open_screen(&solid);
+    bool drawn = steps.value < 0;
+    Screen screen = drawn ? open_screen(&solid) : (Screen){0};
+    puts("step,iteration,residual,alpha");
     for (int step = 0;; step++) {
         for (int i = 0; i < solid.nodes; i++)
             fprintf(file, "%d,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n", step,
@@ -581,14 +580,12 @@ int main(int argc, char **argv)
         if (fflush(NULL) != 0 || ferror(file) || ferror(stdout))
             FAIL(1, "cannot write %s: %s\n",
                  ferror(file) ? part : "standard output", strerror(errno));
-        if (table ? step == steps.value : !show(&screen, &solid, step))
+        if (drawn ? !show(&screen, &solid, h.value, step) : step == steps.value)
             break;
         if (method.value == 0)
-            step_forward(&solid, h.value, tol.value, step + 1, table);
-        else if (method.value == 1)
-            symplectic_euler(&solid, h.value);
+            step_forward(&solid, h.value, tol.value, step + 1, stdout);
         else
-            forward_euler(&solid, h.value);
+            explicit_euler(&solid, h.value, method.value == 1);
         if (!isfinite(spring_val(&solid, solid.x)))
             FAIL(1, "step %d: the square has exploded\n", step + 1);
     }

@@ -146,7 +146,7 @@ if [ "$missing" ]; then
     exit $failed
 fi
 find_window() {
-    window=$(xdotool search --name '^lecture$' 2>/dev/null | tail -n 1)
+    window=$(xdotool search --name '^lecture: ' 2>/dev/null | tail -n 1)
     [ -n "$window" ]
 }
 # closes COMMAND...: the window that comes up closes by this; states are whole.
@@ -156,7 +156,7 @@ closes() {
     pid=$!
     until_true find_window || echo 'no window'
     sleep 0.5
-    window=$(xdotool search --name '^lecture$' | tail -n 1)
+    window=$(xdotool search --name '^lecture: ' | tail -n 1)
     "$@" "$window" || echo "$1 failed"
     until_true has_ended "$pid" || {
         echo 'it does not close'
@@ -171,7 +171,26 @@ closes() {
 escape() {
     timeout 20 xdotool windowfocus --sync "$1" key Escape
 }
+# The upper right node, 150 and 107 pixels from the middle of the window, is led
+# upwards from (0.7, 0.5) to (0.7, 0.7933); Space stops that, and R puts it back.
+lives() {
+    timeout 20 xdotool windowfocus --sync "$1" mousemove --window "$1" 452 191 \
+        sleep 0.3 mousedown 1 sleep 0.2 mousemove --window "$1" 450 130 \
+        sleep 1.5 key space sleep 0.3
+    led=$(tail -n 1 seen.part)
+    echo "$led" | awk -F , '{ off = ($4 - 0.7) ^ 2 + ($5 - 0.7933) ^ 2
+        if (!(off < 1e-4)) print "the node is led to " $4 " " $5 }'
+    sleep 0.5
+    [ "$led" = "$(tail -n 1 seen.part)" ] || echo 'Space does not stop it'
+    timeout 20 xdotool mouseup 1 key r sleep 0.2 key space sleep 0.5
+    awk -F , -v from="${led%%,*}" '$1 == from + 1 && $3 == 24 { back = $4 " " $5
+        seen = $4 > 0.65 && $4 <= 0.7 && $5 < 0.52 }
+        END { if (!seen) print "R puts it back to " back }' seen.part
+    escape "$1"
+}
+
 start_screen 1000x1000
+verdict it_lives "$(closes lives)"
 verdict escape_closes_the_window "$(closes escape)"
 if compile_close_window "$tests"; then
     verdict the_cross_closes_the_window "$(closes ./close_window)"
