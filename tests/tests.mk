@@ -22,6 +22,12 @@ $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
   -lsuitesparseconfig
 $(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line plot_graph)
 
+# Multigrid's loops once more, for one number at a time: before the archive.
+$(B)/narrow/%.o: src/solve/%.c $(B)/flags
+	$(call shown,CC)
+	$(Q)$(COMPILE) -DFAST= -MMD -MP -c $< -o $@
+$(B)/tests/unit/test_widths: $(GRID_LOOPS:%=$(B)/narrow/%.o)
+
 # What the frames say, and of which states, for checks/frame_numbers.py.
 $(B)/tests/unit/texts: LIBS += $(call wrap,text_draw paper_paragraph \
   plot_create plot_on)

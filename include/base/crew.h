@@ -2,8 +2,8 @@
  *
  * Work is cut into chunks that both threads take from one counter, so a second
  * thread that the system does not run is never waited for, only a chunk that
- * it has begun.  Where the machine is busy, that still costs: the crew
- * measures how much of the time was lost so, and works alone for a while.
+ * it has begun.  Where the machine is busy, that still costs: after a long wait
+ * the caller works alone for a while.
  *
  * What a loop computes must not depend on who did which chunk.
  */
@@ -23,9 +23,6 @@ typedef void CrewWork(const void *job, int first, int end);
  * NULL: the caller works alone, which every function here accepts. */
 Crew *crew_create(int threads);
 void crew_free(Crew *crew);
-
-/* After a pause: what is lost is measured from here on. */
-void crew_begin(Crew *crew);
 
 /* Calls work for all of 0 ... count - 1, on both threads where cost, in
  * nanoseconds of one thread, makes it worth the while. */

@@ -116,7 +116,7 @@ struct TermKind {
      * up everywhere. */
     void (*concave)(const Place *at, double *sum);
 
-    bool diagonal;    /* quadratic, and each coordinate stands alone */
+    bool diagonal;    /* quadratic, and each node stands alone: c/2 |x - o|^2 */
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
                          backward Euler; other methods refuse it by name */

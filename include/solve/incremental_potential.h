@@ -65,6 +65,14 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
 void incremental_potential_product(const Iterate *at, Filter filter,
                                    const double *q, double *y);
 
+/* What draws nodes to points, and nothing else, makes them heavier:
+ *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.
+ * Writes over g and p.
+ *   m        [2n] kg, out, m + w c
+ *   u_tilde  [2n] m, out, v */
+void incremental_potential_inertia(const Iterate *at, double *m,
+                                   double *u_tilde);
+
 /* Where each coordinate stands alone in all terms, or there is none: u and x of
  * the minimum, without any matrix.  Writes over g and p.
  * Returns OK, NOT_FINITE; RUNNING where it is not so: nothing was done. */

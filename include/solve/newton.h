@@ -129,7 +129,6 @@ typedef struct Newton {
     Solver working;       /* NEWTON or MULTIGRID: who makes this step */
     bool lent;            /* NEWTON works, until multigrid's saddle is left */
     const char *refusal;  /* why multigrid does not, though wanted; or NULL */
-    double first_change;  /* J s^2, the largest of this step by multigrid */
     double sum, size;     /* J s^2, of the changes in this minimisation; and of
                              their sizes */
     double change; /* J s^2, E at the end - E at the start, of all minimisations

@@ -51,8 +51,9 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
                    .bands = segments / BAND + 1};
     size_t plane = (size_t)grid->rows.plane * sizeof(double);
     size_t shifts = ((size_t)segments + 2) * sizeof(int);
-    double **vectors[] = {&grid->x, &grid->x_tilde, &grid->away};
-    for (int i = 0; i < 3; i++)
+    double **vectors[] = {&grid->x, &grid->x_tilde, &grid->u_tilde,
+                          &grid->away};
+    for (int i = 0; i < 4; i++)
         *vectors[i] = memory_piece(memory, 2 * plane);
     for (int kind = 0; kind < KINDS; kind++) {
         grid->c[kind] = memory_piece(memory, plane);
@@ -79,20 +80,20 @@ static int share_row(const Rows *rows, double *const *array, int arrays, int at)
     return at;
 }
 
-static void read_nodes(Grid *grid, const double *m, const unsigned char *pinned)
+static void read_nodes(Grid *grid, const System *system, const double *m)
 {
     const Rows *rows = &grid->rows;
     double *const arrays[] = {grid->m, grid->per_m};
     grid->lightest = INFINITY;
     grid->mass = 0;
-    for (int i = 0, at = 0; i < rows->nodes; i++) {
-        for (int j = 0; j < rows->nodes; j++, m++) {
-            bool held = pinned && pinned[i * rows->nodes + j];
+    for (int i = 0, node = 0, at = 0; i < rows->nodes; i++) {
+        for (int j = 0; j < rows->nodes; j++, node++) {
+            bool held = system->pinned && system->pinned[node];
             int q = place_of(rows, at, j);
-            grid->mass += grid->m[q] = *m;
-            grid->per_m[q] = held ? 0 : 1 / *m;
+            grid->mass += grid->m[q] = m[2 * node];
+            grid->per_m[q] = held ? 0 : 1 / m[2 * node];
             if (!held)
-                grid->lightest = fmin(grid->lightest, *m);
+                grid->lightest = fmin(grid->lightest, m[2 * node]);
         }
         int next = share_row(rows, arrays, 2, at);
         grid->node_shift[i] = (next - 1 - i) * rows->pitch;
@@ -142,35 +143,37 @@ static void read_springs(Grid *grid, const double *k, const double *l2,
     }
 }
 
-void grid_read_system(Grid *grid, const MultigridStep *step)
+void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 {
-    read_nodes(grid, step->m, step->pinned);
-    read_springs(grid, step->k, step->l2, step->weight);
+    Place place = place_at(at->E.system, at->E.x_n, at->u, at->x);
+    read_nodes(grid, at->E.system, m);
+    read_springs(grid, place.k, place.l2, at->E.weight);
 }
 
-void grid_read_state(Grid *grid, const MultigridStep *step)
+void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
 {
     const Rows *rows = &grid->rows;
+    const unsigned char *pinned = at->E.system->pinned;
     for (int node = 0; node < rows->nodes * rows->nodes; node++) {
         int q = place_of(rows, node / rows->nodes, node % rows->nodes);
-        bool held = step->pinned && step->pinned[node];
+        bool held = pinned && pinned[node];
         for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
-            double u = step->u ? step->u[k] : 0, u_tilde = step->u_tilde[k];
-            grid->x[q] = step->x_n[k] + u;
-            grid->x_tilde[q] = step->x_n[k] + (held ? u : u_tilde);
-            grid->away[q] = held ? 0 : u - u_tilde;
+            grid->x[q] = at->x[k];
+            grid->u_tilde[q] = held ? at->u[k] : u_tilde[k];
+            grid->x_tilde[q] = at->E.x_n[k] + grid->u_tilde[q];
+            grid->away[q] = held ? 0 : at->u[k] - u_tilde[k];
         }
     }
 }
 
-void grid_displacement(const Grid *grid, const MultigridStep *step, double *u)
+void grid_write_state(const Grid *grid, Iterate *at)
 {
     const Rows *rows = &grid->rows;
     for (int node = 0; node < rows->nodes * rows->nodes; node++) {
         int q = place_of(rows, node / rows->nodes, node % rows->nodes);
-        if (step->pinned && step->pinned[node])
-            continue;
-        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane)
-            u[k] = step->u_tilde[k] + grid->away[q];
+        for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
+            at->u[k] = grid->u_tilde[q] + grid->away[q];
+            at->x[k] = at->E.x_n[k] + at->u[k];
+        }
     }
 }

@@ -23,7 +23,7 @@
 
 #include "base/crew.h"
 #include "base/status.h"
-#include "solve/multigrid.h"
+#include "solve/incremental_potential.h"
 
 /* From node (i, j): to (i+1, j), (i, j+1), (i+1, j+1), (i+1, j-1). */
 enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
@@ -61,7 +61,7 @@ typedef struct Grid {
     double *l2[KINDS];              /* [plane] m^2 */
     double *m, *per_m;              /* [plane] kg; 1/kg, 0 for pins */
     double lightest, mass;          /* kg, of nodes that move; of all */
-    double *x, *x_tilde;            /* [2 planes] m */
+    double *x, *x_tilde, *u_tilde;  /* [2 planes] m */
     double *away;                   /* [2 planes] m, x - x_tilde in the digits
                                        of u; pins: 0 */
     double *sums;                   /* [bands * MAX_SUMS] */
@@ -86,14 +86,14 @@ Status memory_create(Memory *memory);
 /* Arrays for segments x segments cells, everything else 0. */
 void grid_lay_out(int segments, Memory *memory, Grid *grid);
 
-/* Masses, pins, stiffnesses and lengths of the system. */
-void grid_read_system(Grid *grid, const MultigridStep *step);
+/* Pins, stiffnesses and lengths of the system; m [2n] kg, masses. */
+void grid_read_system(Grid *grid, const Iterate *at, const double *m);
 
-/* x, x_tilde and away. */
-void grid_read_state(Grid *grid, const MultigridStep *step);
+/* x and away, with u_tilde [2n] m. */
+void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde);
 
-/* u [2n] m, out, but for pins: u_tilde + away. */
-void grid_displacement(const Grid *grid, const MultigridStep *step, double *u);
+/* at->u = u_tilde + away, but for pins, and at->x. */
+void grid_write_state(const Grid *grid, Iterate *at);
 
 /* ---- loops over all nodes (grid_energy.c); vectors have [2 planes] ---- */
 

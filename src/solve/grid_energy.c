@@ -26,15 +26,6 @@ static void run(CrewWork *loop, Pass pass, double cost, int sums, double *sum)
             sum[s] += grid->sums[band * MAX_SUMS + s];
 }
 
-/* The nodes of a band, LANES at once: nodes q, with `at`. */
-#define EACH_NODE_OF(grid, band)                                               \
-    for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
-         i++)                                                                  \
-        for (int odd = 0; odd < 2; odd++)                                      \
-            for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
-                 at.first += LANES)                                            \
-                EACH_OF (LANES)
-
 /* How each loop begins. */
 #define BANDS                                                                  \
     const Pass *pass = job;                                                    \

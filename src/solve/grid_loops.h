@@ -84,6 +84,15 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     return at;
 }
 
+/* The nodes of a band, LANES at once: nodes q, with `at`. */
+#define EACH_NODE_OF(grid, band)                                               \
+    for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
+         i++)                                                                  \
+        for (int odd = 0; odd < 2; odd++)                                      \
+            for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
+                 at.first += LANES)                                            \
+                EACH_OF (LANES)
+
 /* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
 typedef struct Spring {
     double dx, dy, d2, s, c;

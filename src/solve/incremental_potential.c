@@ -201,6 +201,30 @@ double incremental_potential_concave(const Iterate *at, double *sum)
     return largest;
 }
 
+void incremental_potential_inertia(const Iterate *at, double *m,
+                                   double *u_tilde)
+{
+    const System *system = at->E.system;
+    Place place = place_of(&at->E, at->u, at->x);
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        m[i] = system->m[i / 2];
+        u_tilde[i] = at->E.u_tilde[i];
+        at->g[i] = 0;
+        at->p[i] = 1;
+    }
+    for (const TermKind *kind; (kind = next_energy(&place));)
+        if (kind->diagonal) {
+            kind->gradient(&place, at->g);
+            kind->hessian(&place, FILTER_NONE, NULL, at->p, m);
+        }
+    for (int i = 0; i < 2 * system->nodes; i++)
+        if (m[i] != system->m[i / 2]) {
+            double away = at->u[i] - u_tilde[i];
+            double g = system->m[i / 2] * away + at->g[i];
+            u_tilde[i] = at->u[i] - g / m[i];
+        }
+}
+
 /* From u_tilde each coordinate alone has its Newton step g/H, and H g tells H:
  * it is exact where E is quadratic. */
 Status incremental_potential_solve(Iterate *at)

@@ -2,9 +2,10 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/quartic.h"
+#include "model/mass_spring_energy.h"
+#include "solve/newton_parts.h"
 #include "solve/tiles.h"
 #include "solve/v_cycle.h"
 
@@ -25,24 +26,30 @@ static const double STALLS = 0.3, PACE = 0.5;
  * precision, and made smaller by REFINED, until it falls no more. */
 static const double WORTH_A_TEST = 8, TESTED = 1e-4, REFINED = 1e-2;
 
+/* Iterations that multigrid gets; most steps need ten. */
+enum { HANDED_ITERATIONS = 200 };
+
+/* A change of E that is this small a part of the step's first one may be
+ * rounding: that is looked at. */
+static const double SMALL_CHANGE = 1e-9;
+
 struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    Memory memory; /* all of their arrays, and these */
-    Crew *crew;
-    MultigridRecord record;
-    MultigridStep step;
+    Memory memory;        /* all of their arrays, and these */
     double *g, *p, *rest; /* [2 planes] grad E and direction at x, remainder */
     double square;        /* |g|_(M^-1)^2 */
     double moment[2];     /* kg m, sum m (x - x_tilde) */
     double bound;         /* m/s, of the residual */
     double last_bound;    /* m/s, an iteration before */
     double test_below;    /* m/s, half the bound when it said no */
-    bool known;           /* the grid has the system's numbers */
+    double largest;       /* J s^2, change of E in this step, < 0 */
+    unsigned version;     /* of the system, and */
+    double weight;        /* s^2, of P, for which the grid has the numbers */
+    int directions;       /* of this step */
     bool directed;        /* p is a direction at x */
     bool stalls;          /* tiles relax in each iteration */
-    int iterations;       /* of this step */
 };
 
 static void lay_out(int segments, Multigrid *mg)
@@ -59,20 +66,17 @@ static void lay_out(int segments, Multigrid *mg)
 
 Status multigrid_create(int segments, int threads, Multigrid **multigrid)
 {
-    *multigrid = NULL;
-    if (segments < 1)
-        return STATUS_INVALID_INPUT;
-    Multigrid *mg = calloc(1, sizeof *mg);
+    Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
     if (!mg)
         return STATUS_OUT_OF_MEMORY;
     lay_out(segments, mg);
     if (memory_create(&mg->memory)) {
         free(mg);
+        *multigrid = NULL;
         return STATUS_OUT_OF_MEMORY;
     }
     lay_out(segments, mg);
-    mg->crew = mg->grid.crew = crew_create(threads);
-    *multigrid = mg;
+    mg->grid.crew = crew_create(threads);
     return STATUS_OK;
 }
 
@@ -80,39 +84,175 @@ void multigrid_free(Multigrid *mg)
 {
     if (!mg)
         return;
-    crew_free(mg->crew);
+    crew_free(mg->grid.crew);
     free(mg->memory.base);
     free(mg);
 }
 
-/* ---- the test ---- */
+/* ---- who makes a minimisation ---- */
 
-/* m/s, the residual of a direction whose largest |p_x| + |p_y| is this. */
-static double residual_of(const Multigrid *mg, double largest)
+/* Whether nodes and springs are those of square_mesh.h. */
+static bool is_grid(const System *system)
 {
-    return largest / mg->step.h;
+    int n = system->segments;
+    return n > 0 && system->nodes == (n + 1) * (n + 1) &&
+           system->springs == 2 * n * (n + 1) + 2 * n * n;
 }
+
+/* Whether only springs, with or without damping, have an energy, and what draws
+ * nodes to points. */
+static bool has_springs_alone(const System *system)
+{
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        if (kind != &mass_spring_energy && kind->value && !kind->diagonal)
+            return false;
+    }
+    return system_find_term(system, &mass_spring_energy);
+}
+
+/* Why multigrid does not take it, or NULL. */
+static const char *refusal(const Newton *newton)
+{
+    const NewtonSettings *settings = &newton->settings;
+    if (!is_grid(newton->system))
+        return "there is no square grid";
+    if (settings->averaged)
+        return "the energy is averaged over the step";
+    if (!has_springs_alone(newton->system))
+        return "there are energies beside the springs'";
+    if (settings->filter != FILTER_CLAMP)
+        return "the projection is not clamp";
+    if (settings->search != LINE_SEARCH_BACKTRACK)
+        return "there is no line search";
+    if (newton->rounding.blurred) /* the test would need more digits */
+        return "springs outweigh the masses too far";
+    return NULL;
+}
+
+bool multigrid_takes(Newton *newton)
+{
+    Solver solver = newton->settings.solver;
+    bool wanted = solver == SOLVER_AUTO
+                      ? newton->system->segments > AUTO_NEWTON_SEGMENTS
+                      : solver == SOLVER_MULTIGRID;
+    newton->refusal = wanted ? refusal(newton) : NULL;
+    wanted = wanted && !newton->refusal;
+    newton->working = wanted ? SOLVER_MULTIGRID : SOLVER_NEWTON;
+    return wanted;
+}
+
+/* ---- the test ---- */
 
 /* Whether p = -H^-1 g, and its residual, got so exact that the test is decided
  * by a remainder in double precision. */
-static bool decide_test(Multigrid *mg)
+static bool decide_test(Newton *newton)
 {
-    const Grid *grid = &mg->grid;
-    double length = mg->step.h * mg->step.tolerance, last, now = INFINITY;
+    Multigrid *mg = newton->multigrid;
+    const double h = newton->settings.h;
+    double length = h * newton->settings.tolerance, last, now = INFINITY;
     VEnd end = {TESTED, length, MAX_CYCLES};
     v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
     end = (VEnd){REFINED, 0, MAX_CYCLES};
     do {
         double largest;
         last = now;
-        now = grid_remainder(grid, mg->g, mg->p, mg->rest, &largest);
-        mg->record.after = residual_of(mg, largest);
-        if (v_decides(grid, largest, now, length))
+        now = grid_remainder(&mg->grid, mg->g, mg->p, mg->rest, &largest);
+        newton->residual = largest / h;
+        if (v_decides(&mg->grid, largest, now, length))
             return true;
         v_solve(&mg->cycle, 1, mg->rest, now, end, true, mg->p);
     } while (now < 0.25 * last);
     return false;
 }
+
+/* g at x, and the bound of the residual. */
+static void evaluate(Newton *newton)
+{
+    Multigrid *mg = newton->multigrid;
+    mg->square = grid_gradient(&mg->grid, mg->g, mg->moment);
+    mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / newton->settings.h;
+    mg->directed = mg->cycle.set_up = false;
+    newton->residual = mg->bound;
+    newton->kind = RESIDUAL_BOUND;
+    newton->counters.gradients++;
+}
+
+/* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
+static Status pass_test(Newton *newton)
+{
+    Multigrid *mg = newton->multigrid;
+    const double tolerance = newton->settings.tolerance;
+    double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
+    if (!isfinite(mg->square))
+        return STATUS_NOT_FINITE;
+    if (mg->bound <= tolerance)
+        return STATUS_OK;
+    if (!(mg->bound <= fmin(worth, mg->test_below)))
+        return STATUS_RUNNING;
+    if (system_is_free(newton->system)) {
+        grid_shift(&mg->grid, (double[2]){-mg->moment[0] / mg->grid.mass,
+                                          -mg->moment[1] / mg->grid.mass});
+        evaluate(newton);
+    }
+    mg->directed = decide_test(newton);
+    mg->test_below = mg->bound / 2;
+    newton->kind = RESIDUAL_ESTIMATE;
+    return mg->directed && newton->residual <= tolerance ? STATUS_OK
+                                                         : STATUS_RUNNING;
+}
+
+/* Newton goes on from the iterate that multigrid has reached; where that is a
+ * saddle for one iteration, which leaves it. */
+static Status take_back(Newton *newton)
+{
+    int saddles = newton->saddles;
+    newton->working = newton->record.solver = SOLVER_NEWTON;
+    newton->rounding.E = NAN;
+    Status status = direction_first(newton);
+    newton->lent = newton->saddles > saddles;
+    newton->counters.taken_back += status == STATUS_RUNNING && !newton->lent;
+    return status;
+}
+
+Status multigrid_start(Newton *newton)
+{
+    Iterate *at = &newton->at;
+    const System *system = newton->system;
+    double *m = newton->x_trial, *u_tilde = newton->u_trial;
+    Status status = STATUS_OK;
+    if (!newton->multigrid)
+        status = multigrid_create(system->segments, 0, &newton->multigrid);
+    if (status)
+        return status;
+    Multigrid *mg = newton->multigrid;
+    newton->lent = newton->bends_down = mg->stalls = false;
+    newton->working = newton->record.solver = SOLVER_MULTIGRID;
+    newton->record.factorised = false;
+    newton->record.projected = 0;
+    newton->record.shift = 0;
+    mg->last_bound = mg->test_below = INFINITY;
+    mg->largest = mg->directions = 0;
+    incremental_potential_inertia(at, m, u_tilde);
+    if (mg->weight != at->E.weight || mg->version != system->version) {
+        grid_read_system(&mg->grid, at, m);
+        v_cycle_read_system(&mg->cycle);
+    }
+    mg->weight = at->E.weight;
+    mg->version = system->version;
+    grid_read_state(&mg->grid, at, u_tilde);
+    evaluate(newton);
+    status = pass_test(newton);
+    grid_write_state(&mg->grid, at);
+    newton->counters.cycles = mg->cycle.cycles;
+    /* A gradient that vanishes may be that of a maximum: Newton looks. */
+    if (status == STATUS_OK && newton->kind == RESIDUAL_BOUND)
+        return take_back(newton);
+    status = status == STATUS_OK ? direction_judges_end(newton) : status;
+    return status == STATUS_NOT_A_MINIMUM ? take_back(newton) : status;
+}
+
+/* ---- the iteration ---- */
 
 /* A place where the quartic is below 0, at a minimum if rounding allows, looked
  * for from 1 on; 0 if there is none.
@@ -134,127 +274,85 @@ static double lowest(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Goes along p to where E is lowest, and adds to the record by how much that
- * changed E.  Returns OK, LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
-static Status search_step(Multigrid *mg)
+/* Goes along p to where E is lowest, and tells the record.  Returns OK,
+ * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE. */
+static Status search_step(Newton *newton)
 {
-    MultigridRecord *record = &mg->record;
+    Multigrid *mg = newton->multigrid;
+    NewtonRecord *record = &newton->record;
     Quartic along;
     grid_along(&mg->grid, mg->g, mg->p, along.q);
     record->slope = along.q[0];
-    record->alpha = record->trials = 0;
+    record->alpha = record->change = record->trials = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
     record->alpha = lowest(&along, &record->trials);
+    newton->counters.trials += record->trials;
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change += quartic_value(&along, record->alpha);
+    record->change = quartic_value(&along, record->alpha);
     grid_move(&mg->grid, record->alpha, mg->p);
     return STATUS_OK;
 }
 
-/* g at x, and the bound of the residual. */
-static void evaluate(Multigrid *mg)
+/* Direction, step, tiles where it stalls, and the test of where that led. */
+static Status iterate(Newton *newton)
 {
-    mg->square = grid_gradient(&mg->grid, mg->g, mg->moment);
-    mg->bound = mg->record.after =
-        residual_of(mg, sqrt(2 / mg->grid.lightest * mg->square));
-    mg->directed = mg->record.decided = mg->cycle.set_up = false;
-    mg->step.counters->gradients++;
-}
-
-/* The test of Algorithm 3 at x.  Returns OK, RUNNING, NOT_FINITE. */
-static Status multigrid_test(Multigrid *mg)
-{
-    const double tolerance = mg->step.tolerance;
-    if (!isfinite(mg->square))
-        return STATUS_NOT_FINITE;
-    if (!(mg->bound <= tolerance)) {
-        double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
-        if (!(mg->bound <= fmin(worth, mg->test_below)))
-            return STATUS_RUNNING;
-        if (mg->step.is_free) {
-            grid_shift(&mg->grid, (double[2]){-mg->moment[0] / mg->grid.mass,
-                                              -mg->moment[1] / mg->grid.mass});
-            evaluate(mg);
-        }
-        mg->directed = decide_test(mg);
-        mg->record.decided = true;
-        mg->test_below = mg->bound / 2;
-        if (!mg->directed || !(mg->record.after <= tolerance))
-            return STATUS_RUNNING;
-    }
-    return STATUS_OK;
-}
-
-/* ---- the iteration ---- */
-
-/* Before a return: what the parts have done. */
-static Status count(Multigrid *mg, Status status)
-{
-    mg->step.counters->cycles += mg->cycle.cycles;
-    mg->step.counters->local += mg->tiles.sweeps;
-    mg->cycle.cycles = mg->tiles.sweeps = 0;
-    return status;
-}
-
-Status multigrid_start(Multigrid *mg, const MultigridStep *step)
-{
-    mg->known = mg->known && step->weight == mg->step.weight &&
-                step->version == mg->step.version;
-    mg->step = *step;
-    mg->record = (MultigridRecord){0};
-    mg->stalls = false;
-    mg->iterations = 0;
-    mg->last_bound = mg->test_below = INFINITY;
-    crew_begin(mg->crew);
-    if (!mg->known) {
-        grid_read_system(&mg->grid, step);
-        v_cycle_read_system(&mg->cycle);
-    }
-    mg->known = true;
-    grid_read_state(&mg->grid, step);
-    evaluate(mg);
-    return count(mg, multigrid_test(mg));
-}
-
-Status multigrid_iterate(Multigrid *mg)
-{
+    Multigrid *mg = newton->multigrid;
+    NewtonRecord *record = &newton->record;
     const double bound = mg->bound;
-    double residual = mg->record.after;
-    if (!mg->directed) {
-        VEnd end = {ENOUGH, 0, MAX_CYCLES};
-        residual = residual_of(
-            mg, v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p));
-    }
-    mg->record = (MultigridRecord){.residual = residual};
-    Status status = search_step(mg);
-    if (!status) {
-        mg->stalls = mg->stalls || (mg->iterations >= DIRECTIONS &&
-                                    bound > STALLS * mg->last_bound);
-        mg->last_bound = bound;
-        mg->iterations++;
-        mg->step.counters->iterations++;
-        int tiles = mg->tiles.high * mg->tiles.wide;
-        if (mg->stalls)
-            mg->record.change +=
-                tiles_relax(&mg->tiles, PACE * mg->record.change / tiles);
-        evaluate(mg);
-        status = multigrid_test(mg);
-    }
-    return count(mg, status);
+    VEnd end = {ENOUGH, 0, MAX_CYCLES};
+    record->kind = RESIDUAL_ESTIMATE;
+    if (!mg->directed)
+        record->residual =
+            v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p) /
+            newton->settings.h;
+    Status status = search_step(newton);
+    if (status)
+        return status;
+    mg->stalls = mg->stalls || (mg->directions >= DIRECTIONS &&
+                                bound > STALLS * mg->last_bound);
+    mg->last_bound = bound;
+    mg->directions++;
+    newton->counters.iterations++;
+    int tiles = mg->tiles.high * mg->tiles.wide;
+    if (mg->stalls)
+        record->change +=
+            tiles_relax(&mg->tiles, PACE * record->change / tiles);
+    evaluate(newton);
+    return pass_test(newton);
 }
 
-/* ---- what others may know ---- */
-
-void multigrid_displacement(const Multigrid *mg, double *u)
+/* Whether multigrid has come to its end without the test being passed.
+ *   last  no more iterations are allowed */
+static bool is_stuck(Newton *newton, Status status, bool last)
 {
-    grid_displacement(&mg->grid, &mg->step, u);
+    Multigrid *mg = newton->multigrid;
+    const NewtonRecord *record = &newton->record;
+    mg->largest = fmin(mg->largest, record->change);
+    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest;
+    bool many = record->iteration >= HANDED_ITERATIONS;
+    if (last || small || many || status != STATUS_RUNNING ||
+        newton->settings.observer)
+        grid_write_state(&mg->grid, &newton->at); /* else nobody looks at it */
+    if (status != STATUS_RUNNING)
+        return status != STATUS_OK;
+    return many || (small && rounding_hides(newton, record->change));
 }
 
-const MultigridRecord *multigrid_record(const Multigrid *mg)
+Status multigrid_iterate(Newton *newton, NewtonRecord *done)
 {
-    return &mg->record;
+    Multigrid *mg = newton->multigrid;
+    Status status = iterate(newton);
+    newton->counters.cycles = mg->cycle.cycles;
+    newton->counters.local = mg->tiles.sweeps;
+    *done = newton->record;
+    bool last = done->iteration + 1 >= newton_most_iterations(newton);
+    bool stuck = is_stuck(newton, status, last);
+    status = status == STATUS_OK ? direction_judges_end(newton) : status;
+    if (stuck || status == STATUS_NOT_A_MINIMUM)
+        status = take_back(newton);
+    return status == STATUS_RUNNING && last ? STATUS_ITERATION_LIMIT : status;
 }

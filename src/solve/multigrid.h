@@ -22,54 +22,25 @@
 
 #include "solve/newton.h"
 
-/* The parts of a time step; arrays as in system.h and square_mesh.h. */
-typedef struct MultigridStep {
-    unsigned version;            /* of m, pinned, k and l2: others, another */
-    const double *x_n;           /* [2n] m */
-    const double *u;             /* [2n] m, where to begin; NULL: 0 */
-    const double *u_tilde;       /* [2n] m */
-    const double *m;             /* [n] kg, > 0 */
-    const unsigned char *pinned; /* [n], or NULL */
-    const double *k, *l2;        /* [springs] J/m^2, >= 0; m^2, > 0 */
-    double weight;               /* w, s^2 */
-    double h;                    /* s, divides the residual */
-    double tolerance;            /* m/s */
-    bool is_free;                /* nothing acts on the centre of mass */
-    NewtonCounters *counters;    /* where what is done is added up */
-} MultigridStep;
-
-/* What one iteration did; or, after multigrid_start, where it begins. */
-typedef struct MultigridRecord {
-    double residual; /* m/s, of p where it began: known up to what conjugate
-                        gradients leave */
-    double slope;    /* g.p, J s^2 */
-    double alpha;    /* along p */
-    double change;   /* of E, J s^2, by all it did */
-    int trials;      /* points along p that were looked at */
-    double after;    /* m/s, residual at the iterate that it led to: of an exact
-                        p, up to a remainder that decided the test; or an upper
-                        bound */
-    bool decided;    /* which of both */
-} MultigridRecord;
-
 /* Allocates for segments x segments cells.
  *   threads  1, 2; 0: what the machine has (ELASTO_THREADS limits it)
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY (then *multigrid is NULL). */
+ * Returns OK, OUT_OF_MEMORY (then *multigrid is NULL). */
 Status multigrid_create(int segments, int threads, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
-/* Begins a step.  Of its arrays u_tilde and pinned are needed until it ends.
- * Returns RUNNING, OK (the test is passed), or NOT_FINITE. */
-Status multigrid_start(Multigrid *multigrid, const MultigridStep *step);
+/* Whether multigrid makes the minimisation that newton->at describes: it is
+ * asked for, and the terms and settings are those that it knows.  Writes
+ * newton->working, and newton->refusal where it is asked for and cannot. */
+bool multigrid_takes(Newton *newton);
 
-/* One iteration.  Returns RUNNING; OK (converged); or why it cannot go on:
- * LINE_SEARCH_LIMIT, NOT_DESCENT, NOT_FINITE.  u is then the last iterate,
- * where E is not higher than before. */
-Status multigrid_iterate(Multigrid *multigrid);
+/* Instead of direction_first: the start, and its test.  Returns as that. */
+Status multigrid_start(Newton *newton);
 
-/* u [2n] m, out: the present iterate; pinned nodes are not written. */
-void multigrid_displacement(const Multigrid *multigrid, double *u);
-
-const MultigridRecord *multigrid_record(const Multigrid *multigrid);
+/* Instead of an iteration; u and x are written where somebody looks at them.
+ * Where multigrid cannot go on, such as among rounding errors, or is at a
+ * saddle, Newton's own iterations go on from its last iterate.
+ *   done  out, what the record tells of it
+ * Returns as newton_iterate. */
+Status multigrid_iterate(Newton *newton, NewtonRecord *done);
 
 #endif

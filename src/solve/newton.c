@@ -43,9 +43,8 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     newton->kind = RESIDUAL_VALUE;
     newton->status = incremental_potential_solve(at);
     if (newton->status == STATUS_RUNNING)
-        newton->status = newton_takes_multigrid(newton)
-                             ? newton_multigrid_start(newton)
-                             : direction_first(newton);
+        newton->status = multigrid_takes(newton) ? multigrid_start(newton)
+                                                 : direction_first(newton);
     return newton->status;
 }
 
@@ -101,25 +100,32 @@ static Status newton_limits(Newton *newton, Status status)
     return status;
 }
 
-/* Step length, update, next direction and its test; the record tells how. */
+/* Step length, update, next direction and its test.
+ *   done  out, what the record tells of the first two */
+static Status iterate(Newton *newton, NewtonRecord *done)
+{
+    Status status = step_length(newton);
+    if (!status)
+        status = newton_update(newton);
+    *done = newton->record;
+    if (!status)
+        status =
+            newton->lent ? multigrid_start(newton) : direction_next(newton);
+    return newton_limits(newton, status);
+}
+
 Status newton_iterate(Newton *newton)
 {
     if (newton->status != STATUS_RUNNING)
         return newton->status;
-    if (newton->working == SOLVER_MULTIGRID)
-        return newton_multigrid_iterate(newton);
     double start = clock_now();
+    NewtonRecord done;
     newton->record.iteration++;
     newton->record.residual = newton->residual;
     newton->record.kind = newton->kind;
-    Status status = step_length(newton);
-    if (!status)
-        status = newton_update(newton);
-    NewtonRecord done = newton->record;
-    if (!status)
-        status = newton->lent ? newton_multigrid_again(newton)
-                              : direction_next(newton);
-    status = newton_limits(newton, status);
+    Status status = newton->working == SOLVER_MULTIGRID
+                        ? multigrid_iterate(newton, &done)
+                        : iterate(newton, &done);
     done.status = status;
     done.seconds = clock_now() - start;
     return newton->status = newton_tell(newton, &done);

@@ -67,21 +67,4 @@ Status rounding_stagnation(Newton *newton);
 /* Whether a minimisation that is held to E has ended above its start. */
 bool rounding_sees_rise(const Newton *newton);
 
-/* ---- newton_multigrid.c: minimisations that multigrid makes for Newton. */
-
-/* Whether multigrid makes the minimisation that newton->at describes: it is
- * asked for, and the terms and settings are those that it knows.  Writes
- * newton->working, and newton->refusal where it is asked for and cannot. */
-bool newton_takes_multigrid(Newton *newton);
-
-/* Instead of direction_first: the start, and its test. */
-Status newton_multigrid_start(Newton *newton);
-
-/* Instead of direction_next, after a saddle that multigrid came to was left. */
-Status newton_multigrid_again(Newton *newton);
-
-/* Instead of an iteration.  Where multigrid cannot go on, such as among
- * rounding errors, Newton's own iterations go on from its last iterate. */
-Status newton_multigrid_iterate(Newton *newton);
-
 #endif

@@ -276,27 +276,26 @@ void v_cycle_read_system(VCycle *cycle)
 
 /* ---- the V-cycle: A x = b ---- */
 
-/* ax, ay += what the tensor at `at` makes of (dx, dy). */
-INLINE void pull(const Level *level, int kind, int at, float dx, float dy,
-                 float *ax, float *ay)
-{
-    float xy = level->K[kind][1][at];
-    *ax += level->K[kind][0][at] * dx + xy * dy;
-    *ay += xy * dx + level->K[kind][2][at] * dy;
-}
+/* What a pass over one colour of a row does. */
+typedef enum Visit {
+    FIRST, /* from x = 0: x = D b', with the springs to earlier colours in b' */
+    LEFT,  /* and then with those to later ones: w = b - A x */
+    SMOOTH, /* x += D (b - A x) */
+    PRODUCT /* w = A x, and the parts of x.b and x.w are added up */
+} Visit;
 
-/* Which springs of a node lead to colours that came before it. */
+/* Which springs of a node are looked at. */
 typedef struct Pulls {
     bool row, cross;
 } Pulls;
+static const Pulls ALL = {true, true};
 
-/* From x = 0, one colour of a row.  Springs to colours that came before make
- * x = D (b + what they pull); those to colours that come after pull what is
- * then left, w = b - A x. */
-INLINE void first_row(const Level *of, int i, int odd, Pulls pulls, bool left)
+INLINE void visit_row(const Level *of, int i, int odd, Visit visit, Pulls pulls,
+                      float *xb, float *xw)
 {
     const Level level = *of;
     const int plane = level.rows.plane;
+    const bool from_0 = visit == FIRST || visit == LEFT;
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
@@ -304,10 +303,20 @@ INLINE void first_row(const Level *of, int i, int odd, Pulls pulls, bool left)
          at.first += WIDE_LANES)
         EACH_OF (WIDE_LANES) {
             const int q = at.first + e;
-            float ax = left ? 0 : bx[q], ay = left ? 0 : by[q];
-            const float D = level.D[0][q], moves = D != 0 ? 1 : 0;
+            const float hx = from_0 ? 0 : x[q], hy = from_0 ? 0 : y[q];
+            float ax = from_0 ? 0 : level.m[q] * hx;
+            float ay = from_0 ? 0 : level.m[q] * hy;
+            ax = visit == FIRST ? bx[q] : ax; /* from 0: -A x, not A x */
+            ay = visit == FIRST ? by[q] : ay;
 #define ADD(kind, to, numbers)                                                 \
-    pull(&level, kind, q + (numbers), x[q + (to)], y[q + (to)], &ax, &ay);
+    {                                                                          \
+        float dx = x[q + (to)], dy = y[q + (to)];                              \
+        dx = from_0 ? dx : hx - dx;                                            \
+        dy = from_0 ? dy : hy - dy;                                            \
+        float xy = level.K[kind][1][q + (numbers)];                            \
+        ax += level.K[kind][0][q + (numbers)] * dx + xy * dy;                  \
+        ay += xy * dx + level.K[kind][2][q + (numbers)] * dy;                  \
+    }
             if (pulls.row) {
                 ROW_SPRINGS(ADD, at)
             }
@@ -315,40 +324,14 @@ INLINE void first_row(const Level *of, int i, int odd, Pulls pulls, bool left)
                 CROSS_SPRINGS(ADD, at)
             }
 #undef ADD
-            if (left) {
-                wx[q] = moves * ax;
-                wy[q] = moves * ay;
-            } else {
-                x[q] = D * ax + level.D[1][q] * ay;
-                y[q] = level.D[1][q] * ax + level.D[2][q] * ay;
-            }
-        }
-}
-
-/* One colour of a row: x += D (b - A x); or w = A x, adding up x.b and x.w. */
-INLINE void apply_row(const Level *of, int i, int odd, bool smooths, float *xb,
-                      float *xw)
-{
-    const Level level = *of;
-    const int plane = level.rows.plane;
-    float *const x = level.x, *const y = x + plane;
-    float *const wx = level.w, *const wy = wx + plane;
-    const float *const bx = level.b, *const by = bx + plane;
-    for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
-         at.first += WIDE_LANES)
-        EACH_OF (WIDE_LANES) {
-            const int q = at.first + e;
-            const float hx = x[q], hy = y[q];
-            float ax = level.m[q] * hx, ay = level.m[q] * hy;
-#define ADD(kind, to, numbers)                                                 \
-    pull(&level, kind, q + (numbers), hx - x[q + (to)], hy - y[q + (to)], &ax, \
-         &ay);
-            ALL_SPRINGS(ADD, at)
-#undef ADD
-            float rx = bx[q] - ax, ry = by[q] - ay;
-            if (smooths) {
+            float rx = from_0 ? ax : bx[q] - ax;
+            float ry = from_0 ? ay : by[q] - ay;
+            if (visit == FIRST || visit == SMOOTH) {
                 x[q] = hx + (level.D[0][q] * rx + level.D[1][q] * ry);
                 y[q] = hy + (level.D[1][q] * rx + level.D[2][q] * ry);
+            } else if (visit == LEFT) {
+                wx[q] = level.D[0][q] != 0 ? rx : 0;
+                wy[q] = level.D[0][q] != 0 ? ry : 0;
             } else {
                 xb[e] += hx * bx[q] + hy * by[q];
                 xw[e] += hx * ax + hy * ay;
@@ -360,16 +343,16 @@ INLINE void apply_row(const Level *of, int i, int odd, bool smooths, float *xb,
 
 INLINE void smooth_row(const Level *level, int i, bool back)
 {
-    apply_row(level, i, back, true, NULL, NULL);
-    apply_row(level, i, !back, true, NULL, NULL);
+    visit_row(level, i, back, SMOOTH, ALL, NULL, NULL);
+    visit_row(level, i, !back, SMOOTH, ALL, NULL, NULL);
 }
 
 /* sums  [2] out, x.b and x.w of the row */
 INLINE void product_row(const Level *level, int i, double *sums)
 {
     float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
-    apply_row(level, i, 0, false, xb, xw);
-    apply_row(level, i, 1, false, xb, xw);
+    visit_row(level, i, 0, PRODUCT, ALL, xb, xw);
+    visit_row(level, i, 1, PRODUCT, ALL, xb, xw);
     sums[0] = sums[1] = 0;
     for (int e = 0; e < WIDE_LANES; e++) {
         sums[0] += (double)xb[e];
@@ -411,20 +394,20 @@ FAST static void descend(const void *job, int first, int end)
         EACH_ROW_OF (s, part, 4) {
             int i = row;
             if (i % 2 == 0 && i < nodes && has_row(s, part, 0, i)) {
-                first_row(l, i, 0, (Pulls){false, false}, false);
-                first_row(l, i, 1, (Pulls){true, false}, false);
+                visit_row(l, i, 0, FIRST, (Pulls){false, false}, NULL, NULL);
+                visit_row(l, i, 1, FIRST, (Pulls){true, false}, NULL, NULL);
             }
             i = row - 1;
             if (i % 2 != 0 && i < nodes && has_row(s, part, 1, i)) {
-                first_row(l, i, 0, (Pulls){false, true}, false);
-                first_row(l, i, 1, (Pulls){true, true}, false);
-                first_row(l, i, 0, (Pulls){true, false}, true);
-                first_row(l, i, 1, (Pulls){false, false}, true);
+                visit_row(l, i, 0, FIRST, (Pulls){false, true}, NULL, NULL);
+                visit_row(l, i, 1, FIRST, (Pulls){true, true}, NULL, NULL);
+                visit_row(l, i, 0, LEFT, (Pulls){true, false}, NULL, NULL);
+                visit_row(l, i, 1, LEFT, (Pulls){false, false}, NULL, NULL);
             }
             i = row - 2;
             if (i % 2 == 0 && i < nodes && has_row(s, part, 2, i)) {
-                first_row(l, i, 0, (Pulls){true, true}, true);
-                first_row(l, i, 1, (Pulls){false, true}, true);
+                visit_row(l, i, 0, LEFT, (Pulls){true, true}, NULL, NULL);
+                visit_row(l, i, 1, LEFT, (Pulls){false, true}, NULL, NULL);
             }
             i = row - 3;
             if (s->coarse && i % 2 == 0 && has_row(s, part, 3, i))
@@ -490,7 +473,6 @@ static void v_cycle(VCycle *cycle)
 typedef struct Update {
     const VCycle *cycle;
     float alpha, beta;
-    bool begins;
 } Update;
 
 FAST static void take(const Grid *grid, double factor, const double *a,
@@ -510,58 +492,43 @@ FAST static void give(const Grid *grid, double factor, const float *x,
 }
 
 /* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d; sums
- * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band.  At first d is x and
- * A d is w, where they stand, and p = alpha d. */
-INLINE void advance_band(const Update *update, int band, bool begins)
+ * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band. */
+FAST static void advance(const void *job, int first, int end)
 {
+    const Update *update = job;
     const VCycle cycle = *update->cycle;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
     const int plane = grid.rows.plane;
     const float alpha = update->alpha, beta = update->beta;
-    double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
-    for (int i = band * BAND; i < band * BAND + BAND && i < grid.rows.nodes;
-         i++)
-        for (int odd = 0; odd < 2; odd++)
-            for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
-                 at.first += LANES)
-                EACH_OF (LANES) {
-                    const int qx = at.first + e, qy = qx + plane;
-                    float dx = level.x[qx], dy = level.x[qy], px = 0, py = 0;
-                    float Adx = level.w[qx], Ady = level.w[qy];
-                    if (!begins) {
-                        cycle.d[qx] = dx += beta * cycle.d[qx];
-                        cycle.d[qy] = dy += beta * cycle.d[qy];
-                        cycle.Ad[qx] = Adx += beta * cycle.Ad[qx];
-                        cycle.Ad[qy] = Ady += beta * cycle.Ad[qy];
-                        px = cycle.p[qx];
-                        py = cycle.p[qy];
-                    }
-                    cycle.p[qx] = px += alpha * dx;
-                    cycle.p[qy] = py += alpha * dy;
-                    float bx = level.b[qx] - alpha * Adx;
-                    float by = level.b[qy] - alpha * Ady;
-                    level.b[qx] = bx;
-                    level.b[qy] = by;
-                    double size = (double)(fabsf(px) + fabsf(py));
-                    most[e] = size > most[e] ? size : most[e];
-                    sum[e] +=
-                        grid.per_m[qx + at.node] * (double)(bx * bx + by * by);
-                }
-    for (int e = 0; e < LANES; e++)
-        largest = most[e] > largest ? most[e] : largest;
-    grid.sums[band * MAX_SUMS] = sum_of(sum);
-    grid.sums[band * MAX_SUMS + 1] = largest;
-}
-
-FAST static void advance(const void *job, int first, int end)
-{
-    const Update *update = job;
     for (int band = first; band < end; band++) {
-        if (update->begins)
-            advance_band(update, band, true);
-        else
-            advance_band(update, band, false);
+        double sum[LANES] = {0}, most[LANES] = {0}, largest = 0;
+        EACH_NODE_OF (grid, band) {
+            const int qx = at.first + e, qy = qx + plane;
+            float dx = level.x[qx] + beta * cycle.d[qx];
+            float dy = level.x[qy] + beta * cycle.d[qy];
+            float Adx = level.w[qx] + beta * cycle.Ad[qx];
+            float Ady = level.w[qy] + beta * cycle.Ad[qy];
+            float px = cycle.p[qx] + alpha * dx;
+            float py = cycle.p[qy] + alpha * dy;
+            float bx = level.b[qx] - alpha * Adx;
+            float by = level.b[qy] - alpha * Ady;
+            cycle.d[qx] = dx;
+            cycle.d[qy] = dy;
+            cycle.Ad[qx] = Adx;
+            cycle.Ad[qy] = Ady;
+            cycle.p[qx] = px;
+            cycle.p[qy] = py;
+            level.b[qx] = bx;
+            level.b[qy] = by;
+            double size = (double)(fabsf(px) + fabsf(py));
+            most[e] = size > most[e] ? size : most[e];
+            sum[e] += grid.per_m[qx + at.node] * (double)(bx * bx + by * by);
+        }
+        for (int e = 0; e < LANES; e++)
+            largest = most[e] > largest ? most[e] : largest;
+        grid.sums[band * MAX_SUMS] = sum_of(sum);
+        grid.sums[band * MAX_SUMS + 1] = largest;
     }
 }
 
@@ -576,13 +543,6 @@ static double run_update(VCycle *cycle, Update update, double *largest)
     for (int band = 0; band < grid->bands; band++) {
         sum += grid->sums[band * MAX_SUMS];
         *largest = fmax(*largest, grid->sums[band * MAX_SUMS + 1]);
-    }
-    float *x = cycle->level->x, *w = cycle->level->w;
-    if (update.begins) {
-        cycle->level->x = cycle->d;
-        cycle->level->w = cycle->Ad;
-        cycle->d = x;
-        cycle->Ad = w;
     }
     return sum;
 }
@@ -599,6 +559,9 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
     double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
     double last = 0, alpha = 1, rest = INFINITY;
     set_up(cycle);
+    for (int i = 0; i < 3; i++)
+        memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
+               2 * (size_t)grid->rows.plane * sizeof(float));
     take(grid, sign * unit, a, cycle->level->b);
     for (int i = 0; i < end.cycles; i++) {
         double xb = 0, xw = 0;
@@ -613,15 +576,13 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
             break;
         last = xb;
         alpha = xb / bend;
-        Update update = {cycle, (float)alpha, (float)beta, i == 0};
+        Update update = {cycle, (float)alpha, (float)beta};
         rest = run_update(cycle, update, &largest) / (unit * unit);
         largest *= cycle->mass / unit;
         if (rest <= end.share * end.share * square ||
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))
             break;
     }
-    if (rest == INFINITY) /* no step: nothing is found */
-        memset(cycle->p, 0, 2 * (size_t)grid->rows.plane * sizeof *cycle->p);
     give(grid, cycle->mass / unit, cycle->p, adds, p);
     return largest;
 }

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/pull_energy.h"
+
 enum { MAX_JUDGE_ITERATIONS = 20000 };
 
 /* Below this share of the tolerance rounding of u says nothing. */
@@ -56,6 +58,10 @@ static void large_gradient(LargeProblem *problem)
             problem->r[2 * e[1] + c] += f;
         }
     }
+    const Pull *hand = hand_energy_of(system);
+    for (int i = 2 * (hand ? hand->node : 0), c = 0; hand && c < 2; c++)
+        problem->r[i + c] -= at->E.weight * (long double)hand->k *
+                             (problem->x[i + c] - hand->target[c]);
     for (int i = 0; i < problem->size; i++)
         problem->r[i] = held(problem, i) ? 0 : problem->r[i];
 }
@@ -67,6 +73,9 @@ static void large_product(LargeProblem *problem)
     double weight = problem->newton->at.E.weight;
     for (int i = 0; i < problem->size; i++)
         problem->y[i] = system->m[i / 2] * problem->d[i];
+    const Pull *hand = hand_energy_of(system);
+    for (int i = 2 * (hand ? hand->node : 0), c = 0; hand && c < 2; c++)
+        problem->y[i + c] += weight * hand->k * problem->d[i + c];
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         long double v[2], l2 = system->l2[s], q[2];

@@ -70,8 +70,6 @@ TEST(a_crew_does_every_item_once)
         CHECK((crew != NULL) == (threads == 2));
         for (int loop = 0; loop < 20000; loop++) {
             int count = 1 + loop % ITEMS;
-            if (loop % 1000 == 0)
-                crew_begin(crew);
             crew_run(crew, work_on, &job, count, loop % 2 ? 1e9 : 1);
             for (int i = 0; i < ITEMS; i++)
                 CHECK(atomic_exchange(&job.done[i], 0) == (i < count));

@@ -81,6 +81,29 @@ TEST(multigrid_serves_all_that_springs_do)
     }
 }
 
+/* A hand that pulls a corner: a square that `auto` gives to multigrid stays
+ * its, and goes Newton's way. */
+TEST(multigrid_takes_the_hand)
+{
+    static const char line[] = "--segments 40 --stretch 1.1 --tolerance 1e-7";
+    Simulation *newton = simulate("%s --solver newton", line);
+    Simulation *it = simulate("%s", line);
+    for (int step = 0; step < 8; step++) {
+        double pulled = 0.6 + 0.02 * step;
+        copy_state(&newton->run[0], &it->run[0]);
+        CHECK_STATUS(simulation_grab(newton, 0, -pulled, -0.8), STATUS_OK);
+        CHECK_STATUS(simulation_grab(it, 0, -pulled, -0.8), STATUS_OK);
+        make_steps(newton, 1);
+        make_steps(it, 1);
+        for (size_t i = 0; i < it->run[0].size; i++)
+            CHECK_NEAR(it->run[0].x[i], newton->run[0].x[i], 4e-8);
+        CHECK_NEAR(it->run[0].newton->change, newton->run[0].newton->change,
+                   1e-6 * fabs(newton->run[0].newton->change));
+        CHECK(it->run[0].newton->working == SOLVER_MULTIGRID);
+    }
+    CHECK(it->run[0].newton->counters.factorisations == 0);
+}
+
 /* All filters that make H positive definite end in the same minimum; on demand
  * needs fewer iterations, because near it H is used as it is. */
 TEST(filters_share_the_minimum)
