@@ -19,18 +19,6 @@
 
 #define CELL_J_HAT 0.4
 
-/* Corners a, b, c of a triangle, counter-clockwise, [6] m. */
-typedef struct Corner {
-    double e1[2], e2[2]; /* m, x_b - x_a and x_c - x_a */
-    double area;         /* m^2, A0, at rest */
-    double c;            /* J, A0 k_c */
-    double J;            /* <= 0: turned over */
-} Corner;
-
-/* The triangle of three positions [2] m. */
-Corner cell_corner(const double *x_a, const double *x_b, const double *x_c,
-                   double area, double c);
-
 /* ---- the term -------------------------------------------------------- */
 
 /* The term's data. */

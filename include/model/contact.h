@@ -15,7 +15,7 @@
 #ifndef ELASTO_CONTACT_H
 #define ELASTO_CONTACT_H
 
-#include "model/system.h"
+#include "model/elements.h"
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
@@ -53,9 +53,6 @@ typedef struct Gap {
     double r;    /* m, |x_i - x_b|; a wall: infinite */
 } Gap;
 
-/* Part of a gap that one step of the minimisation may use up. */
-#define CONTACT_LIMIT 0.9
-
 /* The velocity at time t, s; v [2] m/s, out. */
 void motion_velocity(const Motion *motion, double t, double v[2]);
 
@@ -68,18 +65,13 @@ const double *obstacle_point(const Obstacle *obstacle, const double *x);
 Gap contact_gap(const Obstacle *obstacle, const double *o, const double *x_i,
                 double radius);
 
-/* -dW/dd >= 0, N: the force that pushes the node along n. */
-double contact_force(const Barrier *barrier, const Gap *gap);
+/* -dW/dd >= 0, N, at the gap d > 0: the force that pushes the node along n. */
+double contact_force(const Barrier *barrier, double d);
 
 /* ---- the term -------------------------------------------------------- */
 
 /* Walls and balls of the command line, and a few that a scene moves. */
 enum { CONTACT_MAX_OBSTACLES = 20 };
-
-/* A node and an obstacle near each other. */
-typedef struct ContactPair {
-    int node, obstacle;
-} ContactPair;
 
 /* The term's data. */
 typedef struct Contact {
@@ -113,18 +105,12 @@ double contact_node_radius(const Contact *contact, int node);
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
-/* For terms that act on pairs (contact and friction): the next pair within
- * d_hat at x after *pair, which starts at {-1, 0}, and its gap; the functions
- * entries and pattern; and how the block [[H, -H], [-H, H]] of node e[0] and
- * the free ball e[1], or H alone where that is -1, is added (TermKind's
- * hessian).
- */
-bool contact_next(const Contact *contact, const System *system, const double *x,
-                  ContactPair *pair, Gap *gap);
-long long contact_entries(const Place *at);
-void contact_pattern(const Place *at, Triplets *triplets);
-void contact_add_block(const Contact *contact, const int e[2],
-                       const double H[3], const int *slot, const double *q,
-                       double *out);
+/* Its elements, one for each pair, and the obstacle of the i-th, for friction:
+ * s is the gap, n and r are those of Gap.  A block has the node and, where
+ * there is one, the free ball. */
+extern const ElementKind contact_elements;
+int contact_obstacle(const Place *at, int i);
+int contact_blocks(const Place *at);
+int contact_nodes(const Place *at, int block, int node[3]);
 
 #endif

@@ -21,13 +21,10 @@ double friction_slope(double y, double e);
 
 /* ---- the term -------------------------------------------------------- */
 
-/* One contact in this step. */
+/* One contact in this step: whatever pushes with a normal force. */
 typedef struct Slide {
-    int e[2];      /* the node, and the free ball or -1 */
-    double t[2];   /* unit tangent at x_n */
-    double weight; /* mu lambda, N */
-    double carry;  /* h t.v_wall, m: how far the obstacle goes along t */
-    double y;      /* m, how far it slid in the last step */
+    Element row; /* its nodes at x_n; n is the tangent t, r is mu lambda in N */
+    double carry; /* h t.v_wall, m: how far the obstacle goes along t */
 } Slide;
 
 /* The term's data. */
@@ -45,8 +42,7 @@ extern const TermKind friction_energy;
 /* J, what obstacles that move have done by friction in the step u [2n] m. */
 double friction_work_of_obstacles(const System *system, const double *u);
 
-/* In the list it comes right after contact.
- * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+/* Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status friction_add(System *system, double slip_speed);
 
 #endif

@@ -66,10 +66,10 @@ void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
 void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
                           int side[3]);
 
-/* The corners of stride x stride cells of which c is the lower left one; fewer
- * at the edges.  node [4] out, anticlockwise.  Returns false where no such
- * patch begins at c: with all others they cover the square once. */
-bool square_mesh_patch(const SquareMesh *shape, int c, int stride, int node[4]);
+/* The corners of so many times so many cells of which c is the lower left one;
+ * fewer at the edges.  node [4] out, anticlockwise.  Returns false where no
+ * such patch begins at c: with all others they cover the square once. */
+bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4]);
 
 /* Node k of the outline, 0 ... outline, anticlockwise from the lower left; the
  * last is the first again. */

@@ -12,6 +12,8 @@
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
 
+#include <math.h>
+
 #include "model/term.h"
 
 enum { SYSTEM_MAX_TERMS = 12 };
@@ -64,14 +66,10 @@ Status system_create_pins(System *system);
 /* Accepts NULL and a zeroed struct. */
 void system_free(System *system);
 
-/* Appends a term, which from now on owns data, one piece of malloc or NULL;
- * after a failure it is freed.  Returns OK, TOO_LARGE (the list is full). */
+/* Puts a term at its place of the list, which from now on owns data, one piece
+ * of malloc or NULL; after a failure it is freed.  Returns OK, TOO_LARGE (the
+ * list is full). */
 Status system_add_term(System *system, const TermKind *kind, void *data);
-
-/* The same at this place of the list, 0 ... terms: sums and steps' ends keep
- * their order, however late a term comes. */
-Status system_insert_term(System *system, int place, const TermKind *kind,
-                          void *data);
 
 /* The first term of this kind, and its data, or NULL. */
 Term *system_find_term(const System *system, const TermKind *kind);
@@ -85,8 +83,8 @@ void system_lose(System *system, const TermKind *kind, double energy);
 double system_lost(const System *system, const TermKind *kind);
 
 /* Checks what the struct promises: every number finite and in its range, every
- * spring between two different nodes, every term valid.  x [2n] m, in: must be
- * finite and a place that all terms allow.
+ * spring between two different nodes, every bound of a term finite.  x [2n] m,
+ * in: must be finite and a place that all terms allow.
  * Returns OK or INVALID_INPUT. */
 Status system_check(const System *system, const double *x);
 
@@ -114,6 +112,13 @@ bool system_is_free(const System *system);
 
 /* sum m |v|^2 / 2, J.  v [2n] m/s, in. */
 double system_kinetic(const System *system, const double *v);
+
+/* *most becomes bound if that is larger, or not a number; TermKind's bounds. */
+static inline void bound_raise(double *most, double bound)
+{
+    if (!(bound <= *most) && !isnan(*most))
+        *most = bound;
+}
 
 /* The largest bounds of the terms, out: their curvature, J/m^2, their force,
  * J/m. */

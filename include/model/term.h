@@ -15,6 +15,7 @@
 
 typedef struct System System;
 typedef struct TermKind TermKind;
+typedef struct ElementKind ElementKind;
 typedef struct Term Term;
 
 /* Who is asked, and where. */
@@ -41,7 +42,7 @@ Place place_at(const System *system, const double *x_n, const double *u,
 const TermKind *next_energy(Place *at);
 
 /* A step's begin or end, h in s. */
-typedef bool TermChange(Term *term, System *system, const double *x,
+typedef void TermChange(Term *term, System *system, const double *x,
                         const double *v, double h);
 
 struct TermKind {
@@ -49,8 +50,21 @@ struct TermKind {
      * for good (system_lose); NULL: neither. */
     const char *energy, *loss;
 
-    /* Whether its numbers are finite and in their ranges; NULL: always. */
-    bool (*valid)(const Place *at);
+    /* In the list it stands behind all with the same or a smaller number: sums
+     * and steps' ends keep their order, however late a term comes. */
+    enum TermPlace {
+        PLACE_FORCE, /* springs, fields, what is not named here */
+        PLACE_DAMPING,
+        PLACE_CONTACT,
+        PLACE_FRICTION,
+        PLACE_CELLS,
+        PLACE_FRACTURE, /* it takes the energy of all the others */
+        PLACE_HAND,
+    } place;
+
+    /* Where the term is a sum over elements: what one of them is (elements.h),
+     * which gives the functions down to concave, but along. */
+    const ElementKind *element;
 
     /* P(x), J, without w.  Where averaged: along the way from x_n, 0 for u = 0.
      * NULL: the term has no energy, only begin, end or bounds, and none of the
@@ -96,8 +110,9 @@ struct TermKind {
     /* Before a step, from x_n and v_n [2n]: what it freezes (the normal forces
      * of friction).  After a step to x, v [2n] was accepted: what it changes
      * for good (plastic lengths, broken springs); it books what that cost in
-     * system_lose.  Both return whether arrays of the system or of a term have
-     * changed; factors and bounds that were made with them are then dropped. */
+     * system_lose.  Both say so (system_changed) where arrays of the system or
+     * of a term have changed, or entries of the Hessian: factors and bounds
+     * that were made with them are then dropped. */
     TermChange *begin, *end;
 
     /* The same term averaged along the straight way from x_n to x_n + u, for
@@ -106,9 +121,9 @@ struct TermKind {
      * those of the term itself.  NULL: those methods refuse it. */
     const TermKind *averaged;
 
-    /* Raises *stiffest to a bound of the curvature's size at rest, J/m^2, and
-     * *force, J/m, to the size of a force that a vanishing gradient is compared
-     * with. */
+    /* Raises (bound_raise) *stiffest to a bound of the curvature's size at
+     * rest, J/m^2, and *force, J/m, to the size of a force that a vanishing
+     * gradient is compared with.  What is not finite is refused. */
     void (*bounds)(const Place *at, double *stiffest, double *force);
 
     /* sum[i] += a bound such that w Hessian (as it is) + diag(sum) is positive

@@ -10,12 +10,6 @@ Damping *damping_of(const System *system)
     return system_data(system, &damping);
 }
 
-static bool valid(const Place *at)
-{
-    const Damping *data = at->term->data;
-    return isfinite(data->eta) && data->eta >= 0;
-}
-
 /* *old = new; returns whether that is a change. */
 static bool set(double *old, double new)
 {
@@ -25,7 +19,7 @@ static bool set(double *old, double new)
 }
 
 /* The springs of the step from x_n.  A broken one stays broken. */
-static bool begin(Term *term, System *system, const double *x_n,
+static void begin(Term *term, System *system, const double *x_n,
                   const double *v_n, double h)
 {
     Damping *data = term->data;
@@ -40,10 +34,11 @@ static bool begin(Term *term, System *system, const double *x_n,
         changed |= set(&data->l2[s], mean);
         changed |= set(&data->k[s], system->k[s] * (1 + theta) * (mean / l2));
     }
-    return changed;
+    if (changed)
+        system_changed(system, false);
 }
 
-static bool end(Term *term, System *system, const double *x, const double *v,
+static void end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
     const Damping *data = term->data;
@@ -57,7 +52,6 @@ static bool end(Term *term, System *system, const double *x, const double *v,
         sum += system->k[s] * l2 * data->theta * change * change;
     }
     system_lose(system, term->kind, sum);
-    return false;
 }
 
 /* Those of springs, with the numbers of the last step. */
@@ -72,7 +66,7 @@ static void bounds(const Place *at, double *stiffest, double *force)
 
 const TermKind damping = {
     .loss = "damping",
-    .valid = valid,
+    .place = PLACE_DAMPING,
     .begin = begin,
     .end = end,
     .bounds = bounds,
@@ -101,5 +95,5 @@ Status damping_set(System *system, double eta)
         data->k[s] = system->k[s];
         data->l2[s] = system->l2[s];
     }
-    return system_insert_term(system, system->terms > 0, &damping, data);
+    return system_add_term(system, &damping, data);
 }

@@ -54,7 +54,7 @@ static int find_candidates(Fracture *fracture, const System *system,
 
 /* Breaks them; the energy that was in them, and in cells that end with them, is
  * what the potential has less afterwards. */
-static bool end(Term *term, System *system, const double *x, const double *v,
+static void end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
     Fracture *fracture = term->data;
@@ -62,7 +62,7 @@ static bool end(Term *term, System *system, const double *x, const double *v,
     (void)v;
     (void)h;
     if (count == 0)
-        return false;
+        return;
     double energy = system_potential(system, x);
     memset(fracture->taken, 0, (size_t)system->nodes);
     for (int k = 0; k < count; k++) {
@@ -76,19 +76,12 @@ static bool end(Term *term, System *system, const double *x, const double *v,
         fracture->broken++;
     }
     system_lose(system, term->kind, energy - system_potential(system, x));
-    return true;
-}
-
-static bool valid(const Place *at)
-{
-    const Fracture *fracture = at->term->data;
-    return isfinite(fracture->strength) && fracture->strength > 0 &&
-           fracture->scatter >= 0 && fracture->scatter < 1;
+    system_changed(system, false);
 }
 
 const TermKind fracture = {
     .loss = "fracture",
-    .valid = valid,
+    .place = PLACE_FRACTURE,
     .end = end,
     .internal = true,
 };

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "model/mass_spring_energy.h"
-
 /* f0, m. */
 static double friction_value(double y, double e)
 {
@@ -64,158 +62,143 @@ static double friction_remainder(double y, double t, double e)
            remainder_on_side(0, -z, e);
 }
 
-/* ---- the term -------------------------------------------------------- */
+/* ---- the term ------------------------------------------------------------ */
 
-/* t.(u_i - u_b), of displacements u [2n]. */
+/* t.a, where a is made of displacements u [2n]. */
 static double slid(const Slide *slide, const double *u)
 {
-    const double *own = u + 2 * slide->e[0], *ball = u + 2 * slide->e[1];
-    double sum = 0;
-    for (int c = 0; c < 2; c++)
-        sum += slide->t[c] * (own[c] - (slide->e[1] < 0 ? 0 : ball[c]));
-    return sum;
+    const double *t = slide->row.n;
+    double a[4];
+    element_vectors(&slide->row, u, a);
+    return t[0] * a[0] + t[1] * a[1];
 }
 
 /* Normal forces and tangents at x_n. */
-static bool begin(Term *term, System *system, const double *x_n,
+static void begin(Term *term, System *system, const double *x_n,
                   const double *v_n, double h)
 {
     Friction *friction = term->data;
     const Contact *contact = contact_of(system);
-    Gap gap;
+    Place at = place_at(system, x_n, NULL, x_n);
+    Element row;
     (void)v_n;
+    at.term = system_find_term(system, &contact_energy);
     friction->e = friction->slip_speed * h;
     friction->slides = 0;
-    for (ContactPair pair = {-1, 0};
-         contact_next(contact, system, x_n, &pair, &gap);) {
-        const Obstacle *obstacle = &contact->obstacle[pair.obstacle];
-        double t[2] = {-gap.n[1], gap.n[0]};
-        if (!(obstacle->friction > 0))
+    for (int i = 0; i < contact_elements.count(&at); i++) {
+        const Obstacle *obstacle = &contact->obstacle[contact_obstacle(&at, i)];
+        if (!(obstacle->friction > 0) ||
+            !contact_elements.get(&at, i, true, &row))
             continue;
-        friction->slide[friction->slides++] = (Slide){
-            .e = {pair.node, obstacle->node},
-            .t = {t[0], t[1]},
-            .weight =
-                obstacle->friction * contact_force(&contact->barrier, &gap),
-            .carry = h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
+        const double t[2] = {-row.n[1], row.n[0]};
+        row.n[0] = t[0];
+        row.n[1] = t[1];
+        row.r = obstacle->friction * contact_force(&contact->barrier, row.s);
+        friction->slide[friction->slides++] =
+            (Slide){row, h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
     }
-    return false;
 }
 
 /* What was rubbed off in this step. */
-static bool end(Term *term, System *system, const double *x, const double *v,
+static void end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
-    Friction *friction = term->data;
+    const Friction *friction = term->data;
     (void)x;
-    for (int s = 0; s < friction->slides; s++) {
-        Slide *slide = &friction->slide[s];
-        slide->y = h * slid(slide, v) - slide->carry;
+    for (int i = 0; i < friction->slides; i++) {
+        const Slide *slide = &friction->slide[i];
+        double y = h * slid(slide, v) - slide->carry;
         system_lose(system, term->kind,
-                    slide->weight * friction_slope(slide->y, friction->e) *
-                        slide->y);
+                    slide->row.r * friction_slope(y, friction->e) * y);
     }
-    return false;
 }
 
-static double way(const Slide *slide, const Place *at)
+static const Friction *friction_of(const Place *at)
 {
-    return slid(slide, at->u) - slide->carry;
+    return at->term->data;
 }
 
-static bool valid(const Place *at)
+static int count(const Place *at)
 {
-    const Friction *friction = at->term->data;
-    return isfinite(friction->slip_speed) && friction->slip_speed > 0 &&
-           contact_of(at->system);
+    return friction_of(at)->slides;
 }
 
-/* Nothing of it is stored: outside of a step (u NULL) it is 0. */
-static double value(const Place *at)
+/* s is y.  Nothing of it is stored: outside of a step (u NULL) it is 0. */
+static bool get(const Place *at, int i, bool near, Element *element)
 {
-    const Friction *friction = at->term->data;
-    double sum = 0;
-    for (int s = 0; at->u && s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        sum += slide->weight * friction_value(way(slide, at), friction->e);
-    }
-    return sum;
+    const Slide *slide = &friction_of(at)->slide[i];
+    (void)near;
+    if (!at->u)
+        return false;
+    *element = slide->row;
+    element->s = slid(slide, at->u) - slide->carry;
+    return true;
 }
 
-static void gradient(const Place *at, double *g)
+static double value(const Place *at, const Element *element)
 {
-    const Friction *friction = at->term->data;
-    for (int s = 0; s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        double force =
-            at->w * slide->weight * friction_slope(way(slide, at), friction->e);
-        spring_add_force(slide->e, force, slide->t, g);
-    }
+    return element->r * friction_value(element->s, friction_of(at)->e);
+}
+
+static void gradient(const Place *at, const Element *element, double g[4])
+{
+    double force =
+        at->w * element->r * friction_slope(element->s, friction_of(at)->e);
+    g[0] = force * element->n[0];
+    g[1] = force * element->n[1];
 }
 
 /* mu lambda f0'' t t^T, never negative */
-static int hessian(const Place *at, Filter filter, const int *slot,
-                   const double *q, double *out)
+static bool hessian(const Place *at, const Element *element, Filter filter,
+                    double H[4][4])
 {
-    const Friction *friction = at->term->data;
-    const Contact *contact = contact_of(at->system);
+    const double *t = element->n;
+    double bend =
+        at->w * element->r * friction_curvature(element->s, friction_of(at)->e);
     (void)filter;
-    for (int s = 0; s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        const double *t = slide->t;
-        double bend = at->w * slide->weight *
-                      friction_curvature(way(slide, at), friction->e);
-        double H[3] = {bend * t[0] * t[0], bend * t[0] * t[1],
-                       bend * t[1] * t[1]};
-        contact_add_block(contact, slide->e, H, slot, q, out);
-    }
-    return 0;
+    H[0][0] = bend * t[0] * t[0];
+    H[0][1] = H[1][0] = bend * t[0] * t[1];
+    H[1][1] = bend * t[1] * t[1];
+    return false;
 }
 
-static double remainder_along(const Place *at, const double *p, double alpha)
+static double remainder_along(const Place *at, const Element *element,
+                              const double P[4], double alpha)
 {
-    const Friction *friction = at->term->data;
-    double sum = 0;
-    for (int s = 0; s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
-        sum += slide->weight * friction_remainder(way(slide, at),
-                                                  alpha * slid(slide, p),
-                                                  friction->e);
-    }
-    return at->w * sum;
+    double t = element->n[0] * P[0] + element->n[1] * P[1];
+    return element->r *
+           friction_remainder(element->s, alpha * t, friction_of(at)->e);
 }
+
+static const ElementKind slides = {.count = count,
+                                   .get = get,
+                                   .blocks = contact_blocks,
+                                   .nodes = contact_nodes,
+                                   .value = value,
+                                   .gradient = gradient,
+                                   .hessian = hessian,
+                                   .remainder = remainder_along};
 
 const TermKind friction_energy = {
-    .loss = "friction",
-    .valid = valid,
-    .value = value,
-    .gradient = gradient,
-    .entries = contact_entries,
-    .pattern = contact_pattern,
-    .hessian = hessian,
-    .remainder = remainder_along,
-    .begin = begin,
-    .end = end,
-    .end_of_step = true,
+    ELEMENTS(slides), .loss = "friction", .place = PLACE_FRICTION,
+    .begin = begin,   .end = end,         .end_of_step = true,
 };
 
 double friction_work_of_obstacles(const System *system, const double *u)
 {
     const Friction *friction = system_data(system, &friction_energy);
     double sum = 0;
-    for (int s = 0; friction && s < friction->slides; s++) {
-        const Slide *slide = &friction->slide[s];
+    for (int i = 0; friction && i < friction->slides; i++) {
+        const Slide *slide = &friction->slide[i];
         double y = slid(slide, u) - slide->carry;
-        sum -= slide->weight * friction_slope(y, friction->e) * slide->carry;
+        sum -= slide->row.r * friction_slope(y, friction->e) * slide->carry;
     }
     return sum;
 }
 
 Status friction_add(System *system, double slip_speed)
 {
-    const Term *obstacles = system_find_term(system, &contact_energy);
     const Contact *contact = contact_of(system);
-    int place = obstacles ? (int)(obstacles - system->term) + 1 : system->terms;
     size_t room =
         (size_t)system->nodes * (size_t)(contact ? contact->obstacles : 0);
     Friction *friction = calloc(1, sizeof *friction + room * sizeof(Slide));
@@ -223,5 +206,5 @@ Status friction_add(System *system, double slip_speed)
         return STATUS_OUT_OF_MEMORY;
     friction->slip_speed = slip_speed;
     friction->slide = (Slide *)(friction + 1);
-    return system_insert_term(system, place, &friction_energy, friction);
+    return system_add_term(system, &friction_energy, friction);
 }

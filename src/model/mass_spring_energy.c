@@ -93,9 +93,8 @@ void mass_spring_pattern(const Place *at, Triplets *triplets)
 void mass_spring_bounds(const Place *at, double *stiffest, double *force)
 {
     for (int s = 0; s < at->system->springs; s++) {
-        double pull = at->k[s] * sqrt(at->l2[s]);
-        *stiffest = at->k[s] > *stiffest ? at->k[s] : *stiffest;
-        *force = pull > *force ? pull : *force;
+        bound_raise(stiffest, at->k[s]);
+        bound_raise(force, at->k[s] * sqrt(at->l2[s]));
     }
 }
 

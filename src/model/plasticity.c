@@ -118,13 +118,6 @@ static inline FlowSpring flow_spring(const Place *at, int s)
     return spring;
 }
 
-static bool valid(const Place *at)
-{
-    const Plasticity *data = at->term->data;
-    return isfinite(data->yield) && data->yield > 0 &&
-           isfinite(data->hardening) && data->hardening >= 0;
-}
-
 static double value(const Place *at)
 {
     const Plasticity *data = at->term->data;
@@ -202,7 +195,7 @@ static double remainder_along(const Place *at, const double *p, double alpha)
 }
 
 /* What has flowed stays: ep moves by gamma, the yield strain grows. */
-static bool end(Term *term, System *system, const double *x, const double *v,
+static void end(Term *term, System *system, const double *x, const double *v,
                 double h)
 {
     Plasticity *data = term->data;
@@ -222,7 +215,8 @@ static bool end(Term *term, System *system, const double *x, const double *v,
                     spring.k * spring.l2 * data->yield * gamma);
         changed = true;
     }
-    return changed;
+    if (changed)
+        system_changed(system, false);
 }
 
 /* Where tau < 0 the lower eigenvalue of H is 2 k tau at least. */
@@ -240,7 +234,6 @@ static void concave(const Place *at, double *sum)
 const TermKind plastic_energy = {
     .energy = "elastic",
     .loss = "plastic",
-    .valid = valid,
     .value = value,
     .gradient = gradient,
     .entries = mass_spring_entries,

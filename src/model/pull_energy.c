@@ -12,13 +12,6 @@ static double stiffness(const Place *at, double w, int i)
     return i / 2 == pull->node ? w * pull->k : 0;
 }
 
-static bool valid(const Place *at)
-{
-    const Pull *pull = at->term->data;
-    return pull->node < at->system->nodes && pull->k >= 0 &&
-           isfinite(pull->k) && all_finite(pull->target, 2);
-}
-
 /* c/2 |x - o|^2.  Averaged along the way from x_n the gradient is the one half
  * way, c (x_n + u/2 - o), and its potential c u.(x_n + u/4 - o). */
 static double value(const Place *at)
@@ -83,18 +76,19 @@ static void bounds(const Place *at, double *stiffest, double *force)
 {
     (void)force;
     for (int i = 0; i < 2 * at->system->nodes; i += 2)
-        *stiffest = fmax(*stiffest, stiffness(at, 1, i));
+        bound_raise(stiffest, fabs(stiffness(at, 1, i)));
 }
 
 /* What both kinds share; averaged, each is itself. */
 #define PULL                                                                   \
-    .valid = valid, .value = value, .gradient = gradient, .entries = entries,  \
+    .value = value, .gradient = gradient, .entries = entries,                  \
     .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
     .diagonal = true
 
 const TermKind central_field = {PULL, .energy = "elastic",
                                 .averaged = &central_field};
-const TermKind hand_energy = {PULL, .energy = "hand", .averaged = &hand_energy};
+const TermKind hand_energy = {PULL, .energy = "hand", .place = PLACE_HAND,
+                              .averaged = &hand_energy};
 
 Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {

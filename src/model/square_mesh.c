@@ -17,20 +17,26 @@ SquareMesh square_mesh_shape(int columns, int rows, double side)
                         .outline = 2 * (columns + rows)};
 }
 
+/* The node of column i, row j: nodes are counted up each column. */
+static int node_at(const SquareMesh *shape, int i, int j)
+{
+    return i * (shape->rows + 1) + j;
+}
+
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
 void square_mesh_place(const SquareMesh *shape, int i, double x[2])
 {
-    int row = shape->rows + 1;
+    int stride = node_at(shape, 1, 0);
     double step = shape->spacing;
     double high =
         shape->rows == shape->segments ? shape->side : shape->rows * step;
-    x[0] = -shape->side / 2 + i / row * step;
-    x[1] = -high / 2 + i % row * step;
+    x[0] = -shape->side / 2 + i / stride * step;
+    x[1] = -high / 2 + i % stride * step;
 }
 
 int square_mesh_sides(const SquareMesh *shape, int i)
 {
-    int column = i / (shape->rows + 1), row = i % (shape->rows + 1);
+    int stride = node_at(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |
            (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
@@ -39,14 +45,13 @@ int square_mesh_sides(const SquareMesh *shape, int i)
 void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
                       int spring[6])
 {
-    int columns = shape->segments, rows = shape->rows, row = rows + 1;
-    int a = c / rows * row + c % rows;
-    int upright = columns * row + c;
-    int diagonals = columns * row + (columns + 1) * rows + 2 * c;
-    const int corners[4] = {a, a + row, a + row + 1, a + 1};
+    int columns = shape->segments, rows = shape->rows;
+    int a = node_at(shape, c / rows, c % rows);
+    int upright = node_at(shape, columns, 0) + c;
+    int diagonals = node_at(shape, columns, 0) + (columns + 1) * rows + 2 * c;
     const int springs[6] = {a,       upright + rows, a + 1,
                             upright, diagonals,      diagonals + 1};
-    memcpy(node, corners, sizeof corners);
+    square_mesh_patch(shape, c, 1, node);
     memcpy(spring, springs, sizeof springs);
 }
 
@@ -63,57 +68,54 @@ void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
     side[2] = spring[before];
 }
 
-bool square_mesh_patch(const SquareMesh *shape, int c, int stride, int node[4])
+bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
 {
-    int columns = shape->segments, rows = shape->rows, row = rows + 1;
+    int columns = shape->segments, rows = shape->rows;
     int left = c / rows, low = c % rows;
-    int right = left + stride < columns ? left + stride : columns;
-    int up = low + stride < rows ? low + stride : rows;
-    node[0] = left * row + low;
-    node[1] = right * row + low;
-    node[2] = right * row + up;
-    node[3] = left * row + up;
-    return left % stride == 0 && low % stride == 0;
+    int right = left + cells < columns ? left + cells : columns;
+    int up = low + cells < rows ? low + cells : rows;
+    node[0] = node_at(shape, left, low);
+    node[1] = node_at(shape, right, low);
+    node[2] = node_at(shape, right, up);
+    node[3] = node_at(shape, left, up);
+    return left % cells == 0 && low % cells == 0;
 }
 
 int square_mesh_outline(const SquareMesh *shape, int k)
 {
-    int columns = shape->segments, rows = shape->rows, row = rows + 1;
+    int columns = shape->segments, rows = shape->rows;
     k %= shape->outline;
     if (k < columns)
-        return k * row;
+        return node_at(shape, k, 0);
     if (k < columns + rows)
-        return columns * row + (k - columns);
+        return node_at(shape, columns, k - columns);
     if (k < 2 * columns + rows)
-        return (2 * columns + rows - k) * row + rows;
+        return node_at(shape, 2 * columns + rows - k, rows);
     return shape->outline - k;
 }
 
-/* Appends a spring between nodes a and b; returns the place of the next. */
-static int *square_mesh_spring(int *e, int a, int b)
+/* Springs between each node (i, j) and (i + right, j + up); returns the place
+ * of the next one. */
+static int *list_springs(const SquareMesh *mesh, int *e, int right, int up)
 {
-    e[0] = a;
-    e[1] = b;
-    return e + 2;
+    for (int i = 0; i + right <= mesh->segments; i++)
+        for (int j = 0; j + up <= mesh->rows; j++) {
+            *e++ = node_at(mesh, i, j);
+            *e++ = node_at(mesh, i + right, j + up);
+        }
+    return e;
 }
 
-/* Springs in the order of the slide: horizontal, vertical, diagonals. */
+/* In the order of the slide: horizontal, vertical, both diagonals of a cell. */
 static void square_mesh_springs(SquareMesh *mesh)
 {
-    int n_seg = mesh->segments, rows = mesh->rows, row = rows + 1;
-    int *e = mesh->e;
-    for (int i = 0; i < n_seg; i++)
-        for (int j = 0; j <= rows; j++)
-            e = square_mesh_spring(e, i * row + j, (i + 1) * row + j);
-    for (int i = 0; i <= n_seg; i++)
-        for (int j = 0; j < rows; j++)
-            e = square_mesh_spring(e, i * row + j, i * row + j + 1);
-    for (int i = 0; i < n_seg; i++)
-        for (int j = 0; j < rows; j++) {
-            int a = i * row + j, b = (i + 1) * row + j;
-            e = square_mesh_spring(e, a, b + 1);
-            e = square_mesh_spring(e, b, a + 1);
-        }
+    int spring[6], *e = list_springs(mesh, mesh->e, 1, 0);
+    e = list_springs(mesh, e, 0, 1);
+    for (int c = 0; c < mesh->cells; c++, e += 4) {
+        square_mesh_cell(mesh, c, e, spring); /* a b c d */
+        const int diagonals[4] = {e[0], e[2], e[1], e[3]};
+        memcpy(e, diagonals, sizeof diagonals);
+    }
 }
 
 /* A rectangle of grid nodes: columns begin[0] ... end[0]-1, rows begin[1] ...
@@ -128,7 +130,7 @@ enum { GRID_LEAF = 9 };
 /* Nested dissection (George 1973): numbers the nodes of a part from `next` on,
  * the two halves first, the line between them last; returns the next free
  * number.  The longer side is cut, so the line is the shorter one. */
-static int dissect_grid(GridPart part, int row, int *order, int next)
+static int dissect_grid(const SquareMesh *mesh, GridPart part, int next)
 {
     int wide = part.end[0] - part.begin[0], high = part.end[1] - part.begin[1];
     if (wide * high > GRID_LEAF) {
@@ -137,12 +139,12 @@ static int dissect_grid(GridPart part, int row, int *order, int next)
         GridPart low = part, upper = part;
         low.end[side] = part.begin[side] = cut;
         upper.begin[side] = part.end[side] = cut + 1;
-        next = dissect_grid(low, row, order, next);
-        next = dissect_grid(upper, row, order, next);
+        next = dissect_grid(mesh, low, next);
+        next = dissect_grid(mesh, upper, next);
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            order[i * row + j] = next++;
+            mesh->order[node_at(mesh, i, j)] = next++;
     return next;
 }
 
@@ -162,8 +164,7 @@ Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh)
     for (int i = 0; i < mesh->nodes; i++)
         square_mesh_place(mesh, i, mesh->x + 2 * i);
     square_mesh_springs(mesh);
-    GridPart all = {{0, 0}, {columns + 1, rows + 1}};
-    dissect_grid(all, rows + 1, mesh->order, 0);
+    dissect_grid(mesh, (GridPart){{0, 0}, {columns + 1, rows + 1}}, 0);
     return STATUS_OK;
 }
 

@@ -51,23 +51,20 @@ void system_free(System *system)
     *system = (System){0};
 }
 
-Status system_insert_term(System *system, int place, const TermKind *kind,
-                          void *data)
+Status system_add_term(System *system, const TermKind *kind, void *data)
 {
-    if (system->terms == SYSTEM_MAX_TERMS) {
+    int place = system->terms;
+    if (place == SYSTEM_MAX_TERMS) {
         free(data);
         return STATUS_TOO_LARGE;
     }
-    for (int t = system->terms++; t > place; t--)
-        system->term[t] = system->term[t - 1];
+    for (; place > 0 && system->term[place - 1].kind->place > kind->place;
+         place--)
+        system->term[place] = system->term[place - 1];
     system->term[place] = (Term){.kind = kind, .data = data};
+    system->terms++;
     system_changed(system, true);
     return STATUS_OK;
-}
-
-Status system_add_term(System *system, const TermKind *kind, void *data)
-{
-    return system_insert_term(system, system->terms, kind, data);
 }
 
 Term *system_find_term(const System *system, const TermKind *kind)
@@ -96,26 +93,26 @@ void system_remove_term(System *system, const TermKind *kind)
     system_changed(system, true);
 }
 
-/* The place of a loss in the list, or the free one behind. */
-static int loss_place(const System *system, const TermKind *kind)
+/* The row of a loss, or the free one behind. */
+static Loss *loss_of(const System *system, const TermKind *kind)
 {
     int i = 0;
     while (i < SYSTEM_MAX_TERMS - 1 && system->lost[i].name &&
            strcmp(system->lost[i].name, kind->loss) != 0)
         i++;
-    return i;
+    return (Loss *)&system->lost[i];
 }
 
 void system_lose(System *system, const TermKind *kind, double energy)
 {
-    Loss *loss = &system->lost[loss_place(system, kind)];
+    Loss *loss = loss_of(system, kind);
     loss->name = kind->loss;
     loss->energy += energy;
 }
 
 double system_lost(const System *system, const TermKind *kind)
 {
-    return system->lost[loss_place(system, kind)].energy;
+    return loss_of(system, kind)->energy;
 }
 
 /* A normal number > 0: not 0, denormal, infinite or NaN. */
@@ -165,19 +162,19 @@ const TermKind *next_energy(Place *at)
 Status system_check(const System *system, const double *x)
 {
     Place at = place_at(system, x, NULL, x);
+    double stiffest, force;
     bool valid = all_finite(system->gravity, 2) &&
                  all_finite(x, 2 * (size_t)system->nodes);
     for (int i = 0; valid && i < system->nodes; i++)
         valid = is_positive(system->m[i]);
     for (int s = 0; valid && s < system->springs; s++)
         valid = spring_is_valid(system, s);
-    for (int t = 0; valid && t < system->terms; t++) {
-        const TermKind *kind = system->term[t].kind;
-        at.term = &system->term[t];
-        valid = (!kind->valid || kind->valid(&at)) &&
-                (!kind->allowed || kind->allowed(&at));
-    }
-    return valid ? STATUS_OK : STATUS_INVALID_INPUT;
+    for (const TermKind *kind; valid && (kind = next_energy(&at));)
+        valid = !kind->allowed || kind->allowed(&at);
+    system_bounds(system, &stiffest, &force);
+    return valid && isfinite(stiffest) && isfinite(force)
+               ? STATUS_OK
+               : STATUS_INVALID_INPUT;
 }
 
 bool system_has_gravity(const System *system)

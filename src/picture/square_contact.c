@@ -21,7 +21,7 @@ static bool find_touch(const SpringPen *pen, Touch *touch)
     if (!contact_has_pair(contact, system, node, number))
         return false;
     Gap gap = contact_pair_gap(contact, pen->x, node, number);
-    double push = contact_force(&contact->barrier, &gap), rub = 0;
+    double push = contact_force(&contact->barrier, gap.d), rub = 0;
     if (!(push > 0) || !isfinite(push))
         return false;
     const Term *term = system_find_term(system, &friction_energy);

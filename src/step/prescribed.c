@@ -196,7 +196,7 @@ static double obstacles_work(const TimeIntegrator *integrator)
             if (!contact_has_pair(contact, system, i, k))
                 continue;
             Gap gap = contact_pair_gap(contact, x, i, k);
-            sum += contact_force(&contact->barrier, &gap) *
+            sum += contact_force(&contact->barrier, gap.d) *
                    (gap.n[0] * v[0] + gap.n[1] * v[1]);
         }
     }

@@ -71,16 +71,12 @@ void time_integrator_free(TimeIntegrator *integrator)
 static void change_terms(TimeIntegrator *integrator, bool at_end)
 {
     System *system = integrator->system;
-    bool changed = false;
     for (int t = 0; t < system->terms; t++) {
         Term *term = &system->term[t];
         TermChange *change = at_end ? term->kind->end : term->kind->begin;
         if (change)
-            changed |= change(term, system, integrator->x, integrator->v,
-                              integrator->h);
+            change(term, system, integrator->x, integrator->v, integrator->h);
     }
-    if (changed)
-        system_changed(system, false);
 }
 
 /* All stages are over, or one failed. */

@@ -1,0 +1,105 @@
+/* elements.h - terms that are sums over elements of a few nodes.
+ *
+ * An element's energy W depends on one or two vectors a, b, each a weighted
+ * sum of the positions of up to three nodes:
+ *
+ *   node and wall       a = x_i
+ *   node and free ball  a = x_i - x_ball
+ *   triangle            a = x_j - x_i,  b = x_k - x_i
+ *
+ * The source of a term says what W, its gradient and its Hessian are in (a, b);
+ * the loops over the elements, the way to the nodes and the entries of the
+ * matrix are here.
+ */
+#ifndef ELASTO_ELEMENTS_H
+#define ELASTO_ELEMENTS_H
+
+#include "model/system.h"
+
+/* Part of a gap or an area that one step of the minimisation may use up. */
+#define ELEMENT_LIMIT 0.9
+
+/* One of them, at one place. */
+typedef struct Element {
+    int nodes, vectors; /* 1 ... 3, 1 or 2 */
+    int node[3];
+    const double (*weight)[3]; /* [vectors] of the nodes in a and in b */
+    int block;                 /* it has the entries of this block */
+    double factor;  /* of gradient and Hessian: 1, or w where the term's
+                       functions leave it out */
+    double v[4];    /* m, a and b, for terms that want them */
+    double s;       /* what W is about: a gap, an area, a way */
+    double n[2], r; /* what else the term's functions want to know */
+} Element;
+
+/* a and b, or how they change: v [4] out, of x or p [2n]. */
+static inline void element_vectors(const Element *element, const double *x,
+                                   double v[4])
+{
+    for (int m = 0; m < element->vectors; m++) {
+        v[2 * m] = v[2 * m + 1] = 0;
+        for (int k = 0; k < element->nodes; k++) {
+            const double *at = x + 2 * element->node[k];
+            v[2 * m] += element->weight[m][k] * at[0];
+            v[2 * m + 1] += element->weight[m][k] * at[1];
+        }
+    }
+}
+
+/* out [2n] += factor g, g [4] in a and b. */
+void element_add(const Element *element, double factor, const double g[4],
+                 double *out);
+
+/* What a term says.  Elements are counted from 0. */
+struct ElementKind {
+    int (*count)(const Place *at);
+
+    /* Element i at x; `near`: only if W, its gradient or its Hessian is not 0
+     * there.  Returns false where there is nothing. */
+    bool (*get)(const Place *at, int i, bool near, Element *element);
+
+    /* The blocks of the matrix, each with all entries of 1 to 3 nodes: how many
+     * there are; the nodes of one, out, and how many.  x is not known. */
+    int (*blocks)(const Place *at);
+    int (*nodes)(const Place *at, int block, int node[3]);
+
+    /* W, J, and its gradient g [4] out; H [4][4] out, filtered (TermKind's
+     * hessian), returns whether it was changed. */
+    double (*value)(const Place *at, const Element *element);
+    void (*gradient)(const Place *at, const Element *element, double g[4]);
+    bool (*hessian)(const Place *at, const Element *element, Filter filter,
+                    double H[4][4]);
+
+    /* With P [4], the change of a and b along p: W at alpha minus W minus
+     * alpha grad W.P, J, without cancellation; and the alpha that uses up
+     * ELEMENT_LIMIT of s, which must stay above 0.  NULL: any s will do. */
+    double (*remainder)(const Place *at, const Element *element,
+                        const double P[4], double alpha);
+    double (*reach)(const Place *at, const Element *element, const double P[4]);
+
+    /* c >= 0 with w Hessian + c I positive semi-definite in a and b; NULL: 0.
+     */
+    double (*concave)(const Place *at, const Element *element);
+};
+
+/* Functions of a TermKind with elements. */
+double elements_value(const Place *at);
+void elements_gradient(const Place *at, double *g);
+long long elements_entries(const Place *at);
+void elements_pattern(const Place *at, Triplets *triplets);
+int elements_hessian(const Place *at, Filter filter, const int *slot,
+                     const double *q, double *out);
+double elements_remainder(const Place *at, const double *p, double alpha);
+double elements_reach(const Place *at, const double *p);
+bool elements_allowed(const Place *at);
+void elements_concave(const Place *at, double *sum);
+
+/* All of them, for its row. */
+#define ELEMENTS(kind)                                                         \
+    .element = &(kind), .value = elements_value,                               \
+    .gradient = elements_gradient, .entries = elements_entries,                \
+    .pattern = elements_pattern, .hessian = elements_hessian,                  \
+    .remainder = elements_remainder, .reach = elements_reach,                  \
+    .allowed = elements_allowed, .concave = elements_concave
+
+#endif

@@ -1,0 +1,195 @@
+#include "model/elements.h"
+
+#include <math.h>
+
+static const ElementKind *kind_of(const Place *at)
+{
+    return at->term->kind->element;
+}
+
+/* From element to element. */
+typedef struct Walk {
+    const Place *at;
+    const ElementKind *kind;
+    bool near;
+    int i, count;
+    Element element;
+} Walk;
+
+static Walk walk_from(const Place *at, bool near)
+{
+    const ElementKind *kind = kind_of(at);
+    return (Walk){at, kind, near, -1, kind->count(at), {0}};
+}
+
+static bool walk_on(Walk *walk)
+{
+    while (++walk->i < walk->count)
+        if (walk->kind->get(walk->at, walk->i, walk->near, &walk->element))
+            return true;
+    return false;
+}
+
+void element_add(const Element *element, double factor, const double g[4],
+                 double *out)
+{
+    for (int i = 0; i < 2 * element->nodes; i++) {
+        double sum = 0;
+        for (int m = 0; m < element->vectors; m++)
+            sum += element->weight[m][i / 2] * g[2 * m + i % 2];
+        out[2 * element->node[i / 2] + i % 2] += factor * sum;
+    }
+}
+
+double elements_value(const Place *at)
+{
+    double sum = 0;
+    for (Walk walk = walk_from(at, true); walk_on(&walk);)
+        sum += walk.kind->value(at, &walk.element);
+    return sum;
+}
+
+void elements_gradient(const Place *at, double *g)
+{
+    double own[4];
+    for (Walk walk = walk_from(at, true); walk_on(&walk);) {
+        walk.kind->gradient(at, &walk.element, own);
+        element_add(&walk.element, walk.element.factor, own, g);
+    }
+}
+
+/* Entries of a block of so many nodes in one triangle of the Hessian. */
+static int entries_of(int nodes)
+{
+    return nodes * (2 * nodes + 1);
+}
+
+/* The parts of a block, by nodes: those on the diagonal come first. */
+enum { PARTS = 6 };
+static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
+                                   {0, 1}, {0, 2}, {1, 2}};
+
+/* Entries of all blocks have room for the most nodes. */
+static int nodes_of_a_block(const Place *at)
+{
+    int node[3];
+    return kind_of(at)->nodes(at, 0, node);
+}
+
+long long elements_entries(const Place *at)
+{
+    return (long long)entries_of(nodes_of_a_block(at)) *
+           kind_of(at)->blocks(at);
+}
+
+void elements_pattern(const Place *at, Triplets *triplets)
+{
+    int node[3], blocks = kind_of(at)->blocks(at);
+    for (int b = 0; b < blocks; b++) {
+        int nodes = kind_of(at)->nodes(at, b, node);
+        for (int i = 0; i < PARTS; i++)
+            if (part[i][1] < nodes)
+                term_add_block(at->system, node[part[i][0]], node[part[i][1]],
+                               triplets);
+    }
+}
+
+/* Entry (r, c) of the part of nodes k and l. */
+static double entry(const Element *element, double H[4][4], int k, int l, int r,
+                    int c)
+{
+    double sum = 0;
+    for (int n = 0; n < element->vectors; n++) {
+        double column = 0;
+        for (int m = 0; m < element->vectors; m++)
+            column += element->weight[m][k] * H[2 * m + r][2 * n + c];
+        sum += element->weight[n][l] * column;
+    }
+    return element->factor * sum;
+}
+
+static void add_to_matrix(const Element *element, double H[4][4],
+                          const int *slot, double *out)
+{
+    for (int i = 0; i < PARTS; i++) {
+        int k = part[i][0], l = part[i][1];
+        for (int r = 0; r < 2 && l < element->nodes; r++)
+            for (int c = k == l ? r : 0; c < 2; c++)
+                out[*slot++] += entry(element, H, k, l, r, c);
+    }
+}
+
+static void add_product(const Element *element, double H[4][4], const double *q,
+                        double *out)
+{
+    double v[4], Hv[4] = {0};
+    int size = 2 * element->vectors;
+    element_vectors(element, q, v);
+    for (int r = 0; r < size; r++)
+        for (int c = 0; c < size; c++)
+            Hv[r] += H[r][c] * v[c];
+    element_add(element, element->factor, Hv, out);
+}
+
+int elements_hessian(const Place *at, Filter filter, const int *slot,
+                     const double *q, double *out)
+{
+    int projected = 0, entries = entries_of(nodes_of_a_block(at));
+    double H[4][4];
+    for (Walk walk = walk_from(at, true); walk_on(&walk);) {
+        const Element *element = &walk.element;
+        projected += walk.kind->hessian(at, element, filter, H);
+        if (q)
+            add_product(element, H, q, out);
+        else
+            add_to_matrix(element, H, slot + entries * element->block, out);
+    }
+    return projected;
+}
+
+double elements_remainder(const Place *at, const double *p, double alpha)
+{
+    double sum = 0, P[4];
+    for (Walk walk = walk_from(at, false); walk_on(&walk);) {
+        element_vectors(&walk.element, p, P);
+        sum += walk.kind->remainder(at, &walk.element, P, alpha);
+    }
+    return at->w * sum;
+}
+
+double elements_reach(const Place *at, const double *p)
+{
+    double smallest = INFINITY, P[4];
+    Walk walk = walk_from(at, false);
+    while (walk.kind->reach && walk_on(&walk)) {
+        element_vectors(&walk.element, p, P);
+        smallest = fmin(smallest, walk.kind->reach(at, &walk.element, P));
+    }
+    return smallest;
+}
+
+bool elements_allowed(const Place *at)
+{
+    Walk walk = walk_from(at, false);
+    while (walk.kind->reach && walk_on(&walk))
+        if (!(walk.element.s > 0))
+            return false;
+    return true;
+}
+
+/* |sum w_k x_k|^2 <= (sum |w_k|) sum |w_k| |x_k|^2 */
+void elements_concave(const Place *at, double *sum)
+{
+    Walk walk = walk_from(at, true);
+    while (walk.kind->concave && walk_on(&walk)) {
+        const Element *element = &walk.element;
+        double c = walk.kind->concave(at, element);
+        for (int m = 0; m < element->vectors; m++) {
+            double all = 0;
+            for (int k = 0; k < element->nodes; k++)
+                all += fabs(element->weight[m][k]);
+            for (int k = 0; k < element->nodes; k++)
+                sum[element->node[k]] += all * fabs(element->weight[m][k]) * c;
+        }
+    }
+}
