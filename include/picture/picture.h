@@ -9,14 +9,14 @@
 #include "picture/paper.h"
 #include "picture/show.h"
 
-typedef struct Plot Plot; /* plot.h: where a pane is drawn, and how */
+typedef struct Plot Plot;   /* plot.h: where a pane is drawn, and how */
+typedef struct Facts Facts; /* facts.h: what its texts know */
 
 /* A card in the column. */
 typedef struct Card {
     const char *name;  /* as tables and scripts call it: "listing" */
-    const char *title; /* markup; or one that follows the state: */
-    const char *(*titled)(const Show *show);
-    double least; /* ems, the height it needs */
+    const char *title; /* a text of facts.h: its first line that is known */
+    double least;      /* ems, the height it needs */
     /* The same for a card that is so many ems wide inside; NULL: least. */
     double (*needs)(const Show *show, double wide);
     double weight;     /* share of the height that is left */
@@ -24,7 +24,9 @@ typedef struct Card {
     bool half_on_page; /* the same, but only on a page of the lecture: its words
                           need the room */
     bool closed;       /* at the start */
-    /* Draws what is inside, below the title. */
+    /* What is inside, below the title: a text, all lines that are known; or a
+     * function draws it. */
+    const char *words;
     void (*draw)(Paper *paper, Box inside, const Show *show);
 } Card;
 
@@ -39,6 +41,10 @@ typedef struct Picture {
     void (*bounds)(const Show *show, int pane, double bounds[4]);
     double around[4];
     void (*draw)(Plot *stage, const Show *show);
+    /* Adds what its texts know of a simulation; may be NULL. */
+    void (*facts)(const Simulation *simulation, Facts *facts);
+    const char *legend; /* a text, from the upper left corner; or NULL */
+    bool scale;         /* a line with its length in the lower left one */
     /* What is under pixel (x, y); NULL: nothing but handles and places. */
     Pick (*pick)(const Show *show, const Plot *stage, double x, double y);
     /* The small card beside what the mouse is over; may be NULL. */

@@ -9,7 +9,7 @@ enum { LINE_POINTS = 161 };
 
 static const double BEYOND = 1.42; /* the axis ends, in first trials */
 static const double ABOVE = 2.2;   /* the least range above 0, in depths */
-static const double WORD_SIZE = 0.88, WORD_LINE = 1.25; /* ems */
+static const double WORD_SIZE = 0.88, WORDS_ROOM = 1.25; /* ems */
 static const double WORDS_WIDE = 28; /* ems that all words need in one row */
 
 /* What is drawn: the two functions on one grid of alpha. */
@@ -72,61 +72,41 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                      1.6 * unit, 7 * unit, colour);
 }
 
-/* Words in a row from the left, in a second row if there is no room; what has
- * no room there either is left out.  row: where the next word goes, in/out */
-static void draw_word(Paper *paper, Box inside, Face face, Colour colour,
-                      const char *words, Box *row)
-{
-    int width = paper_width(paper, face, WORD_SIZE, words);
-    int end = inside.x + inside.width, line = paper_pixels(paper, WORD_LINE);
-    if (row->x > inside.x && row->x + width > end) {
-        row->x = inside.x;
-        row->y += line;
-    }
-    if (row->y + line > row->height + inside.y)
-        return;
-    paper_write(paper, face, WORD_SIZE, colour, row->x, row->y, ALIGN_LEFT,
-                "%s", words);
-    row->x += width + paper_pixels(paper, 1);
-}
-
 /* What the curves are, and the last trial, above the plot: nothing of it lies
  * on a curve.  Returns the room for the plot, which does not depend on what
  * there is to say. */
-static Box draw_words(Paper *paper, Box inside, const Trace *trace)
+static Box draw_words(Paper *paper, Box inside, const Show *show)
 {
-    double wide = inside.width / paper->em;
-    int rows = wide < WORDS_WIDE ? 2 : 1;
-    int high = paper_pixels(paper, rows * WORD_LINE);
-    Box row = {inside.x, inside.y, 0, high};
-    draw_word(paper, inside, FACE_REGULAR, COLOUR_X, "exact", &row);
-    draw_word(paper, inside, FACE_REGULAR, COLOUR_P, "quadratic model", &row);
-    if (trace->trials > 0) {
-        char words[128];
-        double alpha = trace_alpha(trace, trace->trials);
-        double value = exact_value(trace, alpha);
-        snprintf(words, sizeof words, "{alpha} = %s %s: %s%s",
-                 alpha_of(alpha).text, trace->accepted ? "taken" : "refused",
-                 value > 0 ? "+" : "", number_of(value).text);
-        draw_word(paper, inside, FACE_BOLD,
-                  trace->accepted ? COLOUR_ALPHA : COLOUR_WARNING, words, &row);
-    }
-    if (trace->slope > 0)
-        draw_word(paper, inside, FACE_BOLD, COLOUR_WARNING, "{p} points uphill",
-                  &row);
+    static const char words[] =
+        "#x exact\n"
+        "#p quadratic model\n"
+        "#alpha* {taken}{alpha} = {length:/} taken: {+}{change}\n"
+        "#warning* {refused}{alpha} = {length:/} refused: {+}{change}\n"
+        "#warning* {uphill}{p} points uphill";
+    int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
+    int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
+    Facts facts;
+    TextLine line;
+    facts_of(show, show->active, &facts);
+    Box before = canvas_clip(&paper->canvas,
+                             (Box){inside.x, inside.y, inside.width, high});
+    for (const char *text = words; (text = text_line_of(&facts, text, &line));)
+        words_flow(paper, inside, at, WORD_SIZE, 1, &line, true);
+    canvas_clip(&paper->canvas, before);
     inside.y += high;
     inside.height -= high;
     return inside;
 }
 
-static void draw_curves(Paper *paper, Box inside, const Trace *trace)
+static void draw_curves(Paper *paper, Box inside, const Show *show,
+                        const Trace *trace)
 {
     static const char *const alpha = "{alpha}";
     Curves curves;
     fill_curves(trace, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
     Axis y = {curves.low, curves.high, false, false, NULL};
-    Plot plot = plot_create(paper, draw_words(paper, inside, trace), x, y);
+    Plot plot = plot_create(paper, draw_words(paper, inside, show), x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
@@ -144,31 +124,25 @@ static void draw_curves(Paper *paper, Box inside, const Trace *trace)
 static void draw_line(Paper *paper, Box inside, const Show *show)
 {
     DescentTrace space;
-    const Trace *trace = cards_trace(show, &space);
+    const Trace *trace = pane_trace(&show->pane[show->active], &space);
     if (trace && trace->difference && isfinite(trace->slope) &&
         trace->slope != 0) {
-        draw_curves(paper, inside, trace);
+        draw_curves(paper, inside, show, trace);
         return;
     }
-    cards_hint(paper, inside,
-               cards_explicit(show)           ? EXPLICIT_HINT
-               : !trace                       ? "N makes a step"
-               : trace->passed && trace->line ? "no {p} was needed"
-               : trace->line        ? "from line 4 on, where {p} is known"
-               : trace->updates > 0 ? "it was not kept"
-                                    : "no update: the start passes the test");
-}
-
-static const char *line_title(const Show *show)
-{
-    bool scalar = show->pane[show->active].simulation->descent.scalar;
-    return scalar ? "f({x} + {alpha} {p}) \u2212 f({x})"
-                  : "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2";
+    cards_hint(paper, inside, show,
+               "{explicit}an explicit method solves nothing\n"
+               "{no step}N makes a step\n"
+               "{walking}{passed}no {p} was needed\n"
+               "{walking}from line 4 on, where {p} is known\n"
+               "{updated}it was not kept\n"
+               "no update: the start passes the test");
 }
 
 const Card card_line = {
     .name = "line",
-    .titled = line_title,
+    .title = "{one unknown}f({x} + {alpha} {p}) \u2212 f({x})\n"
+             "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2",
     .least = 8,
     .weight = 1.2,
     .half_on_page = true,

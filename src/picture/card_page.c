@@ -116,14 +116,9 @@ static double page_needs(const Show *show, double wide)
     return text_line(lines * LETTERS) + 2.8; /* title and margin */
 }
 
-static const char *page_title(const Show *show)
-{
-    return show->lecture ? show->lecture_title : "the lecture: Page Down";
-}
-
 const Card card_page = {
     .name = "page",
-    .titled = page_title,
+    .title = "{page}\nthe lecture: Page Down",
     .least = 12,
     .needs = page_needs,
     .weight = 0.3,

@@ -98,12 +98,12 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
 static void draw_residual(Paper *paper, Box inside, const Show *show)
 {
     DescentTrace space;
-    const Trace *trace = cards_trace(show, &space);
+    const Trace *trace = pane_trace(&show->pane[show->active], &space);
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
-        cards_hint(paper, inside,
-                   cards_explicit(show) ? EXPLICIT_HINT
-                                        : "a point for each Newton update");
+        cards_hint(paper, inside, show,
+                   "{explicit}an explicit method solves nothing\n"
+                   "a point for each Newton update");
         return;
     }
     double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
@@ -148,21 +148,12 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                  trace->line && !trace->passed ? 5.5 : 3.5, COLOUR_P);
 }
 
-static const char *residual_title(const Show *show)
-{
-    const Simulation *simulation = show->pane[show->active].simulation;
-    bool scalar = simulation->descent.scalar;
-    return scalar ? simulation->scene->picture == PICTURE_TANGENT
-                        ? "Residual |g|"
-                        : "Residual |f \u2032|"
-           : simulation->descent.by_gradient
-               ? "Residual \u2016\u2207E\u2016"
-               : "Residual \u2016{p}\u2016_{\u221e}/h, m/s";
-}
-
 const Card card_residual = {
     .name = "residual",
-    .titled = residual_title,
+    .title = "{tangent}Residual |g|\n"
+             "{one unknown}Residual |f \u2032|\n"
+             "{by gradient}Residual \u2016\u2207E\u2016\n"
+             "Residual \u2016{p}\u2016_{\u221e}/h, m/s",
     .least = 8,
     .weight = 1,
     .half = true,

@@ -122,7 +122,7 @@ static void draw_spy(Paper *paper, Box inside, const Show *show)
     int line = paper_pixels(paper, 1.3);
     bool drawn = false;
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
-        cards_hint(paper, inside,
+        cards_hint(paper, inside, show,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
         return;
     }

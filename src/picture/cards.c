@@ -63,9 +63,8 @@ static const Trace *descent_trace(const Simulation *simulation,
     return trace;
 }
 
-const Trace *cards_trace(const Show *show, DescentTrace *space)
+const Trace *pane_trace(const Pane *pane, DescentTrace *space)
 {
-    const Pane *pane = &show->pane[show->active];
     if (pane->trace)
         return pane->trace;
     if (pane->simulation->scene->needs & NEEDS_TIME)
@@ -76,14 +75,6 @@ const Trace *cards_trace(const Show *show, DescentTrace *space)
 double trace_alpha(const Trace *trace, int trial)
 {
     return ldexp(trace->first > 0 ? trace->first : 1, 1 - trial);
-}
-
-bool cards_explicit(const Show *show)
-{
-    const Simulation *simulation = show->pane[show->active].simulation;
-    const IntegratorMethod *method = simulation->run[0].method;
-    return (simulation->scene->needs & NEEDS_TIME) && method &&
-           !method->implicit;
 }
 
 Box cards_inside(Box card, double em)
@@ -100,24 +91,27 @@ double fitting_size(Paper *paper, Face face, double size, double least,
     return width > room ? size * fmax(least, room / width) : size;
 }
 
-void cards_hint(Paper *paper, Box inside, const char *text)
+void cards_hint(Paper *paper, Box inside, const Show *show, const char *text)
 {
+    char words[SHOW_TEXT] = "";
+    text_say(show, text, words, sizeof words);
     double size =
-        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, text);
+        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, words);
     paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
                 inside.x + 0.5 * inside.width,
                 inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
-                "%s", text);
+                "%s", words);
 }
 
 /* Frame, title and cross; returns what is inside. */
 static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                       bool closed)
 {
-    const char *title = card->titled ? card->titled(show) : card->title;
+    char title[SHOW_TEXT] = "";
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
     double unit = paper->unit, x = box.x + box.width - bar / 2.0;
     double y = box.y + bar / 2.0, arm = 3.4 * unit;
+    text_say(show, card->title, title, sizeof title);
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
     Box before =
@@ -278,7 +272,10 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
-        card->draw(paper, inside, show);
+        if (card->words)
+            text_in_card(paper, inside, show, card->words);
+        else
+            card->draw(paper, inside, show);
         canvas_clip(&paper->canvas, before);
     }
 }

@@ -4,7 +4,7 @@
 #ifndef ELASTO_CARDS_H
 #define ELASTO_CARDS_H
 
-#include "picture/picture.h"
+#include "picture/facts.h"
 #include "picture/plot.h"
 
 /* The listing of the method that runs, the current line lit, lines that are
@@ -34,27 +34,20 @@ double energies_value(const Simulation *simulation, const History *history,
  *   last  out, s, the latest time that the curves may reach */
 Axis energies_axis(const Show *show, double *joule, double *last);
 
-/* The formulas of the integrators that run. */
-extern const Card card_methods;
-
 /* The pattern of the Hessian and of its factor. */
 extern const Card card_spy;
 
 /* What is inside the frame of a card, below its title; em in pixels. */
 Box cards_inside(Box card, double em);
 
-/* Whether the active pane goes by a method that solves no equation, and what
- * cards about its solution say then. */
-bool cards_explicit(const Show *show);
-#define EXPLICIT_HINT "an explicit method solves nothing"
-
 /* The size of letters, at most `size` ems and at least this part of it, with
  * which the text fits into so many pixels. */
 double fitting_size(Paper *paper, Face face, double size, double least,
                     double room, const char *text);
 
-/* One line in the middle of a card that has nothing to show yet. */
-void cards_hint(Paper *paper, Box inside, const char *text);
+/* In the middle of a card that has nothing to show yet: the first line of a
+ * text that is known. */
+void cards_hint(Paper *paper, Box inside, const Show *show, const char *text);
 
 /* All cards of the layout, or the page in their place. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
@@ -65,19 +58,16 @@ void frame_draw(Paper *paper, const Layout *layout, const Show *show);
 /* Steps that the time line has room for: those there are, at least some. */
 long frame_span(const Show *show);
 
-/* The trace that the cards show: that of the active pane; where a descent is
- * shown iteration by iteration, one made from it.  NULL: none. */
+/* The trace of a pane; where a descent is shown iteration by iteration, one
+ * made from it.  NULL: none. */
 typedef struct DescentTrace {
     Trace trace;
     const Simulation *simulation;
     double from[2], p[2], value;
 } DescentTrace;
-const Trace *cards_trace(const Show *show, DescentTrace *space);
+const Trace *pane_trace(const Pane *pane, DescentTrace *space);
 
 /* The step length of trial 1, 2, ... */
 double trace_alpha(const Trace *trace, int trial);
-
-/* "1/4": a step length as people write it. */
-Number alpha_of(double alpha);
 
 #endif

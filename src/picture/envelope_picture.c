@@ -69,12 +69,6 @@ static void envelope_draw(Plot *stage, const Show *show)
         }
     envelope_frame(stage->paper, envelope_box(stage, map->column, map->row),
                    2.4, COLOUR_TEXT);
-    if (show->bare || !stage->text)
-        return;
-    plot_legend(stage, envelope_shades[3], "converged: darker is more updates");
-    plot_legend(stage, COLOUR_UNDONE,
-                "too loose a tolerance: nothing was done");
-    plot_legend(stage, COLOUR_REFUSED, "said: not converged");
 }
 
 static Pick envelope_pick(const Show *show, const Plot *stage, double x,
@@ -95,14 +89,12 @@ static Pick envelope_pick(const Show *show, const Plot *stage, double x,
 
 /* ---- cards -------------------------------------------------------------- */
 
-static void envelope_draw_numbers(Paper *paper, Box inside, const Show *show)
+static void envelope_facts(const Simulation *simulation, Facts *facts)
 {
-    const EnvelopeMap *map = &show->pane[show->active].simulation->exhibit.map;
+    const EnvelopeMap *map = &simulation->exhibit.map;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
-    double eps = show->pane[show->active].simulation->options.tolerance;
     double h = envelope_timestep(map->column);
     int known = 0, converged = 0, undone = 0;
-    Lines lines = {0};
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
             const EnvelopeCell *one = &map->cell[row][column];
@@ -110,24 +102,22 @@ static void envelope_draw_numbers(Paper *paper, Box inside, const Show *show)
             undone += one->undone;
             converged += one->known && !one->worst && !one->undone;
         }
-    lines_add(&lines, COLOUR_TEXT, "%d of %d cells converge", converged, known);
-    lines_add(&lines, COLOUR_TEXT, "in %d nothing was done", undone);
-    lines_add(&lines, COLOUR_TEXT, "%s", "");
-    lines_add(&lines, COLOUR_TEXT, "h = %.3g s,  k = %.3g J/m\u00b2", h,
-              envelope_stiffness(map->row));
-    lines_add(&lines, COLOUR_TEXT, "\u03b5 lets %.3g m pass: h \u03b5",
-              h * eps);
-    lines_add(&lines, COLOUR_TEXT, "%d steps, %d Newton updates",
-              ENVELOPE_STEPS, cell->updates);
-    lines_add(&lines,
-              cell->worst    ? COLOUR_REFUSED
-              : cell->undone ? COLOUR_TEXT
-                             : envelope_shades[4],
-              "%s",
-              cell->worst    ? status_text(cell->worst)
-              : cell->undone ? "within the tolerance, not at rest"
-                             : "every step converged");
-    lines_draw(paper, inside, &lines);
+    facts->colour[0] = envelope_shades[4];
+    facts->colour[1] = envelope_shades[3];
+    facts->colour[2] = COLOUR_UNDONE;
+    facts->colour[3] = COLOUR_REFUSED;
+    fact(facts, "known", known);
+    fact(facts, "converged", converged);
+    fact(facts, "undone", undone);
+    fact(facts, "h", h);
+    fact(facts, "k", envelope_stiffness(map->row));
+    fact(facts, "passing", h * simulation->options.tolerance);
+    fact(facts, "steps", ENVELOPE_STEPS);
+    fact(facts, "updates", cell->updates);
+    fact_words(facts, "refused cell",
+               cell->worst ? status_text(cell->worst) : NULL);
+    fact_when(facts, "undone cell", !cell->worst && cell->undone);
+    fact_when(facts, "converged cell", !cell->worst && !cell->undone);
 }
 
 /* The square of the cell after its steps, fitted into the card. */
@@ -159,7 +149,15 @@ static const Card card_envelope_numbers = {
     .title = "this cell",
     .least = 11.5,
     .weight = 0.9,
-    .draw = envelope_draw_numbers,
+    .words = "{converged} of {known} cells converge\n"
+             "in {undone} nothing was done\n"
+             "\n"
+             "h = {h} s,  k = {k} J/m\u00b2\n"
+             "\u03b5 lets {passing} m pass: h \u03b5\n"
+             "{steps} steps, {updates} Newton updates\n"
+             "#3 {refused cell}\n"
+             "{undone cell}within the tolerance, not at rest\n"
+             "#0 {converged cell}every step converged",
 };
 static const Card card_cell = {
     .name = "cell",
@@ -176,5 +174,9 @@ const Picture envelope_picture = {
     .stretched = true,
     .around = {-10.6, -8.6, 3.6, 18.4}, /* and room for words */
     .draw = envelope_draw,
+    .facts = envelope_facts,
+    .legend = "#1 converged: darker is more updates\n"
+              "#2 too loose a tolerance: nothing was done\n"
+              "#3 said: not converged",
     .pick = envelope_pick,
 };

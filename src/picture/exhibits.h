@@ -15,9 +15,6 @@ extern const Picture square_picture;
  * One mass and the arrows of its next step. */
 extern const Picture circle_picture, mass_picture;
 
-/* The circle's colour of a run: its own, by its method, whatever else runs. */
-Colour circle_colour(const Simulation *simulation, int run);
-
 /* Newton in one unknown: f, its quadratic model where the last update began,
  * its minimum, and the iterates; g and its tangents above E and its parabolas.
  */

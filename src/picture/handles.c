@@ -1,9 +1,6 @@
 #include "picture/handles.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "picture/colour_map.h"
 #include "base/mathematics.h"
@@ -113,45 +110,4 @@ void stage_prediction(const Plot *stage, const Show *show)
     plot_text(stage, guess->at, 1, -0.6, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_HAND,
               guess->shown ? "%s m off" : "your guess; N shows the step",
               number_of(guess->distance).text);
-}
-
-/* ---- numbers in a card -------------------------------------------------- */
-
-void lines_add(Lines *lines, Colour colour, const char *format, ...)
-{
-    va_list arguments;
-    if (lines->count >= LINES_MOST)
-        return;
-    va_start(arguments, format);
-    vsnprintf(lines->text[lines->count], LINE_TEXT, format, arguments);
-    va_end(arguments);
-    plot_numbers(lines->text[lines->count], LINE_TEXT);
-    lines->colour[lines->count++] = colour;
-}
-
-void lines_draw(Paper *paper, Box inside, const Lines *lines)
-{
-    double height = 0, size = 1;
-    for (int i = 0; i < lines->count; i++) {
-        int width = paper_width(paper, FACE_REGULAR, 1, lines->text[i]);
-        height += lines->text[i][0] ? 1.5 : 0.6;
-        if (width > inside.width)
-            size = fmin(size, (double)inside.width / width);
-    }
-    size = fmin(size, inside.height / (height * paper->em));
-    double y = inside.y;
-    for (int i = 0; i < lines->count; i++) {
-        if (lines->text[i][0])
-            paper_write(paper, FACE_REGULAR, size, lines->colour[i], inside.x,
-                        y, ALIGN_LEFT, "%s", lines->text[i]);
-        y += (lines->text[i][0] ? 1.5 : 0.6) * size * paper->em;
-    }
-}
-
-void factor_text(char *text, size_t size, double value)
-{
-    snprintf(text, size, "%.4g", value + 0.0);
-    if (!strpbrk(text, "-e"))
-        return;
-    snprintf(text, size, "(%.4g)", value);
 }

@@ -256,17 +256,17 @@ static void keep_places(Plot *plot, const Simulation *simulation)
                    "{xt}");
 }
 
-static void draw_words(Plot *stage, const Descent *descent, unsigned parts)
+static void landscape_facts(const Simulation *simulation, Facts *facts)
 {
-    plot_legend(stage, COLOUR_FAINT, "contours: %s in J s\u00b2",
-                parts == PART_BOTH      ? "E"
-                : parts == PART_INERTIA ? "inertia"
-                                        : "elasticity");
-    plot_legend(stage, COLOUR_SHADED, "shade: not convex");
-    plot_legend(stage, COLOUR_P, "direction p, downhill");
-    if (descent->slope > 0 ||
-        (descent->count > 0 && descent->record[descent->count - 1].slope > 0))
-        plot_legend(stage, COLOUR_WARNING, "uphill");
+    const Descent *descent = &simulation->descent;
+    unsigned parts = simulation->exhibit.parts;
+    const NewtonRecord *last = &descent->record[descent->count - 1];
+    fact_words(facts, "part",
+               parts == PART_BOTH      ? "E"
+               : parts == PART_INERTIA ? "inertia"
+                                       : "elasticity");
+    fact_when(facts, "went uphill",
+              descent->slope > 0 || (descent->count > 0 && last->slope > 0));
 }
 
 /* From the ground up. */
@@ -287,8 +287,6 @@ static void landscape_draw(Plot *stage, const Show *show)
         plot_arrow(&plot, descent->point, p, 1, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
-    if (!show->bare && stage->text)
-        draw_words(stage, descent, simulation->exhibit.parts);
 }
 
 const Picture landscape_picture = {
@@ -298,6 +296,11 @@ const Picture landscape_picture = {
     .places = true,
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = landscape_draw,
+    .facts = landscape_facts,
+    .legend = "#faint contours: {part} in J s\u00b2\n"
+              "#shaded shade: not convex\n"
+              "#p direction p, downhill\n"
+              "#warning {went uphill}uphill",
 };
 
 /* ---- the dial ----------------------------------------------------------- */
@@ -321,7 +324,7 @@ static void dial_draw(Plot *stage, const Show *show)
     Plot plot = draw_map(stage, show);
     draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
-    if (!stage->text || show->bare)
+    if (!stage->text)
         return;
     plot_keep_disc(&plot, simulation->run[0].x, 9);
     plot_keep_disc(&plot, *target, 11); /* the handle's ring */
@@ -333,29 +336,21 @@ static void dial_draw(Plot *stage, const Show *show)
         plot_words(&plot, 1, &walk->point[i], 0.8, 0.95, FACE_REGULAR, COLOUR_X,
                    words);
     }
-    plot_legend(stage, COLOUR_X_TILDE, "{xt}: inertia is lowest");
-    plot_legend(stage, COLOUR_X, "minimiser of E for every h");
-    plot_legend(stage, COLOUR_TEXT, "for the h of now");
 }
 
-static void dial_draw_numbers(Paper *paper, Box inside, const Show *show)
+static void dial_facts(const Simulation *simulation, Facts *facts)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     const double *target = simulation->exhibit.target;
-    double inertia = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
     double elastic =
         landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
-    Lines lines = {0};
-    lines_add(&lines, COLOUR_TEXT, "h = %.4g s", h);
-    lines_add(&lines, COLOUR_X, "{x} = (%.4f, %.4f) m", x[0], x[1]);
-    lines_add(&lines, COLOUR_X_TILDE, "from {xt}: %.4g m",
-              math_hypot(x[0] - target[0], x[1] - target[1]));
-    lines_add(&lines, COLOUR_TEXT, "inertia %.4g J s\u00b2", inertia);
-    lines_add(&lines, COLOUR_TEXT, "elasticity h\u00b2 P %.4g J s\u00b2",
-              elastic);
-    lines_add(&lines, COLOUR_TEXT, "P = %.4g J", elastic / (h * h));
-    lines_draw(paper, inside, &lines);
+    fact(facts, "h", h);
+    fact_point(facts, "minimiser", x);
+    fact(facts, "distance", math_hypot(x[0] - target[0], x[1] - target[1]));
+    fact(facts, "inertia",
+         landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    fact(facts, "elasticity", elastic);
+    fact(facts, "P", elastic / (h * h));
 }
 
 static const Card card_dial_numbers = {
@@ -363,7 +358,12 @@ static const Card card_dial_numbers = {
     .title = "the minimiser in numbers",
     .least = 11.5,
     .weight = 1,
-    .draw = dial_draw_numbers,
+    .words = "h = {h:4} s\n"
+             "#x {x} = {minimiser:4} m\n"
+             "#xt from {xt}: {distance:4} m\n"
+             "inertia {inertia:4} J s\u00b2\n"
+             "elasticity h\u00b2 P {elasticity:4} J s\u00b2\n"
+             "P = {P:4} J",
 };
 
 const Picture dial_picture = {
@@ -371,4 +371,8 @@ const Picture dial_picture = {
     .cards = (const Card *const[]){&card_page, &card_dial_numbers, NULL},
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = dial_draw,
+    .facts = dial_facts,
+    .legend = "#xt {xt}: inertia is lowest\n"
+              "#x minimiser of E for every h\n"
+              "for the h of now",
 };

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -14,7 +13,7 @@ enum { MASS_CORNERS = 120 };
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double MASS_TURN = 6.283185307179586;
 
-Colour circle_colour(const Simulation *simulation, int run)
+static Colour circle_colour(const Simulation *simulation, int run)
 {
     return colour_of_method(simulation->run[run].method->name);
 }
@@ -88,16 +87,6 @@ static void circle_draw(Plot *stage, const Show *show)
     draw_trails(stage, pane, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, circle_colour(simulation, r));
-    if (show->bare || !stage->text)
-        return;
-    plot_legend(stage, COLOUR_GREY, "exact: |{x}| = 1 m");
-    for (int r = 0; r < simulation->runs; r++) {
-        const double *x = simulation->run[r].x;
-        plot_legend(stage, circle_colour(simulation, r), "%s: %s m",
-                    simulation->run[r].method->label,
-                    number_of(math_hypot(x[0], x[1])).text);
-    }
-    plot_scale(stage);
 }
 
 /* The node of the nearest run. */
@@ -120,12 +109,85 @@ static Pick circle_pick(const Show *show, const Plot *stage, double x, double y)
     return pick;
 }
 
+/* The two lines of a method, in the order in which they are done, and what they
+ * do to the circle. */
+typedef struct Formula {
+    const char *method, *first, *second, *growth;
+} Formula;
+
+static const Formula formulas[] = {
+    {"forward-euler", "{x}^{n+1} = {x}^{n} + h v^{n}",
+     "v^{n+1} = v^{n} + h a({x}^{n})",
+     "radius \u00d7 \u221a(1 + (h\u03c9)\u00b2) a step: it grows"},
+    {"symplectic-euler", "v^{n+1} = v^{n} + h a({x}^{n})",
+     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
+     "stays on an ellipse while h\u03c9 < 2"},
+    {"backward-euler", "v^{n+1} = v^{n} + h a({x}^{n+1})",
+     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
+     "radius / \u221a(1 + (h\u03c9)\u00b2) a step: it shrinks"},
+    {"verlet",
+     "v^{n+\u00bd} = v^{n} + \u00bdh a({x}^{n});   "
+     "{x}^{n+1} = {x}^{n} + h v^{n+\u00bd}",
+     "v^{n+1} = v^{n+\u00bd} + \u00bdh a({x}^{n+1})",
+     "on an ellipse, nearly the circle, while h\u03c9 < 2"},
+    {"bdf2", "{x}^{n+1} = (4{x}^{n} \u2212 {x}^{n\u22121})/3 + \u2154h v^{n+1}",
+     "v^{n+1} = (4v^{n} \u2212 v^{n\u22121})/3 + \u2154h a({x}^{n+1})",
+     "shrinks, by far less than backward Euler"},
+    {"midpoint", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
+     "v^{n+1} = v^{n} + h a(\u00bd({x}^{n} + {x}^{n+1}))",
+     "stays on the circle, a little late"},
+    {"sdirk2", "two stages of backward Euler with \u03b3h,",
+     "\u03b3 = 1 \u2212 1/\u221a2; the second one is the end",
+     "shrinks, by far less than backward Euler"},
+    {"avf", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
+     "v^{n+1} = v^{n} + h \u222b a on the way from {x}^{n} to {x}^{n+1}",
+     "stays on the circle: energy is kept"},
+    {"avf4", "five steps of the averaged field:",
+     "g h, g h, (1 \u2212 4g) h, g h, g h;  g = 1/(4 \u2212 4^{1/3})",
+     "stays on the circle, hardly late"},
+};
+
+/* What each run knows of itself; colour and name are the method's. */
+static void add_runs(const Simulation *simulation, Facts *facts)
+{
+    for (int r = 0; r < simulation->runs; r++) {
+        const TimeIntegrator *run = &simulation->run[r];
+        facts->run = r + 1;
+        facts->colour[r + 1] = circle_colour(simulation, r);
+        fact_when(facts, "after", r > 0);
+        fact_when(facts, "many", simulation->runs > 1);
+        fact_words(facts, "name", run->method->label);
+        fact(facts, "radius", math_hypot(run->x[0], run->x[1]));
+        for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
+            if (strcmp(formulas[i].method, run->method->name) == 0) {
+                fact_words(facts, "first", formulas[i].first);
+                fact_words(facts, "second", formulas[i].second);
+                fact_words(facts, "growth", formulas[i].growth);
+            }
+    }
+    facts->run = 0;
+}
+
+/* Name, both lines and what they do to the circle, run by run. */
+static const Card card_methods = {
+    .name = "methods",
+    .title = "The methods",
+    .least = 20,
+    .weight = 0.3,
+    .words = "@\n{after}\n"
+             "#run* {name}\n{first}\n{second}\n#faint {growth}",
+};
+
 const Picture circle_picture = {
     .name = "circle",
     .cards =
         (const Card *const[]){&card_page, &card_radius, &card_methods, NULL},
     .around = {-1.75, -1.75, 1.75, 1.75},
     .draw = circle_draw,
+    .facts = add_runs,
+    .legend = "#grey exact: |{x}| = 1 m\n"
+              "@\n#run {name}: {radius} m",
+    .scale = true,
     .pick = circle_pick,
     .sample = mass_sample,
 };
@@ -252,69 +314,41 @@ static void mass_draw(Plot *stage, const Show *show)
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 8,
                   run_colour(simulation, r, COLOUR_X));
-    if (show->bare || !stage->text)
-        return;
-    plot_legend(stage, COLOUR_GREY, "the exact path");
-    for (int r = 0; r < simulation->runs && simulation->runs > 1; r++)
-        plot_legend(stage, circle_colour(simulation, r), "%s",
-                    simulation->run[r].method->label);
-    plot_scale(stage);
 }
 
 /* ---- the formula with its numbers --------------------------------------- */
 
-/* "(1.00, 0.50)" */
-static Number point_text(const double point[2])
-{
-    Number text;
-    snprintf(text.text, sizeof text.text, "(%.3g, %.3g)", point[0] + 0.0,
-             point[1] + 0.0);
-    return text;
-}
-
-static void add_mass_lines(const Simulation *simulation, Lines *lines)
+static void mass_facts(const Simulation *simulation, Facts *facts)
 {
     MassStep step;
-    double h = simulation->run[0].h;
-    if (!mass_next_step(simulation, 0, &step)) {
-        lines_add(lines, COLOUR_FAINT, "%s has more stages than arrows",
-                  simulation->run[0].method->label);
-        return;
-    }
-    bool backward = simulation->run[0].method->implicit;
-    bool forward = step.by_old_v;
-    Number new_v = point_text(step.new_v), v = point_text(step.v);
-    lines_add(lines, COLOUR_TEXT, "v\u2032 = v + h a(%s)",
-              backward ? "x\u2032" : "x");
-    lines_add(lines, COLOUR_VELOCITY, "    = %s + %.3g %s = %s", v.text, h,
-              point_text(backward ? step.new_a : step.a).text, new_v.text);
-    lines_add(lines, COLOUR_TEXT, "{x}\u2032 = {x} + h %s",
-              forward ? "v" : "v\u2032");
-    lines_add(lines, COLOUR_X, "    = %s + %.3g %s = %s",
-              point_text(step.x).text, h, forward ? v.text : new_v.text,
-              point_text(step.new_x).text);
-    lines_add(lines, COLOUR_TEXT, "%s", "");
-}
-
-static void draw_mass_numbers(Paper *paper, Box inside, const Show *show)
-{
-    const Simulation *simulation = show->pane[show->active].simulation;
-    Lines lines = {0};
-    if (simulation->runs == 1)
-        add_mass_lines(simulation, &lines);
+    bool one = simulation->runs == 1;
+    add_runs(simulation, facts);
     for (int r = 0; r < simulation->runs; r++) {
-        MassStep step;
         if (!mass_next_step(simulation, r, &step))
             continue;
         double before = mass_energy(step.x, step.v);
         double after = mass_energy(step.new_x, step.new_v);
-        lines_add(&lines, run_colour(simulation, r, COLOUR_TEXT),
-                  "%s%senergy %.4g J \u2192 %.4g J  (\u00d7 %.4g)",
-                  simulation->runs > 1 ? simulation->run[r].method->label : "",
-                  simulation->runs > 1 ? ": " : "", before, after,
-                  after / before);
+        facts->run = one ? 0 : r + 1;
+        fact(facts, "energy", before);
+        fact(facts, "later", after);
+        fact(facts, "factor", after / before);
     }
-    lines_draw(paper, inside, &lines);
+    facts->run = 0;
+    bool backward = simulation->run[0].method->implicit;
+    bool known = mass_next_step(simulation, 0, &step);
+    fact_when(facts, "stages", one && !known);
+    if (!one || !known)
+        return;
+    fact_when(facts, "numbers", true);
+    fact(facts, "h", simulation->run[0].h);
+    fact_words(facts, "at", backward ? "x\u2032" : "x");
+    fact_words(facts, "by", step.by_old_v ? "v" : "v\u2032");
+    fact_point(facts, "place", step.x);
+    fact_point(facts, "v", step.v);
+    fact_point(facts, "a", backward ? step.new_a : step.a);
+    fact_point(facts, "x'", step.new_x);
+    fact_point(facts, "v'", step.new_v);
+    fact_point(facts, "carrying", step.by_old_v ? step.v : step.new_v);
 }
 
 static const Card card_mass_numbers = {
@@ -322,7 +356,17 @@ static const Card card_mass_numbers = {
     .title = "the step with its numbers",
     .least = 10.5,
     .weight = 1.1,
-    .draw = draw_mass_numbers,
+    .words =
+        "#faint {stages}{method} has more stages than arrows\n"
+        "v\u2032 = v + h a({at})\n"
+        "#velocity     = {v} + {h} {a} = {v'}\n"
+        "{x}\u2032 = {x} + h {by}\n"
+        "#x     = {place} + {h} {carrying} = {x'}\n"
+        "{numbers}\n"
+        "{numbers}energy {energy:4} J \u2192 {later:4} J  (\u00d7 {factor:4})\n"
+        "@\n"
+        "#run {many}{name}: energy {energy:4} J \u2192 {later:4} J  "
+        "(\u00d7 {factor:4})",
 };
 
 const Picture mass_picture = {
@@ -332,5 +376,9 @@ const Picture mass_picture = {
     .places = true,
     .bounds = mass_bounds,
     .draw = mass_draw,
+    .facts = mass_facts,
+    .legend = "#grey the exact path\n"
+              "@\n#run {many}{name}",
+    .scale = true,
     .sample = mass_sample,
 };

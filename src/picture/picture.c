@@ -7,6 +7,7 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
+#include "picture/facts.h"
 #include "picture/plot.h"
 #include "scenes/scene.h"
 
@@ -77,6 +78,19 @@ static void draw_label(Paper *paper, const Layout *layout, const Show *show,
     canvas_clip(&paper->canvas, before);
 }
 
+/* The words of a picture. */
+static void draw_legend(Plot *stage, const Show *show, const Picture *picture)
+{
+    Facts facts;
+    TextLine line;
+    const char *text = picture->legend;
+    facts_of(show, stage->pane, &facts);
+    while ((text = text_line_of(&facts, text, &line)))
+        plot_legend(stage, line.colour, "%s", line.words);
+    if (picture->scale)
+        plot_scale(stage);
+}
+
 /* One pane and what the mouse is over in it. */
 static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                       int pane)
@@ -90,6 +104,8 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                   .em = paper->em};
     Box before = canvas_clip(&paper->canvas, stage.box);
     picture->draw(&stage, show);
+    if (stage.text)
+        draw_legend(&stage, show, picture);
     if (!picture->own_handles)
         stage_handles(&stage, show);
     stage_switches(&stage, show);

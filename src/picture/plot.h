@@ -149,7 +149,8 @@ Box plot_note(const Plot *plot, double x, double y, int width, int height,
 typedef struct Number {
     char text[48];
 } Number;
-Number number_of(double value);
+Number number_with(double value, int digits);
+Number number_of(double value); /* with three digits */
 
 /* The numbers in a text that printf made, written as people do: "1.5e-06" is
  * 1.5 x 10^{-6}, and a minus is no hyphen.  text [size] in, markup out. */

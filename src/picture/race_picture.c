@@ -47,34 +47,32 @@ static void race_draw(Plot *stage, const Show *show)
                 race_method(i)->label);
 }
 
-static void race_draw_numbers(Paper *paper, Box inside, const Show *show)
+/* The quickest runs for three errors, explicit and implicit; run: 1, 2, 3. */
+static void race_facts(const Simulation *simulation, Facts *facts)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    static const char *const names[2][3] = {
+        {"explicit", "explicit ms", "explicit h"},
+        {"implicit", "implicit ms", "implicit h"}};
     const Race *race = &simulation->exhibit.race;
-    Lines lines = {0};
-    lines_add(&lines, COLOUR_TEXT, "%d of %d runs, %g s of motion each",
-              race->count, RACE_METHODS * RACE_STEP_SIZES, RACE_TIME);
-    for (double error = 1e-2; error > 0.5e-6; error /= 100) {
-        lines_add(&lines, COLOUR_TEXT, "error at most %g m:", error);
+    fact(facts, "methods", RACE_METHODS);
+    fact(facts, "count", race->count);
+    fact(facts, "most", RACE_METHODS * RACE_STEP_SIZES);
+    fact(facts, "duration", RACE_TIME);
+    fact_words(facts, "yet", simulation->done ? "with these h" : "yet");
+    fact_when(facts, "failed", simulation->status);
+    for (facts->run = 1; facts->run <= 3; facts->run++) {
+        double error = pow(100, -facts->run);
+        fact(facts, "error", error);
         for (int implicit = 0; implicit < 2; implicit++) {
             const RacePoint *best = race_quickest(race, error, implicit);
-            if (best)
-                lines_add(
-                    &lines, COLOUR_FAINT, "    %s: %.3g ms with h = %.3g ms",
-                    best->method->label, 1e3 * best->seconds, 1e3 * best->h);
-            else
-                lines_add(&lines, COLOUR_GREY, "    no %s method%s",
-                          implicit ? "implicit" : "explicit",
-                          simulation->done ? " with these h" : " yet");
+            const char *const *name = names[implicit];
+            fact_words(facts, name[0], best ? best->method->label : NULL);
+            fact(facts, name[1], best ? 1e3 * best->seconds : NAN);
+            fact(facts, name[2], best ? 1e3 * best->h : NAN);
+            fact_when(facts, implicit ? "no implicit" : "no explicit", !best);
         }
     }
-    lines_add(&lines, COLOUR_FAINT,
-              "hollow: it explodes when it goes on with this h");
-    if (simulation->status)
-        lines_add(&lines, COLOUR_WARNING,
-                  "no answer to compare with: k is "
-                  "too large");
-    lines_draw(paper, inside, &lines);
+    facts->run = 0;
 }
 
 static const Card card_race_numbers = {
@@ -82,7 +80,15 @@ static const Card card_race_numbers = {
     .title = "the quickest runs",
     .least = 17.5,
     .weight = 1.4,
-    .draw = race_draw_numbers,
+    .words =
+        "{count} of {most} runs, {duration} s of motion each\n"
+        "#warning {failed}no answer to compare with: k is too large\n"
+        "#faint hollow: it explodes when it goes on with this h\n"
+        "@\nerror at most {error} m:\n"
+        "#faint     {explicit}: {explicit ms} ms with h = {explicit h} ms\n"
+        "#grey     {no explicit}no explicit method {yet}\n"
+        "#faint     {implicit}: {implicit ms} ms with h = {implicit h} ms\n"
+        "#grey     {no implicit}no implicit method {yet}",
 };
 
 const Picture race_picture = {
@@ -91,4 +97,5 @@ const Picture race_picture = {
     .stretched = true,
     .around = {-6.3, -9.3, 0.3, 1}, /* powers of ten: s across, m */
     .draw = race_draw,
+    .facts = race_facts,
 };

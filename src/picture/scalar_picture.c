@@ -139,12 +139,31 @@ static void curve_draw(Plot *stage, const Show *show)
     plot_graph(&plot, model_at, &update, 1.6, COLOUR_P);
     draw_model_minimum(&plot, &update);
     draw_iterates(&plot, &update);
-    if (show->bare || !stage->text)
-        return;
-    plot_legend(stage, COLOUR_X, "f(x) = ln(e^{x} + e^{\u2212x})");
-    plot_legend(stage, COLOUR_P, "quadratic model at x^{%d}", update.number);
-    if (update.refused > 0)
-        plot_legend(stage, COLOUR_WARNING, "refused lengths");
+}
+
+/* The update that is shown, from its iterate to the next one. */
+static void scalar_facts(const Simulation *simulation, Facts *facts)
+{
+    Update update = last_update(simulation);
+    double x = update.x0, p = update.x1 - update.x0;
+    double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
+    bool tangent = simulation->scene->picture == PICTURE_TANGENT;
+    fact_when(facts, "tangent", tangent);
+    fact(facts, "number", update.number);
+    fact(facts, "next number", update.number + 1);
+    fact_when(facts, "refused lengths", update.refused > 0);
+    fact(facts, "iterate", x);
+    fact(facts, "next", next);
+    fact_when(facts, "no length", !(update.alpha > 0));
+    fact_when(facts, "full length", update.alpha >= 1);
+    if (update.alpha > 0 && update.alpha < 1)
+        fact(facts, "shorter", update.alpha);
+    fact(facts, "slope", update.first);
+    fact(facts, "curvature", update.second);
+    fact(facts, "direction", p);
+    fact(facts, "E", update.f);
+    fact(facts, "next E", scalar_at(simulation, next).value);
+    fact_when(facts, "highest", update.second <= 0);
 }
 
 const Picture curve_picture = {
@@ -155,6 +174,10 @@ const Picture curve_picture = {
     .places = true,
     .around = {-1.08 * 14, 1.25 * -6, 1.05 * 14, 1.1 * 14},
     .draw = curve_draw,
+    .facts = scalar_facts,
+    .legend = "#x f(x) = ln(e^{x} + e^{\u2212x})\n"
+              "#p quadratic model at x^{{number}}\n"
+              "#warning {refused lengths}refused lengths",
 };
 
 /* ---- g and its tangents above E and its parabolas ------------------------ */
@@ -281,38 +304,19 @@ static Pick tangent_pick(const Show *show, const Plot *stage, double x,
     return pick;
 }
 
-static void tangent_draw_numbers(Paper *paper, Box inside, const Show *show)
-{
-    const Simulation *simulation = show->pane[show->active].simulation;
-    Update update = last_update(simulation);
-    double p = update.x1 - update.x0, x = update.x1;
-    Lines lines = {0};
-    lines_add(&lines, COLOUR_X, "x^{%d} = %.8g", update.number, update.x0);
-    lines_add(&lines, COLOUR_TEXT, "g = %.6g     E\u2033 = %.6g", update.first,
-              update.second);
-    lines_add(&lines, COLOUR_P, "{p} = \u2212g / E\u2033 = %.8g", p);
-    if (update.alpha > 0) {
-        x = update.x0 + update.alpha * p;
-        lines_add(&lines, COLOUR_X, "x^{%d} = %.8g%s%s", update.number + 1, x,
-                  update.alpha < 1 ? ",  {alpha} = " : "",
-                  update.alpha < 1 ? alpha_of(update.alpha).text : "");
-    } else {
-        lines_add(&lines, COLOUR_X, "x^{%d} + {p} = %.8g", update.number, x);
-    }
-    lines_add(&lines, COLOUR_TEXT, "E: %.8g \u2192 %.8g", update.f,
-              scalar_at(simulation, x).value);
-    if (update.second <= 0)
-        lines_add(&lines, COLOUR_WARNING,
-                  "E\u2033 < 0: the parabola has a highest point");
-    lines_draw(paper, inside, &lines);
-}
-
 static const Card card_tangent_numbers = {
     .name = "numbers",
     .title = "the update with its numbers",
     .least = 10,
     .weight = 0.9,
-    .draw = tangent_draw_numbers,
+    .words = "#x x^{{number}} = {iterate:8}\n"
+             "g = {slope:6}     E\u2033 = {curvature:6}\n"
+             "#p {p} = \u2212g / E\u2033 = {direction:8}\n"
+             "#x {full length}x^{{next number}} = {next:8}\n"
+             "#x x^{{next number}} = {next:8},  {alpha} = {shorter:/}\n"
+             "#x {no length}x^{{number}} + {p} = {next:8}\n"
+             "E: {E:8} \u2192 {next E:8}\n"
+             "#warning {highest}E\u2033 < 0: the parabola has a highest point",
 };
 
 const Picture tangent_picture = {
@@ -323,5 +327,6 @@ const Picture tangent_picture = {
     .own_handles = true,
     .bounds = tangent_bounds,
     .draw = tangent_draw,
+    .facts = scalar_facts,
     .pick = tangent_pick,
 };

@@ -21,7 +21,7 @@ static void spring_bounds(const Show *show, int pane, double bounds[4])
     bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), M_SQRT2, bounds);
 }
 
-static SpringFacts facts_of(const Simulation *simulation)
+static SpringFacts facts_of_spring(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     SpringFacts facts;
@@ -68,7 +68,7 @@ static void spring_draw(Plot *stage, const Show *show)
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const double *x = simulation->run[0].x, origin[2] = {0, 0};
     double l = sqrt(simulation->system.l2[0]);
-    SpringFacts facts = facts_of(simulation);
+    SpringFacts facts = facts_of_spring(simulation);
     bool projects = facts.across < 0;
     spring_circle(stage, l, COLOUR_FAINT, "l");
     spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
@@ -76,50 +76,28 @@ static void spring_draw(Plot *stage, const Show *show)
     plot_pin(stage, origin, 6);
     plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
     plot_disc(stage, x, 9, COLOUR_X);
-    if (!stage->text)
-        return;
-    plot_legend(stage, COLOUR_FORCE, "force");
-    plot_legend(stage, COLOUR_FAINT, "rest length");
-    plot_legend(stage, COLOUR_PROJECT,
-                "shorter than l: it has an eigenvalue below 0");
-    plot_scale(stage);
 }
 
 /* ---- cards -------------------------------------------------------------- */
 
-static void spring_draw_numbers(Paper *paper, Box inside, const Show *show)
+static void add_facts(const Simulation *simulation, Facts *facts)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
-    SpringFacts facts = facts_of(simulation);
-    const double *x = simulation->run[0].x;
-    double k = simulation->system.k[0], l = sqrt(simulation->system.l2[0]);
-    Lines lines = {0};
-    char s[32];
-    factor_text(s, sizeof s, facts.strain);
-    lines_add(&lines, COLOUR_TEXT,
-              "d = (%.3g, %.3g) m   |d| = %.4g m   l = %.3g m", x[0], x[1],
-              facts.length, l);
-    lines_add(&lines, COLOUR_TEXT, "s = |d|\u00b2/l\u00b2 \u2212 1 = %.4g",
-              facts.strain);
-    lines_add(&lines, COLOUR_X,
-              "P = l\u00b2 k/2 s\u00b2 = %.3g \u00b7 %.3g/2 \u00b7 %s\u00b2 "
-              "= %.5g J",
-              l * l, k, s, facts.energy);
-    lines_add(&lines, COLOUR_FORCE, "f = \u22122 k s d = (%.4g, %.4g) N",
-              facts.force[0] + 0.0, facts.force[1] + 0.0);
-    lines_add(&lines, COLOUR_TEXT,
-              "curvature along %.4g, across %.4g J/m\u00b2", facts.along,
-              facts.across);
-    if (simulation->exhibit.parts) {
-        lines_add(&lines, COLOUR_TEXT, "%s", "");
-        lines_add(&lines, COLOUR_GHOST,
-                  "with the root: 2k (|d| \u2212 l)\u00b2 = %.5g J",
-                  facts.root_energy);
-        lines_add(&lines, COLOUR_GHOST,
-                  "curvature along %.4g, across %.4g J/m\u00b2",
-                  facts.root_along, facts.root_across);
-    }
-    lines_draw(paper, inside, &lines);
+    SpringFacts now = facts_of_spring(simulation);
+    bool both = simulation->exhibit.parts;
+    fact_point(facts, "d", simulation->run[0].x);
+    fact(facts, "distance", now.length);
+    fact(facts, "l", sqrt(simulation->system.l2[0]));
+    fact(facts, "l2", simulation->system.l2[0]);
+    fact(facts, "k", simulation->system.k[0]);
+    fact(facts, "strain", now.strain);
+    fact(facts, "energy", now.energy);
+    fact_point(facts, "force", now.force);
+    fact(facts, "along", now.along);
+    fact(facts, "across", now.across);
+    fact_when(facts, "root", both);
+    fact(facts, "root energy", both ? now.root_energy : NAN);
+    fact(facts, "root along", both ? now.root_along : NAN);
+    fact(facts, "root across", now.root_across);
 }
 
 /* Four bars up or down from a line, with numbers. */
@@ -152,7 +130,7 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
 static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
-    SpringFacts facts = facts_of(simulation);
+    SpringFacts facts = facts_of_spring(simulation);
     double most = 1e-300;
     for (int i = 0; i < 4; i++) {
         most = fmax(most, fabs(facts.block[i]));
@@ -190,7 +168,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     const System *system = &simulation->system;
-    SpringFacts now = facts_of(simulation);
+    SpringFacts now = facts_of_spring(simulation);
     bool both = simulation->exhibit.parts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
@@ -213,7 +191,17 @@ static const Card card_spring_numbers = {
     .title = "the spring in numbers",
     .least = 9.6,
     .weight = 1.1,
-    .draw = spring_draw_numbers,
+    .words = "d = {d} m   |d| = {distance:4} m   l = {l} m\n"
+             "s = |d|\u00b2/l\u00b2 \u2212 1 = {strain:4}\n"
+             "#x P = l\u00b2 k/2 s\u00b2 = {l2} \u00b7 {k}/2 \u00b7 "
+             "{strain:4'}\u00b2 = {energy:5} J\n"
+             "#force f = \u22122 k s d = {force:4} N\n"
+             "curvature along {along:4}, across {across:4} J/m\u00b2\n"
+             "{root}\n"
+             "#ghost with the root: 2k (|d| \u2212 l)\u00b2 = "
+             "{root energy:5} J\n"
+             "#ghost curvature along {root along:4}, across {root across:4} "
+             "J/m\u00b2",
 };
 static const Card card_eigenvalues = {
     .name = "eigenvalues",
@@ -238,4 +226,8 @@ const Picture spring_picture = {
     .cards = spring_cards,
     .bounds = spring_bounds,
     .draw = spring_draw,
+    .facts = add_facts,
+    .legend = "#force force\n#faint rest length\n"
+              "#project shorter than l: it has an eigenvalue below 0",
+    .scale = true,
 };

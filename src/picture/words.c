@@ -26,34 +26,40 @@ static const double COST_WORDS = 10, COST_LINE = 4, COST_OUTSIDE = 30,
 
 /* ---- numbers ------------------------------------------------------------ */
 
-/* Three digits; a power of ten where there would be many zeros. */
-Number number_of(double value)
+/* So many digits; a power of ten where there would be many zeros. */
+Number number_with(double value, int digits)
 {
     Number out;
     size_t size = sizeof out.text;
-    double most = fabs(value);
+    double most = fabs(value), whole = pow(10, digits) - 0.5;
+    double large = fmax(1e5, whole);
     const char *sign = value < 0 ? "\u2212" : "";
     if (!isfinite(value)) {
         snprintf(out.text, size, "%s%s", sign,
                  isnan(value) ? "no number" : "\u221e");
-    } else if (most >= 999.5 && most < 1e5) { /* with three digits: 1000 */
-        double digit = pow(10, floor(log10(most)) - 2);
+    } else if (most >= whole && most < large) { /* with three digits: 1000 */
+        double digit = pow(10, floor(log10(most)) - digits + 1);
         snprintf(out.text, size, "%s%.0f", sign,
                  floor(most / digit + 0.5) * digit);
-    } else if (most == 0 || (most >= 1e-3 && most < 1e5)) {
-        snprintf(out.text, size, "%s%.3g", sign, most);
+    } else if (most == 0 || (most >= 1e-3 && most < large)) {
+        snprintf(out.text, size, "%s%.*g", sign, digits, most);
     } else {
-        char plain[16];
-        snprintf(plain, sizeof plain, "%.2e", most);
+        char plain[20];
+        snprintf(plain, sizeof plain, "%.*e", digits - 1, most);
         char *power = strchr(plain, 'e');
         int exponent = (int)strtol(power + 1, NULL, 10);
         *power = '\0';
         double part = strtod(plain, NULL);
-        snprintf(plain, sizeof plain, "%g\u00b7", part);
+        snprintf(plain, sizeof plain, "%.*g\u00b7", digits, part);
         snprintf(out.text, size, "%s%s10^{%s%d}", sign, part == 1 ? "" : plain,
                  exponent < 0 ? "\u2212" : "", abs(exponent));
     }
     return out;
+}
+
+Number number_of(double value)
+{
+    return number_with(value, 3);
 }
 
 void plot_numbers(char *text, size_t size)

@@ -745,19 +745,37 @@ TEST(times_are_counted_in_words)
     }
 }
 
-/* In a formula a number with a sign or a power of ten stands in parentheses. */
-TEST(formulas_can_be_read)
+/* Numbers of a text have the digits that it asks for; in a formula those with a
+ * sign or a power of ten stand in parentheses, and 1/4 is one.  A line with
+ * what is not known is left out; what stands behind "@" is said for each run.
+ */
+TEST(texts_say_what_is_known)
 {
     static const struct {
-        double value;
-        const char *text;
-    } rows[] = {{0.69, "0.69"},   {-0.5511, "(-0.5511)"},
-                {-0.0, "0"},      {1.468e-6, "(1.468e-06)"},
-                {3e9, "(3e+09)"}, {12, "12"}};
+        const char *text, *line;
+    } rows[] = {{"a {nothing}\nb", "b"},
+                {"#warning* {a:4'}\u00b2", "0.69\u00b2"},
+                {"{b:4'}\u00b2", "(\u22120.5511)\u00b2"},
+                {"{c:4'}", "(1.468\u00b710^{\u22126})"},
+                {"{d:/} of x^{{a}} {x}", "1/4 of x^{0.69} {x}"},
+                {"{e:2} {e} {e:7}", "1200 1230 1234.567"},
+                {"{nothing}\n@\n{f}", "2"}};
+    Facts facts = {.count = 0};
+    TextLine line;
+    fact(&facts, "a", 0.69);
+    fact(&facts, "b", -0.5511);
+    fact(&facts, "c", 1.468e-6);
+    fact(&facts, "d", 0.25);
+    fact(&facts, "e", 1234.567);
+    fact(&facts, "nothing", NAN);
+    facts.run = 2;
+    fact(&facts, "f", 2);
+    facts.run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char text[32];
-        factor_text(text, sizeof text, rows[i].value);
-        assert_string_equal(text, rows[i].text);
+        const char *rest = text_line_of(&facts, rows[i].text, &line);
+        assert_string_equal(line.words, rows[i].line);
+        CHECK((line.colour == COLOUR_WARNING) == (i == 1));
+        CHECK(!text_line_of(&facts, rest, &line) && line.words[0] == 0);
     }
 }
 
@@ -809,13 +827,13 @@ TEST(the_last_residual_passes)
         stand_up(searches[i], 0);
         const Descent *descent = &simulation.descent;
         while (!simulation.done) {
-            double before = cards_trace(&show, &space)->residual;
+            double before = pane_trace(&show.pane[0], &space)->residual;
             CHECK(before > simulation.options.tolerance);
             simulation_step(&simulation);
             CHECK_NEAR(descent->record[descent->count - 1].residual, before,
                        1e-9 * before);
         }
-        CHECK_AT_MOST(cards_trace(&show, &space)->residual,
+        CHECK_AT_MOST(pane_trace(&show.pane[0], &space)->residual,
                       simulation.options.tolerance);
     }
 }
@@ -951,7 +969,9 @@ TEST(explicit_methods_promise_no_updates)
         "square --integrator forward-euler", "square --integrator verlet"};
     for (int i = 0; i < 5; i++) {
         stand_up(methods[i], 0);
-        CHECK(cards_explicit(&show) == (i > 2));
+        char words[SHOW_TEXT] = "";
+        text_say(&show, "{explicit}none\nsome", words, sizeof words);
+        assert_string_equal(words, i > 2 ? "none" : "some");
     }
 }
 

@@ -1,0 +1,373 @@
+#include "picture/facts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+#include "picture/plot.h"
+#include "scenes/scene.h"
+#include "scenes/small_scenes.h"
+
+/* ---- what is known ------------------------------------------------------- */
+
+static Fact *add_fact(Facts *facts, const char *name)
+{
+    Fact *new = &facts->fact[facts->count % FACTS_MOST];
+    facts->count += facts->count < FACTS_MOST;
+    *new = (Fact){.name = name, .run = facts->run};
+    return new;
+}
+
+void fact(Facts *facts, const char *name, double value)
+{
+    if (!isnan(value))
+        add_fact(facts, name)->value[0] = value;
+}
+
+void fact_words(Facts *facts, const char *name, const char *words)
+{
+    if (words)
+        add_fact(facts, name)->words = words;
+}
+
+void fact_when(Facts *facts, const char *name, bool on)
+{
+    fact_words(facts, name, on ? "" : NULL);
+}
+
+void fact_point(Facts *facts, const char *name, const double point[2])
+{
+    Fact *new = add_fact(facts, name);
+    new->point = true;
+    memcpy(new->value, point, sizeof new->value);
+}
+
+/* Where a search ended that is no minimum: the gradient is 0 there, too. */
+static void add_end(const Simulation *simulation, Facts *facts)
+{
+    const Descent *descent = &simulation->descent;
+    bool ended = simulation->done && simulation->scene->step == step_descent &&
+                 descent->residual <= simulation->options.tolerance;
+    int down = ended ? descent_bends_down(simulation, descent->point[0],
+                                          descent->point[1])
+                     : 0;
+    fact_when(facts, "saddle", down == 1);
+    fact_when(facts, "maximum", down == 2);
+}
+
+/* Scene, methods and settings. */
+static void add_settings(const Show *show, const Simulation *simulation,
+                         Facts *facts)
+{
+    const Scene *scene = simulation->scene;
+    const Options *options = &simulation->options;
+    const TimeIntegrator *run = simulation->run;
+    const IntegratorMethod *method = run[0].method;
+    const Descent *descent = &simulation->descent;
+    bool time = scene->needs & NEEDS_TIME;
+    bool explicit = time && method && !method->implicit;
+    bool backward = method && strcmp(method->name, "backward-euler") == 0;
+    bool forward = method && strcmp(method->name, "forward-euler") == 0;
+    fact_words(facts, "scene", show->lecture ? NULL : scene->sentence);
+    fact_words(facts, "page", show->lecture ? show->lecture_title : NULL);
+    fact_when(facts, "grows", scene->settles && forward);
+    fact_when(facts, "keeps", scene->settles && method && !method->damps);
+    fact(facts, "panes", show->panes > 1 ? show->panes : NAN);
+    fact_when(facts, "searches",
+              scene->turn && scene->picture != PICTURE_ENVELOPE);
+    fact(facts, "runs", simulation->runs);
+    fact_when(facts, "mixed", simulation->runs > 1 && method != run[1].method);
+    fact_words(facts, "method", method ? method->label : NULL);
+    fact_when(facts, "blocks",
+              simulation->runs > 1 && scene->picture == PICTURE_SQUARE);
+    fact_when(facts, "time", time);
+    fact_when(facts, "explicit", explicit);
+    fact_when(facts, explicit ? method->name : "", explicit);
+    fact_when(facts, "inside", time && method && !backward);
+    fact_when(facts, "one unknown", descent->scalar != NULL);
+    fact_when(facts, "by gradient", descent->by_gradient);
+    fact_when(facts, "Algorithm 1", descent->by_gradient && !descent->scalar);
+    fact_when(facts, "Algorithm 3", !explicit && !descent->by_gradient);
+    fact_when(facts, "search", descent->scalar != NULL);
+    fact_when(facts, "search", !explicit && !descent->by_gradient);
+    fact_when(facts, "raw", options->filter == FILTER_NONE);
+    fact_when(facts, "whole", options->line_search == LINE_SEARCH_NONE);
+    fact(facts, "springs", simulation->system.springs);
+    fact_when(facts, "done", simulation->done);
+    fact_when(facts, "paused", show->paused);
+}
+
+/* "st", "nd", "rd", "th" */
+static const char *ordinal(int number)
+{
+    static const char *const ends[] = {"th", "st", "nd", "rd"};
+    bool teen = number / 10 % 10 == 1;
+    return teen || number % 10 > 3 ? "th" : ends[number % 10];
+}
+
+/* The step as far as it has come, or the last update of a search. */
+static void add_trace(const Simulation *simulation, const Trace *trace,
+                      Facts *facts)
+{
+    bool known = isfinite(trace->residual) && !trace->passed;
+    bool above = trace->residual > trace->tolerance;
+    if (trace->projected >= 0) {
+        fact(facts, "projected", trace->projected);
+        fact_when(facts, "of springs", simulation_projects_springs(simulation));
+        fact_words(facts, "s", trace->projected == 1 ? "" : "s");
+    }
+    fact(facts, "h then", trace->h);
+    fact(facts, "tolerance", trace->tolerance);
+    fact_when(facts, "walking", trace->line != LINE_NONE);
+    fact_when(facts, "updated", trace->updates > 0);
+    fact(facts, "nth", trace->iteration + 1);
+    fact_words(facts, "th", ordinal(trace->iteration + 1));
+    fact_words(facts, "way", trace->slope > 0 ? "uphill" : "downhill");
+    fact_when(facts, "uphill", trace->slope > 0);
+    if (trace->trials > 0 || trace->line)
+        fact(facts, "length",
+             trace_alpha(trace, trace->trials > 1 ? trace->trials : 1));
+    fact_when(facts, "taken", trace->trials > 0 && trace->accepted);
+    fact_when(facts, "refused", trace->trials > 0 && !trace->accepted);
+    fact_when(facts, "given up", trace->given_up);
+    if (trace->trials > 0 && trace->difference) {
+        double alpha = trace_alpha(trace, trace->trials);
+        double change = trace->difference(trace->function, alpha);
+        fact(facts, "change", change);
+        fact_words(facts, "change", "no number");
+        fact_words(facts, "+", change > 0 ? "+" : "");
+    }
+    fact_when(facts, "passed", trace->passed);
+    fact_words(facts, "kind",
+               trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
+    if (known) {
+        fact(facts, "residual", trace->residual);
+        fact(facts, "p size", trace->residual * trace->h);
+        fact_words(facts, ">", above ? ">" : "\u2264");
+        fact_words(facts, "above", above ? "above" : "not above");
+        fact_words(facts, "given",
+                   above && trace->given_up ? ": given up" : "");
+    }
+}
+
+void facts_of(const Show *show, int pane, Facts *facts)
+{
+    const Pane *now = &show->pane[pane];
+    const Simulation *simulation = now->simulation;
+    const Picture *picture = picture_of(simulation->scene);
+    DescentTrace space;
+    const Trace *trace = pane_trace(now, &space);
+    bool whole = !now->trace || !now->trace->line || now->trace->given_up;
+    facts->count = facts->run = 0;
+    facts->each = NULL;
+    add_settings(show, simulation, facts);
+    add_end(simulation, facts);
+    if (whole && now->trouble && now->trouble != STATUS_INTERRUPTED) {
+        fact_words(facts, status_name(now->trouble), "");
+        fact_words(facts, "trouble", status_text(now->trouble));
+    }
+    if (now->trace && now->trace->line) {
+        static const char *const lines[LINE_COUNT] = {
+            "",       "line 1", "line 2", "line 3", "line 4",
+            "line 5", "line 6", "line 7", "line 8"};
+        fact_when(facts, lines[now->trace->line], true);
+    }
+    fact_when(facts, "no step", !trace);
+    if (trace)
+        add_trace(simulation, trace, facts);
+    if (picture->facts)
+        picture->facts(simulation, facts);
+}
+
+/* ---- texts --------------------------------------------------------------- */
+
+/* "#warning" */
+static Colour colour_named(const Facts *facts, const char *name, size_t length)
+{
+    static const struct {
+        const char *name;
+        Colour colour;
+    } rows[] = {{"faint", COLOUR_FAINT},
+                {"grey", COLOUR_GREY},
+                {"warning", COLOUR_WARNING},
+                {"shaded", COLOUR_SHADED},
+                {"x", COLOUR_X},
+                {"xt", COLOUR_X_TILDE},
+                {"p", COLOUR_P},
+                {"alpha", COLOUR_ALPHA},
+                {"project", COLOUR_PROJECT},
+                {"ghost", COLOUR_GHOST},
+                {"velocity", COLOUR_VELOCITY},
+                {"force", COLOUR_FORCE}};
+    if (strncmp(name, "run", length) == 0)
+        return facts->colour[facts->run];
+    if (*name >= '0' && *name <= '0' + FACTS_RUNS)
+        return facts->colour[*name - '0'];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strlen(rows[i].name) == length &&
+            strncmp(rows[i].name, name, length) == 0)
+            return rows[i].colour;
+    return COLOUR_TEXT;
+}
+
+/* Whether the brace at this place is markup: a letter of the slides, or it
+ * stands behind ^ or _. */
+static bool is_markup(const char *text, const char *brace)
+{
+    static const char *const letters[] = {"{x}", "{xt}", "{p}", "{alpha}"};
+    for (int i = 0; i < 4; i++)
+        if (strncmp(brace, letters[i], strlen(letters[i])) == 0)
+            return true;
+    return brace > text && (brace[-1] == '^' || brace[-1] == '_');
+}
+
+/* The fact of this name, up to its colon or brace. */
+static const Fact *find_fact(const Facts *facts, const char *name)
+{
+    size_t length = strcspn(name, ":}");
+    for (int i = 0; i < facts->count; i++) {
+        const Fact *one = &facts->fact[i];
+        bool here = one->run == 0 || one->run == facts->run;
+        if (here && strlen(one->name) == length &&
+            strncmp(name, one->name, length) == 0)
+            return one;
+    }
+    return NULL;
+}
+
+/* 1/2, 1/4, ... where it is one of them. */
+static Number fraction_of(double value)
+{
+    int exponent;
+    Number number = number_of(value);
+    if (value > 0 && value < 1 && frexp(value, &exponent) == 0.5 &&
+        exponent > -9)
+        snprintf(number.text, sizeof number.text, "1/%d", 1 << (1 - exponent));
+    return number;
+}
+
+/* One number or word of a line, as the letters behind the colon say. */
+static void put_fact(const Fact *one, const char *format, char *out,
+                     size_t size)
+{
+    char *rest;
+    int digits = (int)strtol(format, &rest, 10);
+    Number number[2];
+    for (int k = 0; k < 2 && !one->words; k++)
+        number[k] = *rest == '/'
+                        ? fraction_of(one->value[k])
+                        : number_with(one->value[k], digits ? digits : 3);
+    bool apart =
+        *rest == '\'' && (one->value[0] < 0 || strchr(number[0].text, '^'));
+    if (one->words)
+        snprintf(out, size, "%s", one->words);
+    else if (one->point)
+        snprintf(out, size, "(%s, %s)", number[0].text, number[1].text);
+    else
+        snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
+}
+
+/* Fills one line [length]; false: something in it is not known. */
+static bool fill_line(const Facts *facts, const char *text, size_t length,
+                      TextLine *line)
+{
+    const char *from = text, *end = text + length;
+    size_t used = 0;
+    *line = (TextLine){COLOUR_TEXT, FACE_REGULAR, ""};
+    if (*from == '#') {
+        size_t name = strcspn(from, " *");
+        line->colour = colour_named(facts, from + 1, name - 1);
+        line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
+        from += name + 1 + (from[name] == '*');
+    }
+    while (from < end && used + 1 < sizeof line->words) {
+        if (*from != '{' || is_markup(text, from)) {
+            line->words[used++] = *from++;
+            continue;
+        }
+        const Fact *one = find_fact(facts, from + 1);
+        size_t name = strcspn(from, ":}");
+        if (!one)
+            return false;
+        put_fact(one, from[name] == ':' ? from + name + 1 : "",
+                 line->words + used, sizeof line->words - used);
+        used += strlen(line->words + used);
+        from += strcspn(from, "}") + 1;
+    }
+    return true;
+}
+
+const char *text_line_of(Facts *facts, const char *text, TextLine *line)
+{
+    while (text) {
+        if (*text == '@') {
+            text = facts->each = text + 2;
+            facts->run = 1;
+        }
+        if (!*text && facts->each && facts->run < FACTS_RUNS) {
+            text = facts->each;
+            facts->run++;
+        }
+        if (!*text)
+            break;
+        size_t length = strcspn(text, "\n");
+        bool known = fill_line(facts, text, length, line);
+        text += length + (text[length] == '\n');
+        if (known)
+            return text;
+    }
+    facts->each = NULL;
+    facts->run = 0;
+    *line = (TextLine){COLOUR_TEXT, FACE_REGULAR, ""};
+    return NULL;
+}
+
+void text_say(const Show *show, const char *text, char *out, size_t size)
+{
+    Facts facts;
+    TextLine line;
+    if (out[0])
+        return;
+    facts_of(show, show->active, &facts);
+    text_line_of(&facts, text, &line);
+    snprintf(out, size, "%s", line.words);
+}
+
+void text_in_card(Paper *paper, Box inside, const Show *show, const char *text)
+{
+    const double pitch = 1.5, empty = 0.6; /* ems */
+    double height = 0, size = 1, y = inside.y;
+    Facts facts;
+    TextLine line;
+    facts_of(show, show->active, &facts);
+    for (const char *at = text; (at = text_line_of(&facts, at, &line));) {
+        int width = paper_width(paper, line.face, 1, line.words);
+        height += line.words[0] ? pitch : empty;
+        if (width > inside.width)
+            size = fmin(size, (double)inside.width / width);
+    }
+    size = fmin(size, inside.height / (height * paper->em));
+    while ((text = text_line_of(&facts, text, &line))) {
+        paper_write(paper, line.face, size, line.colour, inside.x, y,
+                    ALIGN_LEFT, "%s", line.words);
+        y += (line.words[0] ? pitch : empty) * size * paper->em;
+    }
+}
+
+int words_flow(Paper *paper, Box inside, int at[2], double size, double gap,
+               const TextLine *line, bool draw)
+{
+    int width = paper_width(paper, line->face, size, line->words);
+    if (at[0] > 0 && at[0] + width > inside.width) {
+        at[0] = 0;
+        at[1] += paper_pixels(paper, 1.35 * size);
+    }
+    if (draw)
+        paper_write(paper, line->face, size, line->colour, inside.x + at[0],
+                    inside.y + at[1], ALIGN_LEFT, "%s", line->words);
+    at[0] += width + paper_pixels(paper, gap);
+    return at[1] + paper_pixels(paper, 1.5 * size);
+}
