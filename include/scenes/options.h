@@ -21,50 +21,32 @@ static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
 /* All numbers are doubles that are seen as an array, too: a slot is the place
  * of one in it.  Whole numbers, switches (0 or 1) and names (their place in the
- * row's list) are among them. */
-enum { OPTIONS_NUMBERS = 128 }; /* room: there may be fewer */
+ * row's list) are among them.  What each is, its unit and its range: see its
+ * row in options.c. */
+enum { OPTIONS_NUMBERS = 128 }; /* room; the compiler says if it is too small */
 
 typedef struct Options {
     union {
         struct {
-            double segments;
-            double side;           /* m */
-            double density;        /* kg/m^2 */
-            double stiffness;      /* J/m^2 */
-            double stretch;        /* initial horizontal factor */
-            double turn;           /* degrees, anticlockwise, after it */
-            double at[2];          /* m, then moved by this */
-            double velocity[2];    /* m/s, of every node at the start */
-            double gravity;        /* m/s^2, downwards */
-            double start[2];       /* m, where scenes with a start begin */
-            double grounds, balls; /* obstacles */
-            double ground[OPTIONS_MAX_GROUNDS][4]; /* normal, m: a point */
-            double ball[OPTIONS_MAX_BALLS][3];     /* m, centre and radius */
-            double
-                barrier[2];  /* d_hat in m, kappa in J/m^3; 0: side/100, 4 k */
-            double friction; /* mu of the obstacles */
-            double slip_speed;  /* m/s, eps_v: above it a contact slides */
-            double cells;       /* 1: they cannot turn over */
-            double yield;       /* strain at which springs flow; 0: never */
-            double hardening;   /* of the yield strain for flowing by 1 */
-            double tear;        /* strain at which springs break; 0: never */
-            double damping;     /* s, eta of the springs; 0: none */
-            double timestep;    /* s */
-            double integrator;  /* its row; -1: the scene's choice */
-            double tolerance;   /* m/s */
-            double solver;      /* enum Solver */
-            double minimum;     /* 1: no step ends on a saddle */
-            double filter;      /* enum Filter */
-            double line_search; /* enum LineSearch */
-            double flips;   /* bit s: switch s of the scene is turned over at
-                               the start; only pages set this */
+            double segments, side, density, stiffness, stretch;
+            double turn, at[2], velocity[2], gravity, start[2];
+            double grounds, ground[OPTIONS_MAX_GROUNDS][4]; /* how many, and */
+            double balls, ball[OPTIONS_MAX_BALLS][3];       /* which ones */
+            double barrier[2]; /* 0: side/100, 4 k */
+            double friction, slip_speed, cells;
+            double yield, hardening, tear; /* 0: never */
+            double damping;
+            double terms[8]; /* of terms that nobody else asks for */
+            double timestep, tolerance, minimum;
+            double integrator;     /* its row; -1: the scene's choice */
+            double solver, filter; /* enum Solver, Filter */
+            double line_search;    /* enum LineSearch */
+            double flips;          /* bit s: switch s of the scene is turned
+                                      over at the start; only pages set this */
             double steps;   /* -1: until closed, or 100 without a screen */
-            double paused;  /* at the start */
             double speed;   /* steps a frame; 0: the scene's */
-            double size[2]; /* pixels of window or frames; 0: the usual ones */
-            double fullscreen;
-            double headless; /* no window even where there is a screen */
-            double quiet;
+            double size[2]; /* pixels; 0: the usual ones */
+            double paused, fullscreen, headless, quiet;
             double help, version, list; /* print that and stop */
         };
         double number[OPTIONS_NUMBERS];
@@ -72,13 +54,8 @@ typedef struct Options {
     const struct Scene *scene;
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
-    const char *frames;             /* folder for PNG frames, or NULL */
-    const char *states;  /* file for states, "-" for stdout, or NULL */
-    const char *log;     /* file for the Newton log, or NULL */
-    const char *film;    /* file for a film of all drawn steps, or NULL */
-    const char *script;  /* file of commands, or NULL */
-    const char *handout; /* file for the pages as one HTML file, or NULL */
-    int panes;           /* side by side, 1: no lists of values */
+    const char *frames, *states, *log, *film, *script, *handout; /* or NULL */
+    int panes; /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */
@@ -98,6 +75,20 @@ typedef enum OptionKind {
     OPTION_TEXT,   /* a file, a folder: not empty */
     OPTION_PAGE,   /* of the lecture; the value may be left out */
 } OptionKind;
+
+/* The names of a table whose rows begin with one, up to NULL. */
+typedef struct Names {
+    const void *table;
+    size_t size; /* of a row */
+} Names;
+
+#define NAMES_OF(table) ((Names){table, sizeof *(table)})
+
+/* Name i, NULL behind the last; the place of a name, -1: there is none; how
+ * many there are. */
+const char *name_at(Names names, int i);
+int name_place(Names names, const char *name);
+int names_count(Names names);
 
 /* When another number takes effect. */
 typedef enum Effect {
@@ -122,9 +113,8 @@ typedef struct OptionRow {
     double standard;  /* the slides' number */
     double low, high; /* from ... to, both included */
     const char *unit; /* of the numbers, or "" */
-    /* OPTION_NAME: name i as on the command line; NULL behind the last. */
-    const char *(*names)(int i);
-    unsigned needs; /* of enum SceneNeeds, one of them; 0: nothing */
+    Names names;      /* OPTION_NAME, OPTION_PAGE: as on the command line */
+    unsigned needs;   /* of enum SceneNeeds, one of them; 0: nothing */
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
     Effect effect;
@@ -144,9 +134,6 @@ enum { OPTIONS_MOST = 64 }; /* rows */
 
 /* The row with this name, or NULL. */
 const OptionRow *option_find(const char *name);
-
-/* How many names the values of a row have; 0: they are numbers. */
-int option_names(const OptionRow *row);
 
 /* A single number as somebody types it, "1/60", "0,02", "4 ms", "clamp".
  *   value  out

@@ -1,5 +1,5 @@
 /* option_read.c - the command line: its values, its words, and what to say
- * where one of them cannot be read.
+ * where one of them cannot be read; and its help.
  */
 #include <ctype.h>
 #include <math.h>
@@ -9,28 +9,52 @@
 #include <string.h>
 
 #include "scenes/body.h"
-#include "scenes/option_help.h"
+#include "scenes/one_line.h"
 #include "scenes/pages.h"
 #include "scenes/pins.h"
 #include "scenes/scene.h"
 
-/* Where the one line that explains a refusal goes. */
-typedef struct Complaint {
-    char *text;
-    size_t size;
-} Complaint;
+/* ---- short texts -------------------------------------------------------- */
 
-/* Writes the line. */
-static Status complain(const Complaint *why, const char *format, ...)
+/* Something short to be printed inside a line. */
+typedef struct Text {
+    char text[256];
+} Text;
+
+/* What somebody typed: one line, and short enough to leave room. */
+static Text typed(const char *word)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(why->text, why->size, format, arguments);
-    va_end(arguments);
-    return STATUS_INVALID_INPUT;
+    Text shown;
+    one_line(word, shown.text, 64);
+    return shown;
 }
 
-/* ---- what was meant ----------------------------------------------------- */
+/* 1e-30, 4096, 1e15: as people write it. */
+static Text number_text(double number)
+{
+    Text shown;
+    snprintf(shown.text, sizeof shown.text, fabs(number) >= 1e5 ? "%.0e" : "%g",
+             number);
+    char *plus = strstr(shown.text, "e+");
+    if (plus) {
+        char *digits = plus + 2 + strspn(plus + 2, "0");
+        memmove(plus + 1, digits, strlen(digits) + 1);
+    }
+    return shown;
+}
+
+/* "clamp, none" */
+static Text list_text(Names names)
+{
+    Text list = {""};
+    const char *name;
+    for (int i = 0; (name = name_at(names, i)); i++) {
+        size_t used = strlen(list.text);
+        snprintf(list.text + used, sizeof list.text - used, "%s%s",
+                 used > 0 ? ", " : "", name);
+    }
+    return list;
+}
 
 enum { LONGEST = 40 }; /* letters that are compared */
 
@@ -61,18 +85,19 @@ static int distance(const char *a, const char *b)
     return (int)d[rows][columns];
 }
 
-/* "; did you mean --timestep?"  Of the names until NULL the one that is most
- * like a text; at most a quarter of its letters may be wrong, else "". */
-static Text meant(const char *text, const char *before,
-                  const char *(*names)(int i))
+/* "; did you mean --timestep?"  Of the names the one that is most like a text,
+ * or begins with it; at most a quarter of its letters may be wrong, else "". */
+static Text meant(const char *text, const char *before, Names names)
 {
     Text hint = {""};
     const char *name;
     int least = LONGEST;
-    for (int i = 0; (name = names(i)); i++) {
+    for (int i = 0; (name = name_at(names, i)); i++) {
         int longer = (int)fmax(strlen(name), strlen(text));
         int wrong =
             name[0] && longer <= LONGEST ? distance(name, text) : longer;
+        if (text[0] && strncmp(name, text, strlen(text)) == 0)
+            wrong = 0;
         if (4 * wrong > longer || wrong >= least)
             continue;
         least = wrong;
@@ -82,14 +107,33 @@ static Text meant(const char *text, const char *before,
     return hint;
 }
 
-static const char *row_name(int i)
-{
-    return option_rows[i].name;
-}
+/* A word of a line: an option with its value, or the name of a scene. */
+typedef struct Word {
+    const OptionRow *row; /* NULL: a scene */
+    const char *text;
+    int pick; /* which of a list of values */
+} Word;
 
-static const char *scene_name(int i)
+enum { WORDS_MOST = 256 };
+
+/* A line while it is read: into what, its words, and where the one line goes
+ * that explains a refusal. */
+typedef struct Line {
+    Options *options;
+    char *message;
+    size_t size;
+    int words;
+    Word word[WORDS_MOST];
+} Line;
+
+/* Writes that line. */
+static Status refuse(const Line *line, const char *format, ...)
 {
-    return scenes[i].name;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line->message, line->size, format, arguments);
+    va_end(arguments);
+    return STATUS_INVALID_INPUT;
 }
 
 /* ---- values ------------------------------------------------------------- */
@@ -163,68 +207,65 @@ static bool read_numbers(const OptionRow *row, int count, const char *text,
 
 bool option_read(const OptionRow *row, const char *text, double *value)
 {
-    if (!row->names)
+    if (row->kind != OPTION_NAME)
         return read_numbers(row, 1, text, value);
-    for (int i = 0; i < option_names(row); i++) {
-        *value = i;
-        if (strcmp(row->names(i), text) == 0)
-            return true;
-    }
-    return false;
+    int i = name_place(row->names, text);
+    *value = i;
+    return i >= 0;
 }
 
 /* "is none of: clamp, none", "is not X,Y, each from -1 to 1, in m" */
-static Status refuse_value(const OptionRow *row, int count, const char *text,
-                           const Complaint *why)
+static Status refuse_value(const Line *line, const OptionRow *row, int count,
+                           const char *text)
 {
-    Text list = {""};
-    for (int i = 0; i < option_names(row); i++)
-        add_name(&list, "", row->names(i));
+    Text list;
+    const char *what = count > 1                    ? ", each"
+                       : row->kind == OPTION_NUMBER ? "a number"
+                                                    : "a whole number";
     if (row->kind == OPTION_PAGE)
         snprintf(list.text, sizeof list.text,
                  "the pages from 1 to %d, their names", lecture_count());
-    if (row->names)
-        return complain(why, "--%s: '%s' is none of: %s%s", row->name,
-                        typed(text).text, list.text,
-                        meant(text, "", row->names).text);
-    return complain(why, "--%s: '%s' is not %s%s from %s to %s%s%s", row->name,
-                    typed(text).text, count > 1 ? row->value : "",
-                    count > 1                    ? ", each"
-                    : row->kind == OPTION_NUMBER ? "a number"
-                                                 : "a whole number",
-                    number_text(row->low).text, number_text(row->high).text,
-                    row->unit[0] ? ", in " : "", row->unit);
+    if (row->kind == OPTION_NAME)
+        list = list_text(row->names);
+    if (row->names.table)
+        return refuse(line, "--%s: '%s' is none of: %s%s", row->name,
+                      typed(text).text, list.text,
+                      meant(text, "", row->names).text);
+    return refuse(line, "--%s: '%s' is not %s%s from %s to %s%s%s", row->name,
+                  typed(text).text, count > 1 ? row->value : "", what,
+                  number_text(row->low).text, number_text(row->high).text,
+                  row->unit[0] ? ", in " : "", row->unit);
 }
 
 /* A name, or numbers; where a scene is a curve, its start may be x alone. */
-static Status apply_numbers(const OptionRow *row, const char *text,
-                            Options *options, const Complaint *why)
+static Status apply_numbers(const Line *line, const OptionRow *row,
+                            const char *text)
 {
     enum { NUMBERS_MOST = 4 };
-    double number[NUMBERS_MOST] = {0}, *counter;
+    Options *options = line->options;
+    double number[NUMBERS_MOST] = {0}, *given = &options->number[row->counter];
     int most = row->count ? row->count : 1, used = 0;
     bool curve = options->scene->needs & NEEDS_ONE_NUMBER;
     bool short_form = row->needs == NEEDS_START && curve && !strchr(text, ',');
     int count = short_form ? 1 : most;
-    if (row->names ? !option_read(row, text, number)
-                   : !read_numbers(row, count, text, number))
-        return refuse_value(row, count, text, why);
-    counter = &options->number[row->counter];
-    if (row->times && *counter >= row->times)
-        return complain(why, "--%s: '%s' is one too many: at most %d",
-                        row->name, typed(text).text, row->times);
+    if (row->kind == OPTION_NAME ? !option_read(row, text, number)
+                                 : !read_numbers(row, count, text, number))
+        return refuse_value(line, row, count, text);
+    if (row->times && *given >= row->times)
+        return refuse(line, "--%s: '%s' is one too many: at most %d", row->name,
+                      typed(text).text, row->times);
     if (row->times)
-        used = (int)(*counter)++;
-    for (int i = 0; i < most; i++)
-        options->number[row->slot + used * most + i] = number[i];
+        used = (int)(*given)++;
+    memcpy(&options->number[row->slot + used * most], number,
+           (size_t)most * sizeof *number);
     return STATUS_OK;
 }
 
 /* What the option is followed by, into its field; nothing for a page is the
  * first. */
-static Status apply(const OptionRow *row, const char *text, Options *options,
-                    const Complaint *why)
+static Status apply(const Line *line, const OptionRow *row, const char *text)
 {
+    Options *options = line->options;
     switch (row->kind) {
     case OPTION_SWITCH:
         options->number[row->slot] = 1;
@@ -232,19 +273,19 @@ static Status apply(const OptionRow *row, const char *text, Options *options,
     case OPTION_TEXT:
         memcpy((char *)options + row->offset, &text, sizeof text);
         return text[0] ? STATUS_OK
-                       : complain(why, "--%s: the name is empty", row->name);
+                       : refuse(line, "--%s: the name is empty", row->name);
     case OPTION_PAGE:
         options->page = lecture_find(text[0] ? text : "1");
-        return options->page ? STATUS_OK : refuse_value(row, 1, text, why);
+        return options->page ? STATUS_OK : refuse_value(line, row, 1, text);
     default:
-        return apply_numbers(row, text, options, why);
+        return apply_numbers(line, row, text);
     }
 }
 
 /* Whether the scene has what the row is about. */
-static Status check_scene(const OptionRow *row, const Options *options,
-                          const Complaint *why)
+static Status check_scene(const Line *line, const OptionRow *row)
 {
+    const Scene *scene = line->options->scene;
     const char *lacks = row->needs & NEEDS_MESH      ? "square"
                         : row->needs == NEEDS_TIME   ? "time steps"
                         : row->needs & NEEDS_TIME    ? "time"
@@ -252,272 +293,229 @@ static Status check_scene(const OptionRow *row, const Options *options,
                         : row->needs & NEEDS_START   ? "start to choose"
                         : row->needs & NEEDS_BODY    ? "body that falls"
                                                      : "minimum to find";
-    if (!row->needs || (row->needs & options->scene->needs))
-        return STATUS_OK;
-    return complain(why, "--%s: the scene '%s' has no %s", row->name,
-                    options->scene->name, lacks);
+    return !row->needs || (row->needs & scene->needs)
+               ? STATUS_OK
+               : refuse(line, "--%s: the scene '%s' has no %s", row->name,
+                        scene->name, lacks);
 }
 
 /* What the body has is right with the integrator, where one was chosen. */
-static Status check_integrator(const Options *options, const Complaint *why)
+static Status check_integrator(const Line *line)
 {
-    const char *end = body_needs_end_of_step(options);
-    const IntegratorMethod *method = options_integrator(options);
-    if (!end || !method || method->at_end)
-        return STATUS_OK;
-    return complain(why,
-                    "--integrator: '%s' has no %s; of all methods only "
-                    "backward-euler has",
-                    method->name, end);
+    const char *end = body_needs_end_of_step(line->options);
+    const IntegratorMethod *method = options_integrator(line->options);
+    return !end || !method || method->at_end
+               ? STATUS_OK
+               : refuse(line,
+                        "--integrator: '%s' has no %s; of all methods only "
+                        "backward-euler has",
+                        method->name, end);
 }
 
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size)
 {
-    const Complaint why = {message, size};
+    const Line line = {.options = options, .message = message, .size = size};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
-        return complain(&why, "there is no option '%s' with a value",
-                        typed(name).text);
-    Status status = check_scene(row, options, &why);
-    if (!status)
-        status = apply(row, value, options, &why);
-    return status ? status : check_integrator(options, &why);
+        return refuse(&line, "there is no option '%s' with a value",
+                      typed(name).text);
+    if (check_scene(&line, row) || apply(&line, row, value))
+        return STATUS_INVALID_INPUT;
+    return check_integrator(&line);
 }
 
 /* ---- words -------------------------------------------------------------- */
 
-/* A line while it is read: where, into what, and what the first look found. */
-typedef struct Line {
-    int argc, at;
-    char **argv;
-    Options *options;
-    Complaint why;
-    const char *list[OPTIONS_MOST]; /* values to be compared, or NULL */
-    bool given[OPTIONS_MOST];       /* options that the line has */
-} Line;
-
-/* One word: an option with its value, or anything else. */
-typedef struct Word {
-    const OptionRow *row; /* NULL: no option */
-    const char *text;     /* the option's value, or the word; NULL: the end */
-} Word;
-
-/* A line of our own, cut at its blanks as argv is. */
-typedef struct Words {
-    char text[512];
-    char *argv[48];
-    int argc;
-} Words;
-
-static void split_words(const char *line, Words *words)
+/* The row of "--name", "--name=value", or of a letter: "-h", as some programs
+ * have it "-H".  NULL: there is none, and the line says so. */
+static const OptionRow *find_option(const Line *line, const char *word)
 {
-    const int most = sizeof words->argv / sizeof *words->argv;
-    char *rest = NULL, *word;
-    snprintf(words->text, sizeof words->text, "elasto %s", line);
-    words->argc = 0;
-    for (char *text = words->text;
-         words->argc < most && (word = strtok_r(text, " ", &rest)); text = NULL)
-        words->argv[words->argc++] = word;
-}
-
-/* The row of "--name", "--name=value", of an abbreviation that only one option
- * has, or of a letter: "-h", as some programs have it "-H". */
-static Status find_option(const char *word, Line *line, const OptionRow **found)
-{
-    Text list = {""}, shown = typed(word);
-    int matches = 0;
-    bool is_long = word[1] == '-';
-    const char *name = word + 1 + is_long;
-    size_t length = strcspn(name, "=");
+    Text shown = typed(word);
+    const char *name = shown.text + strspn(shown.text, "-");
     shown.text[strcspn(shown.text, "=")] = '\0';
-    for (const OptionRow *row = option_rows; row->name && length > 0; row++) {
-        if (is_long ? strncmp(row->name, name, length) != 0
-                    : length > 1 || row->letter != tolower(name[0]))
-            continue;
-        *found = row;
-        if (!is_long || row->name[length] == '\0')
-            return STATUS_OK;
-        add_name(&list, "--", row->name);
-        matches++;
-    }
-    if (matches == 1)
-        return STATUS_OK;
-    if (matches > 1)
-        return complain(&line->why, "%s can be %s: write a few letters more",
-                        shown.text, list.text);
-    return complain(
-        &line->why, "no option %s; see elasto --help%s", shown.text,
-        meant(shown.text + strspn(shown.text, "-"), "--", row_name).text);
+    const OptionRow *found = option_find(name);
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (name == shown.text + 1 && !name[1] && row->letter == tolower(*name))
+            found = row;
+    if (found && (name == shown.text + 2) == (name[1] != '\0'))
+        return found;
+    refuse(line, "no option %s; see elasto --help%s", shown.text,
+           meant(name, "--", NAMES_OF(option_rows)).text);
+    return NULL;
 }
 
-/* Reads the next word. */
-static Status next_word(Line *line, Word *word)
+static Status read_words(int argc, char **argv, Line *line)
 {
-    const OptionRow *row = NULL;
-    *word = (Word){NULL, line->at < line->argc ? line->argv[line->at++] : NULL};
-    if (!word->text || word->text[0] != '-' || word->text[1] == '\0')
-        return STATUS_OK;
-    if (find_option(word->text, line, &row))
-        return STATUS_INVALID_INPUT;
-    const char *value = strchr(word->text, '=');
-    const char *next = line->at < line->argc ? line->argv[line->at] : "--";
-    bool alone = row->kind == OPTION_SWITCH;
-    if (value && alone)
-        return complain(&line->why, "%s: --%s takes no value",
-                        typed(word->text).text, row->name);
-    *word = (Word){row, value ? value + 1 : ""};
-    if (value || alone || (row->kind == OPTION_PAGE && next[0] == '-'))
-        return STATUS_OK;
-    if (strncmp(next, "--", 2) == 0)
-        return complain(&line->why, "--%s: the value is missing: --%s %s",
-                        row->name, row->name, row->value);
-    word->text = line->argv[line->at++];
+    for (int i = 1; i < argc;) {
+        const char *text = argv[i++], *equals = strchr(text, '=');
+        const char *next = i < argc ? argv[i] : "--";
+        Word word = {NULL, text, 0};
+        if (line->words == WORDS_MOST)
+            return refuse(line, "'%s': more than %d words", typed(text).text,
+                          WORDS_MOST);
+        if (text[0] == '-' && text[1]) {
+            const OptionRow *row = word.row = find_option(line, text);
+            if (!row)
+                return STATUS_INVALID_INPUT;
+            bool alone = row->kind == OPTION_SWITCH;
+            bool bare = row->kind == OPTION_PAGE && next[0] == '-';
+            bool follows = !equals && !alone && !bare;
+            if (equals && alone)
+                return refuse(line, "%s: --%s takes no value", typed(text).text,
+                              row->name);
+            if (follows && strncmp(next, "--", 2) == 0)
+                return refuse(line, "--%s: the value is missing: --%s %s",
+                              row->name, row->name, row->value);
+            word.text = equals ? equals + 1 : follows ? next : "";
+            i += follows;
+        }
+        line->word[line->words++] = word;
+    }
     return STATUS_OK;
 }
 
-/* A scene by its name or its number in the list. */
-static Status read_scene(const char *word, Line *line)
+/* The words of a line of our own, cut at its blanks.
+ *   copy  [size] out, the texts of the words */
+static Status split_words(const char *text, char *copy, size_t size, Line *line)
 {
-    if (line->options->scene)
-        return complain(&line->why, "'%s': one scene at a time, please",
-                        typed(word).text);
-    line->options->scene = scene_find(word);
-    if (line->options->scene)
-        return STATUS_OK;
-    return complain(&line->why, "there is no scene '%s'; see elasto --list%s",
-                    typed(word).text, meant(word, "", scene_name).text);
+    char *argv[48] = {""}, *rest = NULL, *word;
+    const int most = sizeof argv / sizeof *argv;
+    int argc = 1;
+    snprintf(copy, size, "%s", text ? text : "");
+    for (; argc < most && (word = strtok_r(copy, " ", &rest)); copy = NULL)
+        argv[argc++] = word;
+    return read_words(argc, argv, line);
 }
 
-/* First look: words that are wrong whatever they mean; the scene, or the page;
- * the lists.  Numbers begin as the slides', whatever is none as nothing. */
-static Status read_line(Line *line)
+/* The last word about an option, or NULL. */
+static Word *given(Line *line, const OptionRow *row)
 {
-    Word word;
+    for (int i = line->words - 1; i >= 0; i--)
+        if (line->word[i].row == row)
+            return &line->word[i];
+    return NULL;
+}
+
+/* The scene, by its name or its number in the list, or the page. */
+static Status find_scene(Line *line)
+{
     Options *options = line->options;
-    *options = (Options){.panes = 1};
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->standard != 0)
-            options->number[row->slot] = row->standard;
-    Status status = STATUS_OK;
-    while (!status && !(status = next_word(line, &word)) && word.text) {
-        if (!word.row) {
-            status = read_scene(word.text, line);
+    for (int i = 0; i < line->words; i++) {
+        const OptionRow *row = line->word[i].row;
+        const char *text = line->word[i].text;
+        if (row && row->kind == OPTION_PAGE && apply(line, row, text))
+            return STATUS_INVALID_INPUT;
+        if (row)
             continue;
-        }
-        int i = (int)(word.row - option_rows);
-        bool list = word.row->label && strchr(word.text, ',');
-        line->given[i] = true;
-        line->list[i] = list ? word.text : NULL;
-        if (word.row->kind == OPTION_PAGE)
-            status = apply(word.row, word.text, options, &line->why);
+        if (options->scene)
+            return refuse(line, "'%s': one scene at a time, please",
+                          typed(text).text);
+        options->scene = scene_find(text);
+        if (!options->scene)
+            return refuse(line, "there is no scene '%s'; see elasto --list%s",
+                          typed(text).text,
+                          meant(text, "", NAMES_OF(scenes)).text);
     }
-    if (!status && options->scene && options->page)
-        return complain(&line->why,
-                        "--lecture: its pages have scenes of their own, '%s' "
-                        "cannot be asked for",
-                        options->scene->name);
+    if (options->scene && options->page)
+        return refuse(line,
+                      "--lecture: its pages have scenes of their own, '%s' "
+                      "cannot be asked for",
+                      options->scene->name);
     if (!options->scene)
         options->scene = &scenes[0];
-    return status;
+    return STATUS_OK;
 }
 
-/* A page has said what its scene needs, and beside a handout nothing has a
- * meaning. */
-static Status check_given(const Line *line)
+/* A page has said what its scene needs; beside a handout nothing has a meaning;
+ * and of two files only one would be written. */
+static Status check_words(Line *line)
 {
-    const Options *options = line->options;
-    bool handout = line->given[option_find("handout") - option_rows];
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        if (!line->given[row - option_rows])
+    const OptionRow *handout = option_find("handout");
+    for (int i = 0; i < line->words; i++) {
+        const OptionRow *row = line->word[i].row;
+        const Word *last = given(line, row);
+        if (!row)
             continue;
-        if (options->page && row->needs)
-            return complain(&line->why,
-                            "--%s: the lecture's pages say that themselves",
-                            row->name);
-        if (handout && strcmp(row->name, "handout") != 0)
-            return complain(&line->why,
-                            "--handout: the program writes the file and ends, "
-                            "--%s says nothing there",
-                            row->name);
+        if (line->options->page && row->needs)
+            return refuse(line, "--%s: the lecture's pages say that themselves",
+                          row->name);
+        if (row != handout && given(line, handout))
+            return refuse(line,
+                          "--handout: the program writes the file and ends, "
+                          "--%s says nothing there",
+                          row->name);
+        if (row->kind == OPTION_TEXT && last != &line->word[i])
+            return refuse(line, "--%s: '%s' and '%s': one at a time, please",
+                          row->name, typed(line->word[i].text).text,
+                          typed(last->text).text);
     }
     return STATUS_OK;
 }
 
-/* What the values stand on: the page, or the scene's own numbers. */
+/* What the values stand on: the slides' numbers and nothing of the rest; of
+ * these, the scene's own, or the page. */
 static Status begin_options(Line *line)
 {
     Options *options = line->options;
-    const Scene *scene = options->scene;
-    Words words;
-    Word word;
+    char copy[512];
+    Line own = {options, line->message, line->size, 0, {{0}}};
     if (options->page)
-        return lecture_options(options->page, options, line->why.text,
-                               line->why.size);
-    split_words(scene->line ? scene->line : "", &words);
-    Line own = {words.argc, 1, words.argv, options, line->why, {0}, {0}};
-    Status status = STATUS_OK;
-    while (!status && !(status = next_word(&own, &word)) && word.text)
-        status = apply(word.row, word.text, options, &own.why);
-    options->pin = scene->pin;
+        return lecture_options(options->page, options, line->message,
+                               line->size);
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->times && line->given[row - option_rows])
+        if (row->standard != 0)
+            options->number[row->slot] = row->standard;
+    Status status = split_words(options->scene->line, copy, sizeof copy, &own);
+    for (int i = 0; i < own.words && !status; i++)
+        status = apply(&own, own.word[i].row, own.word[i].text);
+    options->pin = options->scene->pin;
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->times && given(line, row))
             options->number[row->counter] = 0;
     return status;
 }
 
-/* Which value of each list this pane has; the last list changes fastest. */
-static Status choose_values(Line *line, int pane, int *chosen)
+/* Whether the word has values that are to be compared. */
+static bool is_list(const Word *word)
 {
-    for (int i = OPTIONS_MOST - 1; i >= 0; i--) {
+    return word && word->row && word->row->label && strchr(word->text, ',');
+}
+
+/* Which value of each list this pane has; the last list changes fastest. */
+static Status pick_values(Line *line, int pane)
+{
+    for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
+        Word *word = given(line, &option_rows[i]);
         int count = 1;
-        for (const char *at = line->list[i]; at && *at; at++)
+        if (!is_list(word))
+            continue;
+        for (const char *at = word->text; *at; at++)
             count += *at == ',';
-        chosen[i] = pane % count;
+        word->pick = pane % count;
         pane /= count;
         line->options->panes *= count;
         if (line->options->panes > OPTIONS_MAX_PANES)
-            return complain(&line->why,
-                            "--%s: '%s' makes more than %d side by side",
-                            option_rows[i].name, typed(line->list[i]).text,
-                            OPTIONS_MAX_PANES);
+            return refuse(line, "--%s: '%s' makes more than %d side by side",
+                          word->row->name, typed(word->text).text,
+                          OPTIONS_MAX_PANES);
     }
     return STATUS_OK;
 }
 
-/* Value number i of a list, or the last; at most 63 letters of it. */
-static Text list_value(const char *list, int i)
+/* The value of a word; of a list at most 63 letters of it. */
+static Status apply_word(const Line *line, const Word *word)
 {
-    Text value;
-    for (; i > 0 && strchr(list, ','); i--)
-        list = strchr(list, ',') + 1;
-    snprintf(value.text, 64, "%.*s", (int)strcspn(list, ","), list);
-    return value;
-}
-
-/* Second look: the values. */
-static Status apply_line(Line *line, int pane)
-{
-    Word word;
-    Text value;
-    int chosen[OPTIONS_MOST];
-    Status status = choose_values(line, pane, chosen);
-    if (!status)
-        status = check_given(line);
-    if (!status)
-        status = begin_options(line);
-    line->at = 1;
-    while (!status && !(status = next_word(line, &word)) && word.text) {
-        if (!word.row)
-            continue;
-        int i = (int)(word.row - option_rows);
-        value = list_value(word.text, chosen[i]);
-        status = check_scene(word.row, line->options, &line->why);
-        if (!status)
-            status = apply(word.row, line->list[i] ? value.text : word.text,
-                           line->options, &line->why);
-    }
-    return status;
+    char value[64];
+    const char *text = word->text;
+    if (!word->row)
+        return STATUS_OK;
+    for (int i = word->pick; i > 0; i--)
+        text = strchr(text, ',') + 1;
+    snprintf(value, sizeof value, "%.*s", (int)strcspn(text, ","), text);
+    if (check_scene(line, word->row))
+        return STATUS_INVALID_INPUT;
+    return apply(line, word->row, is_list(word) ? value : text);
 }
 
 /* What depends on several options: which nodes there are to be pinned, what
@@ -530,35 +528,132 @@ static Status check_body(Line *line)
     if (!(options->scene->needs & NEEDS_BODY))
         return STATUS_OK;
     if (options->pin && pins_read(options->pin, &shape, NULL))
-        return complain(&line->why,
-                        "--pin: '%s' is no list of node numbers from 0 to %d, "
-                        "or of: " PINS_WORDS,
-                        typed(options->pin).text, shape.nodes - 1);
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->idle && line->given[row - option_rows] && row->idle(options))
-            return complain(&line->why, "--%s: %s", row->name,
-                            row->idle(options));
-    if (check_integrator(options, &line->why))
+        return refuse(line,
+                      "--pin: '%s' is no list of node numbers from 0 to %d, "
+                      "or of: " PINS_WORDS,
+                      typed(options->pin).text, shape.nodes - 1);
+    for (int i = 0; i < line->words; i++) {
+        const OptionRow *row = line->word[i].row;
+        if (row && row->idle && row->idle(options))
+            return refuse(line, "--%s: %s", row->name, row->idle(options));
+    }
+    if (check_integrator(line))
         return STATUS_INVALID_INPUT;
-    if (options->cells && !line->given[option_find("filter") - option_rows])
+    if (options->cells && !given(line, option_find("filter")))
         options->filter = FILTER_ON_DEMAND;
-    return body_check(options, line->why.text, line->why.size);
+    return body_check(options, line->message, line->size);
+}
+
+/* The words that were read, into the options. */
+static Status apply_words(Line *line, int pane)
+{
+    *line->options = (Options){.panes = 1};
+    if (find_scene(line) || check_words(line) || begin_options(line) ||
+        pick_values(line, pane))
+        return STATUS_INVALID_INPUT;
+    for (int i = 0; i < line->words; i++)
+        if (apply_word(line, &line->word[i]))
+            return STATUS_INVALID_INPUT;
+    return check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      char *message, size_t size)
 {
-    Line line = {argc, 1, argv, options, {message, size}, {0}, {0}};
-    Status status = read_line(&line);
-    if (!status)
-        status = apply_line(&line, pane);
-    return status ? status : check_body(&line);
+    Line line = {options, message, size, 0, {{0}}};
+    Status status = read_words(argc, argv, &line);
+    return status ? status : apply_words(&line, pane);
 }
 
-Status options_of_line(const char *line, Options *options, char *message,
+Status options_of_line(const char *text, Options *options, char *message,
                        size_t size)
 {
-    Words words;
-    split_words(line, &words);
-    return options_parse(words.argc, words.argv, 0, options, message, size);
+    char copy[512];
+    Line line = {options, message, size, 0, {{0}}};
+    Status status = split_words(text, copy, sizeof copy, &line);
+    return status ? status : apply_words(&line, 0);
+}
+
+/* ---- help --------------------------------------------------------------- */
+
+enum { HELP_SIZE = 8192, HELP_COLUMNS = 80, HELP_INDENT = 21 };
+
+/* A text under construction. */
+typedef struct Help {
+    char text[HELP_SIZE];
+    size_t used;
+    int column;
+} Help;
+
+/* A new line that begins with this. */
+static void help_line(Help *help, const char *start)
+{
+    help->column = snprintf(help->text + help->used, HELP_SIZE - help->used,
+                            "%s\n", start);
+    help->used += (size_t)help->column--;
+}
+
+/* Adds words to the last line from the column of the texts on, and to new lines
+ * where they do not fit. */
+static void help_words(Help *help, const char *words)
+{
+    while (*words) {
+        int length = (int)strcspn(words, " ");
+        if (help->column + 1 + length > HELP_COLUMNS)
+            help_line(help, "");
+        int blanks =
+            help->column < HELP_INDENT ? HELP_INDENT - help->column : 0;
+        help->used--; /* the end of the line */
+        help->used +=
+            (size_t)snprintf(help->text + help->used, HELP_SIZE - help->used,
+                             "%*s %.*s\n", blanks, "", length, words);
+        help->column += blanks + 1 + length;
+        words += length + (words[length] == ' ');
+    }
+}
+
+/* One option: its name, what it is, unit, names or range, default. */
+static void help_option(Help *help, const OptionRow *row)
+{
+    Text start, text;
+    snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
+             row->value ? " " : "", row->value ? row->value : "",
+             row->letter ? ", -" : "", &row->letter);
+    help_line(help, start.text);
+    snprintf(text.text, sizeof text.text, "%s%s%s", row->help,
+             row->unit[0] ? ", " : "", row->unit);
+    help_words(help, text.text);
+    if (row->kind == OPTION_NAME)
+        help_words(help, list_text(row->names).text);
+    snprintf(text.text, sizeof text.text, "%.31s ... %.31s",
+             number_text(row->low).text, number_text(row->high).text);
+    if (row->kind == OPTION_WHOLE && row->high <= 4096)
+        help_words(help, text.text);
+    snprintf(text.text, sizeof text.text, "[%.31s]",
+             number_text(row->standard).text);
+    if (row->high > row->low && !row->count && row->standard >= row->low)
+        help_words(help, text.text);
+}
+
+/* The scenes with their numbers, a line each; the options. */
+const char *options_help(void)
+{
+    static Help help;
+    Text start;
+    help.used = 0;
+    help_line(&help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
+                     "number, else square");
+    help_line(&help, "scenes:");
+    for (int i = 0; scenes[i].name; i++) {
+        snprintf(start.text, sizeof start.text, "  %2d %s", i + 1,
+                 scenes[i].name);
+        help_line(&help, start.text);
+        help_words(&help, scenes[i].sentence);
+    }
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->name[0])
+            help_option(&help, row);
+        else
+            help_line(&help, row->help);
+    return help.text;
 }

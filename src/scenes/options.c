@@ -17,49 +17,25 @@
 #include "scenes/pins.h"
 #include "scenes/scene.h"
 
-/* Name i of a list that ends with NULL; NULL: there is none. */
-static const char *pick(const char *const *list, int i)
-{
-    while (i > 0 && *list) {
-        list++;
-        i--;
-    }
-    return *list;
-}
+static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};
+static const char *const filters[] = {"clamp", "none", "abs", "on-demand",
+                                      NULL};
+static const char *const searches[] = {"backtrack", "none", NULL};
+static const char *const cells[] = {"off", "on", NULL};
 
 const char *solver_name(int solver)
 {
-    static const char *const names[] = {"newton", "multigrid", "auto", NULL};
-    return pick(names, solver);
+    return solvers[solver];
 }
 
 const char *filter_name(int filter)
 {
-    static const char *const names[] = {"clamp", "none", "abs", "on-demand",
-                                        NULL};
-    return pick(names, filter);
+    return filters[filter];
 }
 
 const char *line_search_name(int search)
 {
-    static const char *const names[] = {"backtrack", "none", NULL};
-    return pick(names, search);
-}
-
-static const char *cells_name(int cells)
-{
-    static const char *const names[] = {"off", "on", NULL};
-    return pick(names, cells);
-}
-
-static const char *integrator_name(int i)
-{
-    return integrator_methods[i].name;
-}
-
-static const char *page_name(int i)
-{
-    return lecture_pages[i].name;
+    return searches[search];
 }
 
 static const char *nothing_to_touch(const Options *options)
@@ -92,7 +68,8 @@ static const char *nothing_flows(const Options *options)
     NUMBER(field, letters, text, u, 0, from, to), .count = many
 #define NAME(word, field, letters, text, number, all)                          \
     VALUE(NAME, word, letters, text, ""), .slot = OPTION_SLOT(field),          \
-                                          .standard = number, .names = all
+                                          .standard = number,                  \
+                                          .names = {all, sizeof *all}
 #define TEXT(field, letters, text)                                             \
     VALUE(TEXT, #field, letters, text, ""), .offset = offsetof(Options, field)
 #define SWITCH(field, text)                                                    \
@@ -157,8 +134,7 @@ const OptionRow option_rows[] = {
     {RANGE(NUMBER, "slip-speed", slip_speed, "EPSV",
            "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
-    {NAME("cells", cells, "on|off", "cells that cannot turn over", 0,
-          cells_name),
+    {NAME("cells", cells, "on|off", "cells that cannot turn over", 0, cells),
      NEEDS(BODY), LIST("cells")},
     {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
      NEEDS(BODY), LIST("yield")},
@@ -173,18 +149,17 @@ const OptionRow option_rows[] = {
     {SECTION("how it moves:")},
     {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),
      .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, ROW(1, 8, 0)},
-    {NAME("integrator", integrator, "I", "", -1, integrator_name), NEEDS(TIME),
-     LIST("method"), LIVE, ROW(8, 16, 0)},
+    {NAME("integrator", integrator, "I", "", -1, integrator_methods),
+     NEEDS(TIME), LIST("method"), LIVE, ROW(8, 16, 0)},
     {NUMBER(tolerance, "T", "the search ends at |p|/h <= T", "m/s", 1e-2,
             1e-300, 1e300),
      NEEDS(MINIMUM), LIST("\u03b5"), LIVE, ROW(5, 9, 0)},
-    {NAME("solver", solver, "S", "", SOLVER_AUTO, solver_name), NEEDS(MESH),
+    {NAME("solver", solver, "S", "", SOLVER_AUTO, solvers), NEEDS(MESH),
      LIST("solver"), LIVE, ROW(11, 15, 0)},
     {SWITCH(minimum, "a step does not end on a saddle"), NEEDS(MESH)},
-    {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filter_name),
+    {NAME("filter", filter, "F", "the projection:", FILTER_CLAMP, filters),
      NEEDS(SPRINGS), LIST("projection"), AGAIN, ROW(9, 9, 0)},
-    {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK,
-          line_search_name),
+    {NAME("line-search", line_search, "L", "", LINE_SEARCH_BACKTRACK, searches),
      NEEDS(MINIMUM), LIST("line search"), AGAIN, ROW(10, 9, 0)},
 
     {SECTION("how long, and what is left behind:")},
@@ -204,7 +179,7 @@ const OptionRow option_rows[] = {
     {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
     {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
            ""),
-     .names = page_name},
+     .names = {lecture_pages, sizeof *lecture_pages}},
     {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
     {SWITCH(quiet, "no summary")},
     {SWITCH(help, "this"), .letter = 'h'},
@@ -224,10 +199,24 @@ const OptionRow *option_find(const char *name)
     return NULL;
 }
 
-int option_names(const OptionRow *row)
+const char *name_at(Names names, int i)
+{
+    const char *row = (const char *)names.table + (size_t)i * names.size;
+    return *(const char *const *)row;
+}
+
+int name_place(Names names, const char *name)
+{
+    for (int i = names_count(names) - 1; i >= 0; i--)
+        if (strcmp(name_at(names, i), name) == 0)
+            return i;
+    return -1;
+}
+
+int names_count(Names names)
 {
     int count = 0;
-    while (row->names && row->names(count))
+    while (name_at(names, count))
         count++;
     return count;
 }
@@ -247,7 +236,7 @@ const IntegratorMethod *options_method(const Options *options)
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     if (row->kind == OPTION_NAME) /* the scene's choice: the first */
-        snprintf(text, size, "%s", row->names((int)fmax(value, 0)));
+        snprintf(text, size, "%s", name_at(row->names, (int)fmax(value, 0)));
     if (row->kind == OPTION_NAME)
         return;
     snprintf(text, size, "%.15g", value);
@@ -316,7 +305,7 @@ double option_paced(const OptionRow *row, const Options *options, double paces)
     double value = options->number[row->slot];
     char text[32];
     if (row->kind == OPTION_NAME) {
-        int count = option_names(row);
+        int count = names_count(row->names);
         int now = (int)fmax(value, 0) + (paces < 0 ? -1 : 1);
         return (now + count) % count;
     }
