@@ -78,42 +78,24 @@ void canvas_clear(Canvas *canvas, Colour colour)
          colour | 0xff000000u);
 }
 
-/* value, limited to low ... high. */
-static int clamp_int(int value, int low, int high)
+/* Whole pixels that are touched, as far as they are inside `clip`. */
+static Box touched(Box clip, double left, double top, double right,
+                   double bottom)
 {
-    return value < low ? low : value > high ? high : value;
-}
-
-/* The part of [begin, end) that is in [low, high), as a new pair. */
-static void clip_range(int *begin, int *end, int low, int high)
-{
-    *begin = clamp_int(*begin, low, high);
-    *end = clamp_int(*end, low, high);
+    double x0 = fmax(floor(left), clip.x), y0 = fmax(floor(top), clip.y);
+    double x1 = fmin(ceil(right), clip.x + clip.width);
+    double y1 = fmin(ceil(bottom), clip.y + clip.height);
+    if (!(x1 > x0) || !(y1 > y0))
+        return (Box){0, 0, 0, 0};
+    return (Box){(int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0)};
 }
 
 Box canvas_clip(Canvas *canvas, Box box)
 {
-    Box before = canvas->clip;
-    int left = box.x, right = box.x + box.width;
-    int top = box.y, bottom = box.y + box.height;
-    clip_range(&left, &right, 0, canvas->width);
-    clip_range(&top, &bottom, 0, canvas->height);
-    canvas->clip = (Box){left, top, right > left ? right - left : 0,
-                         bottom > top ? bottom - top : 0};
+    Box before = canvas->clip, whole = {0, 0, canvas->width, canvas->height};
+    canvas->clip = touched(whole, box.x, box.y, (double)box.x + box.width,
+                           (double)box.y + box.height);
     return before;
-}
-
-/* Whole pixels that [low, high] touches, as far as the clip goes. */
-static Box touched(const Canvas *canvas, double left, double top, double right,
-                   double bottom)
-{
-    const Box *clip = &canvas->clip;
-    double x0 = fmax(floor(left), clip->x), y0 = fmax(floor(top), clip->y);
-    double x1 = fmin(ceil(right), clip->x + clip->width);
-    double y1 = fmin(ceil(bottom), clip->y + clip->height);
-    if (!(x1 > x0) || !(y1 > y0))
-        return (Box){0, 0, 0, 0};
-    return (Box){(int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0)};
 }
 
 static uint32_t *canvas_row(const Canvas *canvas, int y)
@@ -137,7 +119,8 @@ static void mix_span(uint32_t *row, int left, int right, Colour colour,
 void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
                       Colour colour)
 {
-    Box box = touched(canvas, x, y, (double)x + width, (double)y + height);
+    Box box =
+        touched(canvas->clip, x, y, (double)x + width, (double)y + height);
     for (int j = box.y; j < box.y + box.height; j++)
         mix_span(canvas_row(canvas, j), box.x, box.x + box.width, colour,
                  opacity(colour));
@@ -156,20 +139,6 @@ typedef struct LineFrame {
     uint32_t full; /* opacity, 0 ... 256 */
 } LineFrame;
 
-/* One side of the Liang-Barsky clip: keeps the part of t in [t0, t1] where
- * p t <= q; false if nothing remains. */
-static bool clip_side(double p, double q, double *t0, double *t1)
-{
-    if (p == 0)
-        return q >= 0;
-    double t = q / p;
-    if (p < 0 && t > *t0)
-        *t0 = t;
-    if (p > 0 && t < *t1)
-        *t1 = t;
-    return *t0 <= *t1;
-}
-
 bool box_cut(const Box *box, double margin, double line[4])
 {
     double left = box->x - margin, right = box->x + box->width + margin;
@@ -178,19 +147,23 @@ bool box_cut(const Box *box, double margin, double line[4])
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
         return true; /* also far faster where nothing is to be cut */
-    double dx = line[2] - line[0], dy = line[3] - line[1];
-    double t0 = 0, t1 = 1;
-    if (!isfinite(dx) || !isfinite(dy) ||
-        !clip_side(-dx, line[0] - left, &t0, &t1) ||
-        !clip_side(dx, right - line[0], &t0, &t1) ||
-        !clip_side(-dy, line[1] - top, &t0, &t1) ||
-        !clip_side(dy, bottom - line[1], &t0, &t1))
-        return false;
+    double dx = line[2] - line[0], dy = line[3] - line[1], t0 = 0, t1 = 1;
+    const double p[4] = {-dx, dx, -dy, dy}; /* inside: p t <= q */
+    const double q[4] = {line[0] - left, right - line[0], line[1] - top,
+                         bottom - line[1]};
+    for (int k = 0; k < 4; k++) {
+        if (!isfinite(p[k]) || (p[k] == 0 && q[k] < 0))
+            return false;
+        if (p[k] < 0)
+            t0 = fmax(t0, q[k] / p[k]);
+        if (p[k] > 0)
+            t1 = fmin(t1, q[k] / p[k]);
+    }
     line[2] = line[0] + t1 * dx;
     line[3] = line[1] + t1 * dy;
     line[0] += t0 * dx;
     line[1] += t0 * dy;
-    return true;
+    return t0 <= t1;
 }
 
 static inline void blend(uint32_t *pixel, const LineFrame *frame,
@@ -199,10 +172,15 @@ static inline void blend(uint32_t *pixel, const LineFrame *frame,
     *pixel = mix(*pixel, frame->colour, amount);
 }
 
-/* Adds the pixels between low and high > low (fixed point) of one column. */
+/* Adds the pixels between low and high (fixed point) of one column, as far as
+ * the clip goes. */
 static inline void line_column(const LineFrame *frame, uint32_t *column,
                                int low, int high, uint32_t amount)
 {
+    low = low < frame->low ? frame->low : low;
+    high = high > frame->high ? frame->high : high;
+    if (low >= high)
+        return;
     int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
     uint32_t *p = column + row * frame->across;
     if (row == last) {
@@ -217,16 +195,6 @@ static inline void line_column(const LineFrame *frame, uint32_t *column,
     blend(p, frame, part * amount >> FIXED_BITS);
 }
 
-/* The same, as far as the clip goes. */
-static void line_column_clipped(const LineFrame *frame, uint32_t *column,
-                                int low, int high, uint32_t amount)
-{
-    low = low < frame->low ? frame->low : low;
-    high = high > frame->high ? frame->high : high;
-    if (low < high)
-        line_column(frame, column, low, high, amount);
-}
-
 /* From a0 to a1 > a0, |slope| <= 1, b = b0 at a0, in the axes of the frame; in
  * fixed point, for most lines are a few pixels long. */
 static void line_columns(const LineFrame *frame, double a0, double a1,
@@ -237,11 +205,9 @@ static void line_columns(const LineFrame *frame, double a0, double a1,
     begin = begin < frame->begin ? frame->begin : begin;
     end = end > frame->end ? frame->end : end;
     int b = (int)((b0 + (begin + 0.5 - a0) * slope) * FIXED_ONE);
-    int step = (int)(slope * FIXED_ONE), b_end = b + (end - begin) * step;
+    int step = (int)(slope * FIXED_ONE);
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     uint32_t *column = frame->first + begin * frame->along;
-    bool inside = (b < b_end ? b : b_end) - reach - FIXED_ONE >= frame->low &&
-                  (b > b_end ? b : b_end) + reach + FIXED_ONE <= frame->high;
     for (int i = begin; i < end; i++, b += step, column += frame->along) {
         uint32_t amount = frame->full;
         if (i == begin || i + 1 == end) { /* its ends cover parts of pixels */
@@ -250,10 +216,7 @@ static void line_columns(const LineFrame *frame, double a0, double a1,
             right = right > to ? to : right;
             amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
         }
-        if (inside)
-            line_column(frame, column, b - reach, b + reach, amount);
-        else
-            line_column_clipped(frame, column, b - reach, b + reach, amount);
+        line_column(frame, column, b - reach, b + reach, amount);
     }
 }
 
@@ -327,114 +290,56 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 
 /* ---- surfaces ----------------------------------------------------------- */
 
-/* Narrows [*left, *right) to the pixels i of a row where a i + b >= least. */
-static void narrow(double a, double b, double least, int *left, int *right)
+/* Narrows [*left, *right) to the pixels i of a row where a i + b >= 0. */
+static inline void narrow(double a, double b, int *left, int *right)
 {
-    double i = (least - b) / a; /* infinite or NaN where a is 0 */
-    if (a == 0 ? b < least : a > 0 ? i > *right : i < *left)
+    double i = -b / a; /* infinite or NaN where a is 0 */
+    if (a == 0 ? b < 0 : a > 0 ? i > *right : i < *left)
         *left = *right;
     else if (a > 0 && i > *left)
-        *left = (int)ceil(i);
+        *left = (int)i + ((int)i < i);
     else if (a < 0 && i < *right - 1)
-        *right = (int)floor(i) + 1;
+        *right = (int)i + 1;
 }
 
-/* A small opaque triangle inside the clip: each pixel whose middle lies in it.
- * turn: twice its area, > 0 if its corners go round to the right.  Returns
- * false if it is not small, and draws nothing. */
-static bool fill_small(Canvas *canvas, const double c[6], double turn,
-                       Colour colour)
-{
-    enum { SMALL = 12 }; /* pixels a side */
-    const Box *clip = &canvas->clip;
-    double low[2] = {c[0], c[1]}, high[2] = {c[0], c[1]};
-    for (int k = 2; k < 6; k++) {
-        low[k % 2] = c[k] < low[k % 2] ? c[k] : low[k % 2];
-        high[k % 2] = c[k] > high[k % 2] ? c[k] : high[k % 2];
-    }
-    if (!(low[0] >= clip->x && low[1] >= clip->y &&
-          high[0] < clip->x + clip->width && high[1] < clip->y + clip->height &&
-          high[0] - low[0] < SMALL && high[1] - low[1] < SMALL))
-        return false;
-    Box box = {(int)low[0], (int)low[1], 0, 0};
-    box.width = (int)high[0] + 1 - box.x;
-    box.height = (int)high[1] + 1 - box.y;
-    double along[3], across[3], first[3]; /* each edge: a x + b y + c >= 0 */
-    double x = box.x + 0.5, y = box.y + 0.5;
-    for (int k = 0; k < 3; k++) {
-        const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
-        double dx = turn > 0 ? q[0] - p[0] : p[0] - q[0];
-        double dy = turn > 0 ? q[1] - p[1] : p[1] - q[1];
-        along[k] = -dy;
-        across[k] = dx;
-        first[k] = dx * (y - p[1]) - dy * (x - p[0]);
-    }
-    for (int j = 0; j < box.height; j++) {
-        uint32_t *row = canvas_row(canvas, box.y + j) + box.x;
-        double a = first[0], b = first[1], d = first[2];
-        for (int i = 0; i < box.width; i++) {
-            if (a >= 0 && b >= 0 && d >= 0)
-                row[i] = colour;
-            a += along[0];
-            b += along[1];
-            d += along[2];
-        }
-        for (int k = 0; k < 3; k++)
-            first[k] += across[k];
-    }
-    return true;
-}
-
-/* Coverage from the distances to the three edges.  In each row the pixels that
- * no edge comes near are not looked at one by one. */
+/* In each row from edge to edge; smooth ones by the distance to the nearest. */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour)
 {
     double edge[3][3]; /* a x + b y + c: pixels inside the edge */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
+    double reach = smooth ? 1 : 0;
+    uint32_t full = opacity(colour);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
-    if (!smooth && colour >> 24 == 255 && fill_small(canvas, c, turn, colour))
-        return;
-    double reach = smooth ? 1 : 0;
-    Box box = touched(canvas, fmin(c[0], fmin(c[2], c[4])) - reach,
+    Box box = touched(canvas->clip, fmin(c[0], fmin(c[2], c[4])) - reach,
                       fmin(c[1], fmin(c[3], c[5])) - reach,
                       fmax(c[0], fmax(c[2], c[4])) + reach,
                       fmax(c[1], fmax(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
-        double n = math_hypot(dx, dy) * (turn > 0 ? 1 : -1);
+        double n = (smooth ? math_hypot(dx, dy) : 1) * (turn > 0 ? 1 : -1);
         edge[k][0] = -dy / n;
         edge[k][1] = dx / n;
         edge[k][2] = (dy * p[0] - dx * p[1]) / n;
     }
-    uint32_t full = opacity(colour);
-    double most = smooth ? 0.5 : 0, slack = 1e-6; /* far above the rounding */
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         int left = box.x, right = box.x + box.width;
-        double first[3]; /* pixels inside the edge, at the middle of pixel 0 */
+        double first[3]; /* at the middle of pixel 0 */
         for (int k = 0; k < 3; k++) {
             first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
-            narrow(edge[k][0], first[k], -most - slack, &left, &right);
+            narrow(edge[k][0], first[k] + 0.5 * reach + 1e-9, &left, &right);
         }
-        int solid = left, end = right;
-        for (int k = 0; k < 3; k++)
-            narrow(edge[k][0], first[k], most + slack, &solid, &end);
-        for (int i = left; i < right; i++) {
-            if (i == solid && solid < end) {
-                mix_span(row, solid, end, colour, full);
-                i = end - 1;
-                continue;
-            }
-            double inside = 1e9;
+        if (!smooth)
+            mix_span(row, left, right, colour, full);
+        for (int i = left; smooth && i < right; i++) {
+            double inside = 0.5; /* and more is all of the pixel */
             for (int k = 0; k < 3; k++)
                 inside = fmin(inside, edge[k][0] * i + first[k]);
-            double part =
-                smooth ? fmin(fmax(inside + 0.5, 0), 1) : (inside >= 0 ? 1 : 0);
-            if (part > 0)
-                row[i] = mix(row[i], colour, (uint32_t)(part * full + 0.5));
+            row[i] = mix(row[i], colour,
+                         (uint32_t)(fmax(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
@@ -462,8 +367,8 @@ void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
 {
     const double half[2] = {0.5 * box.width, 0.5 * box.height};
     int rim = (int)ceil(radius) + 1;
-    Box seen =
-        touched(canvas, box.x, box.y, box.x + box.width, box.y + box.height);
+    Box seen = touched(canvas->clip, box.x, box.y, box.x + box.width,
+                       box.y + box.height);
     if (box.width <= 0 || box.height <= 0)
         return;
     int end = seen.x + seen.width, right = box.x + box.width - rim;
@@ -496,7 +401,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
     if (!(radius > 0) || !(fabs(x) < 1e6) || !(fabs(y) < 1e6) ||
         !(radius < 1e6))
         return;
-    Box box = touched(canvas, x - reach, y - reach, x + reach, y + reach);
+    Box box = touched(canvas->clip, x - reach, y - reach, x + reach, y + reach);
     uint32_t full = opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
@@ -524,7 +429,7 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
 /* Row by row. */
 void canvas_copy(Canvas *canvas, const Canvas *from, int x, int y)
 {
-    Box box = touched(canvas, x, y, x + from->width, y + from->height);
+    Box box = touched(canvas->clip, x, y, x + from->width, y + from->height);
     for (int j = box.y; j < box.y + box.height; j++)
         memcpy(canvas_row(canvas, j) + box.x,
                canvas_row(from, j - y) + (box.x - x),
@@ -536,7 +441,7 @@ void canvas_stencil(Canvas *canvas, int x, int y, int width, int height,
                     const uint8_t *mask, Colour colour)
 {
     uint32_t full = opacity(colour);
-    Box box = touched(canvas, x, y, x + width, y + height);
+    Box box = touched(canvas->clip, x, y, x + width, y + height);
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
         const uint8_t *part = mask + (size_t)(j - y) * (size_t)width;

@@ -6,12 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "picture/colour_map.h"
 
 enum {
-    TEXT_FONTS = 24,    /* open at a time: sizes times faces */
     TEXT_GLYPHS = 2048, /* kept at a time, a power of two */
     TEXT_NAME = 512,
     TEXT_DEPTH = 3, /* superscripts of superscripts */
@@ -34,21 +32,14 @@ typedef struct Glyph {
     uint8_t *mask; /* [height width] coverage, or NULL: nothing to draw */
 } Glyph;
 
-typedef struct OpenFont {
-    Face face;
-    int size;
-    FT_Face font;
-} OpenFont;
-
 struct Text {
     FT_Library library;
-    char file[FACE_COUNT][TEXT_NAME];
-    int fonts, glyphs;
-    OpenFont font[TEXT_FONTS];
+    FT_Face font[FACE_COUNT];
+    int glyphs;
     Glyph glyph[TEXT_GLYPHS]; /* hashed by key */
 };
 
-/* ---- where the fonts are ------------------------------------------------ */
+/* ---- fonts -------------------------------------------------------------- */
 
 /* Those that begin with ~ are in the home folder. */
 static const char *const font_folders[] = {
@@ -69,53 +60,47 @@ static const char *const font_folders[] = {
 static const char *const face_files[FACE_COUNT] = {
     "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
 
-/* A face of DejaVu in one of the folders; file "" if there is none. */
-static void find_face(Face face, char *file)
+/* The font that was asked for; else DejaVu from the first folder that has it;
+ * NULL: there is none. */
+static FT_Face open_font(FT_Library library, Face face, const char *given)
 {
     const char *home = getenv("HOME") ? getenv("HOME") : "";
+    char name[TEXT_NAME];
+    FT_Face font;
+    if (given && face != FACE_MONO && !FT_New_Face(library, given, 0, &font))
+        return font;
     for (size_t i = 0; i < sizeof font_folders / sizeof *font_folders; i++) {
         const char *folder = font_folders[i];
         bool at_home = *folder == '~';
-        int length = snprintf(file, TEXT_NAME, "%s%s/%s", at_home ? home : "",
-                              folder + at_home, face_files[face]);
-        if (length < TEXT_NAME && access(file, R_OK) == 0)
-            return;
+        snprintf(name, sizeof name, "%s%s/%s", at_home ? home : "",
+                 folder + at_home, face_files[face]);
+        if (!FT_New_Face(library, name, 0, &font))
+            return font;
     }
-    file[0] = '\0';
-}
-
-/* Fills text->file.  Returns false if there is no regular font. */
-static bool find_fonts(Text *text)
-{
-    const char *given = getenv("ELASTO_FONT");
-    if (given && given[0] == '\0')
-        return false;
-    for (int face = 0; face < FACE_COUNT; face++)
-        find_face((Face)face, text->file[face]);
-    if (given && strlen(given) < TEXT_NAME && access(given, R_OK) == 0) {
-        strcpy(text->file[FACE_REGULAR], given);
-        text->file[FACE_BOLD][0] = '\0';
-    }
-    if (!text->file[FACE_REGULAR][0])
-        return false;
-    for (int face = 0; face < FACE_COUNT; face++)
-        if (!text->file[face][0])
-            strcpy(text->file[face], text->file[FACE_REGULAR]);
-    return true;
+    return NULL;
 }
 
 Status text_create(Text **text)
 {
+    const char *given = getenv("ELASTO_FONT");
     *text = NULL;
+    if (given && given[0] == '\0')
+        return STATUS_OK;
     Text *made = calloc(1, sizeof *made);
-    if (!made)
+    if (!made || FT_Init_FreeType(&made->library)) {
+        free(made);
         return STATUS_OUT_OF_MEMORY;
-    bool found = find_fonts(made);
-    if (found && FT_Init_FreeType(&made->library) == 0)
+    }
+    for (int face = 0; face < FACE_COUNT; face++) {
+        made->font[face] = open_font(made->library, (Face)face, given);
+        if (!made->font[face])
+            made->font[face] = made->font[FACE_REGULAR];
+    }
+    if (made->font[FACE_REGULAR])
         *text = made;
     else
-        free(made);
-    return found && !*text ? STATUS_OUT_OF_MEMORY : STATUS_OK;
+        text_free(made);
+    return STATUS_OK;
 }
 
 static void forget_glyphs(Text *text)
@@ -131,68 +116,36 @@ void text_free(Text *text)
     if (!text)
         return;
     forget_glyphs(text);
-    for (int i = 0; i < text->fonts; i++)
-        FT_Done_Face(text->font[i].font);
-    FT_Done_FreeType(text->library);
+    FT_Done_FreeType(text->library); /* and its fonts */
     free(text);
 }
 
 /* ---- letters ------------------------------------------------------------ */
 
-/* The font of this face and size, opened if it is not; NULL: it cannot be. */
-static FT_Face open_font(Text *text, Face face, int size)
-{
-    for (int i = 0; i < text->fonts; i++)
-        if (text->font[i].face == face && text->font[i].size == size)
-            return text->font[i].font;
-    if (text->fonts == TEXT_FONTS) /* many sizes were used: the oldest goes */
-    {
-        FT_Done_Face(text->font[0].font);
-        memmove(text->font, text->font + 1,
-                (TEXT_FONTS - 1) * sizeof *text->font);
-        text->fonts--;
-    }
-    FT_Face font;
-    if (FT_New_Face(text->library, text->file[face], 0, &font))
-        return NULL;
-    if (FT_Set_Char_Size(font, 0, size * 64, 0, 0)) {
-        FT_Done_Face(font);
-        return NULL;
-    }
-    text->font[text->fonts++] = (OpenFont){face, size, font};
-    return font;
-}
-
-/* Keeps the coverage of the letter's pixels as the mask of the glyph. */
-static void keep_mask(Glyph *glyph, const FT_Bitmap *map)
-{
-    size_t width = map->width, rows = map->rows;
-    if (width * rows == 0 || map->pixel_mode != FT_PIXEL_MODE_GRAY)
-        return;
-    glyph->mask = malloc(width * rows);
-    if (!glyph->mask)
-        return;
-    glyph->width = (int)width;
-    glyph->height = (int)rows;
-    for (size_t j = 0; j < rows; j++)
-        memcpy(glyph->mask + j * width, map->buffer + (ptrdiff_t)j * map->pitch,
-               width);
-}
-
 /* Draws the letter.  One that cannot be drawn keeps its room. */
 static Glyph make_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(GUESSED_WIDTH * size)};
-    FT_Face font = open_font(text, face, size);
-    if (!font || FT_Load_Char(font, letter, FT_LOAD_TARGET_LIGHT))
+    FT_Face font = text->font[face];
+    if (FT_Set_Char_Size(font, 0, size * 64, 0, 0) ||
+        FT_Load_Char(font, letter, FT_LOAD_TARGET_LIGHT))
         return glyph;
     FT_GlyphSlot slot = font->glyph;
+    const FT_Bitmap *map = &slot->bitmap;
     glyph.advance = (int)((slot->metrics.horiAdvance + 63) >> 6);
-    if (FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL))
+    if (FT_Render_Glyph(slot, FT_RENDER_MODE_NORMAL) ||
+        map->pixel_mode != FT_PIXEL_MODE_GRAY)
         return glyph;
     glyph.left = slot->bitmap_left;
     glyph.top = -slot->bitmap_top;
-    keep_mask(&glyph, &slot->bitmap);
+    glyph.mask = malloc((size_t)map->width * map->rows + 1);
+    if (!glyph.mask)
+        return glyph;
+    glyph.width = (int)map->width;
+    glyph.height = (int)map->rows;
+    for (size_t j = 0; j < map->rows; j++)
+        memcpy(glyph.mask + j * map->width,
+               map->buffer + (ptrdiff_t)j * map->pitch, map->width);
     return glyph;
 }
 
@@ -277,12 +230,6 @@ static void pen_letter(Pen *pen, uint32_t letter)
     pen->x += glyph->advance;
 }
 
-static void pen_string(Pen *pen, const char *string, const char *end)
-{
-    while (string < end && *string)
-        pen_letter(pen, next_letter(&string));
-}
-
 /* The letters that have a colour. */
 typedef struct Coloured {
     const char *name, *shown;
@@ -296,22 +243,13 @@ static const Coloured coloured[] = {
     {"{alpha}", "\u03b1", COLOUR_ALPHA},
 };
 
-/* Draws one of these if the string begins with it, and returns its length. */
-static size_t pen_coloured(Pen *pen, const char *string)
+/* The one that the string begins with, or NULL. */
+static const Coloured *find_coloured(const char *string)
 {
-    for (size_t i = 0; i < sizeof coloured / sizeof *coloured; i++) {
-        size_t length = strlen(coloured[i].name);
-        if (strncmp(string, coloured[i].name, length) != 0)
-            continue;
-        Colour before = pen->style.colour;
-        if (before != COLOUR_GREY)
-            pen->style.colour = coloured[i].colour;
-        pen_string(pen, coloured[i].shown,
-                   coloured[i].shown + strlen(coloured[i].shown));
-        pen->style.colour = before;
-        return length;
-    }
-    return 0;
+    for (size_t i = 0; i < sizeof coloured / sizeof *coloured; i++)
+        if (strncmp(string, coloured[i].name, strlen(coloured[i].name)) == 0)
+            return &coloured[i];
+    return NULL;
 }
 
 /* The brace that closes the one before `string`, or the end. */
@@ -330,24 +268,28 @@ static const char *closing_brace(const char *string, const char *end)
 static void pen_markup(Pen *pen, const char *string, const char *end, int depth)
 {
     while (string < end) {
+        const TextStyle style = pen->style;
+        double baseline = pen->baseline;
         bool script = (*string == '^' || *string == '_') && string[1] == '{';
-        size_t length = *string == '{' ? pen_coloured(pen, string) : 0;
-        if (script && depth < TEXT_DEPTH) {
-            Pen before = *pen;
-            const char *inner = string + 2;
-            const char *close = closing_brace(inner, end);
-            pen->baseline +=
-                before.style.size * (*string == '^' ? -RAISE : LOWER);
-            pen->style.size *= SCRIPT_SIZE;
-            pen_markup(pen, inner, close, depth + 1);
-            pen->style = before.style;
-            pen->baseline = before.baseline;
-            string = close < end ? close + 1 : end;
-        } else if (length) {
-            string += length;
-        } else {
+        const Coloured *word = *string == '{' ? find_coloured(string) : NULL;
+        if (style.plain || !(word || (script && depth < TEXT_DEPTH))) {
             pen_letter(pen, next_letter(&string));
+            continue;
         }
+        if (word) {
+            if (style.colour != COLOUR_GREY)
+                pen->style.colour = word->colour;
+            pen_markup(pen, word->shown, word->shown + strlen(word->shown), 0);
+            string += strlen(word->name);
+        } else {
+            const char *close = closing_brace(string + 2, end);
+            pen->baseline += style.size * (*string == '^' ? -RAISE : LOWER);
+            pen->style.size *= SCRIPT_SIZE;
+            pen_markup(pen, string + 2, close, depth + 1);
+            string = close < end ? close + 1 : end;
+        }
+        pen->style = style;
+        pen->baseline = baseline;
     }
 }
 
@@ -365,10 +307,7 @@ static double pen_width(Text *text, Canvas *canvas, const TextStyle *style,
                .style = *style,
                .x = x,
                .baseline = y + ASCENT * style->size};
-    if (style->plain)
-        pen_string(&pen, string, string + strlen(string));
-    else
-        pen_markup(&pen, string, string + strlen(string), 0);
+    pen_markup(&pen, string, string + strlen(string), 0);
     return pen.x;
 }
 
