@@ -14,6 +14,7 @@ enum {
 
 static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
 static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
+static const double LINE_ROOM = 1.6;     /* ems, one above the other needs */
 static const double NUMBER_ROOM = 3.1;   /* ems, left of the plot */
 static const double BELOW_ROOM = 1.5;    /* ems, below it */
 static const double NUMBER_BELOW = 0.25; /* ems, from the plot to a number */
@@ -65,124 +66,104 @@ static Number tick_number(const Axis *axis, double value)
     return number_of(nothing ? 0 : value);
 }
 
-/* The values that carry a number on this axis; returns how many. */
-static int axis_ticks(const Axis *axis, double intervals, double *ticks)
+/* The values that carry a number where the axis is so many ems long; returns
+ * how many.  upright: it is that of y */
+static int axis_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
+    double room = upright ? fmax(ems / LINE_ROOM, 1) : fmax(ems / TICK_ROOM, 2);
+    double intervals = fmin(room, (upright ? 1 : 2) * PLOT_INTERVALS);
+    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double step = plot_round_up((high - low) / intervals);
     int count = 0;
-    if (!(axis->high > axis->low) || (axis->log && !(axis->low > 0)))
+    if (!(high - low > 0) || !isfinite(high - low))
         return 0;
-    if (axis->log) {
-        int low = (int)ceil(log10(axis->low) - 1e-9);
-        int high = (int)floor(log10(axis->high) + 1e-9);
-        int step = (int)ceil((high - low) / intervals);
-        step = step < 1 ? 1 : step;
-        for (int k = low; k <= high && count < PLOT_MOST_LINES; k += step)
-            ticks[count++] = pow(10, k);
-        return count;
-    }
-    double step = plot_round_up((axis->high - axis->low) / intervals);
-    if (axis->whole)
+    if (axis->log) /* powers of ten */
+        step = ceil((floor(high + 1e-9) - ceil(low - 1e-9)) / intervals);
+    if (axis->log || axis->whole)
         step = fmax(step, 1);
-    for (double k = ceil(axis->low / step - 1e-9);
-         k * step <= axis->high + 1e-9 * step && count < PLOT_MOST_LINES; k++)
-        ticks[count++] = k * step;
+    double first =
+        axis->log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
+    for (double k = first;
+         k * step <= high + 1e-9 * step && count < PLOT_MOST_LINES; k++)
+        ticks[count++] = axis->log ? pow(10, round(k * step)) : k * step;
     return count;
 }
 
-/* Numbers below, the label at the end of the axis. */
-static void draw_x_axis(const Plot *plot)
+static void write_tick(const Plot *plot, Colour colour, double x, double y,
+                       Align align, const char *words)
 {
-    Paper *paper = plot->paper;
-    const Box *box = &plot->box;
-    double ticks[PLOT_MOST_LINES], at[2];
-    double room = box->width / (TICK_ROOM * paper->em);
-    int count = axis_ticks(&plot->x, fmin(fmax(room, 2), 8), ticks);
-    double y = box->y + box->height + NUMBER_BELOW * paper->em;
-    int right = box->x + box->width;
-    if (plot->x.label)
-        right -= paper_width(paper, FACE_REGULAR, TICK_SIZE, plot->x.label) +
-                 paper_pixels(paper, 0.5);
-    for (int i = 0; i < count; i++) {
-        Number number = tick_number(&plot->x, ticks[i]);
-        plot_place(plot, (double[2]){ticks[i], plot->y.low}, at);
-        int half = paper_width(paper, FACE_REGULAR, TICK_SIZE, number.text) / 2;
-        if (at[0] + half > right)
-            continue;
-        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, at[0], y,
-                    ALIGN_CENTRE, "%s", number.text);
-    }
-    if (plot->x.label)
-        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
-                    box->x + box->width, y, ALIGN_RIGHT, "%s", plot->x.label);
+    paper_write(plot->paper, FACE_REGULAR, TICK_SIZE, colour, x, y, align, "%s",
+                words);
 }
 
-/* Light lines across with their numbers on the left; 0 is darker. */
-static void draw_y_axis(const Plot *plot)
+static int tick_width(Paper *paper, const char *words)
+{
+    return paper_width(paper, FACE_REGULAR, TICK_SIZE, words);
+}
+
+/* Light lines across, darker at 0, with their numbers on the left; numbers
+ * below as far as there is room beside the label. */
+static void draw_axes(const Plot *plot)
 {
     Paper *paper = plot->paper;
     const Box *box = &plot->box;
-    double ticks[PLOT_MOST_LINES], at[2];
-    double room = box->height / (1.6 * paper->em);
-    int count =
-        axis_ticks(&plot->y, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
-    double x = box->x - 0.35 * paper->em;
+    const char *x_label = plot->x.label, *y_label = plot->y.label;
+    double em = paper->em, ticks[PLOT_MOST_LINES], at[2];
+    double right = box->x + box->width, end = right;
+    double below = box->y + box->height + NUMBER_BELOW * em;
+    int count = axis_ticks(&plot->y, true, box->height / em, ticks);
     for (int i = 0; i < count; i++) {
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
         plot_place(plot, (double[2]){plot->x.low, ticks[i]}, at);
         double row = floor(at[1] + 1e-9) + 0.5; /* sharp on the screen */
-        canvas_line(&paper->canvas, box->x, row, box->x + box->width, row,
+        canvas_line(&paper->canvas, box->x, row, right, row,
                     fmax(1, floor(paper->unit)),
                     zero ? COLOUR_BORDER : COLOUR_GRID);
-        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_FAINT, x,
-                    at[1] - 0.65 * TICK_SIZE * paper->em, ALIGN_RIGHT, "%s",
-                    tick_number(&plot->y, ticks[i]).text);
+        write_tick(plot, COLOUR_FAINT, box->x - 0.35 * em,
+                   at[1] - 0.65 * TICK_SIZE * em, ALIGN_RIGHT,
+                   tick_number(&plot->y, ticks[i]).text);
     }
-    if (plot->y.label && box->height > 1.6 * TICK_SIZE * paper->em)
-        paper_write(paper, FACE_REGULAR, TICK_SIZE, COLOUR_TEXT,
-                    box->x + box->width, box->y + 0.1 * paper->em, ALIGN_RIGHT,
-                    "%s", plot->y.label);
-}
-
-/* Numbers and lines. */
-static void draw_axes(const Plot *plot)
-{
-    draw_y_axis(plot);
-    draw_x_axis(plot);
+    if (y_label && box->height > 1.6 * TICK_SIZE * em)
+        write_tick(plot, COLOUR_TEXT, right, box->y + 0.1 * em, ALIGN_RIGHT,
+                   y_label);
+    if (x_label) {
+        write_tick(plot, COLOUR_TEXT, right, below, ALIGN_RIGHT, x_label);
+        end -= tick_width(paper, x_label) + paper_pixels(paper, 0.5);
+    }
+    count = axis_ticks(&plot->x, false, box->width / em, ticks);
+    for (int i = 0; i < count; i++) {
+        Number number = tick_number(&plot->x, ticks[i]);
+        plot_place(plot, (double[2]){ticks[i], plot->y.low}, at);
+        if (at[0] + tick_width(paper, number.text) / 2 <= end)
+            write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
+                       number.text);
+    }
 }
 
 /* Pixels left of the plot: the widest number of the axis beyond the usual
  * ones. */
 static int number_room(Paper *paper, const Axis *axis, int height)
 {
-    double ticks[PLOT_MOST_LINES], room = height / (1.6 * paper->em);
+    double ticks[PLOT_MOST_LINES];
     int most = paper_pixels(paper, NUMBER_ROOM);
-    int count = axis_ticks(axis, fmin(fmax(room, 1), PLOT_INTERVALS), ticks);
+    int count = axis_ticks(axis, true, height / paper->em, ticks);
     for (int i = 0; i < count; i++) {
-        Number number = tick_number(axis, ticks[i]);
-        int width = paper_width(paper, FACE_REGULAR, TICK_SIZE, number.text) +
+        int width = tick_width(paper, tick_number(axis, ticks[i]).text) +
                     paper_pixels(paper, 0.4);
         most = width > most ? width : most;
     }
     return most;
 }
 
-/* Its box, at least a pixel wide and high. */
-static void set_box(Plot *plot, Box box)
-{
-    plot->box = box;
-    plot->box.width = box.width < 1 ? 1 : box.width;
-    plot->box.height = box.height < 1 ? 1 : box.height;
-}
-
 Plot plot_create(Paper *paper, Box outer, Axis x, Axis y)
 {
     Plot plot = {.paper = paper, .x = x, .y = y, .text = true, .em = paper->em};
     int left = number_room(paper, &y, outer.height);
-    int below = paper_pixels(paper, BELOW_ROOM);
-    int above = paper_pixels(paper, 0.5), right = paper_pixels(paper, 0.6);
-    set_box(&plot,
-            (Box){outer.x + left, outer.y + above, outer.width - left - right,
-                  outer.height - above - below});
+    int above = paper_pixels(paper, 0.5);
+    int width = outer.width - left - paper_pixels(paper, 0.6);
+    int height = outer.height - above - paper_pixels(paper, BELOW_ROOM);
+    plot.box = (Box){outer.x + left, outer.y + above, width < 1 ? 1 : width,
+                     height < 1 ? 1 : height};
     set_camera(&plot, 0, &x);
     set_camera(&plot, 1, &y);
     draw_axes(&plot);
@@ -262,13 +243,14 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
 void plot_dashes(const Plot *plot, const double *a, const double *b,
                  double width, double *phase, Colour colour)
 {
-    Paper *paper = plot->paper;
-    double p[2], q[2];
+    Canvas *canvas = &plot->paper->canvas;
+    double unit = plot->paper->unit, p[2], q[2];
+    Box before = canvas_clip(canvas, plot->box);
     plot_place(plot, a, p);
     plot_place(plot, b, q);
-    canvas_dashes(&paper->canvas, p[0], p[1], q[0], q[1],
-                  fmax(1, width * paper->unit), 5 * paper->unit,
-                  4 * paper->unit, phase, colour);
+    canvas_dashes(canvas, p[0], p[1], q[0], q[1], fmax(1, width * unit),
+                  5 * unit, 4 * unit, phase, colour);
+    canvas_clip(canvas, before);
 }
 
 /* Moves the end of a line from p to q to the middle between two pixels of the
@@ -312,16 +294,22 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
     plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);
 }
 
+/* Whether a point is to be seen; p [2] pixels, out. */
+static bool find_place(const Plot *plot, const double *at, double p[2])
+{
+    plot_place(plot, at, p);
+    return !has_axes(plot) || (at[0] >= plot->x.low && at[0] <= plot->x.high &&
+                               at[1] >= plot->y.low && at[1] <= plot->y.high);
+}
+
 bool plot_disc(const Plot *plot, const double *at, double radius, Colour colour)
 {
     double p[2];
-    if (has_axes(plot) && !(at[0] >= plot->x.low && at[0] <= plot->x.high &&
-                            at[1] >= plot->y.low && at[1] <= plot->y.high))
-        return false;
-    plot_place(plot, at, p);
-    canvas_disc(&plot->paper->canvas, p[0], p[1], radius * plot->paper->unit,
-                colour);
-    return true;
+    bool seen = find_place(plot, at, p);
+    if (seen)
+        canvas_disc(&plot->paper->canvas, p[0], p[1],
+                    radius * plot->paper->unit, colour);
+    return seen;
 }
 
 void plot_hollow(const Plot *plot, const double *at, double radius,
@@ -335,9 +323,9 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
                Colour colour)
 {
     double p[2], unit = plot->paper->unit;
-    plot_place(plot, at, p);
-    canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
-                fmax(1, width * unit), colour);
+    if (find_place(plot, at, p))
+        canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
+                    fmax(1, width * unit), colour);
 }
 
 /* A dark square with a light middle. */
@@ -369,30 +357,22 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     canvas_clip(&paper->canvas, before);
 }
 
-/* The longest of d [2n], those that are not finite left out. */
-static double longest_arrow(int nodes, const double *d)
-{
-    double most = 0;
-    for (int i = 0; i < nodes; i++) {
-        double length = math_hypot(d[2 * i], d[2 * i + 1]);
-        if (isfinite(length) && length > most)
-            most = length;
-    }
-    return most;
-}
-
 double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
                    const double *d, double part, double most, Colour colour)
 {
-    double scale = plot->camera.scale[0], factor = 1;
-    double length = longest_arrow(nodes, d) * scale;
+    double scale = plot->camera.scale[0], factor = 1, longest = 0;
     double least = fmin(ARROW_LEAST * plot->em, 0.1 * most);
-    if (!(length > 0) || !isfinite(length))
+    for (int i = 0; i < nodes; i++) {
+        double length = math_hypot(d[2 * i], d[2 * i + 1]) * scale;
+        if (isfinite(length))
+            longest = fmax(longest, length);
+    }
+    if (longest == 0)
         return 0;
-    if (length < least)
-        factor = pow(10, ceil(log10(least / length)));
-    if (length > most)
-        factor = pow(10, -ceil(log10(length / most)));
+    if (longest < least)
+        factor = pow(10, ceil(log10(least / longest)));
+    if (longest > most)
+        factor = pow(10, -ceil(log10(longest / most)));
     for (int i = 0; i < nodes; i += stride)
         if (math_hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
             plot_arrow(plot, x + 2 * i, d + 2 * i, part * factor, 1.6, colour);

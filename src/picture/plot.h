@@ -4,8 +4,8 @@
  * one scale unless the picture is stretched.  So there is one line, one disc,
  * one arrow, one word for all pictures and cards.  Points are [2] in the units
  * of the axes; widths and radii in units of the paper, other sizes in ems.
- * Where there are axes, lines are cut at their box and discs beyond it are
- * left out; a stage is cut by its canvas.
+ * Where there are axes, lines and arrows are cut at their box, discs and rings
+ * whose centre is beyond it are left out; a stage is cut by its canvas.
  */
 #ifndef ELASTO_PLOT_H
 #define ELASTO_PLOT_H
@@ -99,9 +99,9 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
                 double factor, double width, Colour colour);
 
 /* Arrows of part times d [2n] at x [2n], every stride-th node.  A power of ten
- * times as long as they are, so that the longest has between a tenth of `most`
- * pixels and `most`, where that is not so by itself; returns that factor, 0 if
- * there is nothing to draw. */
+ * times as long as they are, so that the longest has at most `most` pixels, and
+ * at least 1.5 ems or a tenth of `most`, where that is not so by itself;
+ * returns that factor, 0 if there is nothing to draw. */
 double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
                    const double *d, double part, double most, Colour colour);
 
