@@ -89,7 +89,7 @@ if [ "$$missing" ]; then as=; [ "$$(id -u)" = 0 ] || as=sudo; \
   $$get || { $$as apt-get update -q && $$get; } || exit 1; fi
 endef
 
-# CHOLMOD is linked as an archive where there is one: src/solve/blas.c answers
+# CHOLMOD is linked as an archive where there is one: src/solve/panels.c answers
 # its calls of BLAS, and a program that has it loads no library of BLAS.
 ALONE = $(foreach l,cholmod colamd ccolamd camd amd suitesparseconfig,-l:lib$(l).a) \
         -l:libmetis.so.5 -lgomp

@@ -8,7 +8,8 @@
 #define ELASTO_NEWTON_H
 
 #include "solve/line_search.h"
-#include "solve/search_direction.h"
+#include "solve/cholesky.h"
+#include "solve/incremental_potential.h"
 
 typedef enum Solver {
     SOLVER_NEWTON,    /* Algorithm 3: a new factor for each direction */
@@ -82,12 +83,30 @@ typedef struct NewtonCounters {
     long local;      /* its sweeps of tiles where folds run */
     long saddles;    /* left along negative curvature */
     long taken_back; /* minimisations that multigrid began, but did not end */
-    double seconds_assembly, seconds_factor, seconds_solve, seconds_search;
-    double seconds_multigrid;
 } NewtonCounters;
 
 /* sum += counters */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
+
+/* The Hessian and its factor, and vectors of [2n] (direction.c): pattern, slots
+ * and symbolic analysis once, then assemble, factor and solve as often as
+ * wanted.
+ *
+ * Where h^2 k outweighs the masses by more than the 16 digits of a double, H
+ * has no Cholesky factor in floating point.  Then H + shift I is factored, and
+ * conjugate gradients on H itself, applied spring by spring, remove what the
+ * shift has changed. */
+typedef struct SearchDirection {
+    Filter filter;         /* of the Hessian in A */
+    CholeskyKind kind;     /* what cholesky was made for, */
+    unsigned pattern;      /* and of which pattern of the system */
+    Sparse A;              /* Hessian, one triangle, in elimination order */
+    int *slot;             /* place of each triplet in A */
+    Cholesky *cholesky;    /* NULL: no matrix was needed yet */
+    double shift;          /* kg, on the diagonal of what was factored */
+    double *b;             /* right-hand side in elimination order */
+    double *r, *z, *q, *d; /* of conjugate gradients */
+} SearchDirection;
 
 /* What guards the digits of a minimisation (rounding.c). */
 typedef struct Rounding {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/cholesky_parts.h"
+#include "solve/panels.h"
 
 struct Cholesky {
     cholmod_common common;
@@ -72,7 +72,6 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, bool ordered,
     Cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky)
         return STATUS_OUT_OF_MEMORY;
-    blas_start();
     cholmod_start(&cholesky->common);
     set_parameters(&cholesky->common, kind, ordered);
     cholesky->kind = kind;
@@ -129,7 +128,32 @@ Status cholesky_factor(Cholesky *cholesky)
     return common->status < CHOLMOD_OK ? cholmod_failure(common) : STATUS_OK;
 }
 
-/* y = L^-T D^-1 L^-1 y; the first entry of each column is that of D. */
+/* ---- definite: in panels ---- */
+
+static Panel panel_of(const cholmod_factor *L, size_t k)
+{
+    const int *column = L->super, *rows = L->pi, *values = L->px;
+    return (Panel){column[k + 1] - column[k], rows[k + 1] - rows[k],
+                   (const int *)L->s + rows[k],
+                   (const double *)L->x + values[k]};
+}
+
+/* y = L^-T L^-1 y; w [n] workspace. */
+static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
+{
+    for (size_t step = 0; step < 2 * L->nsuper; step++) {
+        bool down = step < L->nsuper;
+        Panel panel = panel_of(L, down ? step : 2 * L->nsuper - 1 - step);
+        for (int i = 0; i < panel.rows; i++)
+            w[i] = y[panel.row[i]];
+        (down ? panel_forward : panel_backward)(&panel, w);
+        for (int i = 0; i < (down ? panel.rows : panel.columns); i++)
+            y[panel.row[i]] = w[i];
+    }
+}
+
+/* ---- indefinite: y = L^-T D^-1 L^-1 y; the first entry of each column is that
+ * of D. */
 static void solve_by_columns(const cholmod_factor *L, double *y)
 {
     const int *start = L->p, *count = L->nz, *row = L->i;
@@ -152,13 +176,10 @@ static Status solve_once(Cholesky *cholesky, const double *b, double *x)
     double *y = cholesky->y;
     for (size_t i = 0; i < L->n; i++)
         y[i] = b[order[i]];
-    if (cholesky->kind == CHOLESKY_INDEFINITE) {
+    if (cholesky->kind == CHOLESKY_INDEFINITE)
         solve_by_columns(L, y);
-    } else {
-        const Supernodes panels = {L->nsuper, L->super, L->pi,
-                                   L->px,     L->s,     L->x};
-        supernodes_solve(&panels, y, cholesky->r);
-    }
+    else
+        solve_by_panels(L, y, cholesky->r);
     for (size_t i = 0; i < L->n; i++)
         x[order[i]] = y[i];
     return all_finite(x, L->n) ? STATUS_OK : STATUS_NOT_FINITE;

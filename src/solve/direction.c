@@ -1,11 +1,281 @@
 #include "solve/newton_parts.h"
 
 #include <math.h>
-
-#include "base/clock.h"
+#include <stdint.h>
+#include <stdlib.h>
 
 /* Iterations for which projection on demand clamps after it had to. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
+
+/* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry.  A shift
+ * changes few directions, so conjugate gradients need few solves to reduce the
+ * squared remainder to ALL_DIGITS of the first. */
+enum { SHIFT_TRIES = 6, CONJUGATE_MAX_SOLVES = 59 };
+static const double ALL_DIGITS = 1e-28;
+
+/* The search for negative curvature ends after so many iterations, or where the
+ * squared remainder has this share of the random numbers' it began with. */
+enum { CURVATURE_MAX_ITERATIONS = 200 };
+static const double NO_CURVATURE = 1e-16;
+
+/* The test of the slides projects, and so it also passes where E bends down.
+ * By some masses that is an instability that grows as fast as the step can
+ * follow; by more than this many times M the place is far from any minimum of
+ * E, and it is not called one. */
+static const double MASSES_DOWN = 100;
+
+/* Saddles that one minimisation leaves, and how far: the first trial moves the
+ * node that moves most by this share of a spring. */
+enum { MAX_SADDLES = 30 };
+static const double FIRST_TRIAL = 0.1;
+
+/* ---- the Hessian and its factor ---- */
+
+Status direction_create(Newton *newton)
+{
+    SearchDirection *search = &newton->search;
+    size_t size = 2 * (size_t)newton->system->nodes;
+    search->b = calloc(5 * size, sizeof *search->b);
+    if (!search->b)
+        return STATUS_OUT_OF_MEMORY;
+    search->r = search->b + size;
+    search->z = search->r + size;
+    search->q = search->z + size;
+    search->d = search->q + size;
+    return STATUS_OK;
+}
+
+static void free_matrix(SearchDirection *search)
+{
+    cholesky_free(search->cholesky);
+    search->cholesky = NULL;
+    sparse_free(&search->A);
+    free(search->slot);
+    search->slot = NULL;
+}
+
+void direction_free(Newton *newton)
+{
+    free_matrix(&newton->search);
+    free(newton->search.b);
+}
+
+/* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
+ * when the system's pattern or the kind of factor is another.  Filter NONE: for
+ * a factor L D L^T, which allows negative eigenvalues; ON_DEMAND: as it is, for
+ * one that does not.
+ *   projected  out, blocks projected
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+static Status assemble(Newton *newton, Filter filter, int *projected)
+{
+    SearchDirection *search = &newton->search;
+    const System *system = newton->system;
+    CholeskyKind kind =
+        filter == FILTER_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
+    Status status = STATUS_OK;
+    *projected = 0;
+    if (!search->cholesky || search->kind != kind ||
+        search->pattern != system->pattern) {
+        free_matrix(search);
+        search->pattern = system->pattern;
+        search->kind = kind;
+        status =
+            incremental_potential_pattern(system, &search->A, &search->slot);
+        if (!status)
+            status = cholesky_create(&search->A, kind, system->order != NULL,
+                                     &search->cholesky);
+    }
+    search->filter = filter == FILTER_ON_DEMAND ? FILTER_NONE : filter;
+    if (!status)
+        *projected = incremental_potential_hessian(&newton->at, search->filter,
+                                                   search->slot, &search->A);
+    return status;
+}
+
+/* The largest entry of the diagonal; its slots come first. */
+static double largest_diagonal(const Newton *newton)
+{
+    const SearchDirection *search = &newton->search;
+    double largest = 0;
+    for (int t = 0; t < 2 * newton->system->nodes; t++)
+        largest = fmax(largest, search->A.value[search->slot[t]]);
+    return largest;
+}
+
+/* Factors A; with a shift if it must: only a filtered A is known to be
+ * semi-definite but for rounding, so only that is shifted.  Returns OK,
+ * NOT_POSITIVE_DEFINITE, NOT_FINITE, OUT_OF_MEMORY. */
+static Status factor(Newton *newton)
+{
+    SearchDirection *search = &newton->search;
+    search->shift = 0;
+    newton->counters.factorisations++;
+    Status status = cholesky_factor(search->cholesky);
+    if (status != STATUS_NOT_POSITIVE_DEFINITE || search->filter == FILTER_NONE)
+        return status;
+    double shift = 1e-15 * largest_diagonal(newton);
+    for (int i = 0; i < SHIFT_TRIES && status == STATUS_NOT_POSITIVE_DEFINITE;
+         i++, shift *= 100) {
+        for (int t = 0; t < 2 * newton->system->nodes; t++)
+            search->A.value[search->slot[t]] += shift - search->shift;
+        search->shift = shift;
+        newton->counters.factorisations++;
+        status = cholesky_factor(search->cholesky);
+    }
+    return status;
+}
+
+/* Assembles and factors the Hessian at x, once. */
+static Status factor_as(Newton *newton, Filter filter)
+{
+    NewtonRecord *record = &newton->record;
+    Status status = assemble(newton, filter, &record->projected);
+    if (!status)
+        status = factor(newton);
+    record->factorised = true;
+    record->shift = newton->search.shift;
+    newton->counters.projected += record->projected;
+    return status;
+}
+
+/* As the filter says.  Projection on demand first tries the Hessian as it is;
+ * after a failure it clamps, and goes on to do so for some iterations. */
+static Status newton_factor(Newton *newton)
+{
+    if (newton->settings.filter != FILTER_ON_DEMAND)
+        return factor_as(newton, newton->settings.filter);
+    if (newton->clamps == 0) {
+        Status status = factor_as(newton, FILTER_ON_DEMAND);
+        if (status != STATUS_NOT_POSITIVE_DEFINITE)
+            return status;
+        newton->clamps = CLAMPS_AFTER_FAILURE;
+    }
+    newton->clamps--;
+    return factor_as(newton, FILTER_CLAMP);
+}
+
+/* z = (H + shift I)^-1 r, both in the order of the nodes.
+ * Returns OK, NOT_FINITE, SINGULAR. */
+static Status apply_factor(Newton *newton, const double *r, double *z)
+{
+    const int *order = newton->system->order;
+    double *b = newton->search.b;
+    for (int i = 0; i < newton->system->nodes; i++) {
+        int place = order ? order[i] : i;
+        b[2 * place] = r[2 * i];
+        b[2 * place + 1] = r[2 * i + 1];
+    }
+    Status status = cholesky_solve(newton->search.cholesky, b, b);
+    for (int i = 0; i < newton->system->nodes && !status; i++) {
+        int place = order ? order[i] : i;
+        z[2 * i] = b[2 * place];
+        z[2 * i + 1] = b[2 * place + 1];
+    }
+    return status;
+}
+
+/* ---- conjugate gradients ---- */
+
+/* a . b */
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* The state of conjugate gradients for H p = -g, preconditioned with a factor
+ * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
+ * r.  H is applied term by term: that keeps small masses which the assembled
+ * matrix has lost to rounding. */
+typedef struct ConjugateGradients {
+    Filter filter;
+    double enough;    /* part of the first r.z at which they end */
+    double rz, first; /* r.z, squared size of the residual, and the first */
+    double curvature; /* d.H d of the last direction */
+} ConjugateGradients;
+
+/* One step along the next direction, z being known.  Returns false where there
+ * is nothing left to gain, or E bends down along d. */
+static bool conjugate_step(Newton *newton, ConjugateGradients *state)
+{
+    const SearchDirection *search = &newton->search;
+    int n = 2 * newton->system->nodes;
+    double *r = search->r, *z = search->z, *q = search->q, *d = search->d;
+    double *p = newton->at.p;
+    double last = state->rz;
+    state->rz = dot(n, r, z);
+    state->curvature = 0;
+    if (last == 0)
+        state->first = state->rz;
+    if (!(state->rz > state->enough * state->first))
+        return false;
+    for (int i = 0; i < n; i++)
+        d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
+    incremental_potential_product(&newton->at, state->filter, d, q);
+    state->curvature = dot(n, d, q);
+    double alpha = state->rz / state->curvature;
+    if (!(state->curvature > 0) || !(alpha > 0) || !isfinite(alpha))
+        return false; /* E bends down, or rounding hides how it bends */
+    for (int i = 0; i < n; i++) {
+        p[i] += alpha * d[i];
+        r[i] -= alpha * q[i];
+    }
+    return true;
+}
+
+/* p = -H^-1 g (slide: search_dir) with the last factor.  Where that has a
+ * shift, conjugate gradients improve p.  Returns OK, NOT_FINITE, SINGULAR. */
+static Status newton_solve(Newton *newton)
+{
+    const Iterate *at = &newton->at;
+    const SearchDirection *search = &newton->search;
+    int n = 2 * newton->system->nodes;
+    newton->counters.solves++;
+    Status status = apply_factor(newton, at->g, at->p);
+    for (int i = 0; i < n; i++)
+        at->p[i] = -at->p[i];
+    if (status || search->shift == 0)
+        return status;
+    ConjugateGradients state = {search->filter, .enough = ALL_DIGITS};
+    for (int i = 0; i < n; i++) {
+        search->z[i] = at->p[i]; /* factor^-1 (-g) already */
+        at->p[i] = search->d[i] = 0;
+        search->r[i] = -at->g[i];
+    }
+    for (int solves = 0; !status && conjugate_step(newton, &state) &&
+                         solves < CONJUGATE_MAX_SOLVES;
+         solves++)
+        status = apply_factor(newton, search->r, search->z);
+    return status;
+}
+
+/* How well p solves H p = -g, H applied term by term.
+ *   error  out, kg^(1/2) m, a bound of |p - exact|_M: |g + H p|_(M^-1) where
+ *          H - M is positive semi-definite; else twice what the factor says is
+ *          lacking
+ * Returns as newton_solve. */
+static Status judge(Newton *newton, double *error)
+{
+    const SearchDirection *search = &newton->search;
+    const System *system = newton->system;
+    const Iterate *at = &newton->at;
+    double *r = search->r, *z = search->z, square = 0;
+    incremental_potential_product(at, search->filter, at->p, search->q);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        r[i] = -at->g[i] - search->q[i];
+    *error = system_inverse_mass_norm(system, r);
+    if (search->filter != FILTER_NONE)
+        return STATUS_OK;
+    Status status = apply_factor(newton, r, z);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        square += system->m[i / 2] * z[i] * z[i];
+    *error = 2 * sqrt(square);
+    return status;
+}
+
+/* ---- the test of Algorithm 3 ---- */
 
 /* max over nodes of |p_x| + |p_y|, over h; NaN where p has one. */
 static double newton_residual(const Newton *newton)
@@ -27,53 +297,6 @@ static double residual_per_norm(const Newton *newton)
     return sqrt(2 / newton->rounding.lightest) / newton->settings.h;
 }
 
-/* Assembles and factors the Hessian at x, once. */
-static Status factor_as(Newton *newton, Filter filter)
-{
-    NewtonCounters *counters = &newton->counters;
-    double start = clock_now(), assembled;
-    int projected, tries = 0;
-    Status status = search_direction_assemble(&newton->search, &newton->at,
-                                              filter, &projected);
-    assembled = clock_now();
-    if (!status)
-        status = search_direction_factor(&newton->search, &tries);
-    newton->record.factorised = true;
-    newton->record.projected = projected;
-    newton->record.shift = newton->search.shift;
-    counters->projected += projected;
-    counters->factorisations += tries;
-    counters->seconds_assembly += assembled - start;
-    counters->seconds_factor += clock_now() - assembled;
-    return status;
-}
-
-/* As the filter says.  Projection on demand first tries the Hessian as it is;
- * after a failure it clamps, and goes on to do so for some iterations. */
-static Status newton_factor(Newton *newton)
-{
-    if (newton->settings.filter != FILTER_ON_DEMAND)
-        return factor_as(newton, newton->settings.filter);
-    if (newton->clamps == 0) {
-        Status status = factor_as(newton, FILTER_ON_DEMAND);
-        if (status != STATUS_NOT_POSITIVE_DEFINITE)
-            return status;
-        newton->clamps = CLAMPS_AFTER_FAILURE;
-    }
-    newton->clamps--;
-    return factor_as(newton, FILTER_CLAMP);
-}
-
-/* p = -H^-1 g (slide: search_dir). */
-static Status newton_solve(Newton *newton)
-{
-    double start = clock_now();
-    Status status = search_direction_solve(&newton->search, &newton->at);
-    newton->counters.solves++;
-    newton->counters.seconds_solve += clock_now() - start;
-    return status;
-}
-
 /* The test of Algorithm 3 for a direction that is at most error away, in the
  * norm of the masses, from what it should be. */
 static Status newton_test(const Newton *newton, double error)
@@ -87,7 +310,7 @@ static Status newton_test(const Newton *newton, double error)
  * direction that is known well enough: with the bound of what H p = -g lacks.
  * (What rounding has done to g itself is not in this: no direction knows it.)
  * Returns RUNNING, OK (the test is passed), or a failure. */
-static Status newton_solve_and_test(Newton *newton)
+static Status solve_and_test(Newton *newton)
 {
     double error;
     Status status = newton_solve(newton);
@@ -101,7 +324,7 @@ static Status newton_solve_and_test(Newton *newton)
     newton->kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (status || exact)
         return status;
-    status = search_direction_judge(&newton->search, &newton->at, &error);
+    status = judge(newton, &error);
     return status ? status : newton_test(newton, error);
 }
 
@@ -109,11 +332,9 @@ static Status newton_solve_and_test(Newton *newton)
  * Returns OK (converged), RUNNING, or a failure. */
 static Status direction_at(Newton *newton)
 {
-    double start = clock_now();
-    incremental_potential_gradient(&newton->at.E, newton->at.u, newton->at.x,
-                                   newton->at.g);
+    const Iterate *at = &newton->at;
+    incremental_potential_gradient(&at->E, at->u, at->x, at->g);
     newton->counters.gradients++;
-    newton->counters.seconds_assembly += clock_now() - start;
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
@@ -123,56 +344,38 @@ static Status direction_at(Newton *newton)
      * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
         newton->kind = RESIDUAL_BOUND;
-        newton->residual =
-            residual_per_norm(newton) *
-            system_inverse_mass_norm(newton->system, newton->at.g);
+        newton->residual = residual_per_norm(newton) *
+                           system_inverse_mass_norm(newton->system, at->g);
         if (newton_test(newton, 0) == STATUS_OK) {
             newton->counters.skipped++;
             return STATUS_OK;
         }
     }
     Status status = newton_factor(newton);
-    return status ? status : newton_solve_and_test(newton);
+    return status ? status : solve_and_test(newton);
 }
 
-/* Whether g is 0 but for rounding, compared with the force of a spring that is
- * compressed to nothing. */
-static bool gradient_vanishes(const Newton *newton)
-{
-    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
-    for (int i = 0; i < 2 * newton->system->nodes; i++)
-        if (!(fabs(newton->at.g[i]) <= most))
-            return false;
-    return true;
-}
+/* ---- ends that are no minima ---- */
 
-/* Whether the Hessian as it is, with `times` M in place of M, is positive
- * definite: by bounds, and where they do not tell by its Cholesky factor.
- * Writes over x_trial.  Returns OK, NOT_A_MINIMUM, or a failure. */
-static Status look_for_minimum(Newton *newton, double times)
+Status direction_bends_up(Newton *newton, double times)
 {
-    SearchDirection *search = &newton->search;
+    const SearchDirection *search = &newton->search;
     int projected;
     if (newton->settings.filter == FILTER_NONE ||
         newton->at.E.weight * newton->rounding.concave < times ||
         incremental_potential_concave(&newton->at, newton->x_trial) < times)
         return STATUS_OK;
-    Status status = search_direction_assemble(search, &newton->at,
-                                              FILTER_ON_DEMAND, &projected);
+    Status status = assemble(newton, FILTER_ON_DEMAND, &projected);
     if (status)
         return status;
-    search_direction_add_masses(search, times - 1);
-    newton->counters.factorisations++;
-    status = cholesky_factor(search->cholesky);
+    double rounding = 1e-13 * largest_diagonal(newton);
+    for (int t = 0; t < 2 * newton->system->nodes; t++)
+        search->A.value[search->slot[t]] +=
+            (times - 1) * newton->system->m[t / 2] + rounding;
+    status = factor(newton);
     return status == STATUS_NOT_POSITIVE_DEFINITE ? STATUS_NOT_A_MINIMUM
                                                   : status;
 }
-
-/* The test of the slides projects, and so it also passes where E bends down.
- * By some masses that is an instability that grows as fast as the step can
- * follow; by more than this many times M the place is far from any minimum of
- * E, and it is not called one. */
-static const double MASSES_DOWN = 100;
 
 Status direction_judges_end(Newton *newton)
 {
@@ -181,14 +384,44 @@ Status direction_judges_end(Newton *newton)
     if (newton->working == SOLVER_MULTIGRID && !newton->settings.minimum &&
         newton->system->segments > AUTO_NEWTON_SEGMENTS)
         return STATUS_OK;
-    return look_for_minimum(newton,
-                            newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
+    return direction_bends_up(newton,
+                              newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
 }
 
-/* Saddles that one minimisation leaves, and how far: the first trial moves the
- * node that moves most by this share of a spring. */
-enum { MAX_SADDLES = 30 };
-static const double FIRST_TRIAL = 0.1;
+/* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */
+static void random_numbers(const System *system, double *r)
+{
+    uint64_t state = 1;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        r[i] = (double)(int64_t)state / 9223372036854775808.0;
+    }
+    system_clear_pinned(system, r);
+}
+
+/* Looks for negative curvature: conjugate gradients on the Hessian as it is,
+ * from random numbers, preconditioned with the last factor.
+ *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
+ * Returns OK, NOT_FINITE. */
+static Status find_curvature(Newton *newton, bool *found)
+{
+    const SearchDirection *search = &newton->search;
+    const Iterate *at = &newton->at;
+    int n = 2 * newton->system->nodes;
+    ConjugateGradients state = {FILTER_NONE, .enough = NO_CURVATURE};
+    Status status = STATUS_OK;
+    random_numbers(newton->system, search->r);
+    for (int k = 0; k < CURVATURE_MAX_ITERATIONS && !status; k++) {
+        status = apply_factor(newton, search->r, search->z);
+        if (!status && !conjugate_step(newton, &state))
+            break;
+    }
+    *found = !status && state.curvature < 0;
+    double sign = dot(n, search->d, at->g) > 0 ? -1 : 1;
+    for (int i = 0; i < n && *found; i++)
+        at->p[i] = sign * search->d[i];
+    return status;
+}
 
 /* From where E bends down: p along negative curvature of the Hessian as it is,
  * if that is found; else as anywhere.  Returns RUNNING or a failure. */
@@ -199,8 +432,7 @@ static Status leave_saddle(Newton *newton)
     bool found = false;
     Status status = newton_factor(newton);
     if (!status && newton->saddles < MAX_SADDLES)
-        status =
-            search_direction_bends_down(&newton->search, &newton->at, &found);
+        status = find_curvature(newton, &found);
     if (!status && !found)
         status = newton_solve(newton);
     if (status || !found)
@@ -217,6 +449,8 @@ static Status leave_saddle(Newton *newton)
     return STATUS_RUNNING;
 }
 
+/* ---- what the loop calls ---- */
+
 Status direction_next(Newton *newton)
 {
     Status status = direction_at(newton);
@@ -226,10 +460,21 @@ Status direction_next(Newton *newton)
     return newton->bends_down ? leave_saddle(newton) : status;
 }
 
+/* Whether g is 0 but for rounding, compared with the force of a spring that is
+ * compressed to nothing. */
+static bool gradient_vanishes(const Newton *newton)
+{
+    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
+    for (int i = 0; i < 2 * newton->system->nodes; i++)
+        if (!(fabs(newton->at.g[i]) <= most))
+            return false;
+    return true;
+}
+
 Status direction_first(Newton *newton)
 {
     Status status = direction_next(newton);
     /* Where the gradient vanishes, any curvature downwards tells. */
     return status || !gradient_vanishes(newton) ? status
-                                                : look_for_minimum(newton, 1);
+                                                : direction_bends_up(newton, 1);
 }

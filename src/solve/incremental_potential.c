@@ -15,28 +15,32 @@ static Place place_of(const IncrementalPotential *E, const double *u,
     return at;
 }
 
-double incremental_potential_value(const IncrementalPotential *E,
-                                   const double *u, const double *x)
+/* E; or, with the sizes of all terms, as they are: an averaged energy is 0 for
+ * u = 0. */
+static double sum_of(const IncrementalPotential *E, const double *u,
+                     const double *x, bool sizes)
 {
     Place at = place_of(E, u, x);
     double P = 0;
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        P += kind->value(&at);
+    at.averaged = E->averaged && !sizes;
+    for (const TermKind *kind; (kind = next_energy(&at));) {
+        double value = kind->value(&at);
+        P += sizes ? fabs(value) : value;
+    }
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * P;
 }
 
-/* Terms as they are, not averaged: an averaged energy is 0 for u = 0. */
+double incremental_potential_value(const IncrementalPotential *E,
+                                   const double *u, const double *x)
+{
+    return sum_of(E, u, x, false);
+}
+
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    Place at = place_of(E, u, x);
-    double P = 0;
-    at.averaged = false;
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        P += fabs(kind->value(&at));
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * P;
+    return sum_of(E, u, x, true);
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,

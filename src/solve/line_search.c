@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "base/clock.h"
-
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {
@@ -35,7 +33,6 @@ static bool try_step(Newton *newton, double alpha)
 Status step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    double start = clock_now();
     record->alpha = incremental_potential_reach(&newton->at);
     Along along = incremental_potential_along(&newton->at);
     Status status = STATUS_OK;
@@ -56,7 +53,6 @@ Status step_length(Newton *newton)
             status = STATUS_LINE_SEARCH_LIMIT;
     }
     newton->counters.trials += record->trials;
-    newton->counters.seconds_search += clock_now() - start;
     if (!status)
         return STATUS_OK;
     record->alpha = record->change = 0;

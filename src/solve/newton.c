@@ -231,7 +231,7 @@ Status newton_create(const System *system, const NewtonSettings *settings,
     newton->u_tilde = newton->at.p + size;
     newton->u_trial = newton->u_tilde + size;
     newton->x_trial = newton->u_trial + size;
-    Status status = search_direction_create(system, &newton->search);
+    Status status = direction_create(newton);
     if (!status)
         rounding_bounds(newton);
     return status;
@@ -241,7 +241,7 @@ void newton_free(Newton *newton)
 {
     if (!newton)
         return;
-    search_direction_free(&newton->search);
+    direction_free(newton);
     multigrid_free(newton->multigrid);
     free(newton->at.u);
     *newton = (Newton){0};
@@ -271,9 +271,4 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
     sum->local += counters->local;
     sum->saddles += counters->saddles;
     sum->taken_back += counters->taken_back;
-    sum->seconds_assembly += counters->seconds_assembly;
-    sum->seconds_factor += counters->seconds_factor;
-    sum->seconds_solve += counters->seconds_solve;
-    sum->seconds_search += counters->seconds_search;
-    sum->seconds_multigrid += counters->seconds_multigrid;
 }

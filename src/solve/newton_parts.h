@@ -13,6 +13,11 @@ Status newton_tell(Newton *newton, const NewtonRecord *record);
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
  * each iterate. */
 
+/* Allocates newton->search, all 0 before; no matrix is made yet.  Returns OK,
+ * OUT_OF_MEMORY; free it in any case. */
+Status direction_create(Newton *newton);
+void direction_free(Newton *newton);
+
 /* At the start of a minimisation: fills g, p, residual and, of the record, what
  * concerns them.  A gradient that vanishes passes the test, but may be that of
  * a maximum or a saddle, such as all nodes in one point: this is checked.
@@ -22,9 +27,13 @@ Status direction_first(Newton *newton);
 /* The same after an update.  Returns OK, RUNNING, or a failure. */
 Status direction_next(Newton *newton);
 
+/* Whether the Hessian as it is, with `times` M in place of M, is positive
+ * definite: by bounds, and where they do not tell by its Cholesky factor.
+ * Writes over x_trial.  Returns OK, NOT_A_MINIMUM, or a failure. */
+Status direction_bends_up(Newton *newton, double times);
+
 /* Whether E bends down at the iterate by more than a hundred masses, or at all
- * where a minimum is asked for: no end.
- * Returns OK, NOT_A_MINIMUM, or a failure. */
+ * where a minimum is asked for: no end.  Returns as direction_bends_up. */
 Status direction_judges_end(Newton *newton);
 
 /* ---- line_search.c: how far to go along p (slide: Algorithm 2). */

@@ -1,14 +1,22 @@
-#include "solve/cholesky_parts.h"
+#include "solve/panels.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solve/grid_loops.h"
+
 /* Four numbers side by side, an extension of C that gcc and clang share; they
- * may begin at any number of an array. */
-enum { LANES = 4, GROUP = 4 };
-typedef double Lanes __attribute__((vector_size(LANES * sizeof(double)),
-                                    aligned(sizeof(double))));
+ * may begin at any number of an array.  Where one register holds them, two of
+ * them are worked on at once. */
+enum { FOUR = 4, GROUP = 4 };
+typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
+                                   aligned(sizeof(double))));
+#ifdef __x86_64__
+enum { WIDE = 2 };
+#else
+enum { WIDE = 1 };
+#endif
 
 /* C [m, n] = A [m, k] B^T or, where it subtracts, C -= A B^T, with B [n, k]
  * and n at most 4.  All are stored by columns, lda, ldb, ldc numbers apart. */
@@ -21,107 +29,63 @@ typedef struct Product {
 } Product;
 
 /* Rows i ... i + 4 wide - 1 of C's n columns; wide is 1 or 2. */
-static inline __attribute__((always_inline)) void block(const Product *at,
-                                                        int i, int wide, int n)
+INLINE void block(const Product *at, int i, int wide, int n)
 {
     const double *a = at->A + i, *b = at->B;
-    Lanes s[GROUP][2] = {{{0}}};
+    Four s[GROUP][2] = {{{0}}};
     for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
 #pragma GCC unroll 4
         for (int r = 0; r < wide; r++)
 #pragma GCC unroll 4
             for (int q = 0; q < n; q++)
-                s[q][r] += *(const Lanes *)(a + r * LANES) * b[q];
+                s[q][r] += *(const Four *)(a + r * FOUR) * b[q];
 #pragma GCC unroll 4
     for (int r = 0; r < wide; r++)
 #pragma GCC unroll 4
         for (int q = 0; q < n; q++) {
-            Lanes *c = (Lanes *)(at->C + (size_t)q * at->ldc + i + r * LANES);
+            Four *c = (Four *)(at->C + (size_t)q * at->ldc + i + r * FOUR);
             *c = at->subtracts ? *c - s[q][r] : s[q][r];
         }
 }
 
 /* Row i of C's n columns. */
-static inline __attribute__((always_inline)) void row(const Product *at, int i,
-                                                      int n)
+INLINE void row(const Product *at, int i, int n)
 {
-    const double *a = at->A + i, *b = at->B;
-    double s[GROUP] = {0};
-    for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
-#pragma GCC unroll 4
-        for (int q = 0; q < n; q++)
-            s[q] += *a * b[q];
-#pragma GCC unroll 4
     for (int q = 0; q < n; q++) {
-        double *c = at->C + (size_t)q * at->ldc + i;
-        *c = at->subtracts ? *c - s[q] : s[q];
+        const double *a = at->A + i, *b = at->B + q;
+        double s = 0, *c = at->C + (size_t)q * at->ldc + i;
+        for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
+            s += *a * *b;
+        *c = at->subtracts ? *c - s : s;
     }
 }
 
-static inline __attribute__((always_inline)) void columns(const Product *at,
-                                                          int wide, int n)
+INLINE void columns(const Product *at, int n)
 {
     int i = 0;
-    for (; wide == 2 && i + 2 * LANES <= at->m; i += 2 * LANES)
+    for (; WIDE == 2 && i + 2 * FOUR <= at->m; i += 2 * FOUR)
         block(at, i, 2, n);
-    for (; i + LANES <= at->m; i += LANES)
+    for (; i + FOUR <= at->m; i += FOUR)
         block(at, i, 1, n);
     for (; i < at->m; i++)
         row(at, i, n);
 }
 
-static inline __attribute__((always_inline)) void multiply_by(const Product *at,
-                                                              int wide)
+FAST static void multiply(const Product *at)
 {
     switch (at->n) {
     case 1:
-        columns(at, wide, 1);
+        columns(at, 1);
         break;
     case 2:
-        columns(at, wide, 2);
+        columns(at, 2);
         break;
     case 3:
-        columns(at, wide, 3);
+        columns(at, 3);
         break;
     default:
-        columns(at, wide, GROUP);
+        columns(at, GROUP);
     }
-}
-
-/* What a function needs to have four numbers in one register, and whether this
- * processor does. */
-#if defined(__x86_64__)
-#define FOUR_WIDE __attribute__((target("avx2")))
-static bool is_four_wide(void)
-{
-    __builtin_cpu_init();
-    return __builtin_cpu_supports("avx2");
-}
-#else
-#define FOUR_WIDE
-static bool is_four_wide(void)
-{
-    return false;
-}
-#endif
-
-/* Two registers a column where they hold four numbers, else one pair of two. */
-FOUR_WIDE static void multiply_wide(const Product *at)
-{
-    multiply_by(at, 2);
-}
-
-static void multiply_narrow(const Product *at)
-{
-    multiply_by(at, 1);
-}
-
-static void (*multiply)(const Product *at) = multiply_narrow;
-
-void blas_start(void)
-{
-    if (is_four_wide())
-        multiply = multiply_wide;
 }
 
 static int least(int a, int b)
@@ -235,6 +199,121 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
         divide(below, wide, D, *lda, D + wide, *lda);
     }
 }
+
+/* ---- solving with one right-hand side: four columns at a time ---- */
+
+/* Two numbers in one register, as four above. */
+enum { TWO = 2 };
+typedef double Two
+    __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
+
+static inline Two two(const double *a)
+{
+    return *(const Two *)a;
+}
+
+static const double *panel_column(const Panel *panel, int j)
+{
+    return panel->value + (size_t)j * (size_t)panel->rows;
+}
+
+/* Solves for w[j] and takes its share from the rows below. */
+static void forward_one(const Panel *panel, int j, double *w)
+{
+    const double *a = panel_column(panel, j);
+    w[j] /= a[j];
+    for (int i = j + 1; i < panel->rows; i++)
+        w[i] -= a[i] * w[j];
+}
+
+/* Four columns, and the inverses of their pivots, which do not wait for one
+ * another. */
+static inline void take_group(const Panel *panel, int j, const double *a[GROUP],
+                              double pivot[GROUP])
+{
+    for (int q = 0; q < GROUP; q++) {
+        a[q] = panel_column(panel, j + q);
+        pivot[q] = 1 / a[q][j + q];
+    }
+}
+
+/* The same for w[j] ... w[j + 3]. */
+static void forward_group(const Panel *panel, int j, double *w)
+{
+    const double *a[GROUP];
+    double v[GROUP], pivot[GROUP];
+    take_group(panel, j, a, pivot);
+#pragma GCC unroll 4
+    for (int q = 0; q < GROUP; q++) {
+        v[q] = w[j + q];
+#pragma GCC unroll 4
+        for (int p = 0; p < q; p++)
+            v[q] -= a[p][j + q] * v[p];
+        w[j + q] = v[q] *= pivot[q];
+    }
+    int i = j + GROUP;
+    for (; i + TWO <= panel->rows; i += TWO)
+        *(Two *)(w + i) -= (two(a[0] + i) * v[0] + two(a[1] + i) * v[1]) +
+                           (two(a[2] + i) * v[2] + two(a[3] + i) * v[3]);
+    for (; i < panel->rows; i++)
+        w[i] -= (a[0][i] * v[0] + a[1][i] * v[1]) +
+                (a[2][i] * v[2] + a[3][i] * v[3]);
+}
+
+/* Solves for w[j], the rows below being known. */
+static void backward_one(const Panel *panel, int j, double *w)
+{
+    const double *a = panel_column(panel, j);
+    double sum = w[j];
+    for (int i = j + 1; i < panel->rows; i++)
+        sum -= a[i] * w[i];
+    w[j] = sum / a[j];
+}
+
+static void backward_group(const Panel *panel, int j, double *w)
+{
+    const double *a[GROUP];
+    double v[GROUP], pivot[GROUP];
+    Two s[GROUP] = {{0}};
+    take_group(panel, j, a, pivot);
+    int i = j + GROUP;
+    for (; i + TWO <= panel->rows; i += TWO)
+#pragma GCC unroll 4
+        for (int q = 0; q < GROUP; q++)
+            s[q] += two(a[q] + i) * two(w + i);
+    for (int q = 0; q < GROUP; q++)
+        v[q] = w[j + q] - (s[q][0] + s[q][1]);
+    for (; i < panel->rows; i++)
+        for (int q = 0; q < GROUP; q++)
+            v[q] -= a[q][i] * w[i];
+#pragma GCC unroll 4
+    for (int q = GROUP - 1; q >= 0; q--) {
+#pragma GCC unroll 4
+        for (int p = GROUP - 1; p > q; p--)
+            v[q] -= a[q][j + p] * v[p];
+        w[j + q] = v[q] *= pivot[q];
+    }
+}
+
+void panel_forward(const Panel *panel, double *w)
+{
+    int j = 0;
+    for (; j + GROUP <= panel->columns; j += GROUP)
+        forward_group(panel, j, w);
+    for (; j < panel->columns; j++)
+        forward_one(panel, j, w);
+}
+
+void panel_backward(const Panel *panel, double *w)
+{
+    int j = panel->columns;
+    while (j % GROUP > 0)
+        backward_one(panel, --j, w);
+    while (j > 0)
+        backward_group(panel, j -= GROUP, w);
+}
+
+/* ---- what else CHOLMOD and OpenMP ask for ---- */
 
 /* CHOLMOD's complex matrices, which there are none of: an archive of it asks
  * for these, too. */
