@@ -25,6 +25,7 @@ typedef struct IntegratorMethod {
     bool damps;        /* takes energy out of motion: it comes to rest */
     int memory;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
+    double a, b, c;    /* of symmetric methods, see methods.c */
     /* Fills newton->u_tilde and weight for the present stage, x_n where that is
      * not x.  Gravity is added to it by completing the square:
      *   |u - u_tilde|_M^2/2 - weight m g.u

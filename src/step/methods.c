@@ -121,25 +121,6 @@ static void bdf2_land(TimeIntegrator *integrator)
     integrator->memory_h = h;
 }
 
-/* Implicit midpoint, the unknown is y = (x_n + x_(n+1)) / 2.  With u = y - x_n:
- * u_tilde = h v_n/2, w = h^2/4, x_(n+1) = x_n + 2u, v_(n+1) = 4u/h - v_n.
- * Order 2; conserves quadratic invariants, damps nothing. */
-static void midpoint_aim(TimeIntegrator *integrator)
-{
-    double h = integrator->h;
-    aim_ahead(integrator, 0.5 * h, integrator->v, 0.25 * h * h);
-}
-
-static void midpoint_land(TimeIntegrator *integrator)
-{
-    const double *u = integrator->newton->at.u;
-    const double *x = integrator->x, *v = integrator->v;
-    for (size_t i = 0; i < integrator->size; i++) {
-        integrator->new_x[i] = x[i] + 2 * u[i];
-        integrator->new_v[i] = 4 * u[i] / integrator->h - v[i];
-    }
-}
-
 /* Two stages of a diagonally implicit Runge-Kutta method, L-stable (Alexander
  * 1977), g = 1 - 1/sqrt(2).  Stage 1: u_tilde = g h v_n gives the velocity
  * s = u/(g h) and the acceleration a = (s - v_n)/(g h) at t_n + g h.  Stage 2:
@@ -174,60 +155,47 @@ static void sdirk2_land(TimeIntegrator *integrator)
     }
 }
 
-/* ---- average vector field: conserves energy exactly; what Newton's tolerance
- * leaves undone is all that it can drift. */
-
-/* The next of several substeps, which begin where the one before has led.  With
- * Phi of avf_energy.c in the place of P: u_tilde = h v, w = h^2/2. */
-static void avf_substep(TimeIntegrator *integrator, double h)
-{
-    double *x = integrator->new_x, *v = integrator->new_v;
-    if (integrator->stage == 0) {
-        memcpy(x, integrator->x, integrator->size * sizeof *x);
-        memcpy(v, integrator->v, integrator->size * sizeof *v);
-    }
-    integrator->x_n = x;
-    aim_ahead(integrator, h, v, 0.5 * h * h);
-}
-
-/* v becomes 2u/h - v. */
-static void avf_end(TimeIntegrator *integrator, double h)
-{
-    const double *u = integrator->newton->at.u;
-    double *x = integrator->new_x, *v = integrator->new_v;
-    for (size_t i = 0; i < integrator->size; i++) {
-        x[i] += u[i];
-        v[i] = 2 * u[i] / h - v[i];
-    }
-}
-
-/* Order 2. */
-static void avf_aim(TimeIntegrator *integrator)
-{
-    avf_substep(integrator, integrator->h);
-}
-
-static void avf_land(TimeIntegrator *integrator)
-{
-    avf_end(integrator, integrator->h);
-}
-
-/* Order 4 by composition (Suzuki 1990), g = 1/(4 - 4^(1/3)): five substeps of g
- * h, g h, (1 - 4g) h, g h, g h. */
-static double avf4_share(const TimeIntegrator *integrator)
+/* ---- symmetric methods: what they aim at and where they land are numbers,
+ *   u_tilde = a h v_n, w = b h^2, x_(n+1) = x_n + c u, v_(n+1) = 2 c u/h - v_n.
+ *
+ * Implicit midpoint: the unknown is half way, a = 1/2, b = 1/4, c = 2.  Order
+ * 2; conserves quadratic invariants, damps nothing.
+ *
+ * Average vector field: a = 1, b = 1/2, c = 1, and Phi of avf_energy.c in the
+ * place of P.  Order 2; conserves energy exactly: what Newton's tolerance
+ * leaves undone is all that it can drift.
+ *
+ * Order 4 by composition (Suzuki 1990), g = 1/(4 - 4^(1/3)): five substeps of
+ * g h, g h, (1 - 4g) h, g h, g h, each from where the one before has led. */
+static double substep(const TimeIntegrator *integrator)
 {
     const double g = 0.41449077179437571;
-    return (integrator->stage == 2 ? 1 - 4 * g : g) * integrator->h;
+    double share = integrator->method->stages == 1 ? 1
+                   : integrator->stage == 2        ? 1 - 4 * g
+                                                   : g;
+    return share * integrator->h;
 }
 
-static void avf4_aim(TimeIntegrator *integrator)
+static void symmetric_aim(TimeIntegrator *integrator)
 {
-    avf_substep(integrator, avf4_share(integrator));
+    const IntegratorMethod *method = integrator->method;
+    bool first = integrator->stage == 0;
+    double h = substep(integrator);
+    integrator->x_n = first ? integrator->x : integrator->new_x;
+    aim_ahead(integrator, method->a * h,
+              first ? integrator->v : integrator->new_v, method->b * h * h);
 }
 
-static void avf4_land(TimeIntegrator *integrator)
+static void symmetric_land(TimeIntegrator *integrator)
 {
-    avf_end(integrator, avf4_share(integrator));
+    const double *u = integrator->newton->at.u, *x = integrator->x_n;
+    const double *v =
+        integrator->stage == 0 ? integrator->v : integrator->new_v;
+    double c = integrator->method->c, h = substep(integrator);
+    for (size_t i = 0; i < integrator->size; i++) {
+        integrator->new_x[i] = x[i] + c * u[i];
+        integrator->new_v[i] = 2 * c * u[i] / h - v[i];
+    }
 }
 
 const IntegratorMethod integrator_methods[] = {
@@ -240,12 +208,14 @@ const IntegratorMethod integrator_methods[] = {
     {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .memory = 2,
      .stages = 1, .aim = bdf2_aim, .land = bdf2_land},
     {"midpoint", "implicit midpoint", 2, .implicit = true, .stages = 1,
-     .aim = midpoint_aim, .land = midpoint_land},
+     .a = 0.5, .b = 0.25, .c = 2, .aim = symmetric_aim, .land = symmetric_land},
     {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true, .stages = 2,
      .aim = sdirk2_aim, .land = sdirk2_land},
     {"avf", "average vector field", 2, .implicit = true, .averaged = true,
-     .stages = 1, .aim = avf_aim, .land = avf_land},
+     .stages = 1, .a = 1, .b = 0.5, .c = 1, .aim = symmetric_aim,
+     .land = symmetric_land},
     {"avf4", "AVF, 4th order", 4, .implicit = true, .averaged = true,
-     .stages = 5, .aim = avf4_aim, .land = avf4_land},
+     .stages = 5, .a = 1, .b = 0.5, .c = 1, .aim = symmetric_aim,
+     .land = symmetric_land},
     {.name = NULL},
 };
