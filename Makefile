@@ -55,7 +55,7 @@ run-lecture: build/lecture
 # build/config.mk holds their flags.  Its recipe installs what is missing, or
 # names it (INSTALL=no); make then starts again with the new file.
 GOALS := $(or $(MAKECMDGOALS),all)
-ifneq ($(filter-out clean help uninstall figures web,$(GOALS)),)
+ifneq ($(filter-out clean help uninstall figures web homework,$(GOALS)),)
 include build/config.mk
 ifneq ($(filter test long-test suites stress envelope mutants build/stress \
           $(B)/tests/%,$(GOALS)),)
@@ -178,6 +178,18 @@ $(B)/listing_text.o: $(B)/listing_text.c $(B)/flags
 
 include tests/tests.mk src/web/web.mk
 
+# ---- homework --------------------------------------------------------------
+# homework.c: lecture.c with eleven functions to write; nothing is written over.
+homework:
+	@[ ! -e homework.c ] || { echo 'homework.c is there: move it away'; exit 1; }
+	@awk -f src/homework/write.awk src/homework/tasks.txt src/lecture.c \
+	  >homework.c && echo homework.c
+
+FILE = homework.c
+check-homework: $(B)/homework/check.o
+	@CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' LIBS='$(DEP_LIBS) $(BLAS_LIBS)' \
+	  CHECK=$(B)/homework/check.o sh src/homework/check.sh $(FILE)
+
 # ---- the rest --------------------------------------------------------------
 bench: build/elasto-bench
 	./build/elasto-bench $(ARGS)
@@ -205,6 +217,8 @@ help:
 	@echo 'make run-lecture  src/lecture.c, the bare square (ARGS="k=1e6")'
 	@echo 'make test       build and run all tests; long-test: all variations'
 	@echo 'make pictures   draw the pictures of the README again'
+	@echo 'make homework   write homework.c, lecture.c with functions to write;'
+	@echo '                make check-homework [FILE=...] says what is wrong'
 	@echo 'make web        write build/elasto.html, all of it as one page'
 	@echo 'make handout    write the lecture as build/handout.html'
 	@echo 'make bench      measure run time against error (ARGS=--help);'
@@ -216,7 +230,7 @@ help:
 	@echo 'INSTALL=no only names missing packages; V=1 shows commands;'
 	@echo 'CC, CFLAGS, CPPFLAGS, LDFLAGS, LDLIBS are respected'
 
-.PHONY: all web test-web elasto lecture run run-lecture test long-test suites stress envelope \
+.PHONY: all web test-web homework check-homework elasto lecture run run-lecture test long-test suites stress envelope \
         same-bits mutants analyse pictures bench figures handout install \
         uninstall clean help FORCE
 .DELETE_ON_ERROR:

@@ -51,7 +51,7 @@ test long-test: $(SUITES) $(B)/tests/unit/texts $(B)/elasto $(B)/lecture \
                 $(if $(SANITIZE),$(B)/elasto-faults,build/elasto build/lecture)
 	@$(SETTINGS) LONG=$(filter long-test,$@) sh tests/checks/run.sh $(SUITES)
 
-SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' \
+SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' BLAS_LIBS='$(BLAS_LIBS)' \
   SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
   LECTURE=$(B)/lecture
 

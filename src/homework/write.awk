@@ -1,0 +1,34 @@
+# homework.c: lecture.c, the bodies of the functions in tasks.txt taken out.
+#   awk -f write.awk tasks.txt ../lecture.c
+
+BEGIN {
+    print "/* homework.c - the lecture's program with " \
+          "eleven functions to write, each marked\n" \
+          " * TASK.  It compiles as it is; `make check-homework`" \
+          " says how far you are. */"
+}
+
+# tasks.txt: paragraphs of a name and what is to be done.
+NR == FNR && $0 == "" { name = ""; next }
+NR == FNR && name == "" { name = $0; next }
+NR == FNR {
+    task[name] = name in task ? task[name] "\n     * " $0 : $0
+    next
+}
+
+/^static [A-Za-z].*[ *][a-z_]+\(/ {
+    name = $0
+    sub(/\(.*/, "", name)
+    sub(/.*[ *]/, "", name)
+    result = $2
+}
+
+skipped && /^}/ { skipped = 0 }
+skipped { next }
+{ print }
+/^{/ && name in task {
+    printf "    /* TASK %d: %s */\n", ++count, task[name]
+    if (result == "double")
+        print "    return 0;"
+    skipped = 1
+}

@@ -1,0 +1,96 @@
+#!/bin/sh
+# make homework and make check-homework: homework.c compiles and says what is to
+# be done; right solutions in three styles pass; each common mistake of
+# tests/data/homework.txt (function | how lecture.c is changed | what must be
+# said) gets its sentence.  A selection of them; with LONG all.
+set -u
+failed=0
+here=$(realpath "$(dirname "$0")")
+. "$here/verdict.sh"
+root=$(realpath "$here/../..")
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM
+cd "$work" || exit 1
+export CC DEP_CFLAGS LIBS CHECK="$work/check.o"
+CC=${CC:-cc}
+LIBS="${DEP_LIBS:-} ${BLAS_LIBS:-}"
+# shellcheck disable=SC2086
+$CC -std=gnu11 -w -O1 -I"$root/src" $DEP_CFLAGS -c "$root/src/homework/check.c" -o check.o
+
+check() {
+    sh "$root/src/homework/check.sh" "$@"
+}
+
+awk -f "$root/src/homework/write.awk" "$root/src/homework/tasks.txt" \
+    "$root/src/lecture.c" >homework.c
+verdict homework_has_its_tasks "$(
+    names=$(grep -c '^    /\* TASK [0-9]*: ' homework.c)
+    [ "$names" = 11 ] || echo "$names tasks"
+    # shellcheck disable=SC2086
+    $CC -std=gnu11 -w $DEP_CFLAGS homework.c -o homework $LIBS 2>&1 | head -n 1
+    ./homework steps=0 | head -n 1 | grep -q '^step,' || echo 'it does not run'
+)"
+verdict nothing_is_right_yet "$(
+    check homework.c >said && echo 'it passes'
+    grep -q '^0 of 12 are right$' said || tail -n 1 said
+)"
+
+# The functions of a file of solutions in the places of lecture.c's.
+in_style() {
+    awk 'NR == FNR && /^static/ { name = $0; sub(/\(.*/, "", name)
+            sub(/.*[ *]/, "", name); written[name] = "" }
+        NR == FNR { written[name] = written[name] $0 "\n"; next }
+        /^static [A-Za-z].*[ *][a-z_]+\(/ { name = $0; sub(/\(.*/, "", name)
+            sub(/.*[ *]/, "", name)
+            if (name in written) { printf "%s", written[name]; skip = 1 } }
+        !skip { print }
+        /^}/ { skip = 0 }' "$1" "$root/src/lecture.c"
+}
+cp "$root/src/lecture.c" slides.c
+for style in pointers blocks; do
+    in_style "$root/tests/data/homework/$style.c" >$style.c
+done
+verdict right_solutions_pass "$(
+    check slides.c pointers.c blocks.c >said
+    [ "$(grep -c ',12,""$' said)" = 3 ] || cat said
+    cmp -s slides.c pointers.c && echo 'pointers.c is lecture.c'
+    cmp -s slides.c blocks.c && echo 'blocks.c is lecture.c'
+)"
+
+# Each fifteenth; with LONG all.
+mistakes() {
+    awk -v all="${LONG:-}" 'all || NR % 15 == 1' "$root/tests/data/homework.txt"
+}
+number=0
+mistakes >rows
+while IFS= read -r row; do
+    number=$((number + 1))
+    name=${row%% *}
+    change=${row#* | }
+    file=wrong_$(printf %02d $number).c
+    sed "/^static .*[ *]$name(/,/^}/{${change% | *}
+        }" "$root/src/lecture.c" >"$file"
+    ! cmp -s "$file" "$root/src/lecture.c" || echo "$row: changes nothing"
+    echo "$file|$name: |${row##* | }" >>expected
+done <rows >unchanged
+# shellcheck disable=SC2046
+check $(ls wrong_*.c) >table
+verdict each_mistake_is_named "$(
+    cat unchanged
+    while IFS='|' read -r file name words; do
+        line=$(grep "^\"$file\"" table)
+        case $line in
+        *"\"$name"*"$words"*) ;;
+        *) echo "$name$words: $line" ;;
+        esac
+    done <expected
+)"
+verdict what_is_no_c_is_told "$(
+    echo 'this is no C' >no.c
+    check no.c >said && echo 'it passes'
+    grep -q '^no.c: it does not compile: line 1' said || cat said
+    check none.c | grep -q '^none.c: there is no such file$' || check none.c
+)"
+
+exit $failed
