@@ -234,9 +234,9 @@ static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
         spot.jitter = &random;
         for (int i = 0; i < 8; i++) {
             Jet other = oracle_energy(&spot, kind);
-            noise->f += 400 * fabsl(other.f - part.f);
-            noise->p += 400 * fabsl(other.p - part.p);
-            noise->pq += 400 * fabsl(other.pq - part.pq);
+            noise->f += 80 * fabsl(other.f - part.f);
+            noise->p += 80 * fabsl(other.p - part.p);
+            noise->pq += 80 * fabsl(other.pq - part.pq);
         }
     }
     return sum;
@@ -256,6 +256,29 @@ static void near(const char *what, Real got, Real expected, Real tolerance)
     check_near(what, got, expected, tolerance, __FILE__, __LINE__);
 }
 
+/* Two ulps of each product in a.b: more than what an ulp in the coordinates
+ * makes of it where a and b are nearly across. */
+static Real dot_noise(const Case *c, const double *a, const double *b)
+{
+    Real sum = 0;
+    for (int i = 0; i < c->size; i++)
+        sum += fabs(a[i] * b[i]);
+    return 4 * DBL_EPSILON * sum;
+}
+
+/* The same of p H q. */
+static Real entries_noise(Case *c, const TermKind *kind)
+{
+    Real sum = 0;
+    for (int i = 0; i < c->size; i++) {
+        double unit[SIZE] = {0}, column[SIZE] = {0};
+        unit[i] = c->q[i];
+        kind->hessian(&c->at, FILTER_NONE, NULL, unit, column);
+        sum += dot_noise(c, c->p, column);
+    }
+    return sum;
+}
+
 /* value, gradient, Hessian: those of the formula. */
 static void derivatives(Case *c, const TermKind *kind)
 {
@@ -263,6 +286,8 @@ static void derivatives(Case *c, const TermKind *kind)
     double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
     Jet formula = exact(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
+    noise.p += dot_noise(c, g, c->p);
+    noise.pq += entries_noise(c, kind);
     kind->hessian(&c->at, FILTER_NONE, NULL, c->q, Hq);
     kind->hessian(&c->at, FILTER_NONE, NULL, c->p, Hp);
     if (!(damping_of(&c->system) && kind->internal))
