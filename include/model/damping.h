@@ -30,13 +30,8 @@ typedef struct Damping {
 
 /* No energy of its own: what damping does to the springs' energy is in their
  * term.  It books k l2 theta (E - E_n)^2 as lost: the power k l2 eta (dE/dt)^2
- * over the step.  data: Damping. */
+ * over the step.  data: Damping; its number is eta. */
 extern const TermKind damping;
-
-/* Adds the term, gives it another eta, or takes it out (0).  In the list it
- * comes right after the springs: before fracture, which takes their energy.
- * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status damping_set(System *system, double eta);
 
 /* The system's damping, or NULL. */
 Damping *damping_of(const System *system);

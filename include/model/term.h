@@ -17,6 +17,7 @@ typedef struct System System;
 typedef struct TermKind TermKind;
 typedef struct ElementKind ElementKind;
 typedef struct Term Term;
+struct SquareMesh;
 
 /* Who is asked, and where. */
 typedef struct Place {
@@ -46,6 +47,15 @@ typedef void TermChange(Term *term, System *system, const double *x,
                         const double *v, double h);
 
 struct TermKind {
+    /* In messages; NULL: no option brings it. */
+    const char *name;
+
+    /* Puts the term in with the numbers of its option, gives them to the one
+     * that is there, or takes it out where all are 0; NULL: it asks for more
+     * than these.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+    Status (*set)(System *system, const struct SquareMesh *mesh,
+                  const double *number);
+
     /* What the ledger calls the energy that it stores, and what it takes out
      * for good (system_lose); NULL: neither. */
     const char *energy, *loss;
@@ -76,7 +86,8 @@ struct TermKind {
     void (*gradient)(const Place *at, double *g);
 
     /* The entries of the Hessian, the same ones at every x: how many, and the
-     * triplets in rows and columns of the matrix (term_add_block). */
+     * triplets in rows and columns of the matrix (term_add_block).  A force
+     * that is the same everywhere has none: these and hessian are NULL. */
     long long (*entries)(const Place *at);
     void (*pattern)(const Place *at, Triplets *triplets);
 

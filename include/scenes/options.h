@@ -118,10 +118,7 @@ typedef struct OptionRow {
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
     Effect effect;
-    /* Adds the term that this number is all of, gives it another one, or takes
-     * it out (0); NULL: it is not that of a term alone.
-     * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-    Status (*term)(System *system, double number);
+    const TermKind *term; /* that it brings where it is not 0; or NULL */
     const char *label; /* in the window, in the markup of text.h; of all whose
                           lists of values are side by side; or NULL */
     int place;         /* in the row of numbers, from 1; 0: not there */

@@ -210,8 +210,13 @@ static const ElementKind triangle = {.count = count,
                                      .concave = concave};
 
 const TermKind cell_energy = {
-    ELEMENTS(triangle), .energy = "contact", .place = PLACE_CELLS,
-    .bounds = bounds,   .internal = true,    .end_of_step = true,
+    .name = "cells that cannot turn over",
+    ELEMENTS(triangle),
+    .energy = "contact",
+    .place = PLACE_CELLS,
+    .bounds = bounds,
+    .internal = true,
+    .end_of_step = true,
 };
 
 Status cells_add(System *system, const SquareMesh *shape, double stiffness)

@@ -236,8 +236,12 @@ const ElementKind contact_elements = {.count = count,
                                       .concave = concave};
 
 const TermKind contact_energy = {
-    ELEMENTS(contact_elements), .energy = "contact", .place = PLACE_CONTACT,
-    .bounds = bounds,           .end_of_step = true,
+    .name = "contact",
+    ELEMENTS(contact_elements),
+    .energy = "contact",
+    .place = PLACE_CONTACT,
+    .bounds = bounds,
+    .end_of_step = true,
 };
 
 Status contact_add(System *system, const Barrier *barrier, int obstacles,

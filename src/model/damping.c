@@ -11,7 +11,7 @@ Damping *damping_of(const System *system)
 }
 
 /* *old = new; returns whether that is a change. */
-static bool set(double *old, double new)
+static bool renew(double *old, double new)
 {
     bool changed = *old != new;
     *old = new;
@@ -24,15 +24,15 @@ static void begin(Term *term, System *system, const double *x_n,
 {
     Damping *data = term->data;
     double theta = data->eta / h;
-    bool changed = set(&data->theta, theta);
+    bool changed = renew(&data->theta, theta);
     (void)v_n;
     for (int s = 0; s < system->springs; s++) {
         double d[2], l2 = system->l2[s];
         data->E_n[s] = spring_strain(system->e + 2 * s, l2, x_n, d);
         double d2 = d[0] * d[0] + d[1] * d[1];
         double mean = theta > 0 ? (l2 + theta * d2) / (1 + theta) : l2;
-        changed |= set(&data->l2[s], mean);
-        changed |= set(&data->k[s], system->k[s] * (1 + theta) * (mean / l2));
+        changed |= renew(&data->l2[s], mean);
+        changed |= renew(&data->k[s], system->k[s] * (1 + theta) * (mean / l2));
     }
     if (changed)
         system_changed(system, false);
@@ -64,20 +64,13 @@ static void bounds(const Place *at, double *stiffest, double *force)
     mass_spring_bounds(&damped, stiffest, force);
 }
 
-const TermKind damping = {
-    .loss = "damping",
-    .place = PLACE_DAMPING,
-    .begin = begin,
-    .end = end,
-    .bounds = bounds,
-    .internal = true,
-    .end_of_step = true,
-};
-
-Status damping_set(System *system, double eta)
+static Status set(System *system, const struct SquareMesh *mesh,
+                  const double *number)
 {
     size_t springs = (size_t)system->springs;
     Damping *data = damping_of(system);
+    double eta = number[0];
+    (void)mesh;
     if (eta == 0)
         system_remove_term(system, &damping);
     else if (data)
@@ -97,3 +90,15 @@ Status damping_set(System *system, double eta)
     }
     return system_add_term(system, &damping, data);
 }
+
+const TermKind damping = {
+    .name = "damping",
+    .set = set,
+    .loss = "damping",
+    .place = PLACE_DAMPING,
+    .begin = begin,
+    .end = end,
+    .bounds = bounds,
+    .internal = true,
+    .end_of_step = true,
+};

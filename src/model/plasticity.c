@@ -232,6 +232,7 @@ static void concave(const Place *at, double *sum)
 }
 
 const TermKind plastic_energy = {
+    .name = "plastic springs",
     .energy = "elastic",
     .loss = "plastic",
     .value = value,

@@ -205,8 +205,8 @@ static Status set_terms(const Options *options, const SquareMesh *mesh,
     for (size_t i = 0; i < sizeof terms / sizeof *terms && !status; i++)
         status = terms[i](options, mesh, system);
     for (const OptionRow *row = option_rows; row->name && !status; row++)
-        if (row->term)
-            status = row->term(system, options->number[row->slot]);
+        if (row->term && row->term->set)
+            status = row->term->set(system, mesh, options->number + row->slot);
     return status;
 }
 
@@ -266,16 +266,21 @@ Status create_square(Simulation *simulation)
                        &simulation->system);
 }
 
+/* Whether one of the row's numbers is not 0. */
+static bool asks_for(const Options *options, const OptionRow *row)
+{
+    int first = row->times > 0 ? row->counter : row->slot;
+    for (int i = 0; i < row->count || i == 0; i++)
+        if (options->number[first + i] != 0)
+            return true;
+    return false;
+}
+
 const char *body_needs_end_of_step(const Options *options)
 {
-    if (options->grounds > 0 || options->balls > 0)
-        return "contact";
-    if (options->cells)
-        return "cells that cannot turn over";
-    if (options->yield > 0)
-        return "plastic springs";
-    if (options->damping > 0)
-        return "damping";
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->term && row->term->end_of_step && asks_for(options, row))
+            return row->term->name;
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 

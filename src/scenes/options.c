@@ -11,7 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/cells.h"
+#include "model/contact.h"
 #include "model/damping.h"
+#include "model/fracture.h"
+#include "model/plasticity.h"
 #include "model/square_mesh.h"
 #include "scenes/pages.h"
 #include "scenes/pins.h"
@@ -83,7 +87,7 @@ static const char *nothing_flows(const Options *options)
 #define LIST(text)            .label = text
 #define LIVE                  .effect = EFFECT_LIVE
 #define AGAIN                 .effect = EFFECT_AGAIN
-#define TERM(set)             .term = set
+#define TERM(kind)            .term = &(kind)
 #define IDLE(why)             .idle = why
 #define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds
 
@@ -121,10 +125,10 @@ const OptionRow option_rows[] = {
     {SECTION("what it meets, and what becomes of it:")},
     {NUMBERS(ground, 4, "NX,NY,OX,OY",
              "half plane through O with normal N; up to 8", "", -1e9, 1e9),
-     NEEDS(BODY), TIMES(OPTIONS_MAX_GROUNDS, grounds)},
+     NEEDS(BODY), TIMES(OPTIONS_MAX_GROUNDS, grounds), TERM(contact_energy)},
     {NUMBERS(ball, 3, "X,Y,R", "round obstacle that stays; up to 8", "m", -1e9,
              1e9),
-     NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls)},
+     NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls), TERM(contact_energy)},
     {NUMBERS(barrier, 2, "DHAT,KAPPA",
              "width (m) and stiffness (J/m^3) of contact", "", 1e-12, 1e18),
      NEEDS(BODY), IDLE(nothing_to_touch)},
@@ -135,16 +139,16 @@ const OptionRow option_rows[] = {
            "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
     {NAME("cells", cells, "on|off", "cells that cannot turn over", 0, cells),
-     NEEDS(BODY), LIST("cells")},
+     NEEDS(BODY), LIST("cells"), TERM(cell_energy)},
     {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
-     NEEDS(BODY), LIST("yield")},
+     NEEDS(BODY), LIST("yield"), TERM(plastic_energy)},
     {NUMBER(hardening, "H", "how fast that strain grows", "", 0, 0, 1e9),
      NEEDS(BODY), IDLE(nothing_flows), LIST("hardening")},
     {NUMBER(tear, "S", "strain at which springs break", "", 0, 1e-9, 1e9),
-     NEEDS(BODY), LIST("tear")},
+     NEEDS(BODY), LIST("tear"), TERM(fracture)},
     {NUMBER(damping, "ETA", "of the springs' strain rate (Kelvin-Voigt)", "s",
             0, 0, 1e6),
-     NEEDS(BODY), LIST("\u03b7"), LIVE, TERM(damping_set), ROW(7, 8, 0)},
+     NEEDS(BODY), LIST("\u03b7"), LIVE, TERM(damping), ROW(7, 8, 0)},
 
     {SECTION("how it moves:")},
     {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),

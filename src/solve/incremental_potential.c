@@ -62,12 +62,13 @@ static Status create_triplets(const System *system, Triplets *triplets)
     Place at = place_at(system, NULL, NULL, NULL);
     long long count = 2LL * system->nodes;
     for (const TermKind *kind; (kind = next_energy(&at));)
-        count += kind->entries(&at);
+        count += kind->entries ? kind->entries(&at) : 0;
     Status status = triplets_create(2 * system->nodes, count, triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, triplets);
     for (const TermKind *kind; !status && (kind = next_energy(&at));)
-        kind->pattern(&at, triplets);
+        if (kind->pattern)
+            kind->pattern(&at, triplets);
     return status;
 }
 
@@ -115,6 +116,8 @@ int incremental_potential_hessian(const Iterate *at, Filter filter,
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
     slot += 2 * system->nodes;
     for (const TermKind *kind; (kind = next_energy(&place));) {
+        if (!kind->hessian)
+            continue;
         projected += kind->hessian(&place, filter, slot, NULL, A->value);
         slot += place.term->kind->entries(&place);
     }
@@ -130,7 +133,8 @@ void incremental_potential_product(const Iterate *at, Filter filter,
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
     for (const TermKind *kind; (kind = next_energy(&place));)
-        kind->hessian(&place, filter, NULL, q, y);
+        if (kind->hessian)
+            kind->hessian(&place, filter, NULL, q, y);
     system_clear_pinned(system, y);
 }
 

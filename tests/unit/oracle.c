@@ -76,10 +76,10 @@ static Real strain_at(const System *system, int s, const double *x)
 }
 
 /* k l2 V(E): slides, plasticity.h, damping.h */
-static void springs(Spot *spot, Jet *sum)
+static void springs(Spot *spot, Jet *sum, const void *data)
 {
     const System *system = spot->at->system;
-    const Plasticity *flow = plasticity_of(system);
+    const Plasticity *flow = data;
     const Damping *damped = spot->at->u ? damping_of(system) : NULL;
     Real theta = damped ? damped->eta / spot->h : 0;
     for (int s = 0; s < system->springs; s++) {
@@ -174,21 +174,21 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
          f0);
 }
 
-static void contacts(Spot *spot, Jet *sum, bool touch, bool rub)
+/* c f(d/d_hat): contact.h */
+static void touch(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
+{
+    Real n[2];
+    barrier(spot, sum, contact->barrier.c, gap(spot, contact, i, k, n));
+}
+
+static void contacts(Spot *spot, Jet *sum, const void *data)
 {
     const System *system = spot->at->system;
     const Contact *contact = contact_of(system);
-    Real n[2];
     for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int i = 0; i < system->nodes; i++) {
-            if (!contact_has_pair(contact, system, i, k))
-                continue;
-            if (touch)
-                barrier(spot, sum, contact->barrier.c,
-                        gap(spot, contact, i, k, n));
-            if (rub)
-                friction(spot, sum, contact, i, k);
-        }
+        for (int i = 0; i < system->nodes; i++)
+            if (contact_has_pair(contact, system, i, k))
+                (data == contact ? touch : friction)(spot, sum, contact, i, k);
 }
 
 /* Whether triangle t of the cells has all its springs, and its area over that
@@ -209,8 +209,9 @@ static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
 }
 
 /* A0 k_c f(J/J_hat): cells.h */
-static void cells(Spot *spot, Jet *sum, const Cells *cells)
+static void cells(Spot *spot, Jet *sum, const void *data)
 {
+    const Cells *cells = data;
     Jet J;
     for (int t = 0; t < cells->triangles; t++)
         if (triangle(spot, cells, t, &J))
@@ -218,8 +219,9 @@ static void cells(Spot *spot, Jet *sum, const Cells *cells)
 }
 
 /* sum c/2 |x - o|^2: pull_energy.h */
-static void pulls(Spot *spot, Jet *sum, const Pull *pull)
+static void pulls(Spot *spot, Jet *sum, const void *data)
 {
+    const Pull *pull = data;
     const System *system = spot->at->system;
     for (int c = 0; c < 2 * system->nodes; c++) {
         Jet d = coordinate(spot, c, false);
@@ -230,6 +232,15 @@ static void pulls(Spot *spot, Jet *sum, const Pull *pull)
     }
 }
 
+/* A new term is a row here; data: the term's. */
+static const struct {
+    const TermKind *kind;
+    void (*formula)(Spot *spot, Jet *sum, const void *data);
+} formulas[] = {{&mass_spring_energy, springs}, {&plastic_energy, springs},
+                {&contact_energy, contacts},    {&friction_energy, contacts},
+                {&cell_energy, cells},          {&central_field, pulls},
+                {&hand_energy, pulls}};
+
 Jet oracle_energy(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
@@ -237,16 +248,10 @@ Jet oracle_energy(Spot *spot, const TermKind *only)
     spot->size = (Jet){0};
     for (int i = 0; i < system->terms; i++) {
         const TermKind *kind = system->term[i].kind;
-        const void *data = system->term[i].data;
-        if (only && kind != only && kind->averaged != only)
-            continue;
-        if (kind == &mass_spring_energy || kind == &plastic_energy)
-            springs(spot, &sum);
-        contacts(spot, &sum, kind == &contact_energy, kind == &friction_energy);
-        if (kind == &cell_energy)
-            cells(spot, &sum, data);
-        if (kind == &central_field || kind == &hand_energy)
-            pulls(spot, &sum, data);
+        for (size_t f = 0; f < sizeof formulas / sizeof *formulas; f++)
+            if (formulas[f].kind == kind &&
+                (!only || kind == only || kind->averaged == only))
+                formulas[f].formula(spot, &sum, system->term[i].data);
     }
     spot->size = plus((Jet){0}, spot->at->w, spot->size);
     return plus((Jet){0}, spot->at->w, sum);

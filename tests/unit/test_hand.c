@@ -118,7 +118,7 @@ TEST(a_full_list_refuses_terms)
     const Pull hand = {.node = 0, .k = 1};
     const Barrier barrier = {.d_hat = 0.1, .c = 1};
     CHECK_STATUS(pull_set(&system, &hand_energy, &hand), STATUS_TOO_LARGE);
-    CHECK_STATUS(damping_set(&system, 0.1), STATUS_TOO_LARGE);
+    CHECK_STATUS(damping.set(&system, NULL, &(double){0.1}), STATUS_TOO_LARGE);
     CHECK_STATUS(fracture_add(&system, 0.1, 0), STATUS_TOO_LARGE);
     CHECK_STATUS(contact_add(&system, &barrier, 0, NULL), STATUS_TOO_LARGE);
     CHECK_STATUS(friction_add(&system, 0.1), STATUS_TOO_LARGE);

@@ -285,7 +285,7 @@ TEST(broken_springs_do_nothing)
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
 
     few_masses(2, 1)->k[0] = STIFFNESS;
-    CHECK_STATUS(damping_set(&few, 0.01), STATUS_OK);
+    CHECK_STATUS(damping.set(&few, NULL, &(double){0.01}), STATUS_OK);
     CHECK_STATUS(fracture_add(&few, 0.01, 0), STATUS_OK);
     let_go(0.001, apart, v);
     for (int i = 0; i < 200 && !spring_is_broken(&few, 0); i++)

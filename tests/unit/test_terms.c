@@ -1,6 +1,7 @@
-/* What term.h promises, of every term that a row of the table brings, at random
- * places: held to the headers' formulas (oracle.h).  A new term is a row here
- * and a formula there. */
+/* What term.h promises, of every term that a row of the table or an option
+ * brings, at random places: held to the headers' formulas (oracle.h).  A new
+ * term is a formula there, and a row here where its option alone does not bring
+ * it. */
 #include "oracle.h"
 
 #include <float.h>
@@ -25,6 +26,7 @@ typedef struct Row {
     double yield, hardening, damping, pull; /* 0: none; hardening as it is */
     bool rubs, averaged, flat;              /* flat: no spring has a length */
     double far; /* alpha goes up to this, where nothing limits it */
+    const OptionRow *option; /* or NULL: another term, by its own numbers */
 } Row;
 
 static const Row rows[] = {
@@ -84,7 +86,18 @@ static void make_contact(const Row *row, Random *random, Case *c)
             STATUS_OK);
 }
 
-static void make_grid(const Row *row, Case *c)
+/* The numbers of an option that brings a term alone. */
+static void set_option(const OptionRow *option, Random *random,
+                       const SquareMesh *mesh, System *system)
+{
+    double number[8];
+    for (int i = 0; i < 8; i++)
+        number[i] = random_uniform(random, fmax(option->low, -3),
+                                   fmin(option->high, 3));
+    CHECK_STATUS(option->term->set(system, mesh, number), STATUS_OK);
+}
+
+static void make_grid(const Row *row, Random *random, Case *c)
 {
     SquareMesh mesh;
     int n = row->shape == CORNER ? 1 : 2;
@@ -99,6 +112,8 @@ static void make_grid(const Row *row, Case *c)
         c->system.k[s] = 2;
     }
     CHECK_STATUS(cells_add(&c->system, &mesh, 5), STATUS_OK);
+    if (row->option)
+        set_option(row->option, random, &mesh, &c->system);
     square_mesh_free(&mesh);
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
@@ -119,7 +134,7 @@ static void make_shape(const Row *row, Random *random, Case *c)
         return;
     }
     if (row->shape == GRID || row->shape == CORNER) {
-        make_grid(row, c);
+        make_grid(row, random, c);
         return;
     }
     CHECK_STATUS(system_create(2, row->shape == SPRING, &c->system), STATUS_OK);
@@ -148,7 +163,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         }
     }
     if (row->damping > 0)
-        CHECK_STATUS(damping_set(system, row->damping), STATUS_OK);
+        CHECK_STATUS(damping.set(system, NULL, &row->damping), STATUS_OK);
 }
 
 /* Random u that all terms allow, and two directions. */
@@ -195,6 +210,14 @@ static void make_case(const Row *row, Random *random, Case *c)
     c->at.averaged = row->averaged;
     c->at.w = random_logarithmic(random, 0.1, 10);
     make_place(row, random, c);
+}
+
+/* TermKind's hessian, without a matrix; a force that is the same everywhere has
+ * none. */
+static int times_hessian(const Case *c, const TermKind *kind, Filter filter,
+                         const double *q, double *out)
+{
+    return kind->hessian ? kind->hessian(&c->at, filter, NULL, q, out) : 0;
 }
 
 static double dot(const Case *c, const double *a, const double *b)
@@ -273,7 +296,7 @@ static Real entries_noise(Case *c, const TermKind *kind)
     for (int i = 0; i < c->size; i++) {
         double unit[SIZE] = {0}, column[SIZE] = {0};
         unit[i] = c->q[i];
-        kind->hessian(&c->at, FILTER_NONE, NULL, unit, column);
+        times_hessian(c, kind, FILTER_NONE, unit, column);
         sum += dot_noise(c, c->p, column);
     }
     return sum;
@@ -288,8 +311,8 @@ static void derivatives(Case *c, const TermKind *kind)
     kind->gradient(&c->at, g);
     noise.p += dot_noise(c, g, c->p);
     noise.pq += entries_noise(c, kind);
-    kind->hessian(&c->at, FILTER_NONE, NULL, c->q, Hq);
-    kind->hessian(&c->at, FILTER_NONE, NULL, c->p, Hp);
+    times_hessian(c, kind, FILTER_NONE, c->q, Hq);
+    times_hessian(c, kind, FILTER_NONE, c->p, Hp);
     if (!(damping_of(&c->system) && kind->internal))
         near("value", c->at.w * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
@@ -298,7 +321,7 @@ static void derivatives(Case *c, const TermKind *kind)
     for (int f = 0; f < FILTER_COUNT; f++) { /* it says what it changes */
         double filtered[SIZE] = {0};
         bool differs = false;
-        int changed = kind->hessian(&c->at, (Filter)f, NULL, c->q, filtered);
+        int changed = times_hessian(c, kind, (Filter)f, c->q, filtered);
         for (int i = 0; i < c->size; i++)
             differs = differs || filtered[i] != Hq[i];
         CHECK((changed > 0) == differs);
@@ -396,7 +419,7 @@ static void projection(Case *c, Random *random)
     dense_from_sparse(&A, plain);
     double Hq[SIZE] = {0}, scale = 0;
     for (const TermKind *kind; (kind = next_energy(&c->at));)
-        kind->hessian(&c->at, FILTER_NONE, NULL, c->q, Hq);
+        times_hessian(c, kind, FILTER_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
         scale = fmax(scale, fabs(plain[i]));
     for (int i = 0; i < n; i++) {
@@ -452,7 +475,7 @@ static void concavity(Case *c, const TermKind *kind, Random *random)
             y[i] = trial < 30 ? random_uniform(random, -1, 1)
                               : y[i] * 0.9 - 0.1 * Hy[i] / (size + 1e-300);
         memset(Hy, 0, sizeof Hy);
-        kind->hessian(&c->at, FILTER_NONE, NULL, y, Hy);
+        times_hessian(c, kind, FILTER_NONE, y, Hy);
         for (int i = 0; i < c->size; i++) {
             Hy[i] += sum[i / 2] * y[i];
             size = fmax(size, fabs(Hy[i]));
@@ -489,7 +512,7 @@ static void row_is_right(void **state)
 {
     row = *state;
     looked = 0;
-    Random random = {(uint64_t)(row - rows) + 1};
+    Random random = {strlen(row->name) + (uint64_t)row->shape};
     for (int n = 0; n < (tests_are_long() ? 2000 : 150); n++) {
         static Case c;
         make_case(row, &random, &c);
@@ -542,10 +565,20 @@ static void a_system_uses_its_terms(void **unused)
 
 int main(void)
 {
-    struct CMUnitTest tests[ROWS + 1] = {
-        [ROWS] = cmocka_unit_test(a_system_uses_its_terms)};
-    for (int i = 0; i < ROWS; i++)
-        tests[i] = (struct CMUnitTest){rows[i].name, row_is_right, NULL, NULL,
-                                       (void *)&rows[i]};
-    return cmocka_run_group_tests_name("terms", tests, NULL, NULL);
+    static Row all[ROWS + OPTIONS_MOST];
+    static struct CMUnitTest tests[ROWS + OPTIONS_MOST + 1] = {
+        cmocka_unit_test(a_system_uses_its_terms)};
+    int count = ROWS;
+    memcpy(all, rows, sizeof rows);
+    for (const OptionRow *option = option_rows; option->name; option++)
+        if (option->term && option->term->set)
+            all[count++] = (Row){.name = option->name,
+                                 .shape = GRID,
+                                 .far = 1e3,
+                                 .option = option};
+    for (int i = 0; i < count; i++)
+        tests[1 + i] =
+            (struct CMUnitTest){all[i].name, row_is_right, NULL, NULL, &all[i]};
+    return _cmocka_run_group_tests("terms", tests, 1 + (size_t)count, NULL,
+                                   NULL);
 }
