@@ -8,9 +8,7 @@
 #ifndef ELASTO_SCENE_H
 #define ELASTO_SCENE_H
 
-#include <stdbool.h>
-
-#include "model/contact.h"
+#include "base/status.h"
 
 struct Options;
 struct Simulation;
@@ -80,7 +78,7 @@ typedef struct Scene {
     /* The obstacle that comes with the scene beside those of the options, as it
      * begins, o a ball's centre too; own_name is what messages call it.  NULL:
      * there is none. */
-    Obstacle (*own)(const struct Options *options);
+    struct Obstacle (*own)(const struct Options *options);
     const char *own_name;
     /* One step; NULL: a step in time of every run. */
     Status (*step)(struct Simulation *simulation);

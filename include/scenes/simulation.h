@@ -7,31 +7,16 @@
 #define ELASTO_SIMULATION_H
 
 #include "scenes/options.h"
+#include "scenes/scene.h"
 #include "solve/newton.h"
 #include "model/square_mesh.h"
 
-#include "scenes/exhibit.h"
+#include "scenes/small_scenes.h"
 
-struct Scene;
+enum { SIMULATION_MAX_RUNS = 3 };
 
-enum { SIMULATION_MAX_RUNS = 3, DESCENT_MAX = 256 };
-
-/* The path of a minimisation that is shown iteration by iteration. */
-typedef struct Descent {
-    int count;                        /* iterations so far */
-    NewtonRecord record[DESCENT_MAX]; /* the first DESCENT_MAX of them */
-    double point[2];                  /* the present iterate */
-    double value;                     /* f or E there */
-    double began;                     /* E where the search began */
-    double direction[2];              /* p there, m; 0 if there is none */
-    double slope;                     /* grad . p there; < 0 is downhill */
-    bool by_gradient;     /* Algorithm 1 runs: its loop tests |g|, not |p|/h */
-    double residual;      /* what is tested, there: |g|, or |p|/h, m/s */
-    ScalarEnergy *scalar; /* of one unknown; NULL: of two */
-} Descent;
-
-typedef struct Simulation {
-    const struct Scene *scene;
+struct Simulation {
+    const Scene *scene;
     Options options;                  /* what it was set up with */
     SquareMesh mesh;                  /* zeroed in scenes without a square */
     System system;                    /* of run 0, and of all others but */
@@ -56,7 +41,7 @@ typedef struct Simulation {
     int reasons[STATUS_COUNT]; /* how many of these ended in this way */
     Status status;             /* of the last step */
     NewtonCounters counted;    /* by solvers that are no more */
-} Simulation;
+};
 
 /* A quantity of the ledger by its name: "elastic", "friction". */
 typedef struct Energy {
@@ -108,10 +93,6 @@ Status simulation_iterate(Simulation *simulation);
 
 /* Leaves a step that was begun; state_restore has to follow. */
 void simulation_drop(Simulation *simulation);
-
-/* For scenes that show iterations: keeps the record and passes it on to the
- * observer; false: the observer asks to stop. */
-bool simulation_record(Simulation *simulation, const NewtonRecord *record);
 
 /* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);

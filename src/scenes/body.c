@@ -12,7 +12,6 @@
 #include "model/friction.h"
 #include "model/plasticity.h"
 #include "scenes/pins.h"
-#include "scenes/scene.h"
 #include "base/mathematics.h"
 
 /* Part by which the strengths of springs differ. */

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "scenes/body.h"
-#include "scenes/scene.h"
 
 /* ---- slope ------------------------------------------------------------- */
 

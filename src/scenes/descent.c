@@ -1,4 +1,4 @@
-#include "scenes/small_scenes.h"
+#include "scenes/simulation.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,6 +18,15 @@ static const double LANDSCAPE_LENGTH = 1.5;    /* m, at rest */
 
 /* x_tilde of the free node, m: where inertia alone would take it. */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
+
+/* h of the dial from 1e-3 to 10 s, ten to a power of ten. */
+static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
+
+/* m: a shorter p changes E by less than E's rounding, and is taken whole; from
+ * the line of the pins. */
+static const double DIAL_NEAR = 1e-6, DIAL_BESIDE = 1e-9;
+
+enum { DIAL_UPDATES = 100 };
 
 /* ---- what is minimised --------------------------------------------------- */
 
@@ -65,9 +74,12 @@ static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
     return STATUS_OK;
 }
 
-Local landscape_at(const Simulation *simulation, unsigned parts, double h,
-                   Filter filter, const double at[2])
+/* The parts of E of landscape and dial, with this h; or f of one unknown. */
+static Local landscape_at(const Simulation *simulation, unsigned parts,
+                          double h, Filter filter, const double at[2])
 {
+    if (simulation->descent.scalar)
+        return simulation->descent.scalar(simulation, at[0]);
     const System *system = &simulation->system;
     const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
     double m = system->m[0], w = h * h, P = 0;
@@ -98,10 +110,15 @@ Local descent_at(const Simulation *simulation, Filter filter, double x,
                  double y)
 {
     const double at[2] = {x, y};
-    if (simulation->descent.scalar)
-        return simulation->descent.scalar(simulation, x);
     return landscape_at(simulation, simulation->exhibit.parts,
                         simulation->run[0].h, filter, at);
+}
+
+double landscape_part_value(const Simulation *simulation, unsigned parts,
+                            double x, double y)
+{
+    const double at[2] = {x, y}, h = simulation->run[0].h;
+    return landscape_at(simulation, parts, h, FILTER_NONE, at).value;
 }
 
 double descent_value(const Simulation *simulation, double x, double y)
@@ -141,27 +158,36 @@ double descent_direction(const Simulation *simulation, Filter filter,
     return newton_direction(&E, descent->scalar, p);
 }
 
-/* On demand: projected where the Hessian is not positive definite. */
-static Filter own_filter(const Simulation *simulation)
+/* E along p, from a point where it is `value`. */
+typedef struct Way {
+    const Simulation *simulation;
+    unsigned parts;
+    double h;
+    const double *from, *p;
+    double value;
+} Way;
+
+/* E(x + alpha p) - E(x), as line_search calls it */
+static double descent_difference(const void *function, double alpha)
+{
+    const Way *way = function;
+    const double to[2] = {way->from[0] + alpha * way->p[0],
+                          way->from[1] + alpha * way->p[1]};
+    Local E =
+        landscape_at(way->simulation, way->parts, way->h, FILTER_NONE, to);
+    return E.value - way->value;
+}
+
+/* E and its derivatives at the iterate, projected as the options say; on
+ * demand: where the Hessian is not positive definite. */
+static Local present(const Simulation *simulation)
 {
     const double *at = simulation->descent.point;
     Filter filter = (Filter)simulation->options.filter;
-    if (filter != FILTER_ON_DEMAND)
-        return filter;
-    return descent_bends_down(simulation, at[0], at[1]) ? FILTER_CLAMP
-                                                        : FILTER_NONE;
-}
-
-/* p, and what the loop tests there: of Algorithm 1 |g|, else |p|/h. */
-static void find_direction(Simulation *simulation, double p[2])
-{
-    Descent *descent = &simulation->descent;
-    Local E = descent_at(simulation, own_filter(simulation), descent->point[0],
-                         descent->point[1]);
-    descent->slope = newton_direction(&E, descent->scalar, p);
-    descent->residual = descent->by_gradient
-                            ? math_hypot(E.g[0], E.g[1])
-                            : (fabs(p[0]) + fabs(p[1])) / simulation->run[0].h;
+    if (filter == FILTER_ON_DEMAND)
+        filter = descent_bends_down(simulation, at[0], at[1]) ? FILTER_CLAMP
+                                                              : FILTER_NONE;
+    return descent_at(simulation, filter, at[0], at[1]);
 }
 
 /* How Algorithm 1 ends: at its test, without a direction, or above the start,
@@ -178,26 +204,29 @@ static Status end_of_search(const Simulation *simulation)
                                     : STATUS_SINGULAR;
 }
 
-/* Shows the iterate where the picture and the states look for it, and what the
- * loop's test says of it if the search (status) goes on.  Where it failed its
- * direction stays to be seen. */
+/* Shows the iterate where the picture and the states look for it, p, and what
+ * the loop tests there: of Algorithm 1 |g|, else |p|/h; and what that test says
+ * if the search (status) goes on.  Where it failed its direction stays to be
+ * seen. */
 static Status show_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
-    double p[2];
+    double *p = descent->direction;
     descent->value = descent_value(simulation, run->x[0], run->x[1]);
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
-    find_direction(simulation, p);
+    Local E = present(simulation);
+    descent->slope = newton_direction(&E, descent->scalar, p);
+    descent->residual = descent->by_gradient
+                            ? math_hypot(E.g[0], E.g[1])
+                            : (fabs(p[0]) + fabs(p[1])) / run->h;
     if (status == STATUS_RUNNING)
         status = end_of_search(simulation);
     simulation->done = status != STATUS_RUNNING;
-    bool none = status == STATUS_OK || !isfinite(descent->slope);
-    for (int i = 0; i < 2; i++)
-        descent->direction[i] = none ? 0 : p[i];
-    descent->slope = none ? 0 : descent->slope;
+    if (status == STATUS_OK || !isfinite(descent->slope))
+        p[0] = p[1] = descent->slope = 0;
     return status;
 }
 
@@ -225,25 +254,20 @@ void aim_descent(Simulation *simulation)
         descent->began = descent->value;
 }
 
-/* E(x + alpha p) - E(x), as line_search calls it */
-static double descent_difference(const void *function, double alpha)
-{
-    const Simulation *simulation = function;
-    const Descent *descent = &simulation->descent;
-    return descent_value(simulation,
-                         descent->point[0] + alpha * descent->direction[0],
-                         descent->point[1] + alpha * descent->direction[1]) -
-           descent->value;
-}
-
 /* One update of x along p, with the line search if wanted. */
 static Status update_iterate(Simulation *simulation, NewtonRecord *record)
 {
-    const Descent *descent = &simulation->descent;
+    const double *p = simulation->descent.direction;
     double *x = simulation->run[0].x;
+    const Way way = {simulation,
+                     simulation->exhibit.parts,
+                     simulation->run[0].h,
+                     simulation->descent.point,
+                     p,
+                     simulation->descent.value};
     Status status = STATUS_RUNNING;
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
-        Status found = line_search_backtrack(descent_difference, simulation,
+        Status found = line_search_backtrack(descent_difference, &way,
                                              &record->alpha, &record->trials);
         /* Uphill E grows by about slope (alpha - alpha^2/2): a step as short as
          * that lowers it only in its rounding. */
@@ -254,9 +278,9 @@ static Status update_iterate(Simulation *simulation, NewtonRecord *record)
             record->alpha = 0;
         }
     }
-    record->change = descent_difference(simulation, record->alpha);
+    record->change = descent_difference(&way, record->alpha);
     for (int i = 0; i < 2; i++)
-        x[i] += record->alpha * descent->direction[i];
+        x[i] += record->alpha * p[i];
     status = show_iterate(simulation, status);
     memcpy(record->to, x, sizeof record->to);
     return status;
@@ -265,23 +289,29 @@ static Status update_iterate(Simulation *simulation, NewtonRecord *record)
 Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    const double *at = descent->point;
     choose_test(simulation);
-    NewtonRecord record = {
-        .step = simulation->steps + 1,
-        .iteration = (int)simulation->steps,
-        .residual = descent->residual,
-        .alpha = 1,
-        .slope = descent->slope,
-        .factorised = true,
-        .projected =
-            descent_at(simulation, own_filter(simulation), at[0], at[1])
-                .projected,
-        .from = {at[0], at[1]}};
+    NewtonRecord record = {.step = simulation->steps + 1,
+                           .iteration = (int)simulation->steps,
+                           .residual = descent->residual,
+                           .alpha = 1,
+                           .slope = descent->slope,
+                           .factorised = true,
+                           .projected = present(simulation).projected,
+                           .from = {descent->point[0], descent->point[1]}};
     record.status = update_iterate(simulation, &record);
-    if (!simulation_record(simulation, &record))
+    if (descent->count < DESCENT_MAX)
+        descent->record[descent->count++] = record;
+    if (simulation->observer &&
+        !simulation->observer(simulation->user, &record))
         return STATUS_INTERRUPTED;
     return simulation->done ? record.status : STATUS_OK;
+}
+
+void descent_restart(Simulation *simulation)
+{
+    simulation->descent.count = 0;
+    simulation->steps = simulation->unconverged = 0;
+    aim_descent(simulation);
 }
 
 /* ---- the scenes ---------------------------------------------------------- */
@@ -335,4 +365,71 @@ Status create_landscape(Simulation *simulation)
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.parts = PART_BOTH;
     return begin_descent(simulation, x);
+}
+
+/* ---- the dial ------------------------------------------------------------ */
+
+/* Algorithm 3 for two unknowns; it ends at the size of rounding.  On the line
+ * of the pins there may be a saddle, where the gradient is 0, too: it begins
+ * beside it. */
+void dial_minimise(const Simulation *simulation, double h, double point[2])
+{
+    double p[2], length = INFINITY;
+    if (fabs(point[1]) < DIAL_BESIDE)
+        point[1] = copysign(DIAL_BESIDE, point[1]);
+    for (int update = 0; update < DIAL_UPDATES && length > 1e-14; update++) {
+        Local E = landscape_at(simulation, PART_BOTH, h, FILTER_CLAMP, point);
+        const Way way = {simulation, PART_BOTH, h, point, p, E.value};
+        double alpha = 1;
+        int trials;
+        newton_direction(&E, false, p);
+        length = math_hypot(p[0], p[1]);
+        if (length > DIAL_NEAR)
+            line_search_backtrack(descent_difference, &way, &alpha, &trials);
+        for (int i = 0; i < 2; i++)
+            point[i] += alpha * p[i];
+    }
+}
+
+/* Each minimiser begins where the one before was: the path is continuous.  Node
+ * 0 is put to the minimiser for the present h. */
+void dial_restart(Simulation *simulation)
+{
+    Walk *walk = &simulation->exhibit.walk;
+    double point[2], h = simulation->options.timestep;
+    memcpy(point, simulation->exhibit.target, sizeof point);
+    memcpy(simulation->descent.point, point, sizeof point);
+    for (int i = 0; i < WALK_POINTS; i++) {
+        walk->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
+        dial_minimise(simulation, walk->h[i], point);
+        memcpy(walk->point[i], point, sizeof point);
+        if (walk->h[i] <= h)
+            memcpy(simulation->descent.point, point, sizeof point);
+    }
+    dial_minimise(simulation, h, simulation->descent.point);
+    memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
+    simulation->descent.value =
+        landscape_part_value(simulation, PART_BOTH, simulation->run[0].x[0],
+                             simulation->run[0].x[1]);
+}
+
+Status create_dial(Simulation *simulation)
+{
+    Status status = create_landscape(simulation);
+    if (status)
+        return status;
+    dial_restart(simulation);
+    simulation->done = simulation->options.timestep >= DIAL_LAST;
+    simulation->status = STATUS_OK;
+    return STATUS_OK;
+}
+
+Status step_dial(Simulation *simulation)
+{
+    double h = simulation->options.timestep * pow(10, 1 / DIAL_PER_TEN);
+    h = fmin(h, DIAL_LAST);
+    simulation->options.timestep = simulation->run[0].h = h;
+    simulation->done = h >= DIAL_LAST;
+    dial_restart(simulation);
+    return STATUS_OK;
 }

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/small_scenes.h"
+#include "scenes/simulation.h"
 
 int exhibit_handles(const Simulation *simulation,
                     double at[SCENE_MAX_HANDLES][2])
@@ -37,14 +37,6 @@ static void move_mass(Simulation *simulation, bool tip, const double to[2])
     }
 }
 
-/* Newton begins anew where the iterate is, or where it is dragged to. */
-static void restart_descent(Simulation *simulation)
-{
-    simulation->descent.count = 0;
-    simulation->steps = simulation->unconverged = 0;
-    aim_descent(simulation);
-}
-
 void exhibit_drag(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
@@ -63,7 +55,7 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
     if (scene->step == step_dial)
         dial_restart(simulation);
     else
-        restart_descent(simulation);
+        descent_restart(simulation);
 }
 
 int exhibit_switches(const Simulation *simulation,

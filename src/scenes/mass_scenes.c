@@ -1,4 +1,4 @@
-#include "scenes/small_scenes.h"
+#include "scenes/simulation.h"
 
 #include <math.h>
 #include <string.h>

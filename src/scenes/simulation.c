@@ -9,7 +9,6 @@
 #include "model/friction.h"
 #include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
-#include "scenes/scene.h"
 #include "scenes/body.h"
 #include "base/mathematics.h"
 
@@ -172,15 +171,6 @@ Status simulation_step(Simulation *simulation)
     while (status == STATUS_RUNNING)
         status = simulation_iterate(simulation);
     return status;
-}
-
-bool simulation_record(Simulation *simulation, const NewtonRecord *record)
-{
-    Descent *descent = &simulation->descent;
-    if (descent->count < DESCENT_MAX)
-        descent->record[descent->count++] = *record;
-    return !simulation->observer ||
-           simulation->observer(simulation->user, record);
 }
 
 double simulation_time(const Simulation *simulation)

@@ -5,7 +5,6 @@
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
-#include "scenes/scene.h"
 
 /* Doubles of one array of a run. */
 static size_t array_size(const Simulation *simulation)

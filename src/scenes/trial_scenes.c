@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "scenes/body.h"
-#include "scenes/small_scenes.h"
+#include "scenes/simulation.h"
 #include "base/mathematics.h"
 
 /* The last status that is not OK of so many steps with these options, or the
