@@ -137,7 +137,8 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
 
 /* Changes something from the step that is shown on; later steps that are known
  * stay in the branch below.
- *   edit     COMMAND_SET with "NAME VALUE"; COMMAND_PIN with a node, x = 1 to
+ *   edit     COMMAND_SET with a row of the options and its number x, which the
+ *            caller has checked; COMMAND_PIN with a node, x = 1 to
  *            pin it and 0 to set it free; COMMAND_GRAB with a node and where
  *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_HANDLE,
  *            COMMAND_FLIP

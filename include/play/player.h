@@ -1,5 +1,14 @@
 /* player.h - simulations that are played: stepped, drawn, recorded, gone back
  * in, and told what to do by keys, mouse and scripts.
+ *
+ *   keys, mouse, chips, scripts, pages  ->  Command      (hands.c, command.h)
+ *   player_obey: the deed of its kind                    (obey.c)
+ *   the deed changes the past, or says which step is to be shown
+ *   player_work: past_iterate, until that step is shown  (steps.c)
+ *
+ * From a key to Newton's method: player_input, player_obey, the deed,
+ * player_work, past_iterate, simulation_iterate, time_integrator_iterate,
+ * newton_iterate.
  */
 #ifndef ELASTO_PLAYER_H
 #define ELASTO_PLAYER_H
@@ -18,10 +27,40 @@ enum {
     SPEED_MOST = 10   /* 1024 steps a frame */
 };
 
+/* What time does.  From MODE_PAUSE on it stands still; from MODE_END on nobody
+ * has asked for that. */
+typedef enum Mode {
+    MODE_RUN,
+    MODE_DRIFT, /* the same, but nothing deforms any more */
+    MODE_PAUSE,
+    MODE_WALK, /* inside a step, at a line of Algorithm 3 */
+    MODE_END,  /* the scene is over, or a step did not converge */
+    MODE_HELD, /* nothing moves: the tolerance lets forces pass, */
+    MODE_REST  /* or they are in balance */
+} Mode;
+
+/* What is to be done as soon as the step that was asked for is shown. */
+typedef enum Then {
+    THEN_NOTHING,
+    THEN_JUDGE, /* nobody has asked for it, it is new: is it time to stop? */
+    THEN_ENTER, /* its lines are walked through from the first one, */
+    THEN_LEAVE, /* or from the last one back */
+    THEN_PEAK,  /* it was taken by itself: an explosion in it is shown */
+    THEN_TELL   /* it was taken again: both outcomes are told */
+} Then;
+
+/* What the column shows. */
+typedef enum Column {
+    COLUMN_CARDS = LECTURE_CARDS,
+    COLUMN_CODE = LECTURE_CODE,
+    COLUMN_PAGES = LECTURE_PAGES,
+    COLUMN_KEYS
+} Column;
+
 /* What the left or the middle button drags. */
 typedef enum Drag {
     DRAG_NONE,
-    DRAG_NODE,
+    DRAG_NODE,   /* index */
     DRAG_EDGE,   /* the stretch */
     DRAG_START,  /* where the scene begins */
     DRAG_HANDLE, /* index: a point of the scene */
@@ -32,113 +71,92 @@ typedef enum Drag {
 
 typedef struct Mouse {
     double x, y; /* pixels */
-    bool inside;
     bool placed; /* where it rests at the start is known: now it can move */
     Drag drag;
     int index;
     double from[2], last[2]; /* pixels, where the drag began and has come */
     bool moved;              /* it is more than a click */
     bool turns;              /* the last input was the wheel's */
+    int gesture;             /* the last key, click or turn of the wheel */
     Options options;         /* at its beginning */
 } Mouse;
 
 /* What is shown of one of the runs side by side. */
 typedef struct Side {
-    int place;     /* in its rounds; -1: after the step */
+    int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[64];
     double *from;   /* [4n] m, where a glide begins, and where it is; NULL */
     char label[64]; /* what is different here */
-    int rigid;      /* steps in which nothing has deformed, up to this one */
-    int idle;       /* steps that needed no update, the same */
     bool over;      /* that it ended was told */
     bool retried;   /* it was tried to know its rounds */
 } Side;
 
-/* What is to be done as soon as the step that was asked for is shown. */
-typedef enum Then {
-    THEN_NOTHING,
-    THEN_ENTER, /* its lines are walked through from the first one, */
-    THEN_LEAVE, /* or from the last one back */
-    THEN_PEAK,  /* it was taken by itself: an explosion in it is shown */
-    THEN_TELL   /* it was taken again: both outcomes are told */
-} Then;
-
 /* Of a step that is taken again: what it was. */
 typedef struct Retake {
     char had[160]; /* "no projection: E +206 in 12 updates" */
-    char is[64];   /* what it is now: "projection clamp" */
-    Command edit;  /* the change */
-    bool alone;    /* two unlike outcomes may be put beside each other */
-    double extent; /* m */
-    int round;     /* the place in it; -1: none */
-    Line line;
+    double extent; /* m, the largest coordinate on its way */
+    Station at;    /* the place in it; round -1: none */
 } Retake;
 
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
     int given_count;
-    Past past;
-    Side side[OPTIONS_MAX_PANES]; /* one for each of its panes */
-    int active;                   /* the one whose numbers are shown */
-    Then then;
-    Retake retake;
-    const struct Scene *scene; /* that is shown */
-    Recording recording;
-    long written;    /* the last step in its tables; -1: none */
+    char line[1024]; /* it, without files and scripts */
+    Script script;   /* of the command line */
     View *view;      /* NULL: nothing is drawn */
     bool window;     /* the view is a window: it takes keys */
     bool attended;   /* a window or a script: it may pause and go back */
-    Script script;   /* of the command line */
-    char line[1024]; /* the command line, without files and scripts */
     bool begun;      /* player_create worked */
     bool quit;       /* somebody asked for the end */
-    bool changed;    /* the window must be drawn again */
-    bool warned;     /* paused once because a step did not converge */
-    bool holds;      /* the hand has not let go since it took a node */
-    bool paused;
-    bool halted;         /* by itself: at rest, at an end, after a failure */
-    bool rests;          /* nothing moves any more, */
-    bool balances;       /* and the forces are in balance */
-    bool drifts;         /* it moves, and nothing deforms any more */
-    bool leaving;        /* the last command was Escape, with nothing open */
-    bool by_hand;        /* commands come from keys and mouse */
-    bool by_run;         /* the step that is made was not asked for, */
-    bool known;          /* and it is not new */
-    int gesture;         /* so many keys, clicks, turns of the wheel */
-    int grip;            /* the same of a script, < 0: of its present line, */
-    int held;            /* of its last grab, which drags go on with, */
-    int lines;           /* and the last one that was given */
-    int noted;           /* gesture of the journal's last line; 0: no hand's */
-    int within;          /* commands that are obeyed, one within the other */
-    bool outermost_kept; /* the first of them is a line of the journal, */
-    size_t before;       /* which had so many when it began */
-    Script journal;      /* all that was done, undo and redo, too */
-    int fine;            /* one on is: 0 a step, 1 an update, 2 a line */
-    int speed;         /* s: 2^s steps a frame, or a frame 2^-s times as long */
-    long sampled;      /* step of the last frame that was drawn; -1: none */
-    bool refused;      /* a line of the script made no sense */
-    char message[768]; /* why a command or the script cannot be obeyed, or "" */
-    char note[SHOW_TEXT];              /* what a command just did, or "" */
-    bool warning;                      /* and it is a bad thing */
+    bool refused;    /* a line of the script made no sense */
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */
-    double due;                        /* s, the next step */
-    double began;                      /* s, work that is */
-    bool under_way;                    /* and goes on in the next frame */
-    double clock_mark, time_mark;      /* s, where the speed is measured from */
+
+    Past past;
+    Side side[OPTIONS_MAX_PANES]; /* one for each of its panes */
+    int active;                   /* the one whose numbers are shown */
+    const struct Scene *scene;    /* that is shown */
+    Recording recording;
+    long written; /* the last step in its tables; -1: none */
+    Mode mode;
+    int fine; /* one on is: 0 a step, 1 an update, 2 a line */
+    Then then;
+    Retake retake;
+    int still;   /* steps in a row that needed no update, up to this one, */
+    int rigid;   /* and those in which nothing has deformed */
+    bool holds;  /* the hand has not let go since it took a node */
+    bool warned; /* it has stopped because a step did not converge */
+
+    int gesture;    /* what is done now is undone at once: its number, */
+    int gestures;   /* how many there were, */
+    int held;       /* that of a script's last grab, which drags go on with, */
+    int noted;      /* and that of the journal's last line */
+    Script journal; /* all that was done, undo and redo, too */
+    char message[768]; /* why a command or the script makes no sense, or "" */
+    char note[SHOW_TEXT]; /* what a command just did, or "" */
+    bool warning;         /* and it is a bad thing */
+
+    int speed;       /* s: 2^s steps a frame, or a frame 2^-s times as long */
+    double due;      /* s, on the wall clock: the next step */
+    double began;    /* s, work that is under way; 0: none is */
+    double glide;    /* s, the way to the next line; 0: it is over */
+    double mark[2];  /* s, wall and simulated: speed is measured from here */
     double measured; /* simulated over real time; 0: unknown */
+    bool changed;    /* the window must be drawn again */
+    long sampled;    /* step of the last frame that was drawn; -1: none */
 
     /* What only the screen shows. */
     Lens lens;
-    LectureColumn column;
+    Column column;
     const LecturePage *left; /* the page that was last open, or NULL */
-    bool strain, bare, help, blank;
+    bool strain, bare, blank;
     unsigned closed; /* cards that are not as the picture has them */
-    int large, selected;
-    double glide;   /* s, when the way to the next line began; 0: it is over */
-    bool typing;    /* every key belongs into what is typed: */
-    char typed[28]; /* for the selected number, or a page of the list */
+    int large;       /* the enlarged card, */
+    int selected;    /* and the number that is lit; -1: none */
+    bool typing;     /* every key belongs into what is typed: */
+    char typed[28];  /* for the selected number, or a page of the list */
+    bool leaving;    /* Escape found nothing to close: once more ends it */
     CommandKind chip[LAYOUT_CHIPS];        /* what the chips ask for */
     const OptionRow *number[OPTIONS_MOST]; /* what the row has */
     int numbers;
@@ -156,7 +174,8 @@ typedef struct Player {
 Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player);
 
-/* One step with its records.  OK also for a step that did not converge. */
+/* The next step, known or new, with its records; in a window it may only begin.
+ * OK also for a step that did not converge. */
 Status player_step(Player *player);
 
 /* Does what a command asks for.  Returns OK; INVALID_INPUT with the reason in
@@ -169,6 +188,9 @@ Status player_input(Player *player, const Input *input);
 
 /* Draws, shows and records the state if there is a view. */
 Status player_draw(Player *player);
+
+/* The same on any paper, which nobody sees. */
+void player_paint(Player *player, Paper *paper);
 
 /* Until the window is closed, or to the end. */
 Status player_run(Player *player);
@@ -186,6 +208,15 @@ bool player_unconverged(const Player *player);
 
 /* The hash of the present state of all panes; see state_hash. */
 uint64_t player_hash(const Player *player);
+
+/* The present options of all panes.  Returns how many. */
+int player_options(const Player *player, Options options[OPTIONS_MAX_PANES]);
+
+/* Steps a second that are wanted. */
+double player_rate(const Player *player);
+
+/* What the page does when it opens: its own commands. */
+Status player_open_page(Player *player);
 
 /* Finishes the files and frees all but the numbers that a summary needs.
  * Returns OK, OUT_OF_MEMORY or FILE_FAILED. */

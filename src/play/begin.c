@@ -1,82 +1,221 @@
-/* begin.c - from step 0: again, from another start, or another scene. */
+/* begin.c - from step 0: again, from another start, another scene, a page of
+ * the lecture, a cell of the map; and what the mouse does on some of them.
+ */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "play/playing.h"
+#include "scenes/pages.h"
 #include "scenes/scene.h"
+#include "scenes/small_scenes.h"
 
-Status player_scene_options(Player *player, const char *name,
-                            Options options[OPTIONS_MAX_PANES], int *count)
+bool player_explains(const Options *options)
+{
+    return options->page ? !options->page->plays : options->scene->explains;
+}
+
+Status player_own_options(Player *player, const char *scene,
+                          const LecturePage *page, Options *options, int *count)
 {
     char program[] = "elasto", word[COMMAND_TEXT_SIZE];
     char *arguments[] = {program, word, NULL};
     const Options *given = &player->given[0];
-    snprintf(word, sizeof word, "%s", name);
-    if (options_parse(2, arguments, 0, options, player->message,
-                      sizeof player->message))
-        return STATUS_INVALID_INPUT;
     *count = 1;
+    if (page)
+        return lecture_options(page, options, player->message,
+                               sizeof player->message);
+    snprintf(word, sizeof word, "%s", scene);
+    Status status = options_parse(2, arguments, 0, options, player->message,
+                                  sizeof player->message);
+    if (status)
+        return status;
+    options->speed = given->speed;
     if (options->scene == given->scene && !given->page) {
         *count = player->given_count;
         memcpy(options, given, (size_t)*count * sizeof *given);
-        return STATUS_OK;
     }
-    options->speed = given->speed;
     return STATUS_OK;
 }
 
 /* Another scene, from its start; it keeps the pause, and one that explains
  * something begins with one. */
-static Status switch_scene(Player *player, const Command *command)
+Status switch_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int count;
-    bool halted = player->halted;
+    bool runs = player->mode >= MODE_END || !player_stands(player);
     Status status =
-        player_scene_options(player, command->text, options, &count);
+        player_own_options(player, command->text, NULL, options, &count);
     if (!status)
         status = player_begin(player, options, count, command);
     if (status)
         return status;
-    player->paused = player->paused && !halted;
-    player->column = LECTURE_CARDS;
-    if (options->scene->explains && !player->given[0].script)
-        player->paused = true;
+    bool explains = options->scene->explains && !player->given[0].script;
+    player->mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
+    if (player->column != COLUMN_KEYS)
+        player->column = COLUMN_CARDS;
     return STATUS_OK;
 }
 
 /* Another start, where the scene has one. */
-static Status pick_start(Player *player, const Command *command)
+Status pick_start(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    const Scene *scene = player_simulation(player)->scene;
-    if (!(scene->needs & NEEDS_START))
+    if (!(player_simulation(player)->scene->needs & NEEDS_START))
         return player_refuse(player, "this scene has no start to choose");
-    int panes = past_panes(&player->past);
-    player_options(player, options);
+    int panes = player_options(player, options);
     for (int i = 0; i < panes; i++) {
         options[i].start[0] = command->x;
         options[i].start[1] = command->y;
     }
-    player->paused = true;
+    player->mode = MODE_PAUSE;
     return player_begin(player, options, panes, command);
 }
 
-/* From step 0 with the present numbers. */
-static Status begin_again(Player *player, const Command *command)
+/* From step 0 with the present numbers; a pause that nobody asked for ends. */
+Status begin_again(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    player_options(player, options);
-    if (player->halted && !player_explains(&options[0]))
-        player->paused = false; /* nobody asked for this pause */
+    int panes = player_options(player, options);
+    if (player->mode >= MODE_END && !player_explains(&options[0]))
+        player->mode = MODE_RUN;
     player->lens = LENS_FITS;
-    return player_begin(player, options, past_panes(&player->past), command);
+    return player_begin(player, options, panes, command);
 }
 
-const Deed begin_deeds[] = {
-    {COMMAND_SCENE, switch_scene},
-    {COMMAND_START, pick_start},
-    {COMMAND_RESTART, begin_again},
-    {COMMAND_NONE, NULL},
-};
+/* ---- the lecture --------------------------------------------------------- */
+
+Status player_open_page(Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    const char *rest = page && page->open ? page->open : "";
+    Status status = STATUS_OK;
+    while (*rest && !status) {
+        char line[COMMAND_TEXT_SIZE];
+        Command command;
+        size_t length = strcspn(rest, ";");
+        snprintf(line, sizeof line, "& %.*s", (int)length, rest);
+        rest += length + (rest[length] == ';');
+        status = command_parse(line, &command, player->message,
+                               sizeof player->message);
+        if (!status)
+            status = player_obey(player, &command);
+    }
+    return status;
+}
+
+/* The page that is asked for: by its name; the next one or the one before; the
+ * one that was left for another scene; or the first.  NULL: there is none. */
+static const LecturePage *find_page(Player *player, const Command *command)
+{
+    const LecturePage *page = player_settings(player)->page;
+    bool on = command->kind == COMMAND_PAGE_ON;
+    if (command->kind == COMMAND_PAGE) {
+        page = lecture_find(command->text);
+        if (!page)
+            snprintf(player->message, sizeof player->message,
+                     "there is no page '%s', they are 1 ... %d", command->text,
+                     lecture_count());
+        return page;
+    }
+    if (!page && player->left)
+        return on && player->left[1].name ? player->left + 1 : player->left;
+    if (!page)
+        return &lecture_pages[0];
+    if (on ? !page[1].name : page == lecture_pages) {
+        player_refuse(player,
+                      on ? "this is the last page" : "this is the first page");
+        return NULL;
+    }
+    return on ? page + 1 : page - 1;
+}
+
+/* The page's scene from its start, with its settings. */
+Status open_page(Player *player, const Command *command)
+{
+    Options options;
+    int count;
+    const LecturePage *page = find_page(player, command);
+    if (!page)
+        return STATUS_INVALID_INPUT;
+    Status status = player_own_options(player, "", page, &options, &count);
+    if (status)
+        return status;
+    status = player_begin(player, &options, 1, command);
+    player->speed = player_first_speed(&options);
+    player_reset_speed(player);
+    player->left = page;
+    player->column = COLUMN_CARDS;
+    player->fine = 0;
+    if (status || player->given[0].script)
+        return status;
+    player->mode = page->plays ? MODE_RUN : MODE_PAUSE;
+    return player_open_page(player);
+}
+
+/* A guess of where the next step leads. */
+Status predict(Player *player, const Command *command)
+{
+    double at[2];
+    Simulation *simulation = &player->past.machine[player->active].simulation;
+    if (simulation->done || simulation_point(simulation, at) == 0)
+        return player_refuse(player, "nothing to predict here");
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+    simulation_predict(simulation, command->x, command->y);
+    return STATUS_OK;
+}
+
+/* ---- the map ------------------------------------------------------------- */
+
+/* Whether the scene is the envelope and has this cell. */
+static bool has_cell(const Player *player, long cell)
+{
+    return player_simulation(player)->scene->picture == PICTURE_ENVELOPE &&
+           cell < (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS;
+}
+
+/* Shows a cell of the envelope. */
+Status visit_cell(Player *player, const Command *command)
+{
+    long cell = command->number;
+    Simulation *simulation = &player->past.machine[player->active].simulation;
+    const EnvelopeMap *map = &simulation->exhibit.map;
+    int column = (int)(cell % ENVELOPE_COLUMNS);
+    int row = (int)(cell / ENVELOPE_COLUMNS);
+    if (!has_cell(player, cell))
+        return player_refuse(player, "there is no such cell");
+    if (map->column == column && map->row == row)
+        return STATUS_OK;
+    return envelope_visit(simulation, column, row);
+}
+
+/* The square with the cell's numbers, from its start: commands that a script
+ * can repeat. */
+Status player_load_cell(Player *player, long cell)
+{
+    const Options map = player_simulation(player)->options;
+    const Command scene = {
+        .kind = COMMAND_SCENE, .text = "square", .joins = true};
+    const struct {
+        const char *option;
+        double value;
+    } numbers[] = {
+        {"segments", map.segments},
+        {"stretch", map.stretch},
+        {"timestep", envelope_timestep((int)(cell % ENVELOPE_COLUMNS))},
+        {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))},
+    };
+    if (!has_cell(player, cell))
+        return player_refuse(player, "there is no such cell");
+    Status status = player_obey(player, &scene);
+    for (int i = 0; i < 4 && !status; i++)
+        status = player_ask_set(player, option_find(numbers[i].option),
+                                numbers[i].value);
+    player->mode = MODE_PAUSE;
+    if (!status)
+        status = player_ask(player, COMMAND_RESTART, 0, 0, 0);
+    player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
+                map.page ? ", Page Down goes on" : "");
+    return status;
+}

@@ -2,45 +2,51 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/options.h"
+
 static const CommandRow command_rows[COMMAND_KINDS] = {
     [COMMAND_REDRAW] = {NULL, NULL, NULL, SCREEN},
     [COMMAND_QUIT] = {"quit", "Q", "quit", SCREEN},
-    [COMMAND_TOGGLE_PAUSE] = {NULL, "Space", "run or pause"},
+    [COMMAND_TOGGLE_PAUSE] = {NULL, "Space", "run or pause",
+                              .chip = "pause|play"},
     [COMMAND_PLAY] = {"play", NULL, NULL, KEPT | SCREEN},
     [COMMAND_PAUSE] = {"pause", NULL, NULL, KEPT | SCREEN},
-    [COMMAND_NEXT] = {"next", "N|Right", "one step on; back", REPEATS | KEPT},
-    [COMMAND_BACK] = {"back", "Left", "", REPEATS | KEPT},
+    [COMMAND_NEXT] = {"next", "N|Right", "one step on; back", REPEATS | KEPT,
+                      .chip = "next step|next update|next line|next"},
+    [COMMAND_BACK] = {"back", "Left", "", REPEATS | KEPT, .chip = "back"},
     [COMMAND_STEP] = {"step", NULL, NULL, KEPT},
     [COMMAND_FINER] = {"finer", "I|Shift+N", "go by steps, updates, lines",
-                       KEPT},
+                       KEPT, .chip = "updates|lines|steps"},
     [COMMAND_HOME] = {"home", "Home", "to step 0; to the newest", KEPT},
     [COMMAND_END] = {"end", "End", "", KEPT},
     [COMMAND_GOTO] = {"goto", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
     [COMMAND_UNDO] = {"undo", "Ctrl+Z", "undo a change; redo", REPEATS | KEPT},
     [COMMAND_REDO] = {"redo", "Ctrl+Shift+Z", "", REPEATS | KEPT},
-    [COMMAND_RESTART] = {"restart", "R", "begin again", KEPT},
+    [COMMAND_RESTART] = {"restart", "R", "begin again", KEPT,
+                         .chip = "restart"},
     [COMMAND_FASTER] = {"faster", "+|=", "faster; slower", REPEATS | SCREEN},
     [COMMAND_SLOWER] = {"slower", "-", "", REPEATS | SCREEN},
     [COMMAND_FILTER] = {"projection", "P", "projection; line search: off, on",
-                        KEPT},
-    [COMMAND_SEARCH] = {"line-search", "L", "", KEPT},
-    [COMMAND_METHOD] = {"method", "M", "next method", KEPT},
+                        KEPT, .chip = "projection off|projection on"},
+    [COMMAND_SEARCH] = {"line-search", "L", "", KEPT,
+                        .chip = "line search off|line search on"},
+    [COMMAND_METHOD] = {"method", "M", "next method", KEPT, .chip = "method"},
     [COMMAND_ADD_PANE] = {"add-pane", "Tab+M", "next method, side by side",
                           KEPT},
     [COMMAND_END_PANE] = {"end-pane", "Backspace", "close the last pane", KEPT},
     [COMMAND_PANE] = {"pane", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_SET] = {"set", NULL, NULL, KEPT, ARGUMENTS_TEXT},
-    [COMMAND_DEFAULT] = {"default", NULL, NULL, 0, ARGUMENTS_TEXT},
+    [COMMAND_SET] = {"set", NULL, NULL, KEPT, ARGUMENTS_VALUE},
+    [COMMAND_DEFAULT] = {"default", NULL, NULL, 0, ARGUMENTS_OPTION},
     [COMMAND_SELECT] = {"select", "Tab", "next number", REPEATS | SCREEN},
     [COMMAND_RAISE] = {"raise", "Up", "make it larger; smaller", REPEATS},
     [COMMAND_LOWER] = {"lower", "Down", "", REPEATS},
-    [COMMAND_SCENE] = {"scene", NULL, NULL, KEPT, ARGUMENTS_TEXT},
+    [COMMAND_SCENE] = {"scene", "1|2|3|4|5|6|7|8|9", NULL, KEPT,
+                       ARGUMENTS_TEXT},
     [COMMAND_START] = {"start", NULL, NULL, KEPT, ARGUMENTS_POINT},
     [COMMAND_GRAB] = {"grab", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
     [COMMAND_DRAG] = {"drag", NULL, NULL, KEPT, ARGUMENTS_POINT},
@@ -53,24 +59,34 @@ static const CommandRow command_rows[COMMAND_KINDS] = {
     [COMMAND_FIT] = {"fit", "0", "fit the picture", SCREEN},
     [COMMAND_COLOURS] = {"colours", "C", "colours show strain", SCREEN},
     [COMMAND_BARE] = {"bare", "H", "the picture alone", SCREEN},
-    [COMMAND_KEYS] = {"keys", "?|F1", "these keys", SCREEN},
+    [COMMAND_KEYS] = {"keys", "?|F1", "these keys", SCREEN, .chip = "all keys"},
     [COMMAND_CARD] = {"card", NULL, NULL, SCREEN, ARGUMENTS_NUMBER},
     [COMMAND_ENLARGE] = {"enlarge", NULL, NULL, SCREEN, ARGUMENTS_NUMBER},
     [COMMAND_PREDICT] = {"predict", NULL, NULL, 0, ARGUMENTS_POINT},
     [COMMAND_CELL] = {"cell", NULL, NULL, 0, ARGUMENTS_NUMBER},
     [COMMAND_PAGE] = {"page", NULL, NULL, KEPT, ARGUMENTS_TEXT},
     [COMMAND_PAGE_ON] = {"page-on", "PageDown", "the lecture: next page; back",
-                         KEPT},
+                         KEPT, .chip = "next page"},
     [COMMAND_PAGE_BACK] = {"page-back", "PageUp", "", KEPT},
-    [COMMAND_PAGES] = {"pages", "G", "list of pages; code of this page",
-                       SCREEN},
-    [COMMAND_CODE] = {"code", "K", "", SCREEN},
+    [COMMAND_PAGES] = {"pages", "G", "list of pages; code of this page", SCREEN,
+                       .chip = "pages"},
+    [COMMAND_CODE] = {"code", "K", "", SCREEN, .chip = "code"},
     [COMMAND_HASH] = {"hash", "Y", "this state: hash and script", SCREEN},
     [COMMAND_SHOT] = {"shot", "S", "save a picture", SCREEN},
     [COMMAND_FILM] = {"film", "Ctrl+R", "film, and its end", SCREEN},
     [COMMAND_FULL] = {"full-screen", "F11", "full screen", SCREEN},
     [COMMAND_BLANK] = {"blank", "B", "a black screen", SCREEN},
     [COMMAND_ESCAPE] = {"escape", "Escape", "close what is open; twice: quit"},
+    /* A row further down has its keys where one above has them, too. */
+    [COMMAND_TYPE_NUMBER] = {NULL, "0|1|2|3|4|5|6|7|8|9|.|,|+|-", NULL,
+                             REPEATS | SCREEN, .keyboard = AT_NUMBER},
+    [COMMAND_TYPE_PAGE] = {NULL, "1|2|3|4|5|6|7|8|9", NULL, REPEATS | SCREEN,
+                           .keyboard = AT_LIST},
+    [COMMAND_TYPE] = {NULL, "*", NULL, REPEATS | SCREEN, .keyboard = AT_FIELD},
+    [COMMAND_ENTER] = {NULL, "Return|Keypad Enter", NULL, REPEATS | SCREEN,
+                       .keyboard = AT_FIELD},
+    [COMMAND_CLOSE] = {NULL, "Escape", NULL, REPEATS | SCREEN,
+                       .keyboard = AT_FIELD},
 };
 
 const CommandRow *command_row(CommandKind kind)
@@ -84,34 +100,30 @@ static bool is_one_of(const char *keys, const char *key)
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
         at += *at == '|';
-        if (strncmp(at, key, length) == 0 &&
-            (at[length] == '\0' || at[length] == '|'))
+        if (strcmp(at, "*") == 0 || (strncmp(at, key, length) == 0 &&
+                                     (at[length] == '\0' || at[length] == '|')))
             return true;
     }
     return false;
 }
 
-void command_from_key(const char *key, bool repeats, Command *command)
+Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
 {
-    *command = (Command){.kind = COMMAND_NONE};
-    if (key[0] >= '1' && key[0] <= '9' && key[1] == '\0') {
-        command->kind = repeats ? COMMAND_NONE : COMMAND_SCENE;
-        snprintf(command->text, sizeof command->text, "%s", key);
-        return;
+    Command command = {.kind = COMMAND_NONE};
+    for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
+        const CommandRow *row = &command_rows[i];
+        unsigned listens = row->keyboard ? row->keyboard : AT_PLAY;
+        if (!(listens & keyboard) || !is_one_of(row->keys, key))
+            continue;
+        if (repeats && !(row->flags & REPEATS))
+            break;
+        command.kind = (CommandKind)i;
+        snprintf(command.text, sizeof command.text, "%s", key);
     }
-    for (int i = 0; i < COMMAND_KINDS; i++)
-        if (is_one_of(command_rows[i].keys, key) &&
-            (!repeats || command_rows[i].flags & REPEATS))
-            command->kind = (CommandKind)i;
+    return command;
 }
 
-/* Says what is wrong. */
-static Status refuse(char *message, size_t size, const char *format,
-                     const char *word)
-{
-    snprintf(message, size, format, word);
-    return STATUS_INVALID_INPUT;
-}
+/* ---- lines of scripts --------------------------------------------------- */
 
 /* The next word of the line, or NULL.  word [COMMAND_TEXT_SIZE] out */
 static const char *take_word(const char **line, char *word)
@@ -141,83 +153,104 @@ static bool take_number(const char **line, long *number)
     return errno == 0 && *end == '\0';
 }
 
-/* A finite number. */
-static bool take_value(const char **line, double *value)
+/* Two finite numbers. */
+static bool take_point(const char **line, Command *command)
 {
-    char word[COMMAND_TEXT_SIZE], *end = NULL;
-    if (!take_word(line, word))
+    double *value[] = {&command->x, &command->y};
+    for (int i = 0; i < 2; i++) {
+        char word[COMMAND_TEXT_SIZE], *end = NULL;
+        if (!take_word(line, word))
+            return false;
+        *value[i] = strtod(word, &end);
+        if (end == word || *end || !isfinite(*value[i]))
+            return false;
+    }
+    return true;
+}
+
+/* Whether a value is one number, or a name. */
+static bool is_one_number(const OptionRow *row)
+{
+    return row->count <= 1 && row->times == 0 &&
+           (row->kind == OPTION_NUMBER || row->kind == OPTION_WHOLE ||
+            row->kind == OPTION_NAME);
+}
+
+/* An option and its value; what makes no sense is refused when it is obeyed,
+ * where somebody knows why. */
+static bool take_option(const char **line, bool value, Command *command)
+{
+    char name[COMMAND_TEXT_SIZE];
+    if (!take_word(line, name))
         return false;
-    *value = strtod(word, &end);
-    return end != word && *end == '\0' && isfinite(*value);
+    const OptionRow *row = option_find(name);
+    command->number = row ? row - option_rows : -1;
+    if (value && !take_word(line, command->text))
+        return false;
+    if (!row)
+        memcpy(command->text, name, sizeof name);
+    else if (value && is_one_number(row) &&
+             option_read(row, command->text, &command->x))
+        command->text[0] = '\0';
+    return true;
 }
 
 /* The arguments behind the word. */
 static bool take_arguments(const char **line, CommandArguments arguments,
                            Command *command)
 {
-    char word[COMMAND_TEXT_SIZE];
     switch (arguments) {
     case ARGUMENTS_NUMBER:
         return take_number(line, &command->number);
     case ARGUMENTS_NUMBER_POINT:
-        return take_number(line, &command->number) &&
-               take_value(line, &command->x) && take_value(line, &command->y);
+        return take_number(line, &command->number) && take_point(line, command);
     case ARGUMENTS_POINT:
-        return take_value(line, &command->x) && take_value(line, &command->y);
+        return take_point(line, command);
     case ARGUMENTS_TEXT:
-        if (!take_word(line, word))
-            return false;
-        snprintf(command->text, sizeof command->text, "%s", word);
-        size_t used = strlen(word);
-        if (take_word(line, word))
-            return snprintf(command->text + used, sizeof command->text - used,
-                            " %s", word) < (int)(sizeof command->text - used);
-        return true;
+        return take_word(line, command->text);
+    case ARGUMENTS_OPTION:
+    case ARGUMENTS_VALUE:
+        return take_option(line, arguments == ARGUMENTS_VALUE, command);
     default:
         return true;
     }
 }
 
-/* What stands behind the word, for messages. */
-static const char *arguments_text(CommandArguments arguments)
-{
-    static const char *const text[] = {
-        [ARGUMENTS_NONE] = "nothing behind it",
-        [ARGUMENTS_NUMBER] = "a whole number from 0 behind it",
-        [ARGUMENTS_POINT] = "X Y behind it, two finite numbers",
-        [ARGUMENTS_NUMBER_POINT] =
-            "N X Y behind it, a whole and two finite numbers",
-        [ARGUMENTS_TEXT] = "one or two words behind it",
-    };
-    return text[arguments];
-}
-
 Status command_parse(const char *line, Command *command, char *message,
                      size_t size)
 {
-    char word[COMMAND_TEXT_SIZE], rest[COMMAND_TEXT_SIZE], text[128];
-    *command = (Command){.kind = COMMAND_NONE};
+    static const char *const behind[] = {
+        [ARGUMENTS_NONE] = "nothing",
+        [ARGUMENTS_NUMBER] = "a whole number from 0",
+        [ARGUMENTS_POINT] = "X Y",
+        [ARGUMENTS_NUMBER_POINT] = "N X Y, a whole and two finite numbers",
+        [ARGUMENTS_TEXT] = "one word",
+        [ARGUMENTS_OPTION] = "the name of an option",
+        [ARGUMENTS_VALUE] = "the name of an option and its value",
+    };
+    char word[COMMAND_TEXT_SIZE] = "", rest[COMMAND_TEXT_SIZE];
+    int i = 1;
     while (isspace((unsigned char)*line))
         line++;
-    command->joins = *line == '&';
+    *command = (Command){.joins = *line == '&'};
     line += command->joins;
-    if (!take_word(&line, word))
-        return refuse(message, size, "%sno command", "");
-    for (int i = 0; i < COMMAND_KINDS; i++) {
-        const CommandRow *row = &command_rows[i];
-        if (!row->word || strcmp(row->word, word) != 0)
-            continue;
+    take_word(&line, word);
+    while (i < COMMAND_KINDS &&
+           (!command_rows[i].word || strcmp(command_rows[i].word, word) != 0))
+        i++;
+    if (i < COMMAND_KINDS) {
+        const CommandArguments arguments = command_rows[i].arguments;
         command->kind = (CommandKind)i;
-        if (take_arguments(&line, row->arguments, command) &&
+        if (take_arguments(&line, arguments, command) &&
             !take_word(&line, rest))
             return STATUS_OK;
-        snprintf(text, sizeof text, "'%s' has %s", word,
-                 arguments_text(row->arguments));
-        return refuse(message, size, "%s", text);
+        snprintf(message, size, "'%s' has %s behind it", word,
+                 behind[arguments]);
+        return STATUS_INVALID_INPUT;
     }
     int used =
         snprintf(message, size, "there is no command '%.20s', they are:", word);
-    for (int i = 0; i < COMMAND_KINDS && used < (int)size; i++)
+    for (i = 1; i < COMMAND_KINDS && used < (int)size; i++)
         if (command_rows[i].word)
             used += snprintf(message + used, size - (size_t)used, " %s",
                              command_rows[i].word);
@@ -227,24 +260,26 @@ Status command_parse(const char *line, Command *command, char *message,
 void command_format(const Command *command, char *line, size_t size)
 {
     const CommandRow *row = &command_rows[command->kind];
-    char word[COMMAND_TEXT_SIZE];
-    snprintf(word, sizeof word, "%s%s", command->joins ? "& " : "",
-             row->word ? row->word : "");
-    switch (row->arguments) {
-    case ARGUMENTS_NUMBER:
-        snprintf(line, size, "%s %ld", word, command->number);
-        break;
-    case ARGUMENTS_POINT:
-        snprintf(line, size, "%s %.17g %.17g", word, command->x, command->y);
-        break;
-    case ARGUMENTS_NUMBER_POINT:
-        snprintf(line, size, "%s %ld %.17g %.17g", word, command->number,
-                 command->x, command->y);
-        break;
-    case ARGUMENTS_TEXT:
-        snprintf(line, size, "%s %s", word, command->text);
-        break;
-    default:
-        snprintf(line, size, "%s", word);
+    CommandArguments arguments = row->arguments;
+    bool number =
+        arguments == ARGUMENTS_NUMBER || arguments == ARGUMENTS_NUMBER_POINT;
+    size_t used = (size_t)snprintf(line, size, "%s%s",
+                                   command->joins ? "& " : "", row->word);
+    if (number)
+        used +=
+            (size_t)snprintf(line + used, size - used, " %ld", command->number);
+    if (arguments == ARGUMENTS_POINT || arguments == ARGUMENTS_NUMBER_POINT)
+        snprintf(line + used, size - used, " %.17g %.17g", command->x,
+                 command->y);
+    if (arguments >= ARGUMENTS_OPTION && command->number >= 0)
+        used += (size_t)snprintf(line + used, size - used, " %s",
+                                 option_rows[command->number].name);
+    if (arguments == ARGUMENTS_VALUE && command->number >= 0 &&
+        !command->text[0]) {
+        line[used++] = ' ';
+        option_write(&option_rows[command->number], command->x, line + used,
+                     size - used);
+    } else if (arguments >= ARGUMENTS_TEXT && command->text[0]) {
+        snprintf(line + used, size - used, " %s", command->text);
     }
 }

@@ -123,7 +123,7 @@ static Status write_base64(FILE *file, const char *name)
 static Status play_lines(Player *player, const LecturePage *page)
 {
     const Command next = {.kind = COMMAND_NEXT};
-    Status status = lesson_prepare(player);
+    Status status = player_open_page(player);
     for (int i = 0; i <= page->lines && !status; i++) {
         Paper *paper = view_paper(player->view);
         if (!paper)

@@ -1,24 +1,72 @@
-/* obey.c - what each command does: lists of deeds, one for each source that
- * has some.
- */
+/* obey.c - from a command to its deed, and the journal of what was done. */
+#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "play/playing.h"
 
-/* All of them. */
-static const Deed *const deeds[] = {walk_deeds, change_deeds, begin_deeds,
-                                    keep_deeds, lesson_deeds, screen_deeds};
-
-static DeedFunction *find_deed(CommandKind kind)
-{
-    for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
-        for (const Deed *deed = deeds[i]; deed->act; deed++)
-            if (deed->kind == kind)
-                return deed->act;
-    return NULL;
-}
+static Deed *const deeds[COMMAND_KINDS] = {
+    [COMMAND_QUIT] = end_program,
+    [COMMAND_PLAY] = play_or_pause,
+    [COMMAND_PAUSE] = play_or_pause,
+    [COMMAND_NEXT] = one_on,
+    [COMMAND_BACK] = one_back,
+    [COMMAND_STEP] = new_step,
+    [COMMAND_FINER] = go_finer,
+    [COMMAND_HOME] = go_to,
+    [COMMAND_END] = go_to,
+    [COMMAND_GOTO] = go_to,
+    [COMMAND_UNDO] = undo,
+    [COMMAND_REDO] = undo,
+    [COMMAND_RESTART] = begin_again,
+    [COMMAND_FASTER] = change_speed,
+    [COMMAND_SLOWER] = change_speed,
+    [COMMAND_FILTER] = switch_method,
+    [COMMAND_SEARCH] = switch_method,
+    [COMMAND_METHOD] = switch_integrator,
+    [COMMAND_ADD_PANE] = add_pane,
+    [COMMAND_END_PANE] = end_pane,
+    [COMMAND_PANE] = choose_pane,
+    [COMMAND_SET] = set,
+    [COMMAND_DEFAULT] = set_default,
+    [COMMAND_SELECT] = select_number,
+    [COMMAND_RAISE] = pace_number,
+    [COMMAND_LOWER] = pace_number,
+    [COMMAND_SCENE] = switch_scene,
+    [COMMAND_START] = pick_start,
+    [COMMAND_GRAB] = grab,
+    [COMMAND_DRAG] = pull,
+    [COMMAND_RELEASE] = pull,
+    [COMMAND_PIN] = switch_pin,
+    [COMMAND_HANDLE] = move_handle,
+    [COMMAND_FLIP] = move_handle,
+    [COMMAND_ZOOM] = move_camera,
+    [COMMAND_PAN] = move_camera,
+    [COMMAND_FIT] = move_camera,
+    [COMMAND_COLOURS] = switch_shown,
+    [COMMAND_BARE] = switch_shown,
+    [COMMAND_BLANK] = switch_shown,
+    [COMMAND_KEYS] = switch_column,
+    [COMMAND_PAGES] = switch_column,
+    [COMMAND_CODE] = switch_column,
+    [COMMAND_CARD] = switch_card,
+    [COMMAND_ENLARGE] = switch_card,
+    [COMMAND_PREDICT] = predict,
+    [COMMAND_CELL] = visit_cell,
+    [COMMAND_PAGE] = open_page,
+    [COMMAND_PAGE_ON] = open_page,
+    [COMMAND_PAGE_BACK] = open_page,
+    [COMMAND_HASH] = tell_hash,
+    [COMMAND_SHOT] = save_picture,
+    [COMMAND_FILM] = switch_film,
+    [COMMAND_FULL] = switch_full,
+    [COMMAND_ESCAPE] = leave,
+    [COMMAND_TYPE_NUMBER] = type,
+    [COMMAND_TYPE_PAGE] = type,
+    [COMMAND_TYPE] = type,
+    [COMMAND_ENTER] = enter,
+    [COMMAND_CLOSE] = close_field,
+};
 
 Status player_refuse(Player *player, const char *why)
 {
@@ -26,45 +74,90 @@ Status player_refuse(Player *player, const char *why)
     return STATUS_INVALID_INPUT;
 }
 
-int player_gesture(const Player *player)
+Status player_ask(Player *player, CommandKind kind, long number, double x,
+                  double y)
 {
-    return player->by_hand ? player->gesture : player->grip;
+    const Command command = {
+        .kind = kind, .number = number, .x = x, .y = y, .joins = true};
+    return player_obey(player, &command);
 }
 
-void player_next_gesture(Player *player, CommandKind kind)
+Status player_ask_set(Player *player, const OptionRow *row, double value)
 {
-    bool holds = kind == COMMAND_DRAG || kind == COMMAND_RELEASE;
-    player->grip = holds ? player->held : --player->lines;
-    if (kind == COMMAND_GRAB)
-        player->held = player->grip;
+    return player_ask(player, COMMAND_SET, row - option_rows, value, 0);
 }
 
-const Options *player_settings(const Player *player)
+void player_next_gesture(Player *player)
 {
-    return &past_control(&player->past, player->active)->options;
+    player->gesture = ++player->gestures;
 }
 
-Options player_numbers(const Player *player)
+void player_note(Player *player, const char *format, ...)
 {
-    Options options = *player_settings(player);
-    double h = player_simulation(player)->options.timestep;
-    if (h != options.timestep) { /* nobody chose it: as the cards have it */
-        char text[32];
-        snprintf(text, sizeof text, "%.4g", h);
-        options.timestep = strtod(text, NULL);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(player->note, sizeof player->note, format, arguments);
+    va_end(arguments);
+    player->warning = false;
+    player->changed = true;
+}
+
+/* ---- the journal --------------------------------------------------------- */
+
+/* What is done from now on is undone at once with what was done before, if the
+ * command says so, or drags what was grabbed. */
+static void begin_gesture(Player *player, const Command *command)
+{
+    if (command->joins)
+        return;
+    if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
+        player->gesture = player->held;
+    else
+        player_next_gesture(player);
+    if (command->kind == COMMAND_GRAB)
+        player->held = player->gesture;
+}
+
+/* Writes down what is going to be done, before what it does in turn.  Nothing
+ * is ever taken out but the way of a drag: undo and redo are lines, too. */
+static Status note_line(Player *player, const Command *command)
+{
+    Command line = *command;
+    bool drags =
+        command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE;
+    line.joins = player->gesture == player->noted && !drags;
+    player->noted = player->gesture;
+    return script_add(&player->journal, player->past.step, &line);
+}
+
+/* The line that was noted as number `at` was refused. */
+static void forget_line(Player *player, size_t at, int noted)
+{
+    if (at + 1 == player->journal.count) {
+        player->journal.count = at;
+        player->noted = noted;
     }
-    return options;
 }
 
-/* A switch becomes what it does now, so that a journal of it leads to the same
- * place whatever was before. */
-static Command resolve(const Player *player, const Command *command)
+/* Of two places of one drag the second one is enough. */
+static void join_lines(Player *player, size_t at)
 {
-    Command resolved = *command;
-    if (command->kind == COMMAND_TOGGLE_PAUSE)
-        resolved.kind = player->paused ? COMMAND_PLAY : COMMAND_PAUSE;
-    return resolved;
+    Script *journal = &player->journal;
+    ScriptLine *line = journal->line + at;
+    if (at + 1 != journal->count || at == 0 || !line->command.joins)
+        return;
+    CommandKind kind = line->command.kind;
+    if (line[-1].step != line->step || line[-1].command.kind != kind ||
+        line[-1].command.number != line->command.number ||
+        (kind != COMMAND_START && kind != COMMAND_HANDLE &&
+         kind != COMMAND_SET))
+        return;
+    line->command.joins = line[-1].command.joins;
+    line[-1] = *line;
+    journal->count--;
 }
+
+/* ---- obeying ------------------------------------------------------------- */
 
 /* Whether the message of before may stay. */
 static bool keeps_note(const Player *player, CommandKind kind)
@@ -73,43 +166,6 @@ static bool keeps_note(const Player *player, CommandKind kind)
         return true;
     return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
-}
-
-/* Whether a drag goes on: of two lines the last one is enough. */
-static bool replaces(const ScriptLine *line, const Command *command, long step)
-{
-    const Command *last = &line->command;
-    size_t name = strcspn(command->text, " ");
-    return line->step == step && last->kind == command->kind &&
-           last->number == command->number &&
-           (command->kind == COMMAND_START || command->kind == COMMAND_HANDLE ||
-            (command->kind == COMMAND_SET &&
-             strncmp(last->text, command->text, name + 1) == 0));
-}
-
-/* Writes down what was done, in front of what it did in turn.  Nothing is ever
- * taken out but the way of a drag: undo and redo are lines, too. */
-static Status note_line(Player *player, const Command *command, long step,
-                        size_t at)
-{
-    Script *journal = &player->journal;
-    Command line = *command;
-    bool drags = player->by_hand && player->gesture == player->noted;
-    if (!(command_row(command->kind)->flags & KEPT))
-        return STATUS_OK;
-    bool held =
-        command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE;
-    bool within = player->within > 0 &&
-                  (player->outermost_kept || journal->count > player->before);
-    line.joins = command->joins || within || (drags && !held);
-    if (drags && at > 0 && at == journal->count &&
-        replaces(&journal->line[at - 1], &line, step)) {
-        line.joins = journal->line[at - 1].command.joins;
-        journal->line[at - 1].command = line;
-        return STATUS_OK;
-    }
-    player->noted = player->by_hand ? player->gesture : 0;
-    return script_insert(journal, at, step, &line);
 }
 
 /* Later steps that a change has left behind. */
@@ -125,51 +181,57 @@ static void tell_left(Player *player, long step, long newest)
              step + 1, newest);
 }
 
-Status player_obey(Player *player, const Command *command)
+/* A step that failed is shown, where somebody may go on from it. */
+static Status show_trouble(Player *player, Status status)
 {
-    Past *past = &player->past;
-    Command resolved = resolve(player, command);
-    bool leaving = command->kind == COMMAND_ESCAPE && !player_is_open(player);
-    long step = past->step, newest = past_newest(past);
-    int now = past->now;
-    size_t at = player->journal.count;
-    if (player->within == 0) {
-        player->before = at;
-        player->outermost_kept = command_row(resolved.kind)->flags & KEPT;
-    }
-    if (!player->by_hand && player->within == 0 && !command->joins)
-        player_next_gesture(player, command->kind);
-    player->changed = true;
-    player->message[0] = '\0';
-    if (resolved.kind != COMMAND_REDRAW)
-        player->glide = 0;
-    if (!keeps_note(player, resolved.kind))
-        player->note[0] = '\0';
-    if (past->works && resolved.kind == COMMAND_NEXT)
-        return STATUS_OK; /* it is on its way */
-    if (past->works && !(command_row(resolved.kind)->flags & SCREEN)) {
-        past_drop(past);
-        player->then = THEN_NOTHING;
-        if (resolved.kind == COMMAND_ESCAPE)
-            return player_work(player);
-    }
-    DeedFunction *act = find_deed(resolved.kind);
-    player->within++;
-    Status status = act ? act(player, &resolved) : STATUS_OK;
-    player->within--;
-    bool undo = resolved.kind == COMMAND_UNDO || resolved.kind == COMMAND_REDO;
-    if (!undo && past->now > now)
-        tell_left(player, step, newest);
-    if (status != STATUS_INVALID_INPUT &&
-        note_line(player, &resolved, step, at))
-        return STATUS_OUT_OF_MEMORY;
-    player->leaving = leaving;
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (status && !fatal && player->attended && player->given[0].steps < 0) {
-        player->paused = true; /* a step that failed is shown */
-        return STATUS_OK;
+    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
+        return status;
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+    return STATUS_OK;
+}
+
+Status player_obey(Player *player, const Command *asked)
+{
+    Past *past = &player->past;
+    Command command = *asked;
+    long step = past->step, newest = past_newest(past);
+    int now = past->now;
+    size_t at = player->journal.count;
+    int noted = player->noted;
+    if (command.kind == COMMAND_TOGGLE_PAUSE) /* so that a script of it leads */
+        command.kind =                        /* to the same place */
+            player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
+    unsigned flags = command_row(command.kind)->flags;
+    begin_gesture(player, &command);
+    player->changed = true;
+    player->message[0] = '\0';
+    player->leaving = player->leaving && command.kind == COMMAND_ESCAPE;
+    if (command.kind != COMMAND_REDRAW)
+        player->glide = 0;
+    if (!keeps_note(player, command.kind))
+        player->note[0] = '\0';
+    if (past->works && command.kind == COMMAND_NEXT)
+        return STATUS_OK; /* it is on its way */
+    if (past->works && !(flags & SCREEN)) {
+        past_drop(past);
+        player->then = THEN_NOTHING;
+        if (command.kind == COMMAND_ESCAPE)
+            return player_work(player);
     }
-    return status;
+    if (flags & KEPT && note_line(player, &command))
+        return STATUS_OUT_OF_MEMORY;
+    Status status = STATUS_OK;
+    if (deeds[command.kind])
+        status = deeds[command.kind](player, &command);
+    if (past->now > now && command.kind != COMMAND_REDO)
+        tell_left(player, step, newest);
+    if (flags & KEPT && status == STATUS_INVALID_INPUT)
+        forget_line(player, at, noted);
+    else if (flags & KEPT)
+        join_lines(player, at);
+    return show_trouble(player, status);
 }

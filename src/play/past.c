@@ -184,8 +184,7 @@ static Status keep_state(Past *past, int pane)
     Branch *branch = &past->branch[machine->branch];
     long i = machine->step - branch->first;
     Entry *entry = &branch->entry[i * branch->panes + machine->pane];
-    size_t size =
-        past->keeps ? state_bytes(&machine->simulation) : 0;
+    size_t size = past->keeps ? state_bytes(&machine->simulation) : 0;
     drop_state(past, entry);
     if (size == 0)
         return STATUS_OK;
@@ -822,16 +821,6 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     return status;
 }
 
-/* "NAME VALUE" into its two words. */
-static void split(const char *text, char name[COMMAND_TEXT_SIZE],
-                  char value[COMMAND_TEXT_SIZE])
-{
-    size_t length = strcspn(text, " ");
-    snprintf(name, COMMAND_TEXT_SIZE, "%.*s", (int)length, text);
-    snprintf(value, COMMAND_TEXT_SIZE, "%s",
-             text[length] ? text + length + 1 : "");
-}
-
 /* Whether a change makes sense here; message [size] out: why not. */
 static Status check_edit(const Simulation *simulation, const Command *edit,
                          char *message, size_t size)
@@ -862,17 +851,14 @@ static Status check_edit(const Simulation *simulation, const Command *edit,
 
 /* The control after a change. */
 static Status change_control(const Control *from, const Command *edit,
-                             const Control **to, char *message, size_t size)
+                             const Control **to)
 {
-    char name[COMMAND_TEXT_SIZE], value[COMMAND_TEXT_SIZE];
     Control *control = control_copy(from);
     if (!control)
         return STATUS_OUT_OF_MEMORY;
     *to = control;
-    if (edit->kind == COMMAND_SET) {
-        split(edit->text, name, value);
-        return options_set(&control->options, name, value, message, size);
-    }
+    if (edit->kind == COMMAND_SET)
+        control->options.number[option_rows[edit->number].slot] = edit->x;
     if (edit->kind == COMMAND_PIN)
         control_pin(control, (int)edit->number, edit->x != 0);
     if (edit->kind == COMMAND_GRAB)
@@ -916,14 +902,13 @@ static Status change_entry(Past *past, int pane, const Control *to,
 
 /* The controls of all panes at a step after a change in some of them. */
 static Status change_controls(const Past *past, long step, const Command *edit,
-                              int from, int to, const Control *control[],
-                              char *message, size_t size)
+                              int from, int to, const Control *control[])
 {
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(past) && !status; p++) {
         const Control *now = past_entry(past, p, step)->control;
         if (p >= from && p < to)
-            status = change_control(now, edit, &control[p], message, size);
+            status = change_control(now, edit, &control[p]);
         else
             control[p] = control_keep(now);
     }
@@ -971,11 +956,10 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     for (int p = from; p < to && !status; p++)
         status = check_edit(&past->machine[p].simulation, edit, message, size);
     if (!status)
-        status = change_controls(past, past->step - again, edit, from, to,
-                                 control, message, size);
+        status =
+            change_controls(past, past->step - again, edit, from, to, control);
     if (!status && again)
-        status = change_controls(past, past->step, edit, from, to, then,
-                                 message, size);
+        status = change_controls(past, past->step, edit, from, to, then);
     if (!status)
         status = make_edit(past, edit, from, to, gesture, control,
                            again ? then : NULL);

@@ -2,24 +2,21 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "scenes/one_line.h"
+#include "picture/picture.h"
 #include "play/playing.h"
-#include "scenes/pages.h"
+#include "scenes/one_line.h"
 #include "scenes/scene.h"
 
 enum {
     FRAME_SIZE = 900,   /* pixels, without a window */
     UNSEEN_STEPS = 100, /* without a window, if nobody says how many */
     FRAME_RATE = 60,    /* frames a second at most */
-    WATCHED_SPEED = -5, /* of iterations that are watched one by one */
     IDLE_WAIT = 200,    /* ms between looks at the signals while paused */
     BAR_LENGTH = 40     /* letters of the progress bar */
 };
@@ -27,6 +24,8 @@ enum {
 static const double BATCH_LIMIT = 0.05; /* s, steps of one frame */
 static const double EARLY = 0.002;      /* s, a frame may be: vsync waits */
 static const double MEASURE_TIME = 0.5; /* s, that a speed is taken over */
+
+/* ---- what is asked often ------------------------------------------------- */
 
 double player_rate(const Player *player)
 {
@@ -38,6 +37,28 @@ const Machine *player_machine(const Player *player)
     return &player->past.machine[player->active];
 }
 
+const Simulation *player_simulation(const Player *player)
+{
+    return &player_machine(player)->simulation;
+}
+
+const Options *player_settings(const Player *player)
+{
+    return &past_control(&player->past, player->active)->options;
+}
+
+Options player_numbers(const Player *player)
+{
+    Options options = *player_settings(player);
+    double h = player_simulation(player)->options.timestep;
+    if (h != options.timestep) { /* nobody chose it: as the cards have it */
+        char text[32];
+        snprintf(text, sizeof text, "%.4g", h);
+        options.timestep = strtod(text, NULL);
+    }
+    return options;
+}
+
 double player_time(const Player *player)
 {
     const Past *past = &player->past;
@@ -47,36 +68,9 @@ double player_time(const Player *player)
     return machine_time(&past->machine[pane]);
 }
 
-const Simulation *player_simulation(const Player *player)
+bool player_stands(const Player *player)
 {
-    return &player_machine(player)->simulation;
-}
-
-/* What the command line says; else one step a frame through time, and
- * iterations one at a time. */
-int player_first_speed(const Options *options)
-{
-    if (options->speed > 0)
-        return (int)lrint(
-            fmin(fmax(log2(options->speed), SPEED_LEAST), SPEED_MOST));
-    return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
-}
-
-void player_reset_speed(Player *player)
-{
-    player->measured = 0;
-    player->clock_mark = clock_now();
-    player->time_mark = player_time(player);
-}
-
-void player_note(Player *player, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(player->note, sizeof player->note, format, arguments);
-    va_end(arguments);
-    player->warning = false;
-    player->changed = true;
+    return player->mode >= MODE_PAUSE;
 }
 
 uint64_t player_hash(const Player *player)
@@ -87,37 +81,18 @@ uint64_t player_hash(const Player *player)
     return hash;
 }
 
-bool player_is_open(const Player *player)
-{
-    return player->help || player->column || player->blank ||
-           player->selected >= 0 ||
-           (player->view && view_is_full(player->view));
-}
-
-bool player_escape_ends(const Player *player)
-{
-    return player->leaving && !player_is_open(player);
-}
-
-void player_deselect(Player *player)
-{
-    player->selected = -1;
-    player->typing = false;
-    player->typed[0] = '\0';
-}
-
 bool player_ended(const Player *player)
 {
     const Options *options = &player->given[0];
     const Simulation *simulation = &player->past.machine[0].simulation;
-    bool unattended = !player->window || options->steps >= 0;
+    bool counted = options->steps >= 0;
     if (player->quit || *player->stop)
         return true;
     if (!script_is_over(&player->script) || player->past.works)
         return false;
-    return (options->steps >= 0 && player->past.step >= options->steps) ||
-           (unattended && simulation->done) ||
-           (!player->window && player->paused);
+    return (counted && player->past.step >= options->steps) ||
+           ((!player->window || counted) && simulation->done) ||
+           (!player->window && player_stands(player));
 }
 
 bool player_unconverged(const Player *player)
@@ -131,38 +106,15 @@ bool player_unconverged(const Player *player)
     return any;
 }
 
-/* ---- drawing ------------------------------------------------------------ */
+/* ---- drawing ------------------------------------------------------------- */
 
-/* For how many frames' time a film shows a frame. */
-static int frames_shown(const Player *player)
+void player_paint(Player *player, Paper *paper)
 {
-    return player->speed < 0 ? 1 << -player->speed : 1;
-}
-
-void player_know_step(Player *player)
-{
-    enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
-    Past *past = &player->past;
-    long work = 0;
-    for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        const Simulation *simulation = &machine->simulation;
-        if (machine->known || machine->failed || player->side[p].retried ||
-            !simulation->run[0].newton || !simulation_is_handled(simulation) ||
-            past_entry(past, p, past->step)->substeps == 0)
-            continue;
-        work += 2 * simulation->system.nodes * /* with the step before it */
-                (1 + past_entry(past, p, past->step)->outcome.updates);
-    }
-    if (!player->paused || !player->attended || past->works ||
-        past->step == 0 || work == 0 || work > LONG ||
-        (player->mouse.drag == DRAG_TIME && work > SOON))
-        return;
-    for (int p = 0; p < past_panes(past); p++)
-        player->side[p].retried = true;
-    past_aim(past, past->step, true);
-    player->then = THEN_NOTHING;
-    player_work(player);
+    player_fill(player);
+    if (player->blank)
+        canvas_clear(&paper->canvas, 0xff000000u);
+    else
+        show_draw(paper, &player->show);
 }
 
 Status player_draw(Player *player)
@@ -184,9 +136,10 @@ Status player_draw(Player *player)
     player_sample(player);
     player_paint(player, paper);
     Status status = view_show(player->view);
+    int shown = player->speed < 0 ? 1 << -player->speed : 1; /* in a film */
     if (!status && (fresh || filmed))
         status = recording_frame(&player->recording, &paper->canvas,
-                                 player->past.step, frames_shown(player));
+                                 player->past.step, shown);
     return status;
 }
 
@@ -197,15 +150,15 @@ static void show_progress(const Player *player)
     long steps = player->past.step, all = player->given[0].steps;
     if (player->given[0].quiet || all < 1 || !isatty(STDERR_FILENO))
         return;
-    int filled = (int)(BAR_LENGTH * ((double)steps / (double)all));
+    int filled = (int)(BAR_LENGTH * fmin((double)steps / (double)all, 1));
     memset(bar, '.', BAR_LENGTH);
-    memset(bar, '#', (size_t)(filled < BAR_LENGTH ? filled : BAR_LENGTH));
+    memset(bar, '#', (size_t)filled);
     fprintf(stderr, "\r[%s] %ld/%ld", bar, steps, all);
     if (player_ended(player))
         fprintf(stderr, "\r%*s\r", BAR_LENGTH + 44, "");
 }
 
-/* ---- the loop ----------------------------------------------------------- */
+/* ---- the loop ------------------------------------------------------------ */
 
 /* Keys, mouse, and what else the window says. */
 static Status obey_inputs(Player *player)
@@ -232,7 +185,7 @@ static Status obey_script(Player *player)
     while (!status && !player->quit) {
         bool done = player->past.machine[0].simulation.done;
         const Command *command = script_due(&player->script, player->past.step,
-                                            !player->paused && !done);
+                                            !player_stands(player) && !done);
         if (!command)
             break;
         status = player_obey(player, command);
@@ -255,25 +208,19 @@ static Status obey_script(Player *player)
  * is a frame. */
 static Status step_frame(Player *player)
 {
-    Past *past = &player->past;
+    const Past *past = &player->past;
     Status status = STATUS_OK;
     int count = player->window && player->speed > 0 ? 1 << player->speed : 1;
     double begin = count > 1 ? clock_now() : 0;
-    for (int i = 0; i < count && !status && (!player->paused || past->works);
-         i++) {
+    for (int i = 0; i < count && !status; i++) {
         if (i > 0 &&
             (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
             break;
-        if (!past->works) {
-            player->known = past->step < past_newest(past);
-            status = player_go_on(player, THEN_NOTHING);
-        } else {
-            status = player_work(player);
-        }
+        if (player_stands(player) && !past->works)
+            break;
+        status = past->works ? player_work(player) : player_step(player);
         if (past->works)
             break;
-        if (player->by_run && !player->known)
-            player_pause_if_due(player);
         if (!status)
             status = obey_script(player);
     }
@@ -284,12 +231,12 @@ static Status step_frame(Player *player)
 static void measure_speed(Player *player)
 {
     double now = clock_now(), time = player_time(player);
-    double passed = now - player->clock_mark;
+    double passed = now - player->mark[0];
     if (passed < MEASURE_TIME)
         return;
-    player->measured = (time - player->time_mark) / passed;
-    player->clock_mark = now;
-    player->time_mark = time;
+    player->measured = (time - player->mark[1]) / passed;
+    player->mark[0] = now;
+    player->mark[1] = time;
 }
 
 Status player_start(Player *player)
@@ -310,7 +257,8 @@ Status player_frame(Player *player)
     bool due = !player->window || now >= player->due - EARLY;
     bool first = player->sampled < 0 && player->view;
     bool works = player->past.works;
-    bool goes = !player->paused && due && !first && !player_ended(player);
+    bool goes =
+        !player_stands(player) && due && !first && !player_ended(player);
     if (!status && (works || goes)) {
         if (!works)
             player->due = fmax(player->due + period, now);
@@ -325,11 +273,12 @@ Status player_frame(Player *player)
 
 int player_wait(const Player *player)
 {
+    bool stands = player_stands(player);
     if (!player->window || player->past.works ||
-        (player->paused && !script_is_over(&player->script)))
+        (stands && !script_is_over(&player->script)))
         return 0;
     double wait = player->glide > 0 ? 1e3 / FRAME_RATE
-                  : player->paused  ? IDLE_WAIT
+                  : stands          ? IDLE_WAIT
                                     : 1e3 * (player->due - clock_now());
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
@@ -347,34 +296,17 @@ Status player_run(Player *player)
     return status;
 }
 
-/* ---- beginning and end -------------------------------------------------- */
-
-/* Of the window. */
-static void player_title(const Player *player, char *title, size_t size)
-{
-    snprintf(title, size, "elasto: %s (press ? for the keys)",
-             player->scene ? player->scene->name
-                           : player->given[0].scene->name);
-}
-
-void player_set_title(Player *player)
-{
-    char title[128];
-    player_title(player, title, sizeof title);
-    if (player->view)
-        view_set_title(player->view, title);
-}
+/* ---- beginning and end --------------------------------------------------- */
 
 /* A window; or if there is no screen, a surface for the frames. */
 static Status open_view(Player *player)
 {
     Options *options = &player->given[0];
-    char reason[256] = "", title[128], shown[256];
+    char reason[256] = "", shown[256];
+    const int size[] = {(int)options->size[0], (int)options->size[1]};
     Status status = STATUS_OK;
-    player_title(player, title, sizeof title);
     if (!options->headless) {
-        const int size[] = {(int)options->size[0], (int)options->size[1]};
-        status = view_create_window(title, size, options->fullscreen,
+        status = view_create_window("elasto", size, options->fullscreen,
                                     &player->view, reason, sizeof reason);
         if (status == STATUS_OUT_OF_MEMORY)
             return status;
@@ -386,14 +318,14 @@ static Status open_view(Player *player)
         if (!player->window)
             fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason,
                     shown, options->frames ? "/" : "");
+        player_set_title(player);
     }
     if (!player->window && options->steps < 0 && !options->script)
         options->steps = UNSEEN_STEPS;
     if (!player->window && (options->frames || options->film))
-        status = view_create_surface(
-            options->size[0] > 0 ? options->size[0] : FRAME_SIZE,
-            options->size[1] > 0 ? options->size[1] : FRAME_SIZE,
-            &player->view);
+        status = view_create_surface(size[0] > 0 ? size[0] : FRAME_SIZE,
+                                     size[1] > 0 ? size[1] : FRAME_SIZE,
+                                     &player->view);
     return player->view ? STATUS_OK : status;
 }
 
@@ -415,44 +347,40 @@ static Status read_script(Player *player)
     return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 
-bool player_explains(const Options *options)
-{
-    return options->page ? !options->page->plays : options->scene->explains;
-}
-
 Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player)
 {
-    *player = (Player){.given_count = count, .stop = stop};
+    const Command begin = {.kind = COMMAND_RESTART};
+    const Command pause = {.kind = COMMAND_PAUSE};
+    *player = (Player){.given_count = count,
+                       .stop = stop,
+                       .scene = options->scene,
+                       .left = options->page,
+                       .lens = LENS_FITS,
+                       .large = -1,
+                       .selected = -1};
     snprintf(player->line, sizeof player->line, "%s", line);
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     player->speed = player_first_speed(options);
-    player->lens = LENS_FITS;
-    player->large = player->selected = -1;
-    player_leave_rounds(player);
     Status status = read_script(player);
     if (!status)
         status = open_view(player);
     if (status)
         return status;
     player->attended = player->window || options->script || options->page;
-    player->paused =
-        options->paused || (player->window && !options->script &&
-                            options->steps < 0 && player_explains(options));
+    if (options->paused || (player->window && !options->script &&
+                            options->steps < 0 && player_explains(options)))
+        player->mode = MODE_PAUSE;
     status = recording_open(&player->given[0], count, &player->recording);
     past_create(player->attended || player->view,
                 player->attended && options->steps < 0, &player->past);
-    player->scene = player->given[0].scene;
     if (!status)
-        status = player_begin(player, player->given, count,
-                              &(Command){.kind = COMMAND_RESTART});
-    Command pause = {.kind = COMMAND_PAUSE}; /* scripts begin to run */
-    if (!status && player->paused)
+        status = player_begin(player, player->given, count, &begin);
+    if (!status && player_stands(player)) /* scripts begin to run */
         status = script_add(&player->journal, 0, &pause);
-    player->left = options->page;
     if (!status && options->page && player->window && !options->script)
-        status = lesson_prepare(player);
+        status = player_open_page(player);
     player->begun = !status;
     return status;
 }

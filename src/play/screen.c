@@ -1,11 +1,46 @@
-/* screen.c - what only the screen shows: speed, camera, cards, help. */
+/* screen.c - what only the screen shows: speed, camera, cards, lists; and what
+ * is kept of a session, where nothing is overwritten: pictures, films, the way
+ * to a state.
+ */
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
+#include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
+#include "scenes/scene.h"
+
+enum { WATCHED_SPEED = -5 }; /* of iterations that are watched one by one */
+
+int player_first_speed(const Options *options)
+{
+    if (options->speed > 0)
+        return (int)lrint(
+            fmin(fmax(log2(options->speed), SPEED_LEAST), SPEED_MOST));
+    return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
+}
+
+void player_reset_speed(Player *player)
+{
+    player->measured = 0;
+    player->mark[0] = clock_now();
+    player->mark[1] = player_time(player);
+}
+
+void player_set_title(Player *player)
+{
+    char title[128];
+    snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
+             player->scene->name);
+    if (player->view)
+        view_set_title(player->view, title);
+}
 
 /* Twice or half as fast. */
-static Status change_speed(Player *player, const Command *command)
+Status change_speed(Player *player, const Command *command)
 {
     int speed = player->speed + (command->kind == COMMAND_FASTER ? 1 : -1);
     if (speed >= SPEED_LEAST && speed <= SPEED_MOST)
@@ -15,17 +50,16 @@ static Status change_speed(Player *player, const Command *command)
 }
 
 /* What is on or off. */
-static Status switch_shown(Player *player, const Command *command)
+Status switch_shown(Player *player, const Command *command)
 {
     bool *shown = command->kind == COMMAND_COLOURS ? &player->strain
                   : command->kind == COMMAND_BARE  ? &player->bare
-                  : command->kind == COMMAND_KEYS  ? &player->help
                                                    : &player->blank;
     *shown = !*shown;
     return STATUS_OK;
 }
 
-static Status switch_full(Player *player, const Command *command)
+Status switch_full(Player *player, const Command *command)
 {
     (void)command;
     if (player->view)
@@ -33,59 +67,80 @@ static Status switch_full(Player *player, const Command *command)
     return STATUS_OK;
 }
 
+/* The list of keys or of pages, or a page's code, or the cards again. */
+Status switch_column(Player *player, const Command *command)
+{
+    Column column = command->kind == COMMAND_KEYS    ? COLUMN_KEYS
+                    : command->kind == COMMAND_PAGES ? COLUMN_PAGES
+                                                     : COLUMN_CODE;
+    if (column == COLUMN_CODE && !player_settings(player)->page)
+        return player_refuse(player, "only pages of the lecture have code: "
+                                     "Page Down opens them");
+    player->column = player->column == column ? COLUMN_CARDS : column;
+    return STATUS_OK;
+}
+
 /* What is open ends first; then, asked twice, the program. */
-static Status leave(Player *player, const Command *command)
+Status leave(Player *player, const Command *command)
 {
     (void)command;
-    if (player_escape_ends(player))
-        player->quit = true;
-    else if (player->help)
-        player->help = false;
+    bool asked = player->leaving;
+    player->leaving = false;
+    if (player->column == COLUMN_KEYS)
+        player->column = COLUMN_CARDS;
     else if (player->selected >= 0)
         player_deselect(player);
     else if (player->column)
-        player->column = LECTURE_CARDS;
+        player->column = COLUMN_CARDS;
     else if (player->blank)
         player->blank = false;
     else if (player->view && view_is_full(player->view))
         view_set_full(player->view, false);
+    else if (asked)
+        player->quit = true;
     else
+        player->leaving = true;
+    if (player->leaving)
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
 
-/* Zooms at a point in metres, or moves the picture by some of them. */
-static Status move_camera(Player *player, const Command *command)
+Status end_program(Player *player, const Command *command)
 {
-    const Paper *paper = player->view ? view_paper(player->view) : NULL;
-    if (!paper)
-        return STATUS_OK;
-    player_fill(player);
-    Layout layout =
-        show_layout(&player->show, paper->canvas.width, paper->canvas.height);
-    Camera camera = show_camera(&player->show, &layout, player->active);
-    double at[2] = {command->x, command->y}, pixel[2];
-    camera_pixel(&camera, at, pixel);
-    if (command->kind == COMMAND_ZOOM)
-        show_zoom(&player->show, &layout, pixel[0], pixel[1],
-                  fmin(fmax((double)command->number, 1), 1e6) / 100);
-    else
-        show_move(&player->show, &layout, player->active,
-                  camera.scale[0] * command->x, -camera.scale[1] * command->y);
-    player->lens = player->show.lens;
+    (void)command;
+    player->quit = true;
     return STATUS_OK;
 }
 
-static Status fit(Player *player, const Command *command)
+/* Zooms at a point in metres, moves the picture by some of them, or all fits
+ * again. */
+Status move_camera(Player *player, const Command *command)
 {
-    (void)command;
-    player->lens = LENS_FITS;
+    const Paper *paper = player->view ? view_paper(player->view) : NULL;
+    Show *show = &player->show;
+    if (command->kind == COMMAND_FIT)
+        player->lens = LENS_FITS;
+    if (command->kind == COMMAND_FIT || !paper)
+        return STATUS_OK;
+    player_fill(player);
+    Layout layout =
+        show_layout(show, paper->canvas.width, paper->canvas.height);
+    Camera camera = show_camera(show, &layout, player->active);
+    double at[2] = {command->x, command->y}, pixel[2];
+    camera_pixel(&camera, at, pixel);
+    if (command->kind == COMMAND_ZOOM)
+        show_zoom(show, &layout, pixel[0], pixel[1],
+                  fmin(fmax((double)command->number, 1), 1e6) / 100);
+    else
+        show_move(show, &layout, player->active, camera.scale[0] * command->x,
+                  -camera.scale[1] * command->y);
+    player->lens = show->lens;
     return STATUS_OK;
 }
 
 /* A card is closed or opened; one that is open is enlarged, or as the others.
  */
-static Status switch_card(Player *player, const Command *command)
+Status switch_card(Player *player, const Command *command)
 {
     int cards = picture_cards(picture_of(player_simulation(player)->scene));
     int card = (int)fmin((double)command->number, 1e6);
@@ -100,50 +155,110 @@ static Status switch_card(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* The list of pages, or a page's code, or the cards again. */
-static Status switch_column(Player *player, const Command *command)
+/* ---- what is kept -------------------------------------------------------- */
+
+/* elasto_SCENE_000012.png, or the first of ..._2.png, ... that is free. */
+static void free_name(const Player *player, const char *end, char *name,
+                      size_t size)
 {
-    LectureColumn column =
-        command->kind == COMMAND_PAGES ? LECTURE_PAGES : LECTURE_CODE;
-    if (column == LECTURE_CODE && !player_settings(player)->page)
-        return player_refuse(player, "only pages of the lecture have code: "
-                                     "Page Down opens them");
-    player->help = false;
-    player->column = player->column == column ? LECTURE_CARDS : column;
-    return STATUS_OK;
+    const char *scene = player_simulation(player)->scene->name;
+    snprintf(name, size, "elasto_%s_%06ld%s", scene, player->past.step, end);
+    for (int i = 2; access(name, F_OK) == 0 && i < 100000; i++)
+        snprintf(name, size, "elasto_%s_%06ld_%d%s", scene, player->past.step,
+                 i, end);
 }
 
-static Status redraw(Player *player, const Command *command)
+static const char *reason_of(Status status)
 {
-    (void)player; /* every command draws */
+    return status == STATUS_FILE_FAILED ? strerror(errno) : status_text(status);
+}
+
+/* The frame as it is, in the present folder. */
+Status save_picture(Player *player, const Command *command)
+{
     (void)command;
+    enum { WIDTH = 1280, HEIGHT = 800 };
+    char name[80];
+    Paper *paper = player->view ? view_paper(player->view) : NULL;
+    Paper own = {0};
+    Status status = STATUS_OK;
+    if (!paper) {
+        status = paper_create(WIDTH, HEIGHT, &own);
+        paper = &own;
+    }
+    free_name(player, ".png", name, sizeof name);
+    if (!status) {
+        player_know_step(player);
+        player_paint(player, paper);
+        status = png_file_write(name, &paper->canvas);
+    }
+    paper_free(&own);
+    if (status)
+        player_note(player, "not saved: %s", reason_of(status));
+    else
+        player_note(player, "saved %s", name);
     return STATUS_OK;
 }
 
-static Status end_program(Player *player, const Command *command)
+/* Begins a film of all that is drawn, or ends it. */
+Status switch_film(Player *player, const Command *command)
 {
     (void)command;
-    player->quit = true;
+    char name[80];
+    Recording *recording = &player->recording;
+    Status status;
+    bool ends = film_runs(&recording->film);
+    if (!player->view)
+        return player_refuse(player, "nothing is drawn that could be filmed");
+    if (ends) {
+        status = recording_end_film(recording);
+    } else {
+        free_name(player, ".mp4", name, sizeof name);
+        status = recording_film(recording, name);
+        player->sampled = -1; /* the present frame is the first */
+    }
+    if (status)
+        player_note(player, "no film: %s",
+                    recording->message[0] ? recording->message
+                                          : output_reason(recording->reason));
+    else if (ends)
+        player_note(player, "film ends: %ld frames, in %s",
+                    recording->film_frames, recording->film_name);
+    else
+        player_note(player, "filming %s", name);
+    recording->reason = 0;
+    recording->message[0] = '\0';
     return STATUS_OK;
 }
 
-const Deed screen_deeds[] = {
-    {COMMAND_FASTER, change_speed},
-    {COMMAND_SLOWER, change_speed},
-    {COMMAND_COLOURS, switch_shown},
-    {COMMAND_BARE, switch_shown},
-    {COMMAND_KEYS, switch_shown},
-    {COMMAND_BLANK, switch_shown},
-    {COMMAND_FULL, switch_full},
-    {COMMAND_ESCAPE, leave},
-    {COMMAND_ZOOM, move_camera},
-    {COMMAND_PAN, move_camera},
-    {COMMAND_FIT, fit},
-    {COMMAND_CARD, switch_card},
-    {COMMAND_ENLARGE, switch_card},
-    {COMMAND_PAGES, switch_column},
-    {COMMAND_CODE, switch_column},
-    {COMMAND_REDRAW, redraw},
-    {COMMAND_QUIT, end_program},
-    {COMMAND_NONE, NULL},
-};
+/* The hash of the state; where commands have led here they are written down as
+ * a script, which leads here again and stays. */
+Status tell_hash(Player *player, const Command *command)
+{
+    (void)command;
+    const Command pause = {.kind = COMMAND_PAUSE};
+    char name[80];
+    unsigned long long hash = player_hash(player);
+    Script *journal = &player->journal;
+    size_t count = journal->count;
+    long step = player->past.step;
+    Status status = STATUS_OK;
+    if (count == 0) {
+        player_note(player, "state %016llx: %.80s --steps %ld", hash,
+                    player->line, step);
+        return STATUS_OK;
+    }
+    free_name(player, ".script", name, sizeof name);
+    if (!player_stands(player))
+        status = script_add(journal, step, &pause);
+    if (!status)
+        status = script_write(name, journal);
+    journal->count = count;
+    if (status)
+        player_note(player, "state %016llx of %s, step %ld; no script: %s",
+                    hash, player->scene->name, step, reason_of(status));
+    else
+        player_note(player, "state %016llx at step %ld: %.60s --script %s",
+                    hash, step, player->line, name);
+    return STATUS_OK;
+}

@@ -1,6 +1,7 @@
-/* steps.c - steps of all panes, what is recorded of them, and going back. */
+/* steps.c - the work until a step is shown, what is recorded of it, and where
+ * the past begins or forks.
+ */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,13 +33,24 @@ static Status record_updates(Player *player, long step)
     return status;
 }
 
+/* Whether all panes have the records of the step that is shown: they have made
+ * it, and not found its state. */
+static bool has_records(const Past *past)
+{
+    bool all = true;
+    for (int p = 0; past->keeps && past->step > 0 && p < past_panes(past); p++)
+        all = all && (past->machine[p].known ||
+                      past_entry(past, p, past->step)->substeps == 0);
+    return all;
+}
+
 /* The step that is shown, if it is the next one that is not written yet. */
 static Status record_step(Player *player)
 {
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(&player->past);
     long step = player->past.step;
-    if (step != player->written + 1)
+    if (step != player->written + 1 || !has_records(&player->past))
         return STATUS_OK;
     player->written = step;
     for (int p = 0; p < panes; p++)
@@ -54,23 +66,28 @@ Status player_write_rest(Player *player)
     Past *past = &player->past;
     Status status = STATUS_OK;
     long shown = past->step;
-    if (!past->keeps || past->branches == 0 ||
-        (!player->recording.states.file && !player->recording.log.file))
-        return STATUS_OK;
-    while (player->written < past_newest(past) && !status && !*player->stop) {
-        if (past->works || past->step > player->written + 1)
-            past_aim(past, player->written > 0 ? player->written : 0, false);
-        else
-            past_aim(past, player->written + 1, false);
-        do
-            status = past_iterate(past);
-        while (status == STATUS_RUNNING);
-        if (!status || status_is_unconverged(status))
-            status = record_step(player);
+    bool failed = false;
+    for (int p = 0; p < past_panes(past); p++)
+        failed = failed || past->machine[p].failed;
+    if (failed && shown == player->written) /* its iterations are told */
+        status = record_updates(player, shown + 1);
+    if (past->keeps && past->branches > 0 &&
+        (player->recording.states.file || player->recording.log.file)) {
+        while (player->written < past_newest(past) && !status &&
+               !*player->stop) {
+            long from = player->written > 0 ? player->written : 0;
+            past_aim(past, past->step == player->written ? from + 1 : from,
+                     false);
+            do
+                status = past_iterate(past);
+            while (status == STATUS_RUNNING);
+            if (!status || status_is_unconverged(status))
+                status = record_step(player);
+        }
+        past_aim(past, shown, false);
+        while (past_iterate(past) == STATUS_RUNNING)
+            continue;
     }
-    past_aim(past, shown, false);
-    while (past_iterate(past) == STATUS_RUNNING)
-        ;
     return status;
 }
 
@@ -96,8 +113,10 @@ static void enter_scene(Player *player)
 void player_leave_step(Player *player)
 {
     player->changed = true;
-    player->rests = false;
-    player_leave_rounds(player);
+    if (player->mode == MODE_WALK)
+        player->mode = MODE_PAUSE;
+    if (player->mode > MODE_END)
+        player->mode = MODE_END;
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
         player->side[p].ghost = NULL;
@@ -110,22 +129,18 @@ Status player_begin(Player *player, const Options *options, int count,
 {
     Past *past = &player->past;
     bool again = past->branches > 0;
-    Status status =
-        past_begin(past, options, count, player_gesture(player), edit);
+    Status status = past_begin(past, options, count, player->gesture, edit);
     if (status && again) { /* what was there before is shown again */
-        snprintf(player->message, sizeof player->message, "%s",
-                 status_text(status));
         Status shown = player_work(player);
-        return shown ? shown : STATUS_INVALID_INPUT;
+        return shown ? shown : player_refuse(player, status_text(status));
     }
     if (status)
         return status;
     player_leave_step(player);
+    player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = player->written = -1;
-    player->halted = player->warned = player->drifts = player->holds = false;
-    player->active = 0;
-    for (int p = 0; p < count; p++)
-        player->side[p].rigid = player->side[p].idle = 0;
+    player->warned = player->holds = false;
+    player->active = player->still = player->rigid = 0;
     if (again)
         status = recording_restart(&player->recording, options);
     enter_scene(player);
@@ -136,7 +151,6 @@ Status player_begin(Player *player, const Options *options, int count,
 Status player_fork(Player *player, long step)
 {
     Past *past = &player->past;
-    const Options *start = &past_start(past, 0)->options;
     player->changed = true;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
@@ -144,7 +158,8 @@ Status player_fork(Player *player, long step)
     if (player->written <= step)
         return STATUS_OK;
     player->written = step;
-    return step < 0 ? recording_restart(&player->recording, start)
+    return step < 0 ? recording_restart(&player->recording,
+                                        &past_start(past, 0)->options)
                     : recording_cut(&player->recording, step);
 }
 
@@ -161,6 +176,31 @@ void player_sample(Player *player)
         if (past_ended(past, p) < 0)
             show_sample(&past->machine[p].simulation, &curves->history);
     }
+}
+
+void player_know_step(Player *player)
+{
+    enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
+    Past *past = &player->past;
+    long work = 0;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        const Simulation *simulation = &machine->simulation;
+        const Entry *entry = past_entry(past, p, past->step);
+        if (!machine->known && !machine->failed && !player->side[p].retried &&
+            simulation->run[0].newton && simulation_is_handled(simulation) &&
+            entry->substeps > 0) /* with the step before it */
+            work += 2 * simulation->system.nodes * (1 + entry->outcome.updates);
+    }
+    if (!player_stands(player) || !player->attended || past->works ||
+        past->step == 0 || work == 0 || work > LONG ||
+        (player->mouse.drag == DRAG_TIME && work > SOON))
+        return;
+    for (int p = 0; p < past_panes(past); p++)
+        player->side[p].retried = true;
+    past_aim(past, past->step, true);
+    player->then = THEN_NOTHING;
+    player_work(player);
 }
 
 /* A failure beyond all numbers: what is shown then is the last state that can
@@ -186,37 +226,29 @@ static void tell_ended(Player *player)
     for (int p = 0; p < past_panes(&player->past); p++) {
         Side *side = &player->side[p];
         long last = past_ended(&player->past, p);
-        bool over = last >= 0;
-        if (over && !side->over) {
+        if (last >= 0 && !side->over) {
             player_note(player,
                         "pane %d ended at step %ld, beyond all numbers: its "
                         "last state below ten times the size is shown",
                         p + 1, last);
             player->warning = true;
         }
-        side->over = over;
+        side->over = last >= 0;
     }
 }
 
 /* A failed step is shown, and somebody may go on from it. */
-static Status show_failure(Player *player, Status status)
+static Status show_failure(Player *player, Status status, Then then)
 {
-    Past *past = &player->past;
-    if (past->step == player->written) { /* its iterations are told */
-        Status recorded = record_updates(player, past->step + 1);
-        if (recorded)
-            return recorded;
-    }
     player->sampled = -1; /* draw the last frame again, and why it ends */
-    player->changed = true;
     if (!player->attended || player->given[0].steps >= 0 ||
         status == STATUS_OUT_OF_MEMORY)
         return status;
-    player->paused = true;
-    player->then = THEN_NOTHING;
-    if (!player->by_run || status != STATUS_NOT_FINITE)
-        return STATUS_OK;
-    return show_last_good(player);
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+    return then == THEN_JUDGE && status == STATUS_NOT_FINITE
+               ? show_last_good(player)
+               : STATUS_OK;
 }
 
 /* The work has come to its end. */
@@ -225,15 +257,15 @@ static Status step_shown(Player *player, Status status, long before)
     Past *past = &player->past;
     Then then = player->then;
     bool failed = status && !status_is_unconverged(status);
+    player->then = THEN_NOTHING;
     player->changed = true;
     if (past_panes(past) > 1)
         tell_ended(player);
     if (failed && (past_panes(past) == 1 || past->step == before))
-        return show_failure(player, status);
+        return show_failure(player, status, then);
     if (past->step != before && player->attended)
         player_sample(player);
     status = record_step(player);
-    player->then = THEN_NOTHING;
     return status ? status : player_wish(player, then);
 }
 
@@ -241,9 +273,8 @@ Status player_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
-    if (!player->under_way)
+    if (player->began == 0)
         player->began = begin;
-    player->under_way = true;
     while (past->works && !player->quit) {
         long before = past->step;
         Status status = past_iterate(past);
@@ -252,21 +283,22 @@ Status player_work(Player *player)
             if (status)
                 return status;
         }
-        if (*player->stop)
-            player->quit = true;
+        player->quit = player->quit || *player->stop;
         if (player->window && clock_now() - begin > SLICE)
             break;
     }
     player->changed = true;
-    player->under_way = past->works;
+    if (!past->works)
+        player->began = 0;
     return STATUS_OK;
 }
 
 Status player_show(Player *player, long step, bool again, Then then)
 {
     player_leave_step(player);
-    player->holds = player->drifts = player->by_run = false;
-    player->paused = true;
+    player->holds = false;
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
     if (!player->past.keeps)
         return STATUS_OK;
     long newest = past_newest(&player->past);
@@ -278,163 +310,33 @@ Status player_show(Player *player, long step, bool again, Then then)
 /* A node that was held when this step was shown, long ago. */
 static Status let_go(Player *player)
 {
-    Command release = {.kind = COMMAND_RELEASE};
+    const Command release = {.kind = COMMAND_RELEASE};
+    int panes = past_panes(&player->past);
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
-    player_next_gesture(player, COMMAND_NONE);
-    return player_change_all(player, &release); /* as a script does by itself */
+    player_next_gesture(player);
+    player->sampled = -1;
+    return player_change(player, &release, 0, panes, false);
 }
 
 Status player_go_on(Player *player, Then then)
 {
     Past *past = &player->past;
-    Status status = past->step < past_newest(past) ? STATUS_OK : let_go(player);
+    bool fresh = past->step >= past_newest(past);
+    Status status = record_step(player);
+    if (!status && fresh)
+        status = let_go(player); /* as a script does by itself */
     if (status)
         return status;
     player_leave_step(player);
-    player->by_run = !player->paused;
     past_aim(past, past->step + 1, false);
-    player->then = then;
+    player->then = then == THEN_NOTHING && fresh && !player_stands(player)
+                       ? THEN_JUDGE
+                       : then;
     return player_work(player);
 }
 
 Status player_step(Player *player)
 {
     return player_go_on(player, THEN_NOTHING);
-}
-
-/* ---- pauses -------------------------------------------------------------- */
-
-/* Whether nothing moved in this step: no update was made, and nothing is
- * held. */
-static bool is_idle(const Machine *machine)
-{
-    const Simulation *simulation = &machine->simulation;
-    const TimeIntegrator *run = &simulation->run[0];
-    if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
-        simulation->runs > 1 || machine->control->hand >= 0 ||
-        machine->outcome.updates > 0 || simulation->steps == 0)
-        return false;
-    for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        if (fabs(run->v[i]) > simulation->options.tolerance)
-            return false;
-    return true;
-}
-
-/* Whether nothing moves any more: in balance, or, so says the second of two
- * steps from the same place, because the tolerance lets the forces pass. */
-static bool is_at_rest(const Machine *machine, Side *side, bool *balances)
-{
-    side->idle = is_idle(machine) ? side->idle + 1 : 0;
-    if (side->idle == 0)
-        return false;
-    bool rests = simulation_rests(&machine->simulation);
-    *balances = *balances && rests;
-    return rests || side->idle > 1;
-}
-
-/* Whether it moves on for ever as it is: nothing acts on it, and nothing has
- * deformed for some steps, so that this is no turning point. */
-static bool drifts(const Machine *machine, Side *side)
-{
-    enum { STEPS = 8 };
-    const Simulation *simulation = &machine->simulation;
-    double centre, turn;
-    const unsigned body = NEEDS_MESH | NEEDS_TIME;
-    if ((simulation->scene->needs & body) != body ||
-        !simulation_is_handled(simulation) || simulation->runs > 1 ||
-        machine->control->hand >= 0 || !simulation_is_free(simulation) ||
-        !(simulation_deforming(simulation, &centre, &turn) <=
-          simulation->options.tolerance))
-        side->rigid = 0;
-    else
-        side->rigid++;
-    return side->rigid >= STEPS;
-}
-
-/* Says so once. */
-static void tell_drift(Player *player, bool drifting)
-{
-    double centre, turn;
-    const Simulation *simulation = player_simulation(player);
-    if (drifting && !player->drifts) {
-        simulation_deforming(simulation, &centre, &turn);
-        bool turns =
-            fabs(turn) * simulation->mesh.side > simulation->options.tolerance;
-        player_note(player,
-                    "nothing deforms any more: free as it is, it drifts on at "
-                    "%.2g m/s%s; pull a node, pin one, or R begins again",
-                    centre, turns ? " and turns" : "");
-    }
-    player->drifts = drifting;
-}
-
-/* What stands still although forces are left, or may be. */
-static void tell_tolerance(Player *player)
-{
-    const Simulation *simulation = player_simulation(player);
-    double tolerance = simulation->options.tolerance, needed;
-    double h = simulation->options.timestep;
-    if (simulation_is_loose(simulation, &needed))
-        player_note(
-            player,
-            "within the tolerance, perhaps not at rest: bodies may hang "
-            "or freeze unless \u03b5 is at most %.3g m/s",
-            needed);
-    else
-        player_note(player,
-                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
-                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
-                    tolerance, tolerance * h, h);
-}
-
-/* Says so, and why cells may stay folded. */
-static void tell_rest(Player *player)
-{
-    int folded = 0;
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        Pane pane = {.simulation = &player->past.machine[p].simulation};
-        folded += pane_folded(&pane);
-    }
-    player_note(player,
-                folded ? "at rest, with folded cells: springs alone do "
-                         "not mind, --cells on forbids it; pull a node, or "
-                         "R begins again"
-                       : "at rest: nothing moves any more; pull a node, "
-                         "change a number, or R begins again");
-}
-
-void player_pause_if_due(Player *player)
-{
-    bool ended = true, rests = true, trouble = false, drifting = true;
-    bool balances = true;
-    int going = 0, panes = past_panes(&player->past);
-    if (player->given[0].steps >= 0 || !player->attended)
-        return;
-    for (int p = 0; p < panes; p++) {
-        const Machine *machine = &player->past.machine[p];
-        Side *side = &player->side[p];
-        if (past_ended(&player->past, p) >= 0)
-            continue;
-        going++;
-        ended = ended && (machine->simulation.done || machine->failed);
-        rests = is_at_rest(machine, side, &balances) && rests;
-        drifting = drifts(machine, side) && drifting;
-        trouble = trouble || machine->outcome.status;
-    }
-    rests = rests && going > 0;
-    if (rests && !player->rests && balances)
-        tell_rest(player);
-    else if (rests && !player->rests)
-        tell_tolerance(player);
-    tell_drift(player, drifting && !rests && going > 0);
-    player->rests = rests;
-    player->balances = balances;
-    player->halted = !player->paused && (ended || rests);
-    player->paused = player->paused || player->halted;
-    if (trouble && !player->warned && panes == 1) {
-        player->warned = true;
-        player->halted = player->halted || !player->paused;
-        player->paused = true;
-    }
 }

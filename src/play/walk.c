@@ -4,7 +4,6 @@
  * a second.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,17 +18,16 @@ static const Machine *machine_of(const Player *player, int pane)
     return &player->past.machine[pane];
 }
 
+int player_place(const Player *player, int pane)
+{
+    return player->mode == MODE_WALK ? player->side[pane].place : -1;
+}
+
 /* Whether there is more to walk through than the start and the end. */
-static bool walks(const Player *player, int pane)
+static bool has_lines(const Player *player, int pane)
 {
     const Machine *machine = machine_of(player, pane);
     return machine->known && machine->rounds.places > 2;
-}
-
-void player_leave_rounds(Player *player)
-{
-    for (int p = 0; p < OPTIONS_MAX_PANES; p++)
-        player->side[p].place = -1;
 }
 
 /* ---- gliding ------------------------------------------------------------- */
@@ -41,7 +39,7 @@ static const double *shown(const Player *player, int pane)
     Trace trace;
     const double *x = NULL;
     if (machine->known)
-        x = rounds_trace(&machine->rounds, player->side[pane].place, &trace);
+        x = rounds_trace(&machine->rounds, player_place(player, pane), &trace);
     return x ? x : machine->simulation.run[0].x;
 }
 
@@ -67,13 +65,10 @@ static void glide_begin(Player *player)
 double glide_rest(Player *player)
 {
     double part = (clock_now() - player->glide) / GLIDE_TIME;
-    if (player->glide == 0)
-        return 0;
-    if (!(part < 1)) {
-        player->glide = 0;
-        return 0;
-    }
-    return 1 - part * part * (3 - 2 * part);
+    if (player->glide > 0 && part < 1)
+        return 1 - part * part * (3 - 2 * part);
+    player->glide = 0;
+    return 0;
 }
 
 const double *glide_between(Player *player, int pane, double rest)
@@ -88,14 +83,37 @@ const double *glide_between(Player *player, int pane, double rest)
 
 /* ---- lines --------------------------------------------------------------- */
 
-/* All panes that can be walked through, at their first or at their last
- * place. */
-static void enter_rounds(Player *player, bool at_end)
+void player_stand_at(Player *player, int pane, int place)
 {
-    for (int p = 0; p < past_panes(&player->past); p++)
-        if (walks(player, p))
-            player->side[p].place =
-                at_end ? machine_of(player, p)->rounds.places - 1 : 0;
+    for (int p = 0; p < OPTIONS_MAX_PANES; p++)
+        player->side[p].place = player_place(player, p);
+    player->mode = MODE_WALK;
+    player->side[pane].place = place;
+}
+
+/* Into the step that is shown, where any pane has lines: to the first of them,
+ * to the last, or to where E rose beyond all proportion. */
+static void enter_rounds(Player *player, Then then)
+{
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        const Machine *machine = machine_of(player, p);
+        const Rounds *rounds = &machine->rounds;
+        double rise;
+        int place = !has_lines(player, p) ? -1
+                    : then == THEN_ENTER  ? 0
+                    : then == THEN_LEAVE  ? rounds->places - 1
+                                          : rounds_peak(rounds, &rise);
+        if (place >= 0)
+            player_stand_at(player, p, place);
+        if (place < 0 || then != THEN_PEAK)
+            continue;
+        player_note(player,
+                    "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
+                    "are %.4g m away; N goes on",
+                    rounds->place[place].round + 1, rounds->count, rise,
+                    fmax(machine->outcome.extent, rounds_extent(rounds)));
+        player->warning = true;
+    }
 }
 
 /* A pace on (1) or back (-1) in all panes; false: each was at its end. */
@@ -105,7 +123,7 @@ static bool walk(Player *player, int way)
     glide_begin(player);
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Rounds *rounds = &machine_of(player, p)->rounds;
-        int last = rounds->places - 1, place = player->side[p].place;
+        int last = rounds->places - 1, place = player_place(player, p);
         if (place < 0)
             continue;
         int next = rounds_walk(rounds, player->fine, place, way);
@@ -115,69 +133,54 @@ static bool walk(Player *player, int way)
     return moved;
 }
 
-/* Where E has risen beyond all proportion within a step that was taken by
- * itself, that is what is shown. */
-static void show_peaks(Player *player)
-{
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        const Machine *machine = machine_of(player, p);
-        double rise;
-        int peak = walks(player, p) ? rounds_peak(&machine->rounds, &rise) : -1;
-        if (peak < 0)
-            continue;
-        player->side[p].place = peak;
-        player_note(
-            player,
-            "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
-            "are %.4g m away; N goes on",
-            machine->rounds.place[peak].round + 1, machine->rounds.count, rise,
-            fmax(machine->outcome.extent, rounds_extent(&machine->rounds)));
-        player->warning = true;
-    }
-}
-
 Status player_wish(Player *player, Then then)
 {
     char note[sizeof player->note];
-    if (then == THEN_ENTER || then == THEN_LEAVE)
-        enter_rounds(player, then == THEN_LEAVE);
-    if (then != THEN_PEAK && then != THEN_TELL)
-        return STATUS_OK;
-    Status status = then == THEN_TELL ? player_tell_retake(player) : STATUS_OK;
+    Status status = STATUS_OK;
+    if (then == THEN_JUDGE)
+        player_judge(player);
+    if (then == THEN_ENTER || then == THEN_LEAVE || then == THEN_PEAK)
+        enter_rounds(player, then);
+    if (then != THEN_TELL)
+        return status;
+    status = player_tell_retake(player);
     memcpy(note, player->note, sizeof note);
-    if (then == THEN_PEAK || past_panes(&player->past) > 1)
-        show_peaks(player);
-    if (then == THEN_TELL)
-        memcpy(player->note, note, sizeof note);
+    if (past_panes(&player->past) > 1 && player_stands(player))
+        enter_rounds(player, THEN_PEAK);
+    memcpy(player->note, note, sizeof note);
     return status;
 }
 
 /* ---- commands ------------------------------------------------------------ */
 
-static Status set_paused(Player *player, const Command *command)
+Status play_or_pause(Player *player, const Command *command)
 {
-    bool paused = command->kind == COMMAND_PAUSE;
-    player->paused = paused;
-    player->halted = false;
-    player->rests = player->rests && paused;
-    if (!paused)
-        player_leave_rounds(player);
-    player_reset_speed(player);
+    player->mode = command->kind == COMMAND_PLAY ? MODE_RUN
+                   : player->mode == MODE_WALK   ? MODE_WALK
+                                                 : MODE_PAUSE;
+    player->changed = true;
+    if (player->mode == MODE_RUN)
+        player_reset_speed(player);
     return STATUS_OK;
 }
 
-/* One on: a step, an update or a line. */
-static Status go_on(Player *player, const Command *command)
+/* Stops, for somebody has asked for it; a walk goes on. */
+static void stop(Player *player)
+{
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+}
+
+Status one_on(Player *player, const Command *command)
 {
     (void)command;
     const Past *past = &player->past;
-    bool peaked = player->fine == 0 && player->side[player->active].place >= 0;
     Then then = player->fine > 0 ? THEN_ENTER : THEN_PEAK;
-    player->paused = true;
+    stop(player);
     if (player->fine > 0 && walk(player, 1))
         return STATUS_OK;
-    if (peaked) { /* from the height of an explosion to its end */
-        player_leave_rounds(player);
+    if (player->fine == 0 && player_place(player, player->active) >= 0) {
+        player->mode = MODE_PAUSE; /* from an explosion's height to its end */
         return STATUS_OK;
     }
     if (past->step < past_newest(past) && player->fine > 0)
@@ -188,38 +191,42 @@ static Status go_on(Player *player, const Command *command)
 /* Whether the steps of any pane are made of updates that are shown. */
 static bool has_updates(const Player *player)
 {
+    bool any = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Simulation *simulation = &machine_of(player, p)->simulation;
-        if ((simulation->scene->needs & NEEDS_TIME) &&
-            simulation->run[0].newton)
-            return true;
+        any = any || ((simulation->scene->needs & NEEDS_TIME) &&
+                      simulation->run[0].newton);
     }
-    return false;
+    return any;
 }
 
-/* One back, the same; from the first line of a step to the end of the one
- * before. */
-static Status go_back(Player *player, const Command *command)
+/* From the first line of a step to the end of the one before. */
+Status one_back(Player *player, const Command *command)
 {
     (void)command;
     long step = player->past.step;
-    bool inside = player->side[player->active].place >= 0;
-    player->paused = true;
+    stop(player);
     if (player->fine == 0 || !has_updates(player))
         return player_show(player, step - 1, false, THEN_NOTHING);
-    if (!inside && step > 0) {
+    if (player_place(player, player->active) < 0 && step > 0) {
         if (!player_machine(player)->known)
             return player_show(player, step, true, THEN_LEAVE);
-        enter_rounds(player, true);
-        inside = player->side[player->active].place >= 0;
+        enter_rounds(player, THEN_LEAVE);
     }
-    if (inside && walk(player, -1))
+    if (player_place(player, player->active) >= 0 && walk(player, -1))
         return STATUS_OK;
     return player_show(player, step - 1, true, THEN_LEAVE);
 }
 
+Status new_step(Player *player, const Command *command)
+{
+    (void)command;
+    stop(player);
+    return player_step(player);
+}
+
 /* Steps, updates, lines, and steps again. */
-static Status go_finer(Player *player, const Command *command)
+Status go_finer(Player *player, const Command *command)
 {
     (void)command;
     static const char *const text[] = {
@@ -233,15 +240,14 @@ static Status go_finer(Player *player, const Command *command)
                                          : "no step here has updates of "
                                            "Newton's method");
     player->fine = (player->fine + 1) % 3;
-    if (player->fine == 0)
-        player_leave_rounds(player);
-    player->paused = true;
+    if (player->fine == 0 || !player_stands(player))
+        player->mode = MODE_PAUSE;
     player_note(player, "%s", text[player->fine]);
     return STATUS_OK;
 }
 
 /* Step 0, the newest one, or the one with this number. */
-static Status go_to(Player *player, const Command *command)
+Status go_to(Player *player, const Command *command)
 {
     long step = command->kind == COMMAND_HOME  ? 0
                 : command->kind == COMMAND_END ? past_newest(&player->past)
@@ -249,15 +255,8 @@ static Status go_to(Player *player, const Command *command)
     return player_show(player, step, false, THEN_NOTHING);
 }
 
-static Status make_step(Player *player, const Command *command)
-{
-    (void)command;
-    player->paused = true;
-    return player_step(player);
-}
-
 /* What was done last, or undone: "set stretch 1.2". */
-static Status undo(Player *player, const Command *command)
+Status undo(Player *player, const Command *command)
 {
     Past *past = &player->past;
     char line[2 * COMMAND_TEXT_SIZE];
@@ -267,26 +266,15 @@ static Status undo(Player *player, const Command *command)
     if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
-    player->paused = true;
-    player->halted = player->holds = player->drifts = false;
     Command edit = *made;
     edit.joins = false;
     command_format(&edit, line, sizeof line);
-    Status status = player_fork(player, fork);
-    player->by_run = false;
+    player->mode = MODE_PAUSE;
+    player->holds = false;
+    player->still = player->rigid = 0;
     player->then = THEN_NOTHING;
-    for (int p = 0; p < past_panes(past); p++)
-        player->side[p].rigid = player->side[p].idle = 0;
+    Status status = player_fork(player, fork);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return status ? status : player_work(player);
 }
-
-const Deed walk_deeds[] = {
-    {COMMAND_PLAY, set_paused}, {COMMAND_PAUSE, set_paused},
-    {COMMAND_NEXT, go_on},      {COMMAND_BACK, go_back},
-    {COMMAND_STEP, make_step},  {COMMAND_FINER, go_finer},
-    {COMMAND_HOME, go_to},      {COMMAND_END, go_to},
-    {COMMAND_GOTO, go_to},      {COMMAND_UNDO, undo},
-    {COMMAND_REDO, undo},       {COMMAND_NONE, NULL},
-};

@@ -503,7 +503,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     char whole[160];
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
     begin(whole);
-    player.paused = false;
+    player.mode = MODE_RUN;
     player_sample(&player);
     while (player.past.step < step) {
         Status status = player_step(&player);

@@ -128,7 +128,7 @@ static const Setting *number_shown(const char *name, int *place)
     return NULL;
 }
 
-static void go_to(const char *place)
+static void point_at(const char *place)
 {
     double x, y;
     int i = 0;
@@ -155,7 +155,7 @@ static void go_to(const char *place)
 static void use_mouse(const char *verb, const char *place)
 {
     bool twice = strcmp(verb, "double") == 0;
-    go_to(place);
+    point_at(place);
     if (strcmp(verb, "move") == 0)
         put((Input){.kind = INPUT_MOVE});
     else if (strcmp(verb, "wheel") == 0)
@@ -691,7 +691,7 @@ static void random_keys_stay_in_their_field(void **unused)
         refused += enter && !set;
         press_key("Escape");
         CHECK(player.selected < 0 && past_panes(&player.past) == 1 &&
-              player.paused);
+              player_stands(&player));
         if (set && player.past.step == 2) /* else it begins again with it */
             CHECK(all_but(place) == rest);
         if (!set)

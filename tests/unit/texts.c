@@ -344,7 +344,6 @@ int main(void)
         } else if (strncmp(line, "run ", 4) == 0) {
             for (long left = atol(words); left > 0; left--) {
                 Status status = player_step(&player);
-                player_pause_if_due(&player);
                 put_state(true);
                 left = status ? 0 : left; /* beyond all numbers, or its end */
             }

@@ -1,4 +1,4 @@
-/* showing.c - what the player knows, as the Show that the pictures read. */
+/* fill.c - what the player knows, as the Show that the pictures read. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,57 +11,56 @@
 
 static const double LONG_WORK = 0.3; /* s; then it is shown */
 
-/* The list of keys, filled from the tables of commands and of scenes. */
-enum { DIGITS = 9, SCENES_IN_ROW = 3, SCENE_ROWS = DIGITS / SCENES_IN_ROW };
+/* ---- the list of keys ---------------------------------------------------- */
 
-static HelpRow help_rows[COMMAND_KINDS + 8 + SCENE_ROWS];
-static char help_keys[COMMAND_KINDS][32];
-static char help_digits[SCENE_ROWS][8], help_scenes[SCENE_ROWS][64];
+enum { KEY_TEXT = 32, SCENES_TEXT = 64, SCENES_IN_ROW = 3, DIGITS = 9 };
 
-/* "N|Right" as people read it, behind what the text has: "N, →". */
-static void pretty_keys(const char *keys, char *text, size_t size)
+/* As people read it: "Right" is an arrow. */
+static void pretty_key(char key[KEY_TEXT])
 {
     static const char *const names[][2] = {
         {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
         {"Down", "\u2193"},          {"Escape", "Esc"},    {"-", "\u2212"},
         {"Backspace", "Back\u232b"}, {"PageDown", "PgDn"}, {"PageUp", "PgUp"},
     };
-    size_t used = strlen(text);
-    while (*keys) {
-        size_t length = strcspn(keys, "|");
-        char key[32];
-        snprintf(key, sizeof key, "%.*s", (int)length, keys);
-        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-            if (strcmp(key, names[i][0]) == 0)
-                snprintf(key, sizeof key, "%s", names[i][1]);
-        int more =
-            snprintf(text + used, size - used, "%s%s", used ? ", " : "", key);
-        used += more > 0 ? (size_t)more : 0;
-        if (used >= size)
-            return;
-        keys += length + (keys[length] == '|');
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(key, names[i][0]) == 0)
+            snprintf(key, KEY_TEXT, "%s", names[i][1]);
+}
+
+/* All of "A|B", behind what the text has: "A, B". */
+static void add_keys(const char *keys, char text[KEY_TEXT])
+{
+    for (; *keys; keys += *keys == '|') {
+        int length = (int)strcspn(keys, "|");
+        size_t used = strlen(text);
+        char key[KEY_TEXT];
+        snprintf(key, sizeof key, "%.*s", length, keys);
+        pretty_key(key);
+        snprintf(text + used, KEY_TEXT - used, "%s%s", used ? ", " : "", key);
+        keys += length;
     }
 }
 
 /* "1 2 3", "square, circle, overshoot": the scenes that have a digit.  Returns
- * how many rows there are now. */
-static int fill_scenes(int count)
+ * the next row. */
+static HelpRow *fill_scenes(HelpRow *row)
 {
-    for (int i = 0, used = 0; i < DIGITS && scenes[i].name; i++) {
-        int row = i / SCENES_IN_ROW, k = i % SCENES_IN_ROW;
-        char *digits = help_digits[row], *names = help_scenes[row];
-        if (k == 0) {
-            used = 0;
-            help_rows[count++] = (HelpRow){digits, names};
+    static char digits[DIGITS][KEY_TEXT], names[DIGITS][SCENES_TEXT];
+    for (int i = 0, r = 0; i < DIGITS && scenes[i].name; r++) {
+        digits[r][0] = names[r][0] = '\0';
+        for (int k = 0; k < SCENES_IN_ROW && scenes[i].name; k++, i++) {
+            size_t used = strlen(digits[r]), long_used = strlen(names[r]);
+            snprintf(digits[r] + used, KEY_TEXT - used, "%s%d", k ? " " : "",
+                     i + 1);
+            snprintf(names[r] + long_used, SCENES_TEXT - long_used, "%s%s",
+                     k ? ", " : "", scenes[i].name);
         }
-        snprintf(digits + (k ? 2 * k - 1 : 0), 3, "%s%d", k ? " " : "", i + 1);
-        used += snprintf(names + used, sizeof help_scenes[row] - (size_t)used,
-                         "%s%s", used > 0 ? ", " : "", scenes[i].name);
+        *row++ = (HelpRow){digits[r], names[r]};
     }
-    return count;
+    return row;
 }
 
-/* The page of help. */
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
@@ -73,44 +72,31 @@ static void fill_help(Show *show)
         {"double click", "fits it; on a number: default"},
         {"digits", "open a lit number; Enter, Esc"},
     };
-    char *keys = help_keys[0];
-    int count = 0;
-    for (size_t i = 0; i < sizeof mouse / sizeof *mouse; i++)
-        help_rows[count++] = mouse[i];
-    for (int kind = 0; kind < COMMAND_KINDS; kind++) {
+    enum { MOUSE = sizeof mouse / sizeof *mouse };
+    static HelpRow rows[COMMAND_KINDS + MOUSE + DIGITS];
+    static char keys[COMMAND_KINDS][KEY_TEXT];
+    HelpRow *next = rows + MOUSE;
+    char *text = keys[0];
+    memcpy(rows, mouse, sizeof mouse);
+    for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = command_row((CommandKind)kind);
         if (kind == COMMAND_SCENE)
-            count = fill_scenes(count);
-        if (!row->label || !row->keys)
+            next = fill_scenes(next);
+        if (!row->label)
             continue;
         if (row->label[0]) {
-            keys = help_keys[kind];
-            keys[0] = '\0';
-            help_rows[count++] = (HelpRow){keys, row->label};
+            text = keys[kind];
+            text[0] = '\0';
+            *next++ = (HelpRow){text, row->label};
         }
-        pretty_keys(row->keys, keys, sizeof help_keys[kind]);
+        add_keys(row->keys, text);
     }
     show->page.kind = PAGE_HELP;
-    show->help = help_rows;
-    show->help_rows = count;
+    show->help = rows;
+    show->help_rows = (int)(next - rows);
 }
 
-bool player_compares(const Player *player, const char *option)
-{
-    const OptionRow *row = option_find(option);
-    char first[COMMAND_TEXT_SIZE], other[COMMAND_TEXT_SIZE];
-    if (!row || !row->label)
-        return false;
-    option_value(row, &past_control(&player->past, 0)->options, first,
-                 sizeof first);
-    for (int i = 1; i < past_panes(&player->past); i++) {
-        option_value(row, &past_control(&player->past, i)->options, other,
-                     sizeof other);
-        if (strcmp(first, other) != 0)
-            return true;
-    }
-    return false;
-}
+/* ---- the row of numbers -------------------------------------------------- */
 
 /* A value as it is shown. */
 static void value_text(const OptionRow *row, const Options *options,
@@ -204,14 +190,25 @@ static void explain_number(const Player *player, Show *show)
                  options->timestep * options->tolerance);
 }
 
-static void add_chip(Player *player, CommandKind kind, const char *key,
-                     const char *label, bool lit)
+/* The chip of a command: its first key, and what that does now: word number
+ * `word` of those of its row. */
+static void add_chip(Player *player, CommandKind kind, int word, bool lit)
 {
+    static char keys[LAYOUT_CHIPS][KEY_TEXT], labels[LAYOUT_CHIPS][KEY_TEXT];
     Show *show = &player->show;
-    if (show->chips >= LAYOUT_CHIPS)
+    int i = show->chips;
+    const CommandRow *row = command_row(kind);
+    const char *label = row->chip;
+    if (i >= LAYOUT_CHIPS)
         return;
-    player->chip[show->chips] = kind;
-    show->chip[show->chips++] = (Chip){key, label, lit};
+    for (; word > 0; word--)
+        label = strchr(label, '|') + 1;
+    snprintf(labels[i], KEY_TEXT, "%.*s", (int)strcspn(label, "|"), label);
+    snprintf(keys[i], KEY_TEXT, "%.*s", (int)strcspn(row->keys, "|"),
+             row->keys);
+    pretty_key(keys[i]);
+    player->chip[i] = kind;
+    show->chip[show->chips++] = (Chip){keys[i], labels[i], lit};
 }
 
 /* The keys that matter now. */
@@ -219,44 +216,32 @@ static void fill_chips(Player *player)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
-    static const char *const next[] = {"next step", "next update", "next line"};
-    static const char *const finer[] = {"updates", "lines", "steps"};
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool newton = simulation->run[0].newton && time;
-    bool ended = simulation->done || player->rests;
-    add_chip(player, COMMAND_TOGGLE_PAUSE, "Space",
-             player->paused ? "play" : "pause", player->paused && !ended);
-    add_chip(player, COMMAND_NEXT, "N",
-             newton ? next[player->fine]
-             : time ? "next step"
-                    : "next",
-             false);
-    add_chip(player, COMMAND_BACK, "\u2190", "back", false);
+    bool ended = simulation->done || player->mode > MODE_END;
+    bool stands = player_stands(player);
+    add_chip(player, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
+    add_chip(player, COMMAND_NEXT, newton ? player->fine : time ? 0 : 3, false);
+    add_chip(player, COMMAND_BACK, 0, false);
     if (options->page) {
-        add_chip(player, COMMAND_PAGE_ON, "PgDn", "next page",
-                 ended && options->page[1].name);
-        add_chip(player, COMMAND_CODE, "K", "code",
-                 player->column == LECTURE_CODE);
-        add_chip(player, COMMAND_PAGES, "G", "pages",
-                 player->column == LECTURE_PAGES);
+        add_chip(player, COMMAND_PAGE_ON, 0, ended && options->page[1].name);
+        add_chip(player, COMMAND_CODE, 0, player->column == COLUMN_CODE);
+        add_chip(player, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
     }
-    add_chip(player, COMMAND_RESTART, "R", "restart", ended);
+    add_chip(player, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(player, COMMAND_FINER, "I", finer[player->fine], false);
+        add_chip(player, COMMAND_FINER, player->fine, false);
     if (simulation_has_filter(simulation))
-        add_chip(player, COMMAND_FILTER, "P",
-                 options->filter == FILTER_NONE ? "projection on"
-                                                : "projection off",
-                 false);
+        add_chip(player, COMMAND_FILTER, options->filter == FILTER_NONE, false);
     if (simulation_has_line_search(simulation))
-        add_chip(player, COMMAND_SEARCH, "L",
-                 options->line_search == LINE_SEARCH_NONE ? "line search on"
-                                                          : "line search off",
-                 false);
+        add_chip(player, COMMAND_SEARCH,
+                 options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
-        add_chip(player, COMMAND_METHOD, "M", "method", false);
-    add_chip(player, COMMAND_KEYS, "?", "all keys", player->help);
+        add_chip(player, COMMAND_METHOD, 0, false);
+    add_chip(player, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
 }
+
+/* ---- the picture --------------------------------------------------------- */
 
 /* One picture on the stage. */
 static void fill_pane(Player *player, int p, double rest, Trace *trace)
@@ -279,7 +264,8 @@ static void fill_pane(Player *player, int p, double rest, Trace *trace)
     bool newton =
         simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
     if (machine->known && newton) {
-        pane->x = rounds_trace(&machine->rounds, side->place, trace);
+        pane->x =
+            rounds_trace(&machine->rounds, player_place(player, p), trace);
         pane->trace = trace;
         trace->rest = rest;
     }
@@ -292,7 +278,7 @@ static void fill_hand(Player *player)
 {
     const Control *control = past_control(&player->past, player->active);
     Hand *hand = &player->show.hand;
-    if (control->hand < 0 || player->side[player->active].place >= 0)
+    if (control->hand < 0 || player_place(player, player->active) >= 0)
         return;
     *hand = (Hand){.on = true,
                    .pane = player->active,
@@ -338,7 +324,7 @@ void player_label_panes(Player *player)
         label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
             char value[SHOW_VALUE];
-            if (!player_compares(player, row->name) || used >= size)
+            if (!player_compares(player, row) || used >= size)
                 continue;
             value_text(row, options, &past->machine[p].simulation, value,
                        sizeof value);
@@ -370,7 +356,7 @@ static void fill_time(Player *player)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
                              "   t = %.4g s", player_time(player));
-    if (player->paused)
+    if (player_stands(player))
         return;
     double speed = player->measured > 0 && player->measured < 0.85 * wanted
                        ? player->measured
@@ -382,6 +368,11 @@ static void fill_time(Player *player)
 void player_fill(Player *player)
 {
     static Trace traces[OPTIONS_MAX_PANES];
+    static const char *const state[] = {
+        [MODE_RUN] = "",        [MODE_DRIFT] = "drifting",
+        [MODE_PAUSE] = "",      [MODE_WALK] = "",
+        [MODE_END] = "",        [MODE_HELD] = "within \u03b5",
+        [MODE_REST] = "at rest"};
     Show *show = &player->show;
     Pick hover = show->hover;
     Hit over = show->over;
@@ -394,15 +385,11 @@ void player_fill(Player *player)
         fill_pane(player, i, rest, &traces[i]);
     show->hover = hover;
     show->over = over;
-    show->paused = player->paused;
+    show->paused = player_stands(player);
+    snprintf(show->state, SHOW_VALUE, "%s", state[player->mode]);
     if (player->past.making && clock_now() - player->began > LONG_WORK)
         snprintf(show->state, SHOW_VALUE, "computing, update %d",
                  player_machine(player)->outcome.updates);
-    else if (player->rests)
-        snprintf(show->state, SHOW_VALUE, "%s",
-                 player->balances ? "at rest" : "within \u03b5");
-    else if (player->drifts && !player->paused)
-        snprintf(show->state, SHOW_VALUE, "drifting");
     fill_settings(player);
     fill_chips(player);
     fill_hand(player);
@@ -418,18 +405,11 @@ void player_fill(Player *player)
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
     show->letter = player->view ? view_letter(player->view) : 0;
-    if (player->help)
+    if (player->column == COLUMN_KEYS)
         fill_help(show);
     explain_number(player, show);
-    show_lecture(player->column, player->left, show);
+    show_lecture(player->column == COLUMN_KEYS ? LECTURE_CARDS
+                                               : (LectureColumn)player->column,
+                 player->left, show);
     show_describe(show);
-}
-
-void player_paint(Player *player, Paper *paper)
-{
-    player_fill(player);
-    if (player->blank)
-        canvas_clear(&paper->canvas, 0xff000000u);
-    else
-        show_draw(paper, &player->show);
 }

@@ -1,0 +1,124 @@
+/* rest.c - whether a run has come to its end by itself, and what is said then.
+ */
+#include <math.h>
+
+#include "picture/picture.h"
+#include "play/playing.h"
+#include "scenes/scene.h"
+
+/* Whether nothing moved in this step: no update was made, and nothing is
+ * held. */
+static bool is_idle(const Machine *machine)
+{
+    const Simulation *simulation = &machine->simulation;
+    const TimeIntegrator *run = &simulation->run[0];
+    if (!(simulation->scene->needs & NEEDS_TIME) || !run->newton ||
+        simulation->runs > 1 || machine->control->hand >= 0 ||
+        machine->outcome.updates > 0 || simulation->steps == 0)
+        return false;
+    for (int i = 0; i < 2 * simulation->system.nodes; i++)
+        if (fabs(run->v[i]) > simulation->options.tolerance)
+            return false;
+    return true;
+}
+
+/* Whether nothing has deformed, and nothing acts on it: a free body. */
+static bool is_rigid(const Machine *machine)
+{
+    const Simulation *simulation = &machine->simulation;
+    const unsigned body = NEEDS_MESH | NEEDS_TIME;
+    double centre, turn;
+    return (simulation->scene->needs & body) == body &&
+           simulation_is_handled(simulation) && simulation->runs == 1 &&
+           machine->control->hand < 0 && simulation_is_free(simulation) &&
+           simulation_deforming(simulation, &centre, &turn) <=
+               simulation->options.tolerance;
+}
+
+static void tell_drift(Player *player)
+{
+    double centre, turn;
+    const Simulation *simulation = player_simulation(player);
+    simulation_deforming(simulation, &centre, &turn);
+    bool turns =
+        fabs(turn) * simulation->mesh.side > simulation->options.tolerance;
+    player_note(player,
+                "nothing deforms any more: free as it is, it drifts on at "
+                "%.2g m/s%s; pull a node, pin one, or R begins again",
+                centre, turns ? " and turns" : "");
+}
+
+/* What stands still although forces are left, or may be. */
+static void tell_tolerance(Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    double tolerance = simulation->options.tolerance, needed;
+    double h = simulation->options.timestep;
+    if (simulation_is_loose(simulation, &needed))
+        player_note(
+            player,
+            "within the tolerance, perhaps not at rest: bodies may hang "
+            "or freeze unless \u03b5 is at most %.3g m/s",
+            needed);
+    else
+        player_note(player,
+                    "within the tolerance, not at rest: \u03b5 = %.3g m/s lets "
+                    "%.3g m pass in each step of %.4g s; a smaller one goes on",
+                    tolerance, tolerance * h, h);
+}
+
+/* Why cells may stay folded, too. */
+static void tell_rest(Player *player)
+{
+    int folded = 0;
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        Pane pane = {.simulation = &player->past.machine[p].simulation};
+        folded += pane_folded(&pane);
+    }
+    player_note(player,
+                folded ? "at rest, with folded cells: springs alone do "
+                         "not mind, --cells on forbids it; pull a node, or "
+                         "R begins again"
+                       : "at rest: nothing moves any more; pull a node, "
+                         "change a number, or R begins again");
+}
+
+/* Nothing has moved for a step: it is in balance; or, so says a second step
+ * from the same place, the tolerance lets the forces pass.  Steps that deform
+ * nothing may be a turning point; many in a row are not. */
+void player_judge(Player *player)
+{
+    enum { DRIFTS = 8 };
+    const Past *past = &player->past;
+    bool ended = true, idle = true, balance = true, rigid = true, bad = false;
+    int going = 0;
+    if (player->given[0].steps >= 0 || !player->attended)
+        return;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        if (past_ended(past, p) >= 0)
+            continue;
+        going++;
+        ended = ended && (machine->simulation.done || machine->failed);
+        idle = idle && is_idle(machine);
+        balance = balance && idle && simulation_rests(&machine->simulation);
+        rigid = rigid && is_rigid(machine);
+        bad = bad || machine->outcome.status;
+    }
+    player->still = idle && going > 0 ? player->still + 1 : 0;
+    player->rigid = rigid && going > 0 ? player->rigid + 1 : 0;
+    Mode mode = player->rigid < DRIFTS ? MODE_RUN : MODE_DRIFT;
+    if (ended || (bad && !player->warned && past_panes(past) == 1))
+        mode = MODE_END;
+    if (player->still > 0 && (balance || player->still > 1))
+        mode = balance ? MODE_REST : MODE_HELD;
+    player->warned = player->warned || (bad && past_panes(past) == 1);
+    if (mode == MODE_REST)
+        tell_rest(player);
+    else if (mode == MODE_HELD)
+        tell_tolerance(player);
+    else if (mode == MODE_DRIFT && player->mode != MODE_DRIFT)
+        tell_drift(player);
+    if (!player_stands(player))
+        player->mode = mode;
+}
