@@ -279,7 +279,8 @@ void command_format(const Command *command, char *line, size_t size)
         line[used++] = ' ';
         option_write(&option_rows[command->number], command->x, line + used,
                      size - used);
-    } else if (arguments >= ARGUMENTS_TEXT && command->text[0]) {
+    } else if (arguments == ARGUMENTS_TEXT || arguments == ARGUMENTS_VALUE ||
+               (arguments == ARGUMENTS_OPTION && command->number < 0)) {
         snprintf(line + used, size - used, " %s", command->text);
     }
 }

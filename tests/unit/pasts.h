@@ -2,6 +2,8 @@
 #ifndef ELASTO_PASTS_H
 #define ELASTO_PASTS_H
 
+#include <stdio.h>
+
 #include "test.h"
 
 #include <string.h>
@@ -72,8 +74,11 @@ static inline void edit(CommandKind kind, long number, double x, double y)
 /* "timestep 0.01" */
 static inline void set_option(const char *text, bool again)
 {
-    Command command = {.kind = COMMAND_SET};
-    strcpy(command.text, text);
+    char line[96], message[128];
+    Command command;
+    snprintf(line, sizeof line, "set %s", text);
+    CHECK_STATUS(command_parse(line, &command, message, sizeof message),
+                 STATUS_OK);
     CHECK_STATUS(try_edit(&command, again, 0), STATUS_OK);
 }
 

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "scenes/small_scenes.h"
+#include "base/clock.h"
 #include "scenes/scene.h"
 
 /* The sum of E over the updates so far, where it was highest, and at its end,
@@ -34,7 +34,7 @@ TEST(the_explosion_is_seen_and_tamed)
               player_simulation(&player)->scene->explains);
         CHECK_STATUS(obey("next"), STATUS_OK);
         CHECK(highest(0, &last) > 1e16);
-        CHECK(side(0)->place >= 0 &&
+        CHECK(player_place(&player, 0) >= 0 &&
               rounds_peak(&machine(0)->rounds, &rise) >= 0);
         CHECK(rise > 1e16 && extent(0) > 1000);
         player_fill(&player);
@@ -50,42 +50,11 @@ TEST(the_explosion_is_seen_and_tamed)
         CHECK(tamed <= 1e-9 && last <= 0 &&
               rounds_peak(&machine(0)->rounds, &rise) < 0);
         CHECK(extent(0) < 2);
-        CHECK(highest(1, &last) > 1e16 && side(1)->place >= 0);
+        CHECK(highest(1, &last) > 1e16 && player_place(&player, 1) >= 0);
         player_fill(&player);
         CHECK(player.show.panes == 2);
         CHECK(pane_x(&player.show.pane[0]) != pane_x(&player.show.pane[1]));
         CHECK(strcmp(side(0)->label, side(1)->label) != 0);
-        end();
-    }
-}
-
-/* "no projection: E +206 in 12 updates; projection clamp: E -5.1 in 4": what
- * the step did before and after the key, with the ghost of before. */
-TEST(a_toggle_tells_both_outcomes)
-{
-    static const struct {
-        const char *line, *key, *was, *is;
-    } rows[] = {
-        {"square --stretch 0.6 --filter none --line-search none", "projection",
-         "no projection: E ", "; projection clamp: E "},
-        {"square --stretch 0.6", "line-search", "line search backtrack: E ",
-         "; full step: E "},
-    };
-    for (int i = 0; i < 2; i++) {
-        char had[32], has[32];
-        begin(rows[i].line);
-        obey_all((const char *const[]){"next", "next", NULL});
-        const Outcome *row = told(0, 2);
-        snprintf(had, sizeof had, "%s%+.3g in %d", rows[i].was, row->change,
-                 row->updates);
-        CHECK_STATUS(obey(rows[i].key), STATUS_OK);
-        CHECK(player.past.step == 2);
-        row = told(0, 2);
-        snprintf(has, sizeof has, "%s%+.3g in %d", rows[i].is, row->change,
-                 row->updates);
-        CHECK(strstr(player.note, had) == player.note);
-        CHECK(strstr(player.note, has) != NULL);
-        CHECK(side(0)->ghost != NULL || past_panes(&player.past) == 2);
         end();
     }
 }
@@ -147,47 +116,9 @@ TEST(e_is_told_as_it_is)
 /* Runs until it pauses by itself, as it must within some hundred steps. */
 static void run_until_it_pauses(void)
 {
-    for (int i = 0; i < 3000 && !player.paused; i++) {
+    for (int i = 0; i < 3000 && !player_stands(&player); i++)
         CHECK_STATUS(player_step(&player), STATUS_OK);
-        player_pause_if_due(&player);
-    }
-    CHECK(player.paused);
-}
-
-/* At rest it says so and stops; a hand or a number lets it go on, and R begins
- * again, running. */
-TEST(at_rest_it_says_so_and_stops)
-{
-    begin("square --segments 2");
-    run_until_it_pauses();
-    CHECK(player.rests && player.halted && player.paused);
-    CHECK(machine(0)->outcome.updates == 0); /* slow steps came before */
-    CHECK(strncmp(player.note, "at rest", 7) == 0);
-    player_fill(&player);
-    CHECK(strcmp(player.show.state, "at rest") == 0);
-    CHECK_STATUS(obey("pin 8"), STATUS_OK); /* or it would drift for ever */
-    run_until_it_pauses();
-    long step = player.past.step;
-    CHECK(step > 10);
-    CHECK_STATUS(obey("grab 0"), STATUS_OK);
-    CHECK(!player.paused && !player.rests);
-    CHECK_STATUS(obey("drag 2 2"), STATUS_OK);
-    CHECK_STATUS(player_step(&player), STATUS_OK);
-    player_pause_if_due(&player);
-    CHECK(!player.paused && player.past.step == step + 1);
-    CHECK_STATUS(obey("release"), STATUS_OK);
-    run_until_it_pauses();
-    CHECK(player.rests && player.paused);
-    CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
-    CHECK(!player.paused);
-    run_until_it_pauses();
-    CHECK(player.paused);
-    CHECK_STATUS(obey("restart"), STATUS_OK);
-    CHECK(!player.paused && player.past.step == 0);
-    CHECK_STATUS(obey("pause"), STATUS_OK); /* somebody's own pause stays */
-    CHECK_STATUS(obey("restart"), STATUS_OK);
-    CHECK(player.paused);
-    end();
+    CHECK(player_stands(&player));
 }
 
 /* How far a node gets from where it is in 400 steps of a hundredth of a second
@@ -217,10 +148,8 @@ static void compare_with_plain_run(const char *line)
     Simulation plain;
     const TimeIntegrator *run = &player_simulation(&player)->run[0];
     simulation_from_line(line, NULL, NULL, &plain);
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 5; i++)
         CHECK_STATUS(player_step(&player), STATUS_OK);
-        player_pause_if_due(&player);
-    }
     for (long i = 0; i < player.past.step; i++)
         CHECK_STATUS(simulation_step(&plain), STATUS_OK);
     CHECK_SAME_BITS(plain.run[0].x, run->x, (int)run->size);
@@ -253,7 +182,7 @@ TEST(rest_is_told_from_tolerance)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         begin(rows[i].line);
         run_until_it_pauses();
-        CHECK(player.rests && player.balances == rows[i].rests);
+        CHECK(player.mode == (rows[i].rests ? MODE_REST : MODE_HELD));
         CHECK(rows[i].rests || /* twice, or it may be a turning point */
               told(0, player.past.step - 1)->updates == 0);
         CHECK(machine(0)->outcome.updates == 0);
@@ -270,83 +199,9 @@ TEST(rest_is_told_from_tolerance)
     /* what friction does shows with a smaller tolerance only */
     begin(STANDS "--friction 0.3 --tolerance 1e-3");
     run_until_it_pauses();
-    CHECK(!player.balances && strstr(player.note, "perhaps not at rest"));
+    CHECK(player.mode == MODE_HELD &&
+          strstr(player.note, "perhaps not at rest"));
     end();
-}
-
-/* A free square that is thrown never comes to rest: once it deforms no more it
- * is said that it drifts, and it goes on; a pin makes it swing again. */
-TEST(a_free_square_drifts_and_says_so)
-{
-    double centre, turn;
-    begin("square --segments 2 --velocity 3,4");
-    const Simulation *simulation = player_simulation(&player);
-    int step = 0;
-    for (; step < 3000 && !player.drifts; step++) {
-        CHECK_STATUS(player_step(&player), STATUS_OK);
-        player_pause_if_due(&player);
-    }
-    CHECK(step > 20 && player.drifts && !player.paused && !player.rests);
-    CHECK(strstr(player.note, "drifts on at 5 m/s;") != NULL);
-    player_fill(&player);
-    CHECK(strcmp(player.show.state, "drifting") == 0);
-    CHECK_AT_MOST(simulation_deforming(simulation, &centre, &turn), 0.01);
-    CHECK_NEAR(centre, 5, 1e-3);
-    player.note[0] = '\0'; /* said once */
-    CHECK_STATUS(player_step(&player), STATUS_OK);
-    player_pause_if_due(&player);
-    CHECK(player.drifts && !player.note[0]);
-    CHECK_STATUS(obey("pin 4"), STATUS_OK);
-    CHECK(!player.drifts);
-    run_until_it_pauses();
-    CHECK(player.rests && !player.drifts);
-    end();
-    begin("square --stretch 1 --velocity 3,4 --gravity 9.81");
-    for (step = 0; step < 40; step++) {
-        CHECK_STATUS(player_step(&player), STATUS_OK);
-        player_pause_if_due(&player);
-        CHECK(!player.drifts); /* it falls */
-    }
-    end();
-}
-
-/* The number under the mouse, or the lit one, is explained: who solves and why,
- * and what the tolerance means in metres. */
-TEST(numbers_are_explained)
-{
-    static const struct {
-        const char *line, *name, *value, *words;
-    } rows[] = {
-        {"square --segments 32", "solver", "auto: newton", "up to 32 segments"},
-        {"square --segments 33", "solver", "auto: multigrid",
-         "above, multigrid, which goes another way"},
-        {"square --segments 33 --gravity 9.81 --ground 0,1,0,-0.6", "solver",
-         "auto: newton", "not multigrid: there are energies beside"},
-        {"square --segments 2 --solver newton", "solver", "newton",
-         "goes as lecture.c does"},
-        {"square --segments 2 --solver multigrid", "solver", "multigrid",
-         "multigrid goes another way"},
-        {"square --segments 2 --timestep 1000", "\u03b5", "0.01 m/s",
-         "= 10 m pass"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        begin(rows[i].line);
-        CHECK_STATUS(obey("step"), STATUS_OK);
-        player_fill(&player);
-        int at = 0;
-        while (strcmp(player.show.setting[at].name, rows[i].name) != 0)
-            at++;
-        CHECK(strcmp(player.show.setting[at].value, rows[i].value) == 0);
-        CHECK(strstr(player.show.sentence, rows[i].words) == NULL);
-        player.show.over = (Hit){ZONE_SETTING, at};
-        player_fill(&player);
-        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
-        player.show.over = (Hit){ZONE_NONE, 0};
-        player.selected = at;
-        player_fill(&player);
-        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
-        end();
-    }
 }
 
 /* What is left of a motion beside the rigid one. */
@@ -377,79 +232,6 @@ TEST(rigid_motion_deforms_nothing)
         CHECK(!simulation_is_free(&machine(0)->simulation));
         end();
     }
-}
-
-/* A failure beyond all numbers shows the last state below ten times the size,
- * and says so. */
-TEST(a_failure_shows_the_last_good_state)
-{
-    begin("square --integrator forward-euler");
-    CHECK_STATUS(player_run(&player), STATUS_OK);
-    CHECK(player.paused && player.past.step < past_newest(&player.past));
-    double first = told(0, 1)->extent;
-    CHECK(told(0, player.past.step)->extent <= 10 * first);
-    CHECK(!(told(0, player.past.step + 1)->extent <= 10 * first));
-    CHECK(strstr(player.note, "beyond all numbers") && player.warning);
-    CHECK_STATUS(obey("home"), STATUS_OK);
-    CHECK(player.past.step == 0);
-    end();
-}
-
-/* Line by line through a whole update and back: the lines come in the order of
- * the listing, the square moves at line 6 alone, and no bit of the state
- * changes. */
-TEST(an_update_line_by_line)
-{
-    static const Line order[] = {LINE_START, LINE_DO,     LINE_PROJECT,
-                                 LINE_SOLVE, LINE_SEARCH, LINE_UPDATE,
-                                 LINE_TEST,  LINE_DO};
-    enum { PLACES = sizeof order / sizeof *order, SIZE = 50 };
-    begin("square");
-    obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    uint64_t hash = player_hash(&player);
-    double x[PLACES][SIZE];
-    for (int i = 0; i < PLACES; i++) {
-        player_fill(&player);
-        const Trace *trace = player.show.pane[0].trace;
-        CHECK(trace->line == order[i]);
-        CHECK((trace->p != NULL) == (i >= 3 && i < 7));
-        CHECK((trace->difference != NULL) == (i >= 3 && i < 7));
-        memcpy(x[i], pane_x(&player.show.pane[0]), sizeof x[i]);
-        bool moved = i > 0 && memcmp(x[i], x[i - 1], sizeof x[i]) != 0;
-        CHECK(moved == (order[i] == LINE_UPDATE));
-        CHECK_STATUS(obey("next"), STATUS_OK);
-    }
-    for (int i = PLACES - 1; i >= 0; i--) {
-        CHECK_STATUS(obey("back"), STATUS_OK);
-        player_fill(&player);
-        CHECK(player.show.pane[0].trace->line == order[i]);
-        CHECK_SAME_BITS(pane_x(&player.show.pane[0]), x[i], SIZE);
-    }
-    CHECK(player_hash(&player) == hash && player.past.step == 1);
-    end();
-}
-
-/* A step that its start already passes shows the residual that passed, in its
- * summary and line by line: |p|/h = 1.5171e-4 m/s where h is 1000 s. */
-TEST(a_step_without_updates_has_a_residual)
-{
-    begin("square --timestep 1000");
-    obey_all((const char *const[]){"next", NULL});
-    player_fill(&player);
-    const Trace *trace = player.show.pane[0].trace;
-    CHECK(trace->updates == 0 && !trace->passed && !trace->given_up);
-    CHECK_NEAR(trace->residual, 1.5171e-4, 1e-8);
-    obey_all((const char *const[]){"back", "finer", "finer", "next", NULL});
-    static const Line order[] = {LINE_START, LINE_DO,   LINE_PROJECT,
-                                 LINE_SOLVE, LINE_TEST, LINE_END};
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
-        player_fill(&player);
-        trace = player.show.pane[0].trace;
-        CHECK(trace->line == order[i]);
-        CHECK_NEAR(trace->residual, i < 3 ? 0 : 1.5171e-4, 1e-8);
-        CHECK_STATUS(obey("next"), STATUS_OK);
-    }
-    end();
 }
 
 /* A step is taken again as it was made, and what was changed since is changed
@@ -508,34 +290,6 @@ TEST(a_failed_search_is_no_convergence)
     end();
 }
 
-/* A window that opens under the mouse tells nothing of what happens to lie
- * there; once the mouse moves it does. */
-TEST(a_resting_mouse_asks_nothing)
-{
-    begin("square --size 1280x800");
-    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
-    player_fill(&player);
-    Layout layout = show_layout(&player.show, 1280, 800);
-    Camera camera = show_camera(&player.show, &layout, 0);
-    double at[2];
-    camera_pixel(&camera, pane_x(&player.show.pane[0]) + 2 * 12, at);
-    Input input = {.kind = INPUT_MOVE, .x = at[0], .y = at[1]};
-    for (int i = 0; i < 2; i++) {
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        CHECK(player.show.hover.kind == PICK_NONE);
-    }
-    input.x += 1;
-    CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-    CHECK(player.show.hover.kind == PICK_NODE);
-    CHECK(player.show.hover.index == 12);
-    CHECK(player.show.over.zone == ZONE_STAGE);
-    input.kind = INPUT_LEAVE;
-    CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-    CHECK(player.show.hover.kind == PICK_NONE);
-    CHECK(player.show.over.zone == ZONE_NONE);
-    end();
-}
-
 /* What is under the mouse stays there while the middle button moves the
  * picture, from the first pixel on, in either pane; a node that is pulled at
  * has its hand where the mouse is. */
@@ -588,43 +342,6 @@ TEST(the_picture_follows_the_mouse)
         CHECK_STATUS(player_input(&player, &input), STATUS_OK);
     }
     end();
-}
-
-/* Through time a step a frame, or as it was asked for; through iterations so
- * slowly that each is seen. */
-TEST(first_speeds_suit_the_scene)
-{
-    static const struct {
-        const char *line;
-        int speed;
-    } rows[] = {{"square", 0},     {"square --speed 4", 2},
-                {"overshoot", -5}, {"overshoot --speed 1", 0},
-                {"landscape", -5}, {"square --speed 0.02", SPEED_LEAST},
-                {"circle", 0}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        begin(rows[i].line);
-        CHECK(player.speed == rows[i].speed);
-        end();
-    }
-}
-
-/* A scene tells of rest only where its method takes energy out. */
-TEST(captions_are_those_of_the_method)
-{
-    static const struct {
-        const char *line, *words;
-    } rows[] = {{"square", "relaxes"},
-                {"square --integrator bdf2", "relaxes"},
-                {"square --integrator forward-euler", "adds energy"},
-                {"square --integrator avf", "takes no energy out"},
-                {"drop", "comes to rest"},
-                {"hang --integrator verlet", "sags and swings"}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        begin(rows[i].line);
-        player_fill(&player);
-        CHECK(strstr(player.show.sentence, rows[i].words) != NULL);
-        end();
-    }
 }
 
 /* However a step is come to, its updates are known and those of the step
@@ -793,40 +510,6 @@ TEST(what_makes_no_sense_is_said)
     }
 }
 
-/* A cell of the map as a scene: commands that a script repeats, and undo
- * leads back. */
-TEST(a_cell_of_the_map_is_a_scene)
-{
-    enum { CELL = 100 };
-    char line[160];
-    begin("envelope --segments 3 --stretch 1.3");
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    player.by_hand = true;
-    player.gesture = 1; /* a click */
-    CHECK_STATUS(lesson_load(&player, CELL), STATUS_OK);
-    const Options *options = player_settings(&player);
-    CHECK(options->scene == &scenes[0] && player.paused &&
-          player.past.step == 0);
-    CHECK(options->segments == 3 && options->stretch == 1.3);
-    snprintf(line, sizeof line,
-             "square --segments 3 --stretch 1.3 --timestep %.17g --stiffness "
-             "%.17g",
-             envelope_timestep(CELL % ENVELOPE_COLUMNS),
-             envelope_stiffness(CELL / ENVELOPE_COLUMNS));
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    uint64_t hash = player_hash(&player);
-    CHECK_STATUS(obey("undo"), STATUS_OK);
-    CHECK(player.past.step == 1);
-    CHECK(player_simulation(&player)->scene->picture == PICTURE_ENVELOPE);
-    CHECK(!player.quit && !player_is_open(&player));
-    CHECK(player_settings(&player)->segments == 3);
-    end();
-    begin(line);
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    CHECK(player_hash(&player) == hash);
-    end();
-}
-
 /* A pane that fails is not made good by the one after it. */
 TEST(every_pane_may_fail)
 {
@@ -843,30 +526,13 @@ TEST(every_pane_may_fail)
     end();
 }
 
-/* The hash is one of all panes. */
-TEST(every_pane_is_in_the_hash)
-{
-    static const char *const timesteps[] = {"0.004,0.002", "0.004,0.001",
-                                            "0.002,0.004", "0.001,0.004"};
-    uint64_t hash[4];
-    for (int i = 0; i < 4; i++) {
-        char line[64];
-        snprintf(line, sizeof line, "square --timestep %s", timesteps[i]);
-        begin(line);
-        CHECK_STATUS(obey("step"), STATUS_OK);
-        hash[i] = player_hash(&player);
-        for (int k = 0; k < i; k++)
-            CHECK(hash[k] != hash[i]);
-        end();
-    }
-}
-
 /* A run of a given number of steps ends at its failure. */
 TEST(a_counted_run_ends_at_its_failure)
 {
     begin("square --integrator forward-euler --steps 1000");
     CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
-    CHECK(!player.paused && player.past.step == past_newest(&player.past));
+    CHECK(!player_stands(&player) &&
+          player.past.step == past_newest(&player.past));
     end();
 }
 
@@ -962,7 +628,7 @@ TEST(scripts_wait_while_it_runs)
     alarm(20); /* s; it takes milliseconds */
     CHECK_STATUS(player_run(&player), STATUS_OK);
     alarm(0);
-    CHECK(!stop && player.past.step == 1 && player.paused);
+    CHECK(!stop && player.past.step == 1 && player_stands(&player));
     end();
 }
 
@@ -1004,6 +670,68 @@ TEST(a_long_step_is_made_in_slices)
     CHECK(player.past.step == 0 && player_hash(&player) == start);
     CHECK(past_newest(&player.past) == 1);
     simulation_free(&plain);
+    end();
+}
+
+/* Between two lines the square is where it was, then where it will be. */
+TEST(glides_begin_and_end_at_lines)
+{
+    begin("square --segments 2");
+    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    player.window = true;
+    enum { SIZE = 18 };
+    double before[SIZE];
+    obey_all((const char *const[]){"finer", "finer", "next", NULL});
+    const Rounds *rounds = &machine(0)->rounds;
+    while (rounds->place[player_place(&player, 0)].line != LINE_SEARCH)
+        CHECK_STATUS(obey("next"), STATUS_OK);
+    memcpy(before, side(0)->from, sizeof before);
+    CHECK_STATUS(obey("next"), STATUS_OK); /* line 6 moves the square */
+    CHECK_SAME_BITS(glide_between(&player, 0, 1), before, SIZE);
+    Trace trace;
+    const double *after =
+        rounds_trace(rounds, player_place(&player, 0), &trace);
+    CHECK(after && memcmp(after, before, sizeof before) != 0);
+    CHECK_SAME_BITS(glide_between(&player, 0, 0), after, SIZE);
+
+    /* 1 ... 0 and flat at both ends: a fifth of the time before the end about
+     * a tenth of the way is left, and never less than nothing. */
+    player.glide = clock_now() - 0.2;
+    double rest = glide_rest(&player);
+    CHECK(rest >= 0 && rest < 0.105);
+    player.glide = clock_now() - 1;
+    CHECK(glide_rest(&player) == 0 && player.glide == 0);
+    end();
+}
+
+/* Whatever a list varies, the panes say. */
+TEST(every_list_labels_its_panes)
+{
+    static const char *const lines[] = {
+        "square --gravity 1,9.81",
+        "square --density 500,1000",
+        "square --side 1,2",
+        "square --turn 0,30",
+        "square --yield 0.1,0.2",
+        "square --tear 0.5,0.8",
+        "square --cells on,off",
+        "square --damping 0,0.01",
+        "square --stiffness 1e4,1e5",
+        "drop --friction 0,0.3",
+        "drop --slip-speed 0.001,0.002",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        begin(lines[i]);
+        player_fill(&player);
+        CHECK(side(0)->label[0] && side(1)->label[0]);
+        CHECK(strcmp(side(0)->label, side(1)->label) != 0);
+        end();
+    }
+    begin("square --turn 0,30 --stiffness 1e4,1e5");
+    player_fill(&player);
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < i; k++)
+            CHECK(strcmp(side(i)->label, side(k)->label) != 0);
     end();
 }
 

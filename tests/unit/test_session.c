@@ -7,8 +7,21 @@
  *     press, move, release,    at a PLACE: X Y in pixels; +X +Y from where the
  *     right, wheel             mouse was; the number of the row with this name;
  *                              a step of the time line
- *     run N                    until the run has come to this step
+ *     do COMMAND               as a script gives it
+ *     run N, rest              until the run has come to this step, or stops
+ *     go N                     so many steps of it
+ *     until KEY N              this key, until that step is shown
  *     at N, newest N           the step that is shown, and the last one
+ *     stands 1, panes N        whether time stands still; side by side
+ *     line P N                 of Algorithm 3, that is lit in pane P; 0: none
+ *     residual X               of the trace
+ *     over WHAT N              under the mouse: node 12, spring 3, none 0
+ *     card C SIZE              how a card is: closed, open, large
+ *     label P WORDS            in the label of a pane; -: none
+ *     state WORDS, time WORDS  beside the sentence, in the time line
+ *     sentence WORDS           about the scene
+ *     speed S                  2^S steps a frame
+ *     lit KEY 1                a chip
  *     scene NAME, page N       page 0: none
  *     number NAME VALUE        what the row shows
  *     says WORDS               in the last line
@@ -16,7 +29,7 @@
  *     files N                  that were written
  *     replays LINE             Y's script leads to the same bits
  *     mark M [WHAT]            the picture without its message; or of it the
- *     same M [WHAT]            cards; or the hash of the state
+ *     same M [WHAT]            cards; the hash of the state; the square's shape
  *     other M [WHAT]           none of the same pixels
  */
 #include "attended.h"
@@ -52,6 +65,19 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
     return hash;
 }
 
+/* Where the nodes of the active pane are drawn. */
+static uint64_t shape_shown(void)
+{
+    player_fill(&player);
+    const Pane *pane = &player.show.pane[player.show.active];
+    const unsigned char *byte = (const unsigned char *)pane_x(pane);
+    size_t size = 2 * sizeof(double) * (size_t)pane->simulation->system.nodes;
+    uint64_t hash = STATE_HASH_SEED;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ byte[i]) * 1099511628211u;
+    return hash;
+}
+
 /* The picture without its message, or the cards of it; the state.  As a window
  * does it, nothing is drawn that has not changed. */
 static uint64_t seen(const char *what)
@@ -59,6 +85,8 @@ static uint64_t seen(const char *what)
     char note[sizeof player.note];
     if (strcmp(what, "state") == 0)
         return player_hash(&player);
+    if (strcmp(what, "shape") == 0)
+        return shape_shown();
     memcpy(note, player.note, sizeof note);
     player.note[0] = '\0';
     if (player.changed)
@@ -88,15 +116,19 @@ static void begin_session(const char *line)
 }
 
 /* What makes no sense is only told. */
-static void put(Input input)
+static void tell(Status status)
 {
-    input.x = mouse[0];
-    input.y = mouse[1];
-    Status status = player_input(&player, &input);
     CHECK(!status || status == STATUS_INVALID_INPUT ||
           status_is_unconverged(status));
     if (status == STATUS_INVALID_INPUT)
         snprintf(player.note, sizeof player.note, "%.150s", player.message);
+}
+
+static void put(Input input)
+{
+    input.x = mouse[0];
+    input.y = mouse[1];
+    tell(player_input(&player, &input));
 }
 
 static void press_key(const char *name)
@@ -171,9 +203,32 @@ static void use_mouse(const char *verb, const char *place)
 static void run_until(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
+    if (player_stands(&player))
+        press_key("Space");
     player.script.count = player.script.next; /* nothing else is due */
     CHECK_STATUS(script_add(&player.script, step, &pause), STATUS_OK);
     player_run(&player);
+}
+
+/* Steps as a run makes them, until it stops by itself. */
+static void run_to_rest(void)
+{
+    if (player_stands(&player))
+        press_key("Space");
+    for (int i = 0; i < 3000 && !player_stands(&player); i++)
+        tell(player_step(&player));
+    CHECK(player_stands(&player));
+}
+
+/* "Left 1": as often as it takes, but not for ever. */
+static void press_until(const char *rest)
+{
+    char key[16];
+    long step;
+    assert_int_equal(sscanf(rest, "%15s %ld", key, &step), 2);
+    for (int i = 0; i < 1000 && player.past.step != step; i++)
+        press_key(key);
+    assert_int_equal(player.past.step, step);
 }
 
 /* How many files there are; and without them. */
@@ -207,54 +262,101 @@ static void replay(const char *line)
     CHECK(player_hash(&player) == hash && !player.refused);
 }
 
-static void compare(const char *verb, const char *rest)
+static void compare(const char *verb, const char *name, const char *what)
 {
-    const char *what = rest[1] ? rest + 2 : "";
-    uint64_t now = seen(what), *mark = &marks[(rest[0] - 'a') % MARKS];
+    uint64_t now = seen(what), *mark = &marks[(name[0] - 'a') % MARKS];
     if (strcmp(verb, "mark") == 0)
         *mark = now;
     else if ((now == *mark) != (strcmp(verb, "same") == 0))
-        fail_msg("not the %s %s as at %s", verb, what, rest);
+        fail_msg("not the %s %s as at %s", verb, what, name);
 }
 
-static void look_for_chip(const char *key, const char *label)
+static const Chip *chip_shown(const char *key)
 {
-    player_fill(&player);
     for (int i = 0; i < player.show.chips; i++)
-        if (strcmp(player.show.chip[i].key, key) == 0) {
-            assert_string_equal(player.show.chip[i].label, label);
-            return;
-        }
+        if (strcmp(player.show.chip[i].key, key) == 0)
+            return &player.show.chip[i];
     fail_msg("there is no chip %s", key);
+    return NULL;
+}
+
+/* Whether a text that is shown has these words; "-": it is empty. */
+static void look_for(const char *text, const char *words)
+{
+    if (strcmp(words, "-") == 0 ? text[0] != '\0' : !strstr(text, words))
+        fail_msg("it says '%s', not '%s'", text, words);
+}
+
+/* What a number is about, with another one behind it. */
+static void look_at(const char *verb, const char *name, const char *value)
+{
+    static const char *const kinds[] = {"none", "node", "spring"};
+    const Show *show = &player.show;
+    long which = atol(name), number = atol(value);
+    int i = 0;
+    if (strcmp(verb, "chip") == 0)
+        assert_string_equal(chip_shown(name)->label, value);
+    else if (strcmp(verb, "lit") == 0)
+        assert_int_equal(chip_shown(name)->lit, number);
+    else if (strcmp(verb, "number") == 0)
+        assert_string_equal(number_shown(name, &i)->value, value);
+    else if (strcmp(verb, "label") == 0)
+        look_for(show->pane[which].label, value);
+    else if (strcmp(verb, "line") == 0)
+        assert_int_equal(show->pane[which].trace->line, number);
+    else if (strcmp(verb, "over") == 0) {
+        assert_string_equal(kinds[show->hover.kind], name);
+        assert_int_equal(show->hover.index, number);
+    } else if (strcmp(verb, "card") == 0) {
+        assert_int_equal(show->closed >> which & 1, value[0] == 'c');
+        assert_int_equal(show->large == which, value[0] == 'l');
+    } else {
+        compare(verb, name, value);
+    }
 }
 
 static void look(const char *verb, const char *rest)
 {
-    const LecturePage *page = player_settings(&player)->page;
-    char name[32], value[64];
-    int i = 0;
-    if (strcmp(verb, "at") == 0)
-        assert_int_equal(player.past.step, atol(rest));
-    else if (strcmp(verb, "newest") == 0)
-        assert_int_equal(past_newest(&player.past), atol(rest));
-    else if (strcmp(verb, "ended") == 0)
-        assert_int_equal(player.quit, atol(rest));
-    else if (strcmp(verb, "files") == 0)
-        assert_int_equal(count_files(false), atol(rest));
-    else if (strcmp(verb, "page") == 0)
-        assert_int_equal(page ? page - lecture_pages + 1 : 0, atol(rest));
-    else if (strcmp(verb, "scene") == 0)
-        assert_string_equal(player_simulation(&player)->scene->name, rest);
-    else if (strcmp(verb, "says") == 0 && !strstr(player.note, rest))
-        fail_msg("it says '%s', not '%s'", player.note, rest);
-    else if (strcmp(verb, "chip") == 0) {
-        assert_int_equal(sscanf(rest, "%31s %63[^\n]", name, value), 2);
-        look_for_chip(name, value);
-    } else if (strcmp(verb, "number") == 0) {
-        assert_int_equal(sscanf(rest, "%31s %63[^\n]", name, value), 2);
-        assert_string_equal(number_shown(name, &i)->value, value);
-    } else if (strcmp(verb, "says") != 0)
-        compare(verb, rest);
+    char name[32] = "", value[96] = "";
+    player_fill(&player);
+    const Show *show = &player.show;
+    const LecturePage *page = show->lecture;
+    const Trace *trace = show->pane[show->active].trace;
+    sscanf(rest, "%31s %95[^\n]", name, value);
+    const struct {
+        const char *verb;
+        long number;
+    } numbers[] = {
+        {"at", show->step},
+        {"newest", past_newest(&player.past)},
+        {"ended", player.quit},
+        {"files", count_files(false)},
+        {"page", page ? page - lecture_pages + 1 : 0},
+        {"stands", show->paused},
+        {"panes", show->panes},
+        {"speed", player.speed},
+    };
+    const struct {
+        const char *verb, *text;
+    } texts[] = {{"says", player.note},
+                 {"state", show->state},
+                 {"time", show->time_text},
+                 {"sentence", show->sentence},
+                 {"scene", player_simulation(&player)->scene->name}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (strcmp(verb, numbers[i].verb) == 0) {
+            assert_int_equal(numbers[i].number, atol(rest));
+            return;
+        }
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (strcmp(verb, texts[i].verb) == 0) {
+            look_for(texts[i].text, rest);
+            return;
+        }
+    if (strcmp(verb, "residual") == 0)
+        CHECK_NEAR(trace->residual, strtod(rest, NULL), 1e-4 * trace->residual);
+    else
+        look_at(verb, name, value);
 }
 
 static void session_line(const char *line)
@@ -271,8 +373,17 @@ static void session_line(const char *line)
     else if (strcmp(verb, "type") == 0)
         for (const char *letter = rest; *letter; letter++)
             press_letter(*letter);
+    else if (strcmp(verb, "do") == 0)
+        tell(obey(rest));
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
+    else if (strcmp(verb, "rest") == 0)
+        run_to_rest();
+    else if (strcmp(verb, "go") == 0)
+        for (long left = atol(rest); left > 0; left--)
+            tell(player_step(&player));
+    else if (strcmp(verb, "until") == 0)
+        press_until(rest);
     else if (strcmp(verb, "replays") == 0)
         replay(rest);
     else if (strstr("press double move release right wheel", verb))
@@ -472,6 +583,185 @@ static const Session sessions[] = {
      LINES("begin --lecture explodes --paused", "number h 0.02 s", "key Tab",
            "type 1", "key Return", "number h 1 s", "double h",
            "number h 0.02 s")},
+    /* through time, updates and lines */
+    {"an update line by line",
+     LINES("begin square --paused", "key I I N", "line 0 1", "mark a shape",
+           "mark s state", "key N", "line 0 2", "same a shape", "key N",
+           "line 0 3", "same a shape", "key N", "line 0 4", "same a shape",
+           "key N", "line 0 5", "same a shape", "key N", "line 0 6",
+           "other a shape", "mark b shape", "key N", "line 0 7", "same b shape",
+           "key N", "line 0 2", "same b shape", "key Left Left", "line 0 6",
+           "same b shape", "key Left", "line 0 5", "same a shape",
+           "key Left Left Left", "line 0 2", "at 1", "same s state")},
+    {"a step without updates has a residual",
+     LINES("begin square --timestep 1000 --paused", "key N",
+           "residual 1.5171e-4", "key Left I I N", "line 0 1", "residual 0",
+           "key N N", "line 0 3", "residual 0", "key N", "line 0 4",
+           "residual 1.5171e-4", "key N", "line 0 7", "key N", "line 0 8",
+           "residual 1.5171e-4")},
+    {"lines lead back into the step before",
+     LINES("begin square --segments 2 --paused", "do step", "do step",
+           "key I I Left", "at 2", "line 0 7", "until Left 1", "line 0 8",
+           "key I", "line 0 0")},
+    {"panes wait for each other",
+     LINES("begin square --segments 3 --tolerance 0.5,1e-9 --paused", "key I N",
+           "line 0 1", "line 1 1", "key N N N", "line 0 8", "line 1 7",
+           "until N 2", "line 0 1", "line 1 1")},
+    {"running leaves the lines",
+     LINES("begin square --segments 2 --paused", "key I I N", "line 0 1",
+           "stands 1", "do play", "line 0 0", "stands 0", "chip N next line",
+           "key I", "chip N next step", "stands 1")},
+    {"an explosion is shown where it is highest",
+     LINES("begin explosion --paused", "at 0", "key N", "line 0 6",
+           "says E has risen by 2.35e+16 J s\u00b2",
+           "says nodes are 1698 m away", "mark a shape", "key N", "line 0 0",
+           "other a shape", "at 1")},
+    {"either method tames it, beside it",
+     LINES("begin explosion --paused", "key N", "do projection", "panes 2",
+           "at 1", "says no projection: E ", "says; projection clamp: E ",
+           "label 0 projection clamp", "label 1 projection none", "line 1 6",
+           "line 0 0", "begin explosion --paused", "key N", "do line-search",
+           "panes 2", "label 0 line search backtrack", "line 1 6")},
+    {"a switch tells both outcomes and takes the step again",
+     LINES("begin square --stretch 0.6 --filter none --line-search none "
+           "--paused",
+           "key N N", "key P", "at 2", "says no projection: E ",
+           "says; projection clamp: E ", "begin square --stretch 0.6 --paused",
+           "key N N L", "says line search backtrack: E ", "says; full step: E ",
+           "do play", "do projection", "at 2", "stands 0", "key I I N", "at 3",
+           "key N N N N N N N N N N", "line 0 4", "key P", "at 3", "line 0 4",
+           "stands 1")},
+    {"a failure shows the last good state",
+     LINES("begin square --integrator forward-euler --paused", "rest",
+           "says beyond all numbers; shown is step 14, the last below ten",
+           "at 14", "newest 23", "key Home", "at 0")},
+    {"a pane that fails leaves the others alone",
+     LINES("begin square --integrator forward-euler,symplectic-euler --paused",
+           "run 60", "at 60", "label 0 ended at step 14", "time t = 0.24 s",
+           "label 1 symplectic Euler", "do goto 2", "label 0 forward Euler",
+           "do step", "at 3")},
+    /* rest */
+    {"at rest it says so and stops",
+     LINES("begin square --segments 2 --paused", "rest",
+           "says at rest: nothing moves", "state at rest", "lit R 1",
+           "lit Space 0", "do pin 8", "stands 0", "do pause", "rest",
+           "state at rest", "do grab 0", "stands 0", "do drag 2 2", "do pause",
+           "do step", "state paused", "do release", "rest", "state at rest",
+           "do set stiffness 2e5", "stands 0", "do pause", "rest", "key R",
+           "stands 0", "at 0", "do pause", "key R", "stands 1")},
+    {"folded cells at rest are explained",
+     LINES("begin square --segments 16 --paused", "rest", "state at rest",
+           "says --cells on forbids it")},
+    {"rest is that of all panes",
+     LINES("begin square --segments 2 --tolerance 1e-6,10 --paused",
+           "key Space", "go 5", "at 5", "state running", "stands 0")},
+    {"a free square drifts and says so",
+     LINES("begin square --segments 2 --velocity 3,4 --paused", "key Space",
+           "go 600", "says drifts on at 5 m/s;", "state drifting", "stands 0",
+           "do faster", "go 1", "says -", "state drifting", "do pin 4",
+           "state running", "rest", "state at rest",
+           "begin square --stretch 1 --velocity 3,4 --gravity 9.81 --paused",
+           "key Space", "go 40", "state running", "says -")},
+    {"the last page offers no next one",
+     LINES("begin --lecture mesh --paused", "rest", "lit PgDn 1")},
+    /* numbers, scenes and panes */
+    {"changes are for one pane or all",
+     LINES("begin square --segments 2 --timestep 0.01,0.005 --paused",
+           "do set timestep 0.002", "do set stiffness 2e5", "number h 0.002 s",
+           "number k 200000 J/m\u00b2", "do pane 1", "number h 0.005 s",
+           "number k 200000 J/m\u00b2", "do set segments 3", "at 0", "stands 1",
+           "number h 0.005 s", "number segments 3", "do pane 0",
+           "number segments 3", "do pane 7", "says no such pane", "do play",
+           "do set segments 2", "stands 0")},
+    {"defaults are the scene's",
+     LINES("begin square --timestep 0.003 --paused", "do set timestep 0.001",
+           "do default timestep", "number h 0.003 s", "do scene hang",
+           "do set timestep 0.003", "do default timestep", "number h 0.01 s",
+           "do default pin", "says no such number")},
+    {"scenes begin",
+     LINES("begin square --segments 2 --tolerance 0.1 --speed 8 --paused",
+           "speed 3", "rest", "do scene drop", "stands 0", "at 0", "speed 3",
+           "do pause", "do scene hang", "stands 1", "do start 0.3 -0.2",
+           "says no start to choose", "do scene landscape", "mark a state",
+           "do start 0.3 -0.2", "other a state", "stands 1")},
+    {"first speeds suit the scene",
+     LINES("begin square", "speed 0", "begin square --speed 4", "speed 2",
+           "begin overshoot", "speed -5", "begin overshoot --speed 1",
+           "speed 0", "begin landscape", "speed -5",
+           "begin square --speed 0.02", "speed -6", "begin circle", "speed 0",
+           "key + + + + + + + + + + + +", "speed 10")},
+    {"captions are those of the method",
+     LINES("begin square", "sentence relaxes", "begin square --integrator bdf2",
+           "sentence relaxes", "begin square --integrator forward-euler",
+           "sentence adds energy", "begin square --integrator avf",
+           "sentence takes no energy out", "begin drop",
+           "sentence comes to rest", "begin hang --integrator verlet",
+           "sentence sags and swings")},
+    {"numbers are explained",
+     LINES("begin square --segments 32 --paused", "do step",
+           "number solver auto: newton", "move 1 1", "move solver",
+           "sentence up to 32 segments", /**/
+           "begin square --segments 33 --paused", "do step",
+           "number solver auto: multigrid", "press solver",
+           "sentence above, multigrid, which goes another way", /**/
+           "begin square --segments 33 --gravity 9.81 --ground 0,1,0,-0.6 "
+           "--paused",
+           "do step", "number solver auto: newton", "press solver",
+           "sentence not multigrid: there are energies beside", /**/
+           "begin square --segments 2 --solver newton --paused", "press solver",
+           "sentence goes as lecture.c does", /**/
+           "begin square --segments 2 --solver multigrid --paused",
+           "press solver", "sentence multigrid goes another way", /**/
+           "begin square --segments 2 --timestep 1000 --paused", "press \u03b5",
+           "sentence = 10 m pass")},
+    {"numbers follow the scene",
+     LINES("begin dial --paused", "number h 0.005 s", "run 30",
+           "number h 5 s")},
+    {"a cell of the map is a scene, and undo leads back",
+     LINES("begin envelope --segments 3 --stretch 1.3 --paused", "key N",
+           "move 300 490", "press 300 500", "release +0 +0", "scene square",
+           "stands 1", "at 0", "number segments 3", "number stretch 1.3",
+           "key N", "mark a state",
+           "replays envelope --segments 3 --stretch 1.3", /**/
+           "begin envelope --segments 3 --stretch 1.3 --paused", "key N",
+           "move 300 490", "press 300 500", "key Ctrl+Z", "scene envelope",
+           "at 1", "ended 0", "number segments 3")},
+    {"every pane is in the hash",
+     LINES("begin square --timestep 0.004,0.002 --paused", "do step",
+           "mark a state", "begin square --timestep 0.004,0.001 --paused",
+           "do step", "other a state", "mark b state",
+           "begin square --timestep 0.002,0.004 --paused", "do step",
+           "other a state", "other b state")},
+    /* hands and the screen */
+    {"hands pin and hold",
+     LINES("begin square --segments 2 --paused", "do pin 3",
+           "says node 3 is pinned", "do pin 3", "says node 3 is free",
+           "do drag 1 1", "says the hand holds nothing", "do grab 0",
+           "says paused: the hand pulls", "mark a state", "do step",
+           "do drag 1 1", "do step", "mark b state", "do drag 1 2", "do step",
+           "do release", "do goto 2", "do set stiffness 2e5", "do step",
+           "do drag 1 1", "says the hand holds nothing", "do goto 99", "at 3")},
+    {"a resting mouse asks nothing",
+     LINES("begin square --paused", "move 279 389", "move 279 389",
+           "over none 0", "move 280 389", "over node 12")},
+    {"the screen obeys",
+     LINES("begin square --segments 2 --paused", "do card 1", "card 1 closed",
+           "do enlarge 2", "card 2 large", "do card 1", "do enlarge 2",
+           "card 1 open", "card 2 open", "do card 1", "do enlarge 1",
+           "card 1 open", "card 5 closed", "do enlarge 5", "card 5 open",
+           "do card 5", "do card 99", "says no such card", "do card 1",
+           "do enlarge 2", "key R", "card 1 closed", "card 2 large",
+           "do scene drop", "card 1 open", "card 2 open")},
+    {"the camera moves by metres",
+     LINES("begin square --segments 2 --paused", "mark a", "do pan 0.1 0.2",
+           "other a", "do pan -0.1 -0.2", "same a", "do zoom 200 0 0",
+           "other a", "do fit", "same a")},
+    {"pictures are kept, and show no message of before",
+     LINES("begin square --segments 2 --paused", "do shot",
+           "says saved elasto_square_000000.png", "do shot", "files 2",
+           "says saved elasto_square_000000_2.png", "do hash",
+           "says --script elasto_square_000000.script", "key N", "do hash",
+           "says --script elasto_square_000001.script", "files 4")},
 };
 enum { SESSIONS = sizeof sessions / sizeof *sessions };
 
