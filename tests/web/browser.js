@@ -9,6 +9,15 @@ const path = require('path');
 
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
+// Asks a tab until something is true.
+const untilIn =
+  (tab) =>
+  async (expression, ms = 60000) => {
+    for (const end = Date.now() + ms; Date.now() < end; await sleep(20))
+      if (await tab.run(expression)) return;
+    throw new Error(`${tab.url}: waited in vain for ${expression}`);
+  };
+
 const launch = async () => {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-web-'));
   const flags =
@@ -69,11 +78,7 @@ const launch = async () => {
       if (answer.exceptionDetails) throw new Error(answer.exceptionDetails.exception.description);
       return answer.result.value;
     };
-    tab.until = async (expression, ms = 60000) => {
-      for (const end = Date.now() + ms; Date.now() < end; await sleep(20))
-        if (await tab.run(expression)) return;
-      throw new Error(`${url}: waited in vain for ${expression}`);
-    };
+    tab.until = untilIn(tab);
     tab.mouse = (type, x, y, more = {}) => {
       const button = type === 'mouseMoved' ? 'none' : 'left';
       return ask('Input.dispatchMouseEvent', { type, x, y, button, clickCount: 1, ...more });
@@ -112,4 +117,4 @@ const launch = async () => {
   return { open, close };
 };
 
-module.exports = { launch, sleep };
+module.exports = { launch, sleep, untilIn };

@@ -9,6 +9,7 @@ const fs = require('fs');
 const os = require('os');
 const path = require('path');
 const { launch, sleep } = require('./browser.js');
+const firefox = require('./firefox.js');
 
 const [elasto, page] = process.argv.slice(2).map((name) => path.resolve(name));
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-check-'));
@@ -40,7 +41,7 @@ const names = (line) =>
 const SCENES = names('--list').map(([name]) => name);
 const PAGES = names('--list --lecture').map(([, name]) => '--lecture ' + name);
 
-const sameHashes = async (browser) => {
+const sameHashes = async (browser, name = 'Chromium') => {
   const tab = await browser.open(at('square --headless --steps 0'));
   const wrong = [];
   for (const what of [...SCENES, ...PAGES]) {
@@ -50,7 +51,7 @@ const sameHashes = async (browser) => {
     const same = hashIn(stdout) ? hashIn(stdout) === hashIn(theirs) : stderr.trim() === theirs;
     if (!same) wrong.push(`${what}: ${stdout}${stderr}, the page ${theirs}`);
   }
-  verdict('every_scene_and_page_ends_in_the_same_hash', [...wrong, ...tab.trouble]);
+  verdict(`every_scene_and_page_ends_in_the_same_hash_in_${name}`, [...wrong, ...tab.trouble]);
 };
 
 // A tab whose downloads wait in `files`.
@@ -268,6 +269,11 @@ const lacking = async (browser) => {
 (async () => {
   const size = fs.statSync(page).size;
   verdict('the_page_has_at_most_1500_kB', size <= 1.5e6 ? [] : [`${size} bytes`]);
+  if (spawnSync('firefox-esr', ['--version']).error) console.log('skipped Firefox: it is not there');
+  else {
+    const browser = await firefox.launch();
+    await sameHashes(browser, 'Firefox').finally(browser.close);
+  }
   const browser = await launch();
   try {
     for (const check of [addresses, sessions, saved, lacking, sameHashes, samePixels])
