@@ -1,8 +1,6 @@
-/* view.h - where frames are shown: a window, or a surface that nobody sees.
+/* view.h - where frames are shown: the window, or a surface that nobody sees.
  *
- * Both work alike: draw on view_paper, then view_show.  SDL's types stay
- * inside view.c; its renderer only carries the finished picture to the screen,
- * so the picture is the same on all of them.
+ * Both work alike: draw on view_paper, then view_show.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -38,7 +36,7 @@ typedef struct Input {
     double amount;
 } Input;
 
-/* A window.
+/* The window; there is one at a time.
  *   size    [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
  *   full    it fills the screen
  *   view    out; free it with view_free; NULL after a failure
@@ -56,8 +54,7 @@ void view_when_lost(void (*lost)(void));
  * signals. */
 void view_let_go(void);
 
-/* A surface in memory with SDL's software renderer; needs no screen.
- * Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
+/* A surface in memory; needs no screen.  Returns OK, OUT_OF_MEMORY. */
 Status view_create_surface(int width, int height, View **view);
 
 /* Accepts NULL. */
@@ -75,7 +72,7 @@ Paper *view_paper(View *view);
  * [size] out */
 void view_failure(char *reason, size_t size);
 
-/* Shows what is on the paper.  Returns OK or SCREEN_FAILED. */
+/* Shows what is on the paper.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status view_show(View *view);
 
 /* Full screen, or a window again; whether it is. */
@@ -88,8 +85,5 @@ Input view_input(View *view);
 
 /* Waits for an input, at most this long. */
 void view_wait(View *view, int milliseconds);
-
-/* Pixel of the surface as 0xAARRGGBB; 0 if the view is a window. */
-Colour view_surface_pixel(const View *view, int x, int y);
 
 #endif

@@ -15,6 +15,10 @@
 
 enum { MOST_WORDS = 128, MOST_TEXT = 4096 };
 
+/* Of states of the past; a tab may have little memory, and what gives way is
+ * made again. */
+static const size_t PAST_ROOM = 8 << 20;
+
 /* A run, with the words that its options point into.  The next one is begun
  * beside it: after a bad command line the old one goes on. */
 typedef struct Run {
@@ -51,6 +55,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     if (plays)
         player_free(&run->player);
     run = next;
+    run->player.past.limit = PAST_ROOM;
     plays = true;
     return code;
 }

@@ -1,5 +1,5 @@
 // page.js - the page's side of the program: canvas, mouse, touch, keys, files,
-// address.  view_web.c, film_web.c and main_web.c are the other side.
+// address.  window_web.c, film_web.c and main_web.c are the other side.
 'use strict';
 
 const $ = (id) => document.getElementById(id);
@@ -35,7 +35,6 @@ const filmKind = () =>
 const Page = {
   width: () => Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)),
   height: () => Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio)),
-  title: (text) => (document.title = text),
   show(heap, at, width, height) {
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;

@@ -10,8 +10,8 @@ WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
              -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers
 
 # In a page other sources are window and film: the same headers answered.
-WEB_SOURCES = $(filter-out src/play/view.c src/play/event_wait.c \
-              src/play/film.c,$(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c
+WEB_SOURCES = $(filter-out src/play/window_sdl.c src/play/film.c,\
+              $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c
 WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/listing_text.o
 WEB_LIBRARIES = $(patsubst %,$(W)/libraries/lib%.a,suitesparse freetype \
                 libpng1.6 zlib)

@@ -230,6 +230,18 @@ const addresses = async (browser) => {
   verdict('bad_lines_and_scripts_are_one_sentence', bad);
 };
 
+// What a page has after many steps it had after few.
+const memory = async (browser) => {
+  const sizes = [];
+  for (const steps of [1000, 10000]) {
+    const tab = await browser.open(at(`square --segments 16 --speed 1000 --steps ${steps}`));
+    await tab.until(`/state hash/.test($('summary').textContent)`);
+    sizes.push(await tab.run('Module.asm.memory.buffer.byteLength'));
+    await tab.close();
+  }
+  verdict('memory_does_not_grow', sizes[0] === sizes[1] ? [] : [`${sizes} bytes`]);
+};
+
 // Browsers that lack something, and tabs that nobody sees.
 const lacking = async (browser) => {
   const wrong = [];
@@ -276,7 +288,7 @@ const lacking = async (browser) => {
   }
   const browser = await launch();
   try {
-    for (const check of [addresses, sessions, saved, lacking, sameHashes, samePixels])
+    for (const check of [addresses, sessions, saved, memory, lacking, sameHashes, samePixels])
       await check(browser);
   } finally {
     await browser.close();

@@ -1,0 +1,467 @@
+/* window_sdl.c - the window on a computer.  SDL's renderer only carries the
+ * finished picture to the screen, so that it is the same on all of them.
+ */
+#include <SDL.h>
+#include <SDL_opengl.h>
+#include <SDL_syswm.h>
+#include <dlfcn.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#undef Status /* Xlib's */
+
+#include "play/window.h"
+#include "scenes/one_line.h"
+
+enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
+
+static SDL_Window *window;
+static SDL_Renderer *renderer;
+static SDL_Texture *texture; /* of the size of the canvas, or NULL */
+static int before[2];        /* pixels, before it filled the screen */
+static bool initialised;     /* SDL's video is ours to end */
+static bool tab;             /* Tab is down and has asked for nothing yet */
+
+/* ---- a server that is gone, or does not answer -------------------------- */
+
+static volatile sig_atomic_t opens;        /* the window is being opened */
+static volatile sig_atomic_t guarded = -1; /* descriptor, -1: none */
+static void (*when_lost)(void);
+
+/* The descriptor on which the window's events arrive; -1: not known. */
+static int event_descriptor(void)
+{
+#if defined SDL_VIDEO_DRIVER_X11
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (window && SDL_GetWindowWMInfo(window, &info) &&
+        info.subsystem == SDL_SYSWM_X11)
+        return ConnectionNumber(info.info.x11.display);
+#endif
+    return -1;
+}
+
+/* Xlib calls it when its server is gone, and ends the program if it returns. */
+static int server_is_gone(void *display)
+{
+    (void)display;
+    guarded = -1;
+    SDL_SetError("the server of the screen is gone");
+    when_lost();
+    return 0;
+}
+
+static void guard_server(void)
+{
+    typedef int Handler(void *display);
+    Handler *(*set_handler)(Handler *) = NULL;
+    guarded = event_descriptor();
+    void *xlib =
+        guarded >= 0 ? dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD) : NULL;
+    void *symbol = xlib ? dlsym(xlib, "XSetIOErrorHandler") : NULL;
+    memcpy(&set_handler, &symbol, sizeof symbol);
+    if (set_handler && when_lost)
+        set_handler(server_is_gone);
+}
+
+void view_when_lost(void (*lost)(void))
+{
+    when_lost = lost;
+}
+
+void view_let_go(void)
+{
+    if (opens)
+        _exit(EXIT_FAILURE);
+    if (guarded >= 0)
+        shutdown(guarded, SHUT_RDWR);
+}
+
+/* One line out of SDL's message. */
+void view_failure(char *reason, size_t size)
+{
+    snprintf(reason, size, "%s", SDL_GetError());
+    reason[strcspn(reason, "\r\n")] = '\0';
+    one_line(reason, reason, size);
+}
+
+/* ---- opening and closing ------------------------------------------------ */
+
+/* What was asked for, or what fits on the screen.  fitting [2] out */
+static void fit_size(const int size[2], int fitting[2])
+{
+    SDL_Rect area;
+    fitting[0] = size[0] > 0 ? size[0] : WINDOW_WIDTH;
+    fitting[1] = size[1] > 0 ? size[1] : WINDOW_HEIGHT;
+    if (size[0] > 0 || SDL_GetDisplayUsableBounds(0, &area))
+        return;
+    fitting[0] = area.w < fitting[0] ? area.w : fitting[0];
+    fitting[1] = area.h < fitting[1] ? area.h : fitting[1];
+    for (int i = 0; i < 2; i++)
+        fitting[i] = fitting[i] < WINDOW_LEAST ? WINDOW_LEAST : fitting[i];
+}
+
+/* Whether SDL's video shows what is drawn; if not, SDL's error tells why.  SDL
+ * itself only says which drivers it tried; the environment says more.  Without
+ * XDG_RUNTIME_DIR Wayland's library would write a line of its own to standard
+ * error, so SDL should not even ask it. */
+static bool open_video(void)
+{
+#ifdef __linux__
+    const char *display = getenv("DISPLAY");
+    if (!getenv("XDG_RUNTIME_DIR"))
+        SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
+#endif
+    initialised = SDL_Init(SDL_INIT_VIDEO) == 0;
+    if (initialised) {
+        const char *driver = SDL_GetCurrentVideoDriver();
+        bool shows =
+            driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy");
+        if (!shows)
+            SDL_SetError("SDL finds no display");
+        return shows;
+    }
+#ifdef __linux__
+    if (display)
+        SDL_SetError("the display %s cannot be opened", display);
+    else if (!getenv("WAYLAND_DISPLAY"))
+        SDL_SetError("neither DISPLAY nor WAYLAND_DISPLAY is set");
+#endif
+    return false;
+}
+
+/* Whether the renderer's OpenGL is computed by the processor, as Mesa does
+ * where there is no graphics card: in virtual machines and on far screens. */
+static bool opengl_is_software(void)
+{
+    const GLubyte *(APIENTRY * get_string)(GLenum) = NULL;
+    void *symbol = NULL;
+    if (SDL_GL_GetCurrentContext())
+        symbol = SDL_GL_GetProcAddress("glGetString");
+    memcpy(&get_string, &symbol, sizeof symbol);
+    const char *name = get_string ? (const char *)get_string(GL_RENDERER) : "";
+    return name && (strstr(name, "llvmpipe") || strstr(name, "softpipe") ||
+                    strstr(name, "Software Rasterizer"));
+}
+
+/* Accelerated if possible.  Copying the paper to an X11 window costs less than
+ * half of what drawing it by such an OpenGL does (measured: 6 instead of 14 ms
+ * a frame of 900 x 900 pixels). */
+static void create_renderer(void)
+{
+    renderer = SDL_CreateRenderer(
+        window, -1, SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);
+    bool asked = SDL_GetHint(SDL_HINT_RENDER_DRIVER) != NULL;
+    if (renderer && !asked && opengl_is_software() &&
+        strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
+        SDL_DestroyRenderer(renderer);
+        renderer = NULL;
+        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    }
+    if (!renderer)
+        renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
+}
+
+bool window_open(const char *title, const int size[2], bool full)
+{
+    int fitting[2];
+    Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
+                   (full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    opens = 1;
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    if (open_video()) {
+        fit_size(size, fitting);
+        window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED,
+                                  SDL_WINDOWPOS_CENTERED, fitting[0],
+                                  fitting[1], flags);
+    }
+    if (window)
+        create_renderer();
+    guard_server();
+    opens = 0;
+    if (renderer)
+        SDL_StartTextInput();
+    return renderer != NULL;
+}
+
+static void drop_texture(void)
+{
+    if (texture)
+        SDL_DestroyTexture(texture);
+    texture = NULL;
+}
+
+void window_close(void)
+{
+    drop_texture();
+    if (renderer)
+        SDL_DestroyRenderer(renderer);
+    if (window)
+        SDL_DestroyWindow(window);
+    renderer = NULL;
+    window = NULL;
+    if (initialised)
+        SDL_Quit();
+    initialised = false;
+    guarded = -1;
+}
+
+/* ---- what it shows ------------------------------------------------------ */
+
+void window_set_title(const char *title)
+{
+    SDL_SetWindowTitle(window, title);
+}
+
+void window_set_full(bool full)
+{
+    if (full)
+        SDL_GetWindowSize(window, &before[0], &before[1]);
+    SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    /* Where no window manager does it, SDL keeps the size of the screen. */
+    if (!full && before[0] > 0)
+        SDL_SetWindowSize(window, before[0], before[1]);
+}
+
+bool window_is_full(void)
+{
+    return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+}
+
+/* As far as textures go. */
+void window_size(int size[2])
+{
+    SDL_RendererInfo info = {0};
+    if (SDL_GetRendererOutputSize(renderer, &size[0], &size[1]))
+        size[0] = size[1] = 1;
+    SDL_GetRendererInfo(renderer, &info);
+    int most[] = {info.max_texture_width, info.max_texture_height};
+    for (int i = 0; i < 2; i++)
+        size[i] = most[i] > 0 && most[i] < size[i] ? most[i] : size[i];
+}
+
+/* Pixels in a point, each way; 1 where nobody knows. */
+static void window_scale(double scale[2])
+{
+    int size[2], points[2] = {0, 0};
+    window_size(size);
+    SDL_GetWindowSize(window, &points[0], &points[1]);
+    for (int i = 0; i < 2; i++)
+        scale[i] = points[i] > 0 ? (double)size[i] / points[i] : 1;
+}
+
+double window_letter(void)
+{
+    double scale[2];
+    window_scale(scale);
+    return 9 * scale[0];
+}
+
+Status window_show(const Canvas *canvas)
+{
+    int width, height;
+    if (texture && (SDL_QueryTexture(texture, NULL, NULL, &width, &height) ||
+                    width != canvas->width || height != canvas->height))
+        drop_texture();
+    if (!texture)
+        texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_ARGB8888,
+                                    SDL_TEXTUREACCESS_STREAMING, canvas->width,
+                                    canvas->height);
+    if (!texture || SDL_SetTextureBlendMode(texture, SDL_BLENDMODE_NONE) ||
+        SDL_UpdateTexture(texture, NULL, canvas->pixels,
+                          canvas->width * (int)sizeof *canvas->pixels) ||
+        SDL_RenderCopy(renderer, texture, NULL, NULL))
+        return STATUS_SCREEN_FAILED;
+    SDL_RenderPresent(renderer);
+    return STATUS_OK;
+}
+
+/* ---- keys --------------------------------------------------------------- */
+
+/* The letter at this place of a keyboard that types none of ours. */
+static SDL_Keycode latin_key(const SDL_Keysym *key)
+{
+    if (key->sym < 128 || (key->sym & SDLK_SCANCODE_MASK) ||
+        key->scancode < SDL_SCANCODE_A || key->scancode > SDL_SCANCODE_Z)
+        return key->sym;
+    return SDLK_a + (SDL_Keycode)(key->scancode - SDL_SCANCODE_A);
+}
+
+/* "Ctrl+", "Shift+", "Tab+" in front of the key's own name.  Signs and digits
+ * come as texts, wherever a keyboard has them. */
+static void name_key(const SDL_KeyboardEvent *event, Input *input)
+{
+    SDL_Keycode key = latin_key(&event->keysym);
+    SDL_Scancode place = event->keysym.scancode;
+    SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
+    bool letter = key >= SDLK_a && key <= SDLK_z;
+    bool typed = key > SDLK_SPACE && key < SDLK_DELETE && !letter;
+    bool held = SDL_GetKeyboardState(NULL)[SDL_SCANCODE_TAB] != 0;
+    if ((mod & (KMOD_ALT | KMOD_GUI)) || (typed && !(mod & KMOD_CTRL)) ||
+        (place >= SDL_SCANCODE_LCTRL && place <= SDL_SCANCODE_RGUI))
+        return;
+    tab = key == SDLK_TAB; /* told when it comes up: Tab+M is another key */
+    if (tab)
+        return;
+    input->kind = INPUT_KEY;
+    input->repeats = event->repeat != 0;
+    snprintf(input->key, sizeof input->key, "%s%s%s%s",
+             mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
+             held ? "Tab+" : "", SDL_GetKeyName(key));
+}
+
+/* Tab alone. */
+static void name_tab(const SDL_KeyboardEvent *event, Input *input)
+{
+    if (event->keysym.sym != SDLK_TAB || !tab)
+        return;
+    tab = false;
+    input->kind = INPUT_KEY;
+    snprintf(input->key, sizeof input->key, "%s",
+             event->keysym.mod & KMOD_SHIFT ? "Shift+Tab" : "Tab");
+}
+
+/* Signs and digits. */
+static void name_text(const char *text, Input *input)
+{
+    bool letter = (text[0] >= 'a' && text[0] <= 'z') ||
+                  (text[0] >= 'A' && text[0] <= 'Z') || text[0] == ' ';
+    if (letter || (unsigned char)text[0] < ' ' || text[1] != '\0')
+        return;
+    input->kind = INPUT_KEY;
+    snprintf(input->key, sizeof input->key, "%s", text);
+}
+
+/* ---- mouse and window --------------------------------------------------- */
+
+/* Something at this point of the window. */
+static void place_input(InputKind kind, int x, int y, Input *input)
+{
+    double scale[2];
+    window_scale(scale);
+    input->kind = kind;
+    input->x = x * scale[0];
+    input->y = y * scale[1];
+}
+
+/* A button that went down or up. */
+static void button_input(const SDL_MouseButtonEvent *event, Input *input)
+{
+    place_input(event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE,
+                event->x, event->y, input);
+    input->button = event->button == SDL_BUTTON_LEFT    ? BUTTON_LEFT
+                    : event->button == SDL_BUTTON_RIGHT ? BUTTON_RIGHT
+                                                        : BUTTON_MIDDLE;
+    input->clicks = event->clicks;
+}
+
+/* Where the mouse is when its wheel turns. */
+static void wheel_input(const SDL_MouseWheelEvent *event, Input *input)
+{
+    int x, y;
+    SDL_GetMouseState(&x, &y);
+    place_input(INPUT_WHEEL, x, y, input);
+    input->amount = event->preciseY;
+    if (event->direction == SDL_MOUSEWHEEL_FLIPPED)
+        input->amount = -input->amount;
+}
+
+/* Uncovered, resized, left or closed. */
+static InputKind change_of_window(const SDL_WindowEvent *event)
+{
+    switch (event->event) {
+    case SDL_WINDOWEVENT_CLOSE:
+        return INPUT_CLOSE;
+    case SDL_WINDOWEVENT_LEAVE:
+        return INPUT_LEAVE;
+    case SDL_WINDOWEVENT_EXPOSED:
+    case SDL_WINDOWEVENT_SHOWN:
+    case SDL_WINDOWEVENT_RESTORED:
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+        return INPUT_REDRAW;
+    default:
+        return INPUT_NONE;
+    }
+}
+
+/* What an event says. */
+static Input read_event(const SDL_Event *event)
+{
+    Input input = {.kind = INPUT_NONE};
+    switch (event->type) {
+    case SDL_QUIT:
+        input.kind = INPUT_CLOSE;
+        break;
+    case SDL_KEYDOWN:
+        name_key(&event->key, &input);
+        break;
+    case SDL_KEYUP:
+        name_tab(&event->key, &input);
+        break;
+    case SDL_TEXTINPUT:
+        name_text(event->text.text, &input);
+        break;
+    case SDL_WINDOWEVENT:
+        input.kind = change_of_window(&event->window);
+        break;
+    case SDL_RENDER_DEVICE_RESET:
+        drop_texture(); /* fall through */
+    case SDL_RENDER_TARGETS_RESET:
+        input.kind = INPUT_REDRAW;
+        break;
+    case SDL_MOUSEMOTION:
+        place_input(INPUT_MOVE, event->motion.x, event->motion.y, &input);
+        break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+        button_input(&event->button, &input);
+        break;
+    case SDL_MOUSEWHEEL:
+        wheel_input(&event->wheel, &input);
+        break;
+    default:
+        break;
+    }
+    return input;
+}
+
+/* Whether the event behind this movement is another one. */
+static bool moves_on(void)
+{
+    SDL_Event event;
+    return SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT,
+                          SDL_LASTEVENT) == 1 &&
+           event.type == SDL_MOUSEMOTION;
+}
+
+Input window_input(void)
+{
+    SDL_Event event;
+    Input input = {.kind = INPUT_NONE};
+    while (input.kind == INPUT_NONE && SDL_PollEvent(&event))
+        if (event.type != SDL_MOUSEMOTION || !moves_on())
+            input = read_event(&event);
+    return input;
+}
+
+/* SDL_WaitEventTimeout would do, but on X it wakes itself up by an event of a
+ * second connection: one that arrives when the window has been closed is an X
+ * error, which ends the program. */
+void window_wait(int milliseconds)
+{
+    struct pollfd events = {.fd = event_descriptor(), .events = POLLIN};
+    if (events.fd < 0) {
+        SDL_WaitEventTimeout(NULL, milliseconds);
+        return;
+    }
+    SDL_PumpEvents(); /* what Xlib has read already is not to be waited for */
+    if (!SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
+        poll(&events, 1, milliseconds);
+}

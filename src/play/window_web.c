@@ -1,0 +1,148 @@
+/* window_web.c - the window in a page: the paper's pixels go into its canvas;
+ * mouse, touch and keys come from it into a line of inputs.  src/web/page.js
+ * has the object Page.
+ */
+#include "play/window.h"
+
+#include <emscripten.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- what the page does ------------------------------------------------- */
+
+/* clang-format off */
+EM_JS(int, page_width, (void), { return Page.width(); });
+EM_JS(int, page_height, (void), { return Page.height(); });
+EM_JS(double, page_letter, (void), { return 9.5 * devicePixelRatio; });
+EM_JS(void, page_title, (const char *title), {
+    document.title = UTF8ToString(title);
+});
+EM_JS(void, page_full, (int full), { Page.full(full); });
+EM_JS(int, page_is_full, (void), {
+    return document.fullscreenElement ? 1 : 0;
+});
+EM_JS(void, page_show, (const uint32_t *pixels, int width, int height), {
+    Page.show(HEAPU8, pixels, width, height);
+});
+/* clang-format on */
+
+bool window_open(const char *title, const int size[2], bool full)
+{
+    (void)size;
+    (void)full;
+    page_title(title);
+    return true;
+}
+
+void window_close(void)
+{
+}
+
+void view_failure(char *reason, size_t size)
+{
+    if (size > 0)
+        reason[0] = '\0';
+}
+
+void window_set_title(const char *title)
+{
+    page_title(title);
+}
+
+void window_set_full(bool full)
+{
+    page_full(full);
+}
+
+bool window_is_full(void)
+{
+    return page_is_full();
+}
+
+void window_size(int size[2])
+{
+    size[0] = page_width();
+    size[1] = page_height();
+}
+
+double window_letter(void)
+{
+    return page_letter();
+}
+
+/* As a canvas wants them: red first, nothing shines through. */
+Status window_show(const Canvas *canvas)
+{
+    static uint32_t *rgba; /* [room] */
+    static size_t room;
+    size_t pixels = (size_t)canvas->width * (size_t)canvas->height;
+    if (room < pixels) {
+        free(rgba);
+        rgba = malloc(pixels * sizeof *rgba);
+        room = rgba ? pixels : 0;
+    }
+    if (!rgba)
+        return STATUS_OUT_OF_MEMORY;
+    for (size_t i = 0; i < pixels; i++) {
+        uint32_t p = canvas->pixels[i];
+        rgba[i] =
+            0xff000000 | (p & 0xff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
+    }
+    page_show(rgba, canvas->width, canvas->height);
+    return STATUS_OK;
+}
+
+/* ---- what the page tells ------------------------------------------------ */
+
+enum { INPUTS = 256 };
+
+/* What nobody has read yet; the page's loop is the only caller. */
+static Input inputs[INPUTS];
+static int first_input, input_count;
+
+/* Of several movements in a row only the last is kept. */
+static void put_input(const Input *input)
+{
+    int last = (first_input + input_count - 1) % INPUTS;
+    if (input_count > 0 && input->kind == INPUT_MOVE &&
+        inputs[last].kind == INPUT_MOVE)
+        inputs[last] = *input;
+    else if (input_count < INPUTS)
+        inputs[(first_input + input_count++) % INPUTS] = *input;
+}
+
+EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
+{
+    Input input = {.kind = INPUT_KEY, .repeats = repeats != 0};
+    snprintf(input.key, sizeof input.key, "%s", key);
+    put_input(&input);
+}
+
+/*   kind  of InputKind, any but keys */
+EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
+                                    int clicks, double amount)
+{
+    put_input(&(Input){.kind = (InputKind)kind,
+                       .button = button,
+                       .clicks = clicks,
+                       .x = x,
+                       .y = y,
+                       .amount = amount});
+}
+
+Input window_input(void)
+{
+    Input input = {.kind = INPUT_NONE};
+    if (input_count == 0)
+        return input;
+    input = inputs[first_input];
+    first_input = (first_input + 1) % INPUTS;
+    input_count--;
+    return input;
+}
+
+/* The page waits between its frames; nothing arrives while C runs. */
+void window_wait(int milliseconds)
+{
+    (void)milliseconds;
+}
