@@ -281,7 +281,8 @@ const lacking = async (browser) => {
 (async () => {
   const size = fs.statSync(page).size;
   verdict('the_page_has_at_most_1500_kB', size <= 1.5e6 ? [] : [`${size} bytes`]);
-  if (spawnSync('firefox-esr', ['--version']).error) console.log('skipped Firefox: it is not there');
+  if (spawnSync('firefox-esr', ['--version']).error)
+    console.log('skipped Firefox: it is not there');
   else {
     const browser = await firefox.launch();
     await sameHashes(browser, 'Firefox').finally(browser.close);
