@@ -17,7 +17,7 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 wrap = $(1:%=-Wl,--wrap=%)
 $(B)/tests/unit/test_integrators: $(B)/bench/reference.o
 $(B)/tests/unit/test_stress $(B)/tests/unit/test_ends \
-  $(B)/tests/unit/test_multigrid: $(STRESS)
+  $(B)/tests/unit/test_multigrid $(B)/tests/unit/test_solvers: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
   -lsuitesparseconfig
 $(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line plot_graph)

@@ -257,18 +257,10 @@ Status newton_tell(Newton *newton, const NewtonRecord *record)
     return record->status;
 }
 
+/* All of them are long. */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
 {
-    sum->minimisations += counters->minimisations;
-    sum->iterations += counters->iterations;
-    sum->gradients += counters->gradients;
-    sum->factorisations += counters->factorisations;
-    sum->solves += counters->solves;
-    sum->projected += counters->projected;
-    sum->trials += counters->trials;
-    sum->skipped += counters->skipped;
-    sum->cycles += counters->cycles;
-    sum->local += counters->local;
-    sum->saddles += counters->saddles;
-    sum->taken_back += counters->taken_back;
+    const long *more = &counters->minimisations;
+    for (size_t i = 0; i < sizeof *sum / sizeof *more; i++)
+        (&sum->minimisations)[i] += more[i];
 }

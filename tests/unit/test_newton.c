@@ -166,51 +166,6 @@ TEST(residuals_are_what_they_are_called)
           seen[1][RESIDUAL_BOUND] > 0);
 }
 
-TEST(pieces_are_the_whole)
-{
-    Simulation *simulation =
-        simulate("--segments 3 --stretch 0.4 --timestep 0.02");
-    Newton *whole = simulation->run[0].newton, pieces;
-    const double *x_n = simulation->run[0].x;
-    double h = whole->settings.h;
-    CHECK_STATUS(newton_create(&simulation->system, &whole->settings, &pieces),
-                 STATUS_OK);
-    CHECK_STATUS(newton_minimise(whole, x_n, NULL, h * h), STATUS_OK);
-    CHECK_STATUS(newton_start(&pieces, x_n, NULL, h * h), STATUS_RUNNING);
-    int iterations = 1;
-    while (newton_iterate(&pieces) == STATUS_RUNNING)
-        iterations++;
-    CHECK_STATUS(newton_iterate(&pieces), STATUS_OK); /* stays at its end */
-    newton_finish(&pieces);
-    CHECK(iterations > 1 && iterations == whole->counters.iterations);
-    CHECK(iterations == pieces.counters.iterations);
-    CHECK_SAME_BITS(pieces.at.u, whole->at.u, SIZE);
-    CHECK_SAME_BITS(pieces.at.x, whole->at.x, SIZE);
-    newton_free(&pieces);
-    newton_free(NULL);
-}
-
-/* Keys may change both at any time: the next step obeys. */
-TEST(settings_change_while_running)
-{
-    Simulation *simulation = simulate("--segments 3");
-    const Newton *newton = simulation->run[0].newton;
-    for (int round = 0; round < 3; round++) {
-        simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
-        simulation_set(simulation, OPTION_SLOT(line_search),
-                       LINE_SEARCH_BACKTRACK);
-        make_steps(simulation, 1);
-        CHECK(newton->search.kind == CHOLESKY_DEFINITE);
-        CHECK(newton->record.trials > 0);
-        simulation_set(simulation, OPTION_SLOT(filter), FILTER_NONE);
-        simulation_set(simulation, OPTION_SLOT(line_search), LINE_SEARCH_NONE);
-        make_steps(simulation, 1);
-        CHECK(newton->search.kind == CHOLESKY_INDEFINITE);
-        CHECK(newton->record.trials == 0 && newton->record.alpha == 1);
-        CHECK(newton->record.projected == 0);
-    }
-}
-
 /* A step that ends like this is made all the same: the state is finite and E is
  * not higher than at the start.  Without projection some directions point
  * uphill. */
