@@ -87,12 +87,10 @@ Status simulation_start(Simulation *simulation, int run,
 Status simulation_step(Simulation *simulation);
 
 /* The same, a Newton iteration at a time: both return RUNNING while there is
- * more to do, and at the end as simulation_step. */
+ * more to do, and at the end as simulation_step.  After a step that is left
+ * before its end state_restore has to follow. */
 Status simulation_begin(Simulation *simulation);
 Status simulation_iterate(Simulation *simulation);
-
-/* Leaves a step that was begun; state_restore has to follow. */
-void simulation_drop(Simulation *simulation);
 
 /* Simulated time, s; 0 in scenes where no time passes. */
 double simulation_time(const Simulation *simulation);

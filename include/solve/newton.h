@@ -133,8 +133,10 @@ typedef struct Newton {
     NewtonRecord record; /* of the last iteration */
     Status status;       /* RUNNING, or how it ended */
     long step;           /* copied into the records */
-    double residual;     /* of p at the present iterate, m/s */
-    ResidualKind kind;   /* of it */
+    bool rough; /* set by the caller: the next minimisation is but a guess */
+    double tolerance;  /* m/s, of this one: that of the settings, or looser */
+    double residual;   /* of p at the present iterate, m/s */
+    ResidualKind kind; /* of it */
     const System *system;
     Iterate at;      /* E, u, x, g, p; u holds all arrays, in one piece */
     double *u_tilde; /* [2n] m, what the integrator writes: x_tilde - x_n */

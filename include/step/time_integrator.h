@@ -60,8 +60,7 @@ struct TimeIntegrator {
     double left;       /* part of the way of moved things, still to go; */
     int part;          /* their parts so far, */
     long before;       /* Newton's iterations before the first of them; */
-    bool blocked;      /* they can go no further, */
-    double tolerance;  /* m/s, of the last part; of those before it is looser */
+    bool blocked;      /* they can go no further */
 };
 
 /* The table; it ends with a row whose name is NULL. */
@@ -87,13 +86,10 @@ void time_integrator_free(TimeIntegrator *integrator);
 /* Begins a step; one Newton iteration of it.  Both return RUNNING while there
  * is more to do.  At the end of the step: OK; or a status for which
  * status_is_unconverged holds: the step was made with the best iterate; or a
- * failure: x, v are those of t_n. */
+ * failure: x, v are those of t_n, as they are until then.  Who leaves a step
+ * before restores what the terms remember and where walls are. */
 Status time_integrator_begin(TimeIntegrator *integrator);
 Status time_integrator_iterate(TimeIntegrator *integrator);
-
-/* Leaves a step that was begun.  x and v are those of t_n; what the terms
- * remember and where walls are the caller restores. */
-void time_integrator_drop(TimeIntegrator *integrator);
 
 /* A whole step.  Returns as time_integrator_iterate at its end. */
 Status time_integrator_step(TimeIntegrator *integrator);

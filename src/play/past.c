@@ -564,8 +564,6 @@ static void stop_work(Past *past)
         return;
     for (int p = 0; p < past_panes(past); p++) {
         Machine *machine = &past->machine[p];
-        if (machine->stepping)
-            simulation_drop(&machine->simulation);
         if (machine->stepping || machine->substeps > 0)
             machine->step = -1;
         machine->stepping = false;

@@ -160,11 +160,6 @@ Status simulation_iterate(Simulation *simulation)
     return go_on(simulation, time_integrator_iterate(run));
 }
 
-void simulation_drop(Simulation *simulation)
-{
-    time_integrator_drop(&simulation->run[simulation->stepping]);
-}
-
 Status simulation_step(Simulation *simulation)
 {
     Status status = simulation_begin(simulation);

@@ -302,7 +302,7 @@ static double residual_per_norm(const Newton *newton)
 static Status newton_test(const Newton *newton, double error)
 {
     double residual = newton->residual + residual_per_norm(newton) * error;
-    return residual <= newton->settings.tolerance ? STATUS_OK : STATUS_RUNNING;
+    return residual <= newton->tolerance ? STATUS_OK : STATUS_RUNNING;
 }
 
 /* p and its residual with the present factor.  Where springs outweigh the

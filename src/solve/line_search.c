@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+/* Algorithm 2. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials)
 {
@@ -27,35 +28,42 @@ static bool try_step(Newton *newton, double alpha)
     return incremental_potential_allowed(&at->E, u, x);
 }
 
-/* alpha = 1, or the largest that contact leaves of it; halved while E(x + alpha
- * p) > E(x), and while the terms do not allow the place or E itself contradicts
- * the change. */
+typedef struct Step {
+    Newton *newton;
+    Along along;
+} Step;
+
+/* E(x + alpha p) - E(x), or anything that is not above 0 where no line search
+ * is wanted; NaN where the terms do not allow the place, or E itself
+ * contradicts the change. */
+static double step_difference(const void *function, double alpha)
+{
+    const Step *step = function;
+    Newton *newton = step->newton;
+    bool searches = newton->settings.search == LINE_SEARCH_BACKTRACK;
+    double change = along_difference(&step->along, alpha);
+    newton->record.change = change;
+    newton->record.trials += searches;
+    if (searches && !(change <= 0))
+        return change;
+    bool allowed = try_step(newton, alpha) && rounding_confirms(newton);
+    return !allowed ? NAN : searches ? change : 0;
+}
+
 Status step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
+    Step step = {newton, incremental_potential_along(&newton->at)};
+    int looks;
     record->alpha = incremental_potential_reach(&newton->at);
-    Along along = incremental_potential_along(&newton->at);
-    Status status = STATUS_OK;
-    record->slope = along.smooth.q[0];
+    record->slope = step.along.smooth.q[0];
     record->trials = 0;
-    for (bool allowed = false; !allowed && !status;) {
-        int trials = 0;
-        if (newton->settings.search == LINE_SEARCH_BACKTRACK)
-            status = line_search_backtrack(along_difference, &along,
-                                           &record->alpha, &trials);
-        record->trials += trials;
-        record->change = along_difference(&along, record->alpha);
-        allowed = status || (try_step(newton, record->alpha) &&
-                             rounding_confirms(newton));
-        if (!allowed)
-            record->alpha /= 2;
-        if (!allowed && record->alpha < 1e-300)
-            status = STATUS_LINE_SEARCH_LIMIT;
-    }
+    Status status =
+        line_search_backtrack(step_difference, &step, &record->alpha, &looks);
     newton->counters.trials += record->trials;
     if (!status)
         return STATUS_OK;
-    record->alpha = record->change = 0;
+    record->change = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (rounding_hides(newton, record->slope))

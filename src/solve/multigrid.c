@@ -150,7 +150,7 @@ static bool decide_test(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     const double h = newton->settings.h;
-    double length = h * newton->settings.tolerance, last, now = INFINITY;
+    double length = h * newton->tolerance, last, now = INFINITY;
     VEnd end = {TESTED, length, MAX_CYCLES};
     v_solve(&mg->cycle, -1, mg->g, mg->square, end, false, mg->p);
     end = (VEnd){REFINED, 0, MAX_CYCLES};
@@ -182,7 +182,7 @@ static void evaluate(Newton *newton)
 static Status pass_test(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
-    const double tolerance = newton->settings.tolerance;
+    const double tolerance = newton->tolerance;
     double worth = WORTH_A_TEST * tolerance * mg->grid.segments;
     if (!isfinite(mg->square))
         return STATUS_NOT_FINITE;

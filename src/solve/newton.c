@@ -32,6 +32,10 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
         at->u[i] = u[i];
         at->x[i] += u[i];
     }
+    newton->tolerance = newton->settings.tolerance;
+    if (newton->rough)
+        newton->tolerance = 10 * newton->tolerance + 0.01;
+    newton->rough = false;
     newton->saddles = 0;
     newton->clamps = 0;
     newton->lent = false;
@@ -56,7 +60,8 @@ static Status newton_update(Newton *newton)
     size_t size = 2 * (size_t)newton->system->nodes;
     if (!all_finite(newton->x_trial, size))
         return STATUS_NOT_FINITE;
-    if (!rounding_allows(newton)) {
+    if (newton->settings.search != LINE_SEARCH_NONE &&
+        !rounding_is_low(newton, newton->u_trial, newton->x_trial)) {
         newton->record.alpha = newton->record.change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
@@ -95,7 +100,7 @@ static Status newton_limits(Newton *newton, Status status)
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
     if (ended && newton->settings.search == LINE_SEARCH_NONE &&
-        rounding_sees_rise(newton))
+        !rounding_is_low(newton, newton->at.u, newton->at.x))
         status = STATUS_DIVERGED;
     return status;
 }
@@ -169,7 +174,8 @@ static void finish(Newton *newton)
     if (system_is_free(newton->system) && !moved) {
         move_centre(newton);
         move_centre(newton);
-        if (before != STATUS_DIVERGED && rounding_sees_rise(newton)) {
+        if (before != STATUS_DIVERGED &&
+            !rounding_is_low(newton, newton->at.u, newton->at.x)) {
             for (int i = 0; i < 2 * newton->system->nodes; i++)
                 newton->at.u[i] = 0;
             move_centre(newton);

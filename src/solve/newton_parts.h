@@ -60,20 +60,17 @@ void rounding_start(Newton *newton);
 bool rounding_hides(const Newton *newton, double change);
 
 /* Whether E at u_trial, as large as it is, agrees that it has changed by
- * record.change or fallen more; true where rounding_allows decides, or nothing
+ * record.change or fallen more; true where rounding_is_low decides, or nothing
  * has to fall. */
 bool rounding_confirms(Newton *newton);
 
-/* Whether E at u_trial is as low as at the start; always true where the
+/* Whether E at u, x [2n] is as low as at the start; always true where the
  * minimisation is not held to it. */
-bool rounding_allows(const Newton *newton);
+bool rounding_is_low(const Newton *newton, const double *u, const double *x);
 
 /* After an iteration that did not converge: RUNNING, or, where the residual has
  * not become smaller for long, ROUNDING_LIMIT if E does not fall any more, and
  * ITERATION_LIMIT if no line search makes it fall. */
 Status rounding_stagnation(Newton *newton);
-
-/* Whether a minimisation that is held to E has ended above its start. */
-bool rounding_sees_rise(const Newton *newton);
 
 #endif

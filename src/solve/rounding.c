@@ -112,24 +112,11 @@ bool rounding_confirms(Newton *newton)
                                       blur(newton, at->u, at->x, rounding->E)));
 }
 
-/* Whether E is not above where the minimisation began, if it is held to that.
- */
-static bool is_low(const Newton *newton, const double *u, const double *x)
+bool rounding_is_low(const Newton *newton, const double *u, const double *x)
 {
     double most = newton->rounding.most;
     return most == INFINITY ||
            incremental_potential_value(&newton->at.E, u, x) <= most;
-}
-
-bool rounding_allows(const Newton *newton)
-{
-    return newton->settings.search == LINE_SEARCH_NONE ||
-           is_low(newton, newton->u_trial, newton->x_trial);
-}
-
-bool rounding_sees_rise(const Newton *newton)
-{
-    return !is_low(newton, newton->at.u, newton->at.x);
 }
 
 Status rounding_stagnation(Newton *newton)

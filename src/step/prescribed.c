@@ -26,6 +26,11 @@ bool prescribed_begin(TimeIntegrator *integrator)
     Contact *contact = contact_of(integrator->system);
     bool any = integrator->system->pin_v != NULL;
     integrator->moved = 0;
+    integrator->left = 1;
+    integrator->part = 0;
+    integrator->blocked = false;
+    integrator->before =
+        integrator->newton ? integrator->newton->counters.iterations : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         motion_velocity(&obstacle->motion,
@@ -96,11 +101,8 @@ static bool make_part(TimeIntegrator *integrator, const double *x_n,
     return false;
 }
 
-/* Puts things on their way, and starts from there.  A first guess, from which
- * another part follows, need not be exact. */
-static Status start_part(TimeIntegrator *integrator)
+Status prescribed_start(TimeIntegrator *integrator)
 {
-    Newton *newton = integrator->newton;
     double *u = integrator->new_x, *x = integrator->new_v;
     double part = integrator->left;
     int halvings = 0;
@@ -118,44 +120,25 @@ static Status start_part(TimeIntegrator *integrator)
         integrator->moved += part;
     integrator->left = integrator->blocked ? 0 : integrator->left - part;
     integrator->part++;
-    if (integrator->left > 0)
-        newton->settings.tolerance = 10 * integrator->tolerance + 0.01;
-    return newton_start(newton, integrator->x_n, u, integrator->weight);
+    integrator->newton->rough = integrator->left > 0;
+    return newton_start(integrator->newton, integrator->x_n, u,
+                        integrator->weight);
 }
 
-Status prescribed_start(TimeIntegrator *integrator)
+bool prescribed_goes_on(TimeIntegrator *integrator, Status *status)
 {
     const Newton *newton = integrator->newton;
-    integrator->left = 1;
-    integrator->part = 0;
-    integrator->before = newton->counters.iterations;
-    integrator->tolerance = newton->settings.tolerance;
-    return start_part(integrator);
-}
-
-Status prescribed_next(TimeIntegrator *integrator, Status status)
-{
-    Newton *newton = integrator->newton;
-    newton->settings.tolerance = integrator->tolerance;
-    if (status && !status_is_unconverged(status))
-        return status;
-    if (integrator->blocked && !status)
-        return STATUS_BLOCKED;
+    long updates = newton->counters.iterations - integrator->before;
+    if (*status && !status_is_unconverged(*status))
+        return false;
+    if (integrator->blocked && !*status)
+        *status = STATUS_BLOCKED;
     if (integrator->left <= 0)
-        return status;
-    if (newton->counters.iterations - integrator->before >=
-        newton_most_iterations(newton)) /* all parts get no more than one */
-        return STATUS_ITERATION_LIMIT;
-    status = start_part(integrator);
-    if (status == STATUS_RUNNING)
-        return status;
-    newton_finish(newton);
-    return prescribed_next(integrator, newton->status);
-}
-
-void prescribed_drop(TimeIntegrator *integrator)
-{
-    integrator->newton->settings.tolerance = integrator->tolerance;
+        return false;
+    if (updates < newton_most_iterations(newton))
+        return true;
+    *status = STATUS_ITERATION_LIMIT; /* all parts get no more than one */
+    return false;
 }
 
 /* Of the pins: their reaction, which is what E's gradient has in their places,

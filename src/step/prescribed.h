@@ -15,16 +15,15 @@
  * Returns whether anything moves. */
 bool prescribed_begin(TimeIntegrator *integrator);
 
-/* Starts to minimise E with u_tilde as target from where the motion has put
- * things.  Returns as newton_start. */
+/* Puts things on their way, as far as there is room, and starts to minimise E
+ * with u_tilde as target from there; roughly, where another part follows.
+ * Returns as newton_start. */
 Status prescribed_start(TimeIntegrator *integrator);
 
-/* After one of its minimisations: starts the next one, RUNNING; or how all of
- * them ended, BLOCKED where things could not be put where they belong. */
-Status prescribed_next(TimeIntegrator *integrator, Status status);
-
-/* Newton's tolerance is that of the settings again. */
-void prescribed_drop(TimeIntegrator *integrator);
+/* After one of its minimisations: whether another one follows.
+ *   status  in: how it ended; out: how all of them did, BLOCKED where things
+ *           could not be put where they belong */
+bool prescribed_goes_on(TimeIntegrator *integrator, Status *status);
 
 /* After a step was minimised: J, what those who moved things have done in it.
  */

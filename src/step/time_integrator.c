@@ -122,10 +122,10 @@ static Status go_on(TimeIntegrator *integrator, Status status)
     while (status != STATUS_RUNNING) {
         newton_finish(integrator->newton);
         status = integrator->newton->status;
-        if (integrator->moves)
-            status = prescribed_next(integrator, status);
-        if (status == STATUS_RUNNING)
-            break;
+        if (integrator->moves && prescribed_goes_on(integrator, &status)) {
+            status = prescribed_start(integrator);
+            continue;
+        }
         if (status && !status_is_unconverged(status))
             return end_step(integrator, status);
         if (status)
@@ -155,12 +155,6 @@ Status time_integrator_begin(TimeIntegrator *integrator)
 Status time_integrator_iterate(TimeIntegrator *integrator)
 {
     return go_on(integrator, newton_iterate(integrator->newton));
-}
-
-void time_integrator_drop(TimeIntegrator *integrator)
-{
-    if (integrator->moves && integrator->newton)
-        prescribed_drop(integrator);
 }
 
 Status time_integrator_step(TimeIntegrator *integrator)

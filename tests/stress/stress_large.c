@@ -121,7 +121,7 @@ static long double large_square(const LargeProblem *problem)
 static LargeVerdict decide(LargeProblem *problem)
 {
     const System *system = problem->newton->system;
-    long double tolerance = problem->newton->settings.tolerance;
+    long double tolerance = problem->newton->tolerance;
     long double lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         if (!held(problem, 2 * i))

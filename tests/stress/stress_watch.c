@@ -122,10 +122,13 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
 {
     const NewtonSettings *settings = &watch->run->newton->settings;
     bool either = settings->filter == FILTER_ON_DEMAND;
-    double limit = factor * settings->tolerance, noise;
+    bool guess = watch->run->moves && watch->run->left > 0;
+    double limit = guess ? watch->run->newton->tolerance : settings->tolerance;
+    double noise;
     if (!watch->residuals || !watch->springs ||
         watch_size(watch) > LARGEST_JUDGED)
         return;
+    limit *= factor;
     double residual = judged_residual(
         watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
     watch->judged++;

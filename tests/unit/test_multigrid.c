@@ -374,7 +374,7 @@ TEST(what_is_not_decided_is_not_converged)
     for (int i = 0; i < 5; i++) {
         Status status = STATUS_OK;
         begin_problem(16, 1.1 + 0.05 * i);
-        double *tolerance = &newton->settings.tolerance;
+        double *tolerance = &newton->tolerance;
         newton->settings.solver = SOLVER_NEWTON;
         CHECK_STATUS(newton_start(newton, x_n, NULL, H * H), STATUS_RUNNING);
         for (int k = 0; k < 10 && newton->residual != *tolerance; k++) {
