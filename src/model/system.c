@@ -1,5 +1,6 @@
 #include "model/system.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -182,13 +183,18 @@ bool system_has_gravity(const System *system)
     return system->gravity[0] != 0 || system->gravity[1] != 0;
 }
 
+/* Heights have digits: what is less than the rounding of all parts is 0, as in
+ * a square whose middle is at the height 0. */
 double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
-    double sum = 0;
-    for (int i = 0; i < system->nodes; i++)
-        sum -= system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
-    return sum;
+    double sum = 0, size = 0;
+    for (int i = 0; i < system->nodes; i++) {
+        double part = system->m[i] * (a[0] * x[2 * i] + a[1] * x[2 * i + 1]);
+        sum -= part;
+        size += fabs(part);
+    }
+    return fabs(sum) <= DBL_EPSILON * size ? 0 : sum;
 }
 
 double system_energy_of(const System *system, const TermKind *kind,

@@ -247,38 +247,28 @@ static double hand_stiffness(const Simulation *simulation, int node)
     return k > 0 ? 0.25 * k : 100 * simulation->system.m[node];
 }
 
-/* work += sign P of the hand, in every run. */
-static void book_hand(Simulation *simulation, double sign)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        simulation->work[r] +=
-            sign * system_energy_of(simulation->run[r].system, &hand_energy,
-                                    simulation->run[r].x);
-}
-
 Status simulation_grab(Simulation *simulation, int node, double x, double y)
 {
     System *system = &simulation->system;
-    Pull *hand = hand_energy_of(system);
+    const Pull *hand = hand_energy_of(system);
     Pull wanted = {.node = node, .target = {x, y}};
+    double had[SIMULATION_MAX_RUNS];
     if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
         return STATUS_INVALID_INPUT;
-    if (!hand || hand->node != node)
-        simulation_release(simulation);
-    hand = hand_energy_of(system);
-    wanted.k = hand ? hand->k : hand_stiffness(simulation, node);
-    book_hand(simulation, -1);
+    wanted.k =
+        hand && hand->node == node ? hand->k : hand_stiffness(simulation, node);
+    dissipated_so_far(simulation, had);
     Status status = pull_set(system, &hand_energy, &wanted);
-    book_hand(simulation, 1);
+    book_change(simulation, had);
     return status;
 }
 
 void simulation_release(Simulation *simulation)
 {
-    if (!hand_energy_of(&simulation->system))
-        return;
-    book_hand(simulation, -1);
+    double had[SIMULATION_MAX_RUNS];
+    dissipated_so_far(simulation, had);
     system_remove_term(&simulation->system, &hand_energy);
+    book_change(simulation, had);
 }
 
 /* The run goes on with another method. */
@@ -328,15 +318,17 @@ Status simulation_change(Simulation *simulation, const Options *options)
     const Options before = simulation->options;
     double had[SIMULATION_MAX_RUNS];
     Status status = STATUS_OK;
-    if (options->stiffness != before.stiffness ||
-        options->integrator != before.integrator) {
-        simulation_release(simulation);
-        simulation->prediction = (Prediction){0};
-    }
     dissipated_so_far(simulation, had);
     simulation->options = *options;
     for (int r = 0; r < simulation->runs && !status; r++)
         status = change_run(simulation, r, &before);
+    if (options->stiffness != before.stiffness ||
+        options->integrator != before.integrator) {
+        Pull *hand = hand_energy_of(&simulation->system);
+        if (hand)
+            hand->k = hand_stiffness(simulation, hand->node);
+        simulation->prediction = (Prediction){0};
+    }
     if (!status)
         book_change(simulation, had);
     if (simulation->scene->aim && !simulation->done &&
