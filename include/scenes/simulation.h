@@ -130,8 +130,9 @@ long long simulation_matrix_entries(const Simulation *simulation);
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
 /* Goes on from the present state with other options: all that is no matter of
- * the start may differ.  What this does to the energy is booked as work.  Returns
- * as simulation_create; after a failure only simulation_free is allowed. */
+ * the start may differ.  What this does to the energy is booked as work.
+ * Returns as simulation_create; after a failure only simulation_free is
+ * allowed. */
 Status simulation_change(Simulation *simulation, const Options *options);
 
 /* The same of one number, by its slot. */
