@@ -28,6 +28,8 @@
  *     chip KEY LABEL           what a key does now, below the picture
  *     files N                  that were written
  *     replays LINE             Y's script leads to the same bits
+ *     tables LINE              `states` and `log` are those of this line's run
+ *     row STEP TEXT            in the states, at the end
  *     mark M [WHAT]            the picture without its message; or of it the
  *     same M [WHAT]            cards; the hash of the state; the square's shape
  *     other M [WHAT]           none of the same pixels
@@ -262,6 +264,58 @@ static void replay(const char *line)
     CHECK(player_hash(&player) == hash && !player.refused);
 }
 
+/* A file as text, its seconds left out. */
+static char *read_table(const char *name)
+{
+    enum { MOST = 1 << 20, SECONDS = 11 };
+    static char texts[2][MOST];
+    static int which;
+    char *text = texts[which ^= 1], *end = text;
+    int column = 0;
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    for (int c; (c = getc(file)) != EOF && end < text + MOST - 1;) {
+        column = c == '\n' ? 0 : column + (c == ',');
+        if (column != SECONDS)
+            *end++ = (char)c;
+    }
+    *end = '\0';
+    fclose(file);
+    return text;
+}
+
+static void check_tables(const char *line)
+{
+    static const char *const names[] = {"states", "log"};
+    char whole[160];
+    finish_session();
+    snprintf(whole, sizeof whole, "%s --states states2 --log log2", line);
+    begin_script("0 play\n", whole);
+    player_run(&player);
+    end();
+    for (int i = 0; i < 2; i++) {
+        char other[16];
+        snprintf(other, sizeof other, "%s2", names[i]);
+        CHECK(strcmp(read_table(names[i]), read_table(other)) == 0);
+    }
+}
+
+static void check_row(const char *step, const char *words)
+{
+    char *next, start[24];
+    bool found = false;
+    finish_session();
+    snprintf(start, sizeof start, "%s,", step);
+    for (char *at = read_table("states"); at; at = next) {
+        next = strchr(at, '\n');
+        if (next)
+            *next++ = '\0';
+        found = found ||
+                (strncmp(at, start, strlen(start)) == 0 && strstr(at, words));
+    }
+    CHECK(found);
+}
+
 static void compare(const char *verb, const char *name, const char *what)
 {
     uint64_t now = seen(what), *mark = &marks[(name[0] - 'a') % MARKS];
@@ -386,7 +440,13 @@ static void session_line(const char *line)
         press_until(rest);
     else if (strcmp(verb, "replays") == 0)
         replay(rest);
-    else if (strstr("press double move release right wheel", verb))
+    else if (strcmp(verb, "tables") == 0)
+        check_tables(rest);
+    else if (strcmp(verb, "row") == 0) {
+        char step[16], words[64];
+        sscanf(rest, "%15s %63s", step, words);
+        check_row(step, words);
+    } else if (strstr("press double move release right wheel", verb))
         use_mouse(verb, rest);
     else
         look(verb, rest);
@@ -732,6 +792,23 @@ static const Session sessions[] = {
            "do step", "other a state", "mark b state",
            "begin square --timestep 0.002,0.004 --paused", "do step",
            "other a state", "other b state")},
+    /* tables */
+    {"tables have what is shown, not what was undone",
+     LINES("begin square --stretch 0.6 --paused --states states --log log",
+           "key N N N", "mark a state", "key P", "other a state", "key Ctrl+Z",
+           "same a state", "tables square --stretch 0.6 --steps 3")},
+    {"tables are made again for steps that were gone to",
+     LINES("begin square --stretch 0.6 --paused --states states --log log",
+           "key N N N N N N", "do goto 3", "do set stiffness 2e5", "key N N",
+           "key Ctrl+Z", "do goto 5", "do next", "at 6",
+           "tables square --stretch 0.6 --steps 6")},
+    {"a row has the place where a point was dragged to",
+     LINES("begin arrows --paused --states states --log log", "key N N",
+           "do handle 0 0.5 0.25", "do handle 0 0.75 0.125", "key N",
+           "row 2 ,0.75,0.125,", "begin arrows --paused --states states",
+           "key N N N", "do goto 2", "do handle 0 0.5 0.25", "row 2 ,0.5,0.25,",
+           "begin arrows --paused --states states", "do handle 0 0.5 0.25",
+           "key N", "row 0 ,0.5,0.25,")},
     /* hands and the screen */
     {"hands pin and hold",
      LINES("begin square --segments 2 --paused", "do pin 3",
