@@ -93,13 +93,13 @@ typedef struct Command {
 
 /* What stands behind the word of a command. */
 typedef enum CommandArguments {
-    ARGUMENTS_NONE,
-    ARGUMENTS_NUMBER,       /* a whole number from 0 */
-    ARGUMENTS_POINT,        /* x y */
-    ARGUMENTS_NUMBER_POINT, /* both */
-    ARGUMENTS_TEXT,         /* a word */
-    ARGUMENTS_OPTION,       /* the name of an option */
-    ARGUMENTS_VALUE         /* the same, and its value */
+    TAKES_NOTHING,
+    TAKES_NUMBER, /* a whole number from 0 */
+    TAKES_POINT,  /* x y */
+    TAKES_BOTH,   /* both */
+    TAKES_WORD,   /* a word */
+    TAKES_OPTION, /* the name of an option */
+    TAKES_VALUE   /* the same, and its value */
 } CommandArguments;
 
 /* Who listens to the keys; a row of the table says for whom its keys are. */
@@ -118,7 +118,12 @@ enum {
                     all else ends that work first */
 };
 
+/* What a command does.  Returns as player_obey. */
+struct Player;
+typedef Status Deed(struct Player *player, const Command *command);
+
 typedef struct CommandRow {
+    Deed *deed;       /* NULL: nothing but what every command does */
     const char *word; /* in scripts; NULL: not there */
     const char *keys; /* "Space", "Ctrl+R", several: "?|F1", "*": any; NULL */
     /* What it does, for the list of keys; "": told with the row before it;

@@ -57,23 +57,11 @@ typedef enum Column {
     COLUMN_KEYS
 } Column;
 
-/* What the left or the middle button drags. */
-typedef enum Drag {
-    DRAG_NONE,
-    DRAG_NODE,   /* index */
-    DRAG_EDGE,   /* the stretch */
-    DRAG_START,  /* where the scene begins */
-    DRAG_HANDLE, /* index: a point of the scene */
-    DRAG_NUMBER, /* index: in the row */
-    DRAG_TIME,   /* the handle of the time line */
-    DRAG_PICTURE /* the picture moves */
-} Drag;
-
 typedef struct Mouse {
     double x, y; /* pixels */
     bool placed; /* where it rests at the start is known: now it can move */
-    Drag drag;
-    int index;
+    CommandKind drag; /* what its movement asks for, while a button is down: */
+    int index; /* of a node, a point, a number of the row; -1: the stretch */
     double from[2], last[2]; /* pixels, where the drag began and has come */
     bool moved;              /* it is more than a click */
     bool turns;              /* the last input was the wheel's */

@@ -7,85 +7,104 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/options.h"
+#include "play/playing.h"
 
 static const CommandRow command_rows[COMMAND_KINDS] = {
-    [COMMAND_REDRAW] = {NULL, NULL, NULL, SCREEN},
-    [COMMAND_QUIT] = {"quit", "Q", "quit", SCREEN},
-    [COMMAND_TOGGLE_PAUSE] = {NULL, "Space", "run or pause",
+    [COMMAND_REDRAW] = {NULL, NULL, NULL, NULL, SCREEN},
+    [COMMAND_QUIT] = {end_program, "quit", "Q", "quit", SCREEN},
+    [COMMAND_TOGGLE_PAUSE] = {NULL, NULL, "Space", "run or pause",
                               .chip = "pause|play"},
-    [COMMAND_PLAY] = {"play", NULL, NULL, KEPT | SCREEN},
-    [COMMAND_PAUSE] = {"pause", NULL, NULL, KEPT | SCREEN},
-    [COMMAND_NEXT] = {"next", "N|Right", "one step on; back", REPEATS | KEPT,
+    [COMMAND_PLAY] = {play_or_pause, "play", NULL, NULL, KEPT | SCREEN},
+    [COMMAND_PAUSE] = {play_or_pause, "pause", NULL, NULL, KEPT | SCREEN},
+    [COMMAND_NEXT] = {one_on, "next", "N|Right", "one step on; back",
+                      REPEATS | KEPT,
                       .chip = "next step|next update|next line|next"},
-    [COMMAND_BACK] = {"back", "Left", "", REPEATS | KEPT, .chip = "back"},
-    [COMMAND_STEP] = {"step", NULL, NULL, KEPT},
-    [COMMAND_FINER] = {"finer", "I|Shift+N", "go by steps, updates, lines",
-                       KEPT, .chip = "updates|lines|steps"},
-    [COMMAND_HOME] = {"home", "Home", "to step 0; to the newest", KEPT},
-    [COMMAND_END] = {"end", "End", "", KEPT},
-    [COMMAND_GOTO] = {"goto", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_UNDO] = {"undo", "Ctrl+Z", "undo a change; redo", REPEATS | KEPT},
-    [COMMAND_REDO] = {"redo", "Ctrl+Shift+Z", "", REPEATS | KEPT},
-    [COMMAND_RESTART] = {"restart", "R", "begin again", KEPT,
+    [COMMAND_BACK] = {one_back, "back", "Left", "", REPEATS | KEPT,
+                      .chip = "back"},
+    [COMMAND_STEP] = {new_step, "step", NULL, NULL, KEPT},
+    [COMMAND_FINER] = {go_finer, "finer", "I|Shift+N",
+                       "go by steps, updates, lines", KEPT,
+                       .chip = "updates|lines|steps"},
+    [COMMAND_HOME] = {go_to, "home", "Home", "to step 0; to the newest", KEPT},
+    [COMMAND_END] = {go_to, "end", "End", "", KEPT},
+    [COMMAND_GOTO] = {go_to, "goto", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_UNDO] = {undo, "undo", "Ctrl+Z", "undo a change; redo",
+                      REPEATS | KEPT},
+    [COMMAND_REDO] = {undo, "redo", "Ctrl+Shift+Z", "", REPEATS | KEPT},
+    [COMMAND_RESTART] = {begin_again, "restart", "R", "begin again", KEPT,
                          .chip = "restart"},
-    [COMMAND_FASTER] = {"faster", "+|=", "faster; slower", REPEATS | SCREEN},
-    [COMMAND_SLOWER] = {"slower", "-", "", REPEATS | SCREEN},
-    [COMMAND_FILTER] = {"projection", "P", "projection; line search: off, on",
-                        KEPT, .chip = "projection off|projection on"},
-    [COMMAND_SEARCH] = {"line-search", "L", "", KEPT,
+    [COMMAND_FASTER] = {change_speed, "faster", "+|=", "faster; slower",
+                        REPEATS | SCREEN},
+    [COMMAND_SLOWER] = {change_speed, "slower", "-", "", REPEATS | SCREEN},
+    [COMMAND_FILTER] = {switch_method, "projection", "P",
+                        "projection; line search: off, on", KEPT,
+                        .chip = "projection off|projection on"},
+    [COMMAND_SEARCH] = {switch_method, "line-search", "L", "", KEPT,
                         .chip = "line search off|line search on"},
-    [COMMAND_METHOD] = {"method", "M", "next method", KEPT, .chip = "method"},
-    [COMMAND_ADD_PANE] = {"add-pane", "Tab+M", "next method, side by side",
-                          KEPT},
-    [COMMAND_END_PANE] = {"end-pane", "Backspace", "close the last pane", KEPT},
-    [COMMAND_PANE] = {"pane", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_SET] = {"set", NULL, NULL, KEPT, ARGUMENTS_VALUE},
-    [COMMAND_DEFAULT] = {"default", NULL, NULL, 0, ARGUMENTS_OPTION},
-    [COMMAND_SELECT] = {"select", "Tab", "next number", REPEATS | SCREEN},
-    [COMMAND_RAISE] = {"raise", "Up", "make it larger; smaller", REPEATS},
-    [COMMAND_LOWER] = {"lower", "Down", "", REPEATS},
-    [COMMAND_SCENE] = {"scene", "1|2|3|4|5|6|7|8|9", NULL, KEPT,
-                       ARGUMENTS_TEXT},
-    [COMMAND_START] = {"start", NULL, NULL, KEPT, ARGUMENTS_POINT},
-    [COMMAND_GRAB] = {"grab", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_DRAG] = {"drag", NULL, NULL, KEPT, ARGUMENTS_POINT},
-    [COMMAND_RELEASE] = {"release", NULL, NULL, KEPT},
-    [COMMAND_PIN] = {"pin", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_HANDLE] = {"handle", NULL, NULL, KEPT, ARGUMENTS_NUMBER_POINT},
-    [COMMAND_FLIP] = {"flip", NULL, NULL, KEPT, ARGUMENTS_NUMBER},
-    [COMMAND_ZOOM] = {"zoom", NULL, NULL, SCREEN, ARGUMENTS_NUMBER_POINT},
-    [COMMAND_PAN] = {"pan", NULL, NULL, SCREEN, ARGUMENTS_POINT},
-    [COMMAND_FIT] = {"fit", "0", "fit the picture", SCREEN},
-    [COMMAND_COLOURS] = {"colours", "C", "colours show strain", SCREEN},
-    [COMMAND_BARE] = {"bare", "H", "the picture alone", SCREEN},
-    [COMMAND_KEYS] = {"keys", "?|F1", "these keys", SCREEN, .chip = "all keys"},
-    [COMMAND_CARD] = {"card", NULL, NULL, SCREEN, ARGUMENTS_NUMBER},
-    [COMMAND_ENLARGE] = {"enlarge", NULL, NULL, SCREEN, ARGUMENTS_NUMBER},
-    [COMMAND_PREDICT] = {"predict", NULL, NULL, 0, ARGUMENTS_POINT},
-    [COMMAND_CELL] = {"cell", NULL, NULL, 0, ARGUMENTS_NUMBER},
-    [COMMAND_PAGE] = {"page", NULL, NULL, KEPT, ARGUMENTS_TEXT},
-    [COMMAND_PAGE_ON] = {"page-on", "PageDown", "the lecture: next page; back",
-                         KEPT, .chip = "next page"},
-    [COMMAND_PAGE_BACK] = {"page-back", "PageUp", "", KEPT},
-    [COMMAND_PAGES] = {"pages", "G", "list of pages; code of this page", SCREEN,
+    [COMMAND_METHOD] = {switch_integrator, "method", "M", "next method", KEPT,
+                        .chip = "method"},
+    [COMMAND_ADD_PANE] = {add_pane, "add-pane", "Tab+M",
+                          "next method, side by side", KEPT},
+    [COMMAND_END_PANE] = {end_pane, "end-pane", "Backspace",
+                          "close the last pane", KEPT},
+    [COMMAND_PANE] = {choose_pane, "pane", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_SET] = {set, "set", NULL, NULL, KEPT, TAKES_VALUE},
+    [COMMAND_DEFAULT] = {set_default, "default", NULL, NULL, 0, TAKES_OPTION},
+    [COMMAND_SELECT] = {select_number, "select", "Tab", "next number",
+                        REPEATS | SCREEN},
+    [COMMAND_RAISE] = {pace_number, "raise", "Up", "make it larger; smaller",
+                       REPEATS},
+    [COMMAND_LOWER] = {pace_number, "lower", "Down", "", REPEATS},
+    [COMMAND_SCENE] = {switch_scene, "scene", "1|2|3|4|5|6|7|8|9", NULL, KEPT,
+                       TAKES_WORD},
+    [COMMAND_START] = {pick_start, "start", NULL, NULL, KEPT, TAKES_POINT},
+    [COMMAND_GRAB] = {grab, "grab", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_DRAG] = {pull, "drag", NULL, NULL, KEPT, TAKES_POINT},
+    [COMMAND_RELEASE] = {pull, "release", NULL, NULL, KEPT},
+    [COMMAND_PIN] = {switch_pin, "pin", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_HANDLE] = {move_handle, "handle", NULL, NULL, KEPT, TAKES_BOTH},
+    [COMMAND_FLIP] = {move_handle, "flip", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_ZOOM] = {move_camera, "zoom", NULL, NULL, SCREEN, TAKES_BOTH},
+    [COMMAND_PAN] = {move_camera, "pan", NULL, NULL, SCREEN, TAKES_POINT},
+    [COMMAND_FIT] = {move_camera, "fit", "0", "fit the picture", SCREEN},
+    [COMMAND_COLOURS] = {switch_shown, "colours", "C", "colours show strain",
+                         SCREEN},
+    [COMMAND_BARE] = {switch_shown, "bare", "H", "the picture alone", SCREEN},
+    [COMMAND_KEYS] = {switch_column, "keys", "?|F1", "these keys", SCREEN,
+                      .chip = "all keys"},
+    [COMMAND_CARD] = {switch_card, "card", NULL, NULL, SCREEN, TAKES_NUMBER},
+    [COMMAND_ENLARGE] = {switch_card, "enlarge", NULL, NULL, SCREEN,
+                         TAKES_NUMBER},
+    [COMMAND_PREDICT] = {predict, "predict", NULL, NULL, 0, TAKES_POINT},
+    [COMMAND_CELL] = {visit_cell, "cell", NULL, NULL, 0, TAKES_NUMBER},
+    [COMMAND_PAGE] = {open_page, "page", NULL, NULL, KEPT, TAKES_WORD},
+    [COMMAND_PAGE_ON] = {open_page, "page-on", "PageDown",
+                         "the lecture: next page; back", KEPT,
+                         .chip = "next page"},
+    [COMMAND_PAGE_BACK] = {open_page, "page-back", "PageUp", "", KEPT},
+    [COMMAND_PAGES] = {switch_column, "pages", "G",
+                       "list of pages; code of this page", SCREEN,
                        .chip = "pages"},
-    [COMMAND_CODE] = {"code", "K", "", SCREEN, .chip = "code"},
-    [COMMAND_HASH] = {"hash", "Y", "this state: hash and script", SCREEN},
-    [COMMAND_SHOT] = {"shot", "S", "save a picture", SCREEN},
-    [COMMAND_FILM] = {"film", "Ctrl+R", "film, and its end", SCREEN},
-    [COMMAND_FULL] = {"full-screen", "F11", "full screen", SCREEN},
-    [COMMAND_BLANK] = {"blank", "B", "a black screen", SCREEN},
-    [COMMAND_ESCAPE] = {"escape", "Escape", "close what is open; twice: quit"},
+    [COMMAND_CODE] = {switch_column, "code", "K", "", SCREEN, .chip = "code"},
+    [COMMAND_HASH] = {tell_hash, "hash", "Y", "this state: hash and script",
+                      SCREEN},
+    [COMMAND_SHOT] = {save_picture, "shot", "S", "save a picture", SCREEN},
+    [COMMAND_FILM] = {switch_film, "film", "Ctrl+R", "film, and its end",
+                      SCREEN},
+    [COMMAND_FULL] = {switch_full, "full-screen", "F11", "full screen", SCREEN},
+    [COMMAND_BLANK] = {switch_shown, "blank", "B", "a black screen", SCREEN},
+    [COMMAND_ESCAPE] = {leave, "escape", "Escape",
+                        "close what is open; twice: quit"},
     /* A row further down has its keys where one above has them, too. */
-    [COMMAND_TYPE_NUMBER] = {NULL, "0|1|2|3|4|5|6|7|8|9|.|,|+|-", NULL,
+    [COMMAND_TYPE_NUMBER] = {type, NULL, "0|1|2|3|4|5|6|7|8|9|.|,|+|-", NULL,
                              REPEATS | SCREEN, .keyboard = AT_NUMBER},
-    [COMMAND_TYPE_PAGE] = {NULL, "1|2|3|4|5|6|7|8|9", NULL, REPEATS | SCREEN,
-                           .keyboard = AT_LIST},
-    [COMMAND_TYPE] = {NULL, "*", NULL, REPEATS | SCREEN, .keyboard = AT_FIELD},
-    [COMMAND_ENTER] = {NULL, "Return|Keypad Enter", NULL, REPEATS | SCREEN,
-                       .keyboard = AT_FIELD},
-    [COMMAND_CLOSE] = {NULL, "Escape", NULL, REPEATS | SCREEN,
+    [COMMAND_TYPE_PAGE] = {type, NULL, "1|2|3|4|5|6|7|8|9", NULL,
+                           REPEATS | SCREEN, .keyboard = AT_LIST},
+    [COMMAND_TYPE] = {type, NULL, "*", NULL, REPEATS | SCREEN,
+                      .keyboard = AT_FIELD},
+    [COMMAND_ENTER] = {enter, NULL, "Return|Keypad Enter", NULL,
+                       REPEATS | SCREEN, .keyboard = AT_FIELD},
+    [COMMAND_CLOSE] = {close_field, NULL, "Escape", NULL, REPEATS | SCREEN,
                        .keyboard = AT_FIELD},
 };
 
@@ -200,17 +219,17 @@ static bool take_arguments(const char **line, CommandArguments arguments,
                            Command *command)
 {
     switch (arguments) {
-    case ARGUMENTS_NUMBER:
+    case TAKES_NUMBER:
         return take_number(line, &command->number);
-    case ARGUMENTS_NUMBER_POINT:
+    case TAKES_BOTH:
         return take_number(line, &command->number) && take_point(line, command);
-    case ARGUMENTS_POINT:
+    case TAKES_POINT:
         return take_point(line, command);
-    case ARGUMENTS_TEXT:
+    case TAKES_WORD:
         return take_word(line, command->text);
-    case ARGUMENTS_OPTION:
-    case ARGUMENTS_VALUE:
-        return take_option(line, arguments == ARGUMENTS_VALUE, command);
+    case TAKES_OPTION:
+    case TAKES_VALUE:
+        return take_option(line, arguments == TAKES_VALUE, command);
     default:
         return true;
     }
@@ -220,13 +239,13 @@ Status command_parse(const char *line, Command *command, char *message,
                      size_t size)
 {
     static const char *const behind[] = {
-        [ARGUMENTS_NONE] = "nothing",
-        [ARGUMENTS_NUMBER] = "a whole number from 0",
-        [ARGUMENTS_POINT] = "X Y",
-        [ARGUMENTS_NUMBER_POINT] = "N X Y, a whole and two finite numbers",
-        [ARGUMENTS_TEXT] = "one word",
-        [ARGUMENTS_OPTION] = "the name of an option",
-        [ARGUMENTS_VALUE] = "the name of an option and its value",
+        [TAKES_NOTHING] = "nothing",
+        [TAKES_NUMBER] = "a whole number from 0",
+        [TAKES_POINT] = "X Y",
+        [TAKES_BOTH] = "N X Y, a whole and two finite numbers",
+        [TAKES_WORD] = "one word",
+        [TAKES_OPTION] = "the name of an option",
+        [TAKES_VALUE] = "the name of an option and its value",
     };
     char word[COMMAND_TEXT_SIZE] = "", rest[COMMAND_TEXT_SIZE];
     int i = 1;
@@ -261,26 +280,24 @@ void command_format(const Command *command, char *line, size_t size)
 {
     const CommandRow *row = &command_rows[command->kind];
     CommandArguments arguments = row->arguments;
-    bool number =
-        arguments == ARGUMENTS_NUMBER || arguments == ARGUMENTS_NUMBER_POINT;
+    bool number = arguments == TAKES_NUMBER || arguments == TAKES_BOTH;
     size_t used = (size_t)snprintf(line, size, "%s%s",
                                    command->joins ? "& " : "", row->word);
     if (number)
         used +=
             (size_t)snprintf(line + used, size - used, " %ld", command->number);
-    if (arguments == ARGUMENTS_POINT || arguments == ARGUMENTS_NUMBER_POINT)
+    if (arguments == TAKES_POINT || arguments == TAKES_BOTH)
         snprintf(line + used, size - used, " %.17g %.17g", command->x,
                  command->y);
-    if (arguments >= ARGUMENTS_OPTION && command->number >= 0)
+    if (arguments >= TAKES_OPTION && command->number >= 0)
         used += (size_t)snprintf(line + used, size - used, " %s",
                                  option_rows[command->number].name);
-    if (arguments == ARGUMENTS_VALUE && command->number >= 0 &&
-        !command->text[0]) {
+    if (arguments == TAKES_VALUE && command->number >= 0 && !command->text[0]) {
         line[used++] = ' ';
         option_write(&option_rows[command->number], command->x, line + used,
                      size - used);
-    } else if (arguments == ARGUMENTS_TEXT || arguments == ARGUMENTS_VALUE ||
-               (arguments == ARGUMENTS_OPTION && command->number < 0)) {
+    } else if (arguments == TAKES_WORD || arguments == TAKES_VALUE ||
+               (arguments == TAKES_OPTION && command->number < 0)) {
         snprintf(line + used, size - used, " %s", command->text);
     }
 }

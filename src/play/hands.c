@@ -59,6 +59,106 @@ static Status ask_at(Player *player, CommandKind kind, long number,
     return player_ask(player, kind, number, at[0], at[1]);
 }
 
+/* ---- the keyboard -------------------------------------------------------- */
+
+/* Who listens to the keys. */
+static Keyboard keyboard_now(const Player *player)
+{
+    bool number = player->selected >= 0 && player->selected < player->numbers;
+    bool list = player->column == COLUMN_PAGES;
+    if (player->typing && (number || list))
+        return AT_FIELD;
+    return number ? AT_NUMBER : list ? AT_LIST : AT_RUN;
+}
+
+void player_deselect(Player *player)
+{
+    player->selected = -1;
+    player->typing = false;
+    player->typed[0] = '\0';
+}
+
+/* The letter that a key types; "": none.  letter [size] out */
+static void key_letter(const char *key, char *letter, size_t size)
+{
+    bool shift = strncmp(key, "Shift+", 6) == 0;
+    const char *name = shift ? key + 6 : key;
+    bool one = name[0] && (!name[1] || (unsigned char)name[0] >= 0x80);
+    snprintf(letter, size, "%.4s",
+             strcmp(name, "Space") == 0 ? " "
+             : one                      ? name
+                                        : "");
+    if (one && !shift && name[0] >= 'A' && name[0] <= 'Z')
+        letter[0] = (char)(name[0] - 'A' + 'a');
+}
+
+/* One letter more or less.  The first one opens the field. */
+Status type(Player *player, const Command *command)
+{
+    char *typed = player->typed, letter[8];
+    if (!player->typing)
+        typed[0] = '\0';
+    player->typing = true;
+    size_t length = strlen(typed);
+    key_letter(command->text, letter, sizeof letter);
+    if (strcmp(command->text, "Backspace") == 0) {
+        while (length > 0 && ((unsigned char)typed[--length] & 0xc0) == 0x80)
+            continue; /* of a letter of several bytes */
+        typed[length] = '\0';
+    } else if (length + strlen(letter) < sizeof player->typed) {
+        strcat(typed, letter);
+    } else {
+        player_note(player,
+                    "there is room for %zu letters: Enter sets the "
+                    "number, Esc leaves it",
+                    sizeof player->typed - 1);
+        return STATUS_OK;
+    }
+    if (player->selected >= 0)
+        player_note(player, "a number is typed: Enter sets it, Esc leaves it");
+    else
+        player_note(player, "page %s_: Enter opens it, Esc leaves it", typed);
+    return STATUS_OK;
+}
+
+/* The page is opened, or the number is set; what cannot be read leaves the
+ * field as it is. */
+Status enter(Player *player, const Command *command)
+{
+    (void)command;
+    const bool page = player->selected < 0;
+    const OptionRow *row = page ? NULL : player->number[player->selected];
+    Command made = {.kind = page ? COMMAND_PAGE : COMMAND_SET, .joins = true};
+    char read[COMMAND_TEXT_SIZE] = "", note[sizeof player->note], unit[16];
+    char typed[sizeof player->typed];
+    memcpy(typed, player->typed, sizeof typed);
+    memcpy(made.text, typed, sizeof typed);
+    if (row) {
+        made.number = row - option_rows;
+        if (option_read(row, typed, &made.x))
+            made.text[0] = '\0';
+        option_write(row, made.x, read, sizeof read);
+    }
+    Status status = player_obey(player, &made);
+    if (status)
+        return status;
+    player_deselect(player);
+    if (!row || strcmp(typed, read) == 0)
+        return STATUS_OK;
+    memcpy(note, player->note, sizeof note);
+    option_unit(row, unit, sizeof unit);
+    player_note(player, "%s is read as %.4g%s%s%s%s", typed, made.x,
+                unit[0] ? " " : "", unit, note[0] ? "; " : "", note);
+    return STATUS_OK;
+}
+
+Status close_field(Player *player, const Command *command)
+{
+    (void)command;
+    player_deselect(player);
+    return STATUS_OK;
+}
+
 /* ---- the row of numbers and the time line -------------------------------- */
 
 /* One pace of a number, by wheel or click. */
@@ -139,19 +239,19 @@ static Status take(Player *player, const Under *under)
 {
     Mouse *mouse = &player->mouse;
     const LecturePage *page = player_settings(player)->page;
+    bool stretches;
     mouse->index = under->pick.index;
     switch (under->pick.kind) {
     case PICK_NODE:
-        mouse->drag = DRAG_NODE;
+        mouse->drag = COMMAND_GRAB;
         return STATUS_OK;
     case PICK_EDGE:
-        mouse->drag = player->mode == MODE_PAUSE || player->mode == MODE_WALK
-                          ? DRAG_EDGE
-                          : DRAG_NODE;
-        mouse->index = near_node(player, under);
+        stretches = player->mode == MODE_PAUSE || player->mode == MODE_WALK;
+        mouse->drag = stretches ? COMMAND_SET : COMMAND_GRAB;
+        mouse->index = stretches ? -1 : near_node(player, under);
         return STATUS_OK;
     case PICK_HANDLE:
-        mouse->drag = DRAG_HANDLE;
+        mouse->drag = COMMAND_HANDLE;
         return STATUS_OK;
     case PICK_SWITCH:
         return ask(player, COMMAND_FLIP, under->pick.index);
@@ -160,11 +260,11 @@ static Status take(Player *player, const Under *under)
     case PICK_PLACE:
         if (page && page->predict && !player_simulation(player)->done)
             return ask_at(player, COMMAND_PREDICT, 0, under->pick.point);
-        mouse->drag = DRAG_START;
-        return ask_at(player, COMMAND_START, 0, under->pick.point);
+        mouse->drag = COMMAND_START;
+        return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
         mouse->index = near_node(player, under);
-        mouse->drag = mouse->index >= 0 ? DRAG_NODE : DRAG_PICTURE;
+        mouse->drag = mouse->index >= 0 ? COMMAND_GRAB : COMMAND_PAN;
         return STATUS_OK;
     }
 }
@@ -192,22 +292,20 @@ static Status follow(Player *player)
     if (math_hypot(mouse->x - mouse->from[0], mouse->y - mouse->from[1]) >
         CLICK_ROOM)
         mouse->moved = true;
-    switch (mouse->moved ? mouse->drag : DRAG_NONE) {
-    case DRAG_NODE:
+    switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
+    case COMMAND_GRAB:
         if (!player->holds)
             status = ask(player, COMMAND_GRAB, mouse->index);
         return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
-    case DRAG_EDGE:
-        return drag_edge(player, &under);
-    case DRAG_START:
-        return ask_at(player, COMMAND_START, 0, under.at);
-    case DRAG_HANDLE:
-        return ask_at(player, COMMAND_HANDLE, mouse->index, under.at);
-    case DRAG_NUMBER:
-        return drag_number(player);
-    case DRAG_TIME:
+    case COMMAND_START:
+    case COMMAND_HANDLE:
+        return ask_at(player, mouse->drag, mouse->index, under.at);
+    case COMMAND_SET:
+        return mouse->index < 0 ? drag_edge(player, &under)
+                                : drag_number(player);
+    case COMMAND_GOTO:
         return go_to_mouse(player, &under);
-    case DRAG_PICTURE:
+    case COMMAND_PAN:
         show_move(&player->show, &under.layout, under.pane, dx, dy);
         player->lens = player->show.lens;
         player->changed = true;
@@ -263,7 +361,7 @@ static Status number_pressed(Player *player, int index, int clicks)
     if (clicks == 2)
         return ask(player, COMMAND_DEFAULT,
                    player->number[index] - option_rows);
-    mouse->drag = DRAG_NUMBER;
+    mouse->drag = COMMAND_SET;
     mouse->index = index;
     mouse->options = player_numbers(player);
     return STATUS_OK;
@@ -284,7 +382,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_CARD:
         return ask(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
-        player->mouse.drag = DRAG_TIME;
+        player->mouse.drag = COMMAND_GOTO;
         return go_to_mouse(player, under);
     case ZONE_SETTING:
         return number_pressed(player, index, clicks);
@@ -321,7 +419,7 @@ static Status pressed(Player *player, const Input *input)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT)
         return pin(player, &under);
-    mouse->drag = DRAG_PICTURE;
+    mouse->drag = COMMAND_PAN;
     mouse->moved = true;
     return STATUS_OK;
 }
@@ -330,13 +428,13 @@ static Status pressed(Player *player, const Input *input)
 static Status released(Player *player)
 {
     Mouse *mouse = &player->mouse;
-    Drag drag = mouse->drag;
-    mouse->drag = DRAG_NONE;
-    if (drag == DRAG_TIME)
+    CommandKind drag = mouse->drag;
+    mouse->drag = COMMAND_NONE;
+    if (drag == COMMAND_GOTO)
         player->changed = true; /* now the cards know the step */
-    if (drag == DRAG_NODE && player->holds)
+    if (drag == COMMAND_GRAB && player->holds)
         return ask(player, COMMAND_RELEASE, 0);
-    if (drag == DRAG_NUMBER && !mouse->moved &&
+    if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         mouse->index < player->numbers &&
         player->number[mouse->index]->kind == OPTION_NAME)
         return pace(player, mouse->index, 1);
@@ -362,7 +460,7 @@ static Status wheeled(Player *player, double amount)
 static Status key_pressed(Player *player, const Input *input)
 {
     Command command =
-        command_from_key(input->key, input->repeats, player_keyboard(player));
+        command_from_key(input->key, input->repeats, keyboard_now(player));
     command.joins = true;
     return command.kind ? player_obey(player, &command) : STATUS_OK;
 }
@@ -382,7 +480,7 @@ static Status mouse_used(Player *player, const Input *input)
         return released(player);
     if (input->kind == INPUT_WHEEL)
         return wheeled(player, input->amount);
-    if (mouse->drag != DRAG_NONE)
+    if (mouse->drag != COMMAND_NONE)
         return follow(player);
     return rests ? STATUS_OK : hover(player); /* the window came to the mouse */
 }
@@ -392,8 +490,8 @@ Status player_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->mouse;
     bool wheel = input->kind == INPUT_WHEEL;
-    bool key =
-        input->kind == INPUT_KEY && !input->repeats && mouse->drag == DRAG_NONE;
+    bool key = input->kind == INPUT_KEY && !input->repeats &&
+               mouse->drag == COMMAND_NONE;
     if (input->kind == INPUT_PRESS || key || (wheel && !mouse->turns))
         mouse->gesture = ++player->gestures;
     mouse->turns = wheel;

@@ -5,69 +5,6 @@
 
 #include "play/playing.h"
 
-static Deed *const deeds[COMMAND_KINDS] = {
-    [COMMAND_QUIT] = end_program,
-    [COMMAND_PLAY] = play_or_pause,
-    [COMMAND_PAUSE] = play_or_pause,
-    [COMMAND_NEXT] = one_on,
-    [COMMAND_BACK] = one_back,
-    [COMMAND_STEP] = new_step,
-    [COMMAND_FINER] = go_finer,
-    [COMMAND_HOME] = go_to,
-    [COMMAND_END] = go_to,
-    [COMMAND_GOTO] = go_to,
-    [COMMAND_UNDO] = undo,
-    [COMMAND_REDO] = undo,
-    [COMMAND_RESTART] = begin_again,
-    [COMMAND_FASTER] = change_speed,
-    [COMMAND_SLOWER] = change_speed,
-    [COMMAND_FILTER] = switch_method,
-    [COMMAND_SEARCH] = switch_method,
-    [COMMAND_METHOD] = switch_integrator,
-    [COMMAND_ADD_PANE] = add_pane,
-    [COMMAND_END_PANE] = end_pane,
-    [COMMAND_PANE] = choose_pane,
-    [COMMAND_SET] = set,
-    [COMMAND_DEFAULT] = set_default,
-    [COMMAND_SELECT] = select_number,
-    [COMMAND_RAISE] = pace_number,
-    [COMMAND_LOWER] = pace_number,
-    [COMMAND_SCENE] = switch_scene,
-    [COMMAND_START] = pick_start,
-    [COMMAND_GRAB] = grab,
-    [COMMAND_DRAG] = pull,
-    [COMMAND_RELEASE] = pull,
-    [COMMAND_PIN] = switch_pin,
-    [COMMAND_HANDLE] = move_handle,
-    [COMMAND_FLIP] = move_handle,
-    [COMMAND_ZOOM] = move_camera,
-    [COMMAND_PAN] = move_camera,
-    [COMMAND_FIT] = move_camera,
-    [COMMAND_COLOURS] = switch_shown,
-    [COMMAND_BARE] = switch_shown,
-    [COMMAND_BLANK] = switch_shown,
-    [COMMAND_KEYS] = switch_column,
-    [COMMAND_PAGES] = switch_column,
-    [COMMAND_CODE] = switch_column,
-    [COMMAND_CARD] = switch_card,
-    [COMMAND_ENLARGE] = switch_card,
-    [COMMAND_PREDICT] = predict,
-    [COMMAND_CELL] = visit_cell,
-    [COMMAND_PAGE] = open_page,
-    [COMMAND_PAGE_ON] = open_page,
-    [COMMAND_PAGE_BACK] = open_page,
-    [COMMAND_HASH] = tell_hash,
-    [COMMAND_SHOT] = save_picture,
-    [COMMAND_FILM] = switch_film,
-    [COMMAND_FULL] = switch_full,
-    [COMMAND_ESCAPE] = leave,
-    [COMMAND_TYPE_NUMBER] = type,
-    [COMMAND_TYPE_PAGE] = type,
-    [COMMAND_TYPE] = type,
-    [COMMAND_ENTER] = enter,
-    [COMMAND_CLOSE] = close_field,
-};
-
 Status player_refuse(Player *player, const char *why)
 {
     snprintf(player->message, sizeof player->message, "%s", why);
@@ -162,7 +99,7 @@ static void join_lines(Player *player, size_t at)
 /* Whether the message of before may stay. */
 static bool keeps_note(const Player *player, CommandKind kind)
 {
-    if (kind == COMMAND_SET && player->mouse.drag != DRAG_NONE)
+    if (kind == COMMAND_SET && player->mouse.drag != COMMAND_NONE)
         return true;
     return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
@@ -205,7 +142,8 @@ Status player_obey(Player *player, const Command *asked)
     if (command.kind == COMMAND_TOGGLE_PAUSE) /* so that a script of it leads */
         command.kind =                        /* to the same place */
             player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
-    unsigned flags = command_row(command.kind)->flags;
+    const CommandRow *row = command_row(command.kind);
+    unsigned flags = row->flags;
     begin_gesture(player, &command);
     player->changed = true;
     player->message[0] = '\0';
@@ -225,8 +163,8 @@ Status player_obey(Player *player, const Command *asked)
     if (flags & KEPT && note_line(player, &command))
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (deeds[command.kind])
-        status = deeds[command.kind](player, &command);
+    if (row->deed)
+        status = row->deed(player, &command);
     if (past->now > now && command.kind != COMMAND_REDO)
         tell_left(player, step, newest);
     if (flags & KEPT && status == STATUS_INVALID_INPUT)

@@ -6,9 +6,6 @@
 
 /* ---- obey.c: commands, deeds, the journal -------------------------------- */
 
-/* What a command does. */
-typedef Status Deed(Player *player, const Command *command);
-
 Deed play_or_pause, one_on, one_back, new_step, go_finer, go_to,
     undo; /* walk */
 Deed set, set_default, select_number, pace_number, switch_method,
@@ -18,7 +15,7 @@ Deed switch_scene, pick_start, begin_again, open_page, predict,
     visit_cell; /* begin.c */
 Deed change_speed, switch_shown, switch_full, switch_column, leave, move_camera,
     switch_card, save_picture, switch_film, tell_hash, end_program; /* screen */
-Deed type, enter, close_field;                                      /* type.c */
+Deed type, enter, close_field; /* hands.c */
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);
@@ -146,10 +143,7 @@ void player_reset_speed(Player *player);
 
 void player_set_title(Player *player);
 
-/* ---- type.c -------------------------------------------------------------- */
-
-/* Who listens to the keys. */
-Keyboard player_keyboard(const Player *player);
+/* ---- hands.c ------------------------------------------------------------- */
 
 /* Without a number that is selected or typed. */
 void player_deselect(Player *player);

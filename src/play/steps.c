@@ -106,7 +106,7 @@ static void enter_scene(Player *player)
     player->large = -1;
     player_deselect(player);
     player->show.hover = (Pick){.kind = PICK_NONE};
-    player->mouse.drag = DRAG_NONE;
+    player->mouse.drag = COMMAND_NONE;
     player_set_title(player);
 }
 
@@ -194,7 +194,7 @@ void player_know_step(Player *player)
     }
     if (!player_stands(player) || !player->attended || past->works ||
         past->step == 0 || work == 0 || work > LONG ||
-        (player->mouse.drag == DRAG_TIME && work > SOON))
+        (player->mouse.drag == COMMAND_GOTO && work > SOON))
         return;
     for (int p = 0; p < past_panes(past); p++)
         player->side[p].retried = true;

@@ -100,7 +100,7 @@ cat >commands <<'END'
 END
 
 missing_words() {
-    words=$(sed -n 's/.*\[COMMAND_[A-Z_]*\] = {"\([a-z-]*\)".*/\1/p' "$table")
+    words=$(sed -n 's/.*\[COMMAND_[A-Z_]*\] = {[a-z_]*, "\([a-z-]*\)".*/\1/p' "$table")
     [ "$(echo "$words" | wc -l)" -gt 40 ] || echo 'the table was not read'
     for word in $words; do
         grep -q "^[0-9]* $word\( \|$\)" commands || echo "no $word"
