@@ -45,11 +45,12 @@ typedef struct Outcome {
 
 /* One step of one pane: the state after it, and how the next one is made. */
 typedef struct Entry {
+    long number; /* no other entry ever had it */
     const Control *control;
     State *state; /* NULL: made again from an entry before */
-    bool placed; /* somebody has moved a point in it: it cannot be made again */
-    int substeps; /* steps of its own in it: with a shorter h several; 0: it has
-                     ended before, or its scene is over */
+    bool placed;  /* its state is no step's alone: it cannot be made again */
+    int substeps; /* steps of its own in it: with a shorter h several; 0: it
+                     has ended before, or its scene is over */
     Outcome outcome;
 } Entry;
 
@@ -59,40 +60,39 @@ typedef struct Curves {
     long sampled;    /* step up to which these know of it; -1: none */
 } Curves;
 
+typedef struct Branch {
+    bool fresh; /* starts from options; else goes on from the one below */
+    long run;   /* the number of its run: that of the fresh one below */
+    long first; /* step of its entry 0 */
+    long count; /* entries; never 0 */
+    long room;  /* for so many; behind the last is the one that is being made */
+    long shown; /* the step that was shown when it was left */
+    long stride; /* every so manyth state is kept, and that of entry 0 */
+    int panes;
+    int source[OPTIONS_MAX_PANES]; /* the pane below that each goes on from */
+    Entry *entry;                  /* [room][panes]; 0 behind the last */
+    int gesture;  /* of the mouse; 0: none.  Changes of the same one change this
+                     branch's end */
+    Command edit; /* what began it */
+    const Control *second[OPTIONS_MAX_PANES]; /* from its entry 1 on; NULL: */
+                                              /* as its entry 0 */
+    Curves *curves[OPTIONS_MAX_PANES];        /* NULL: it was left long ago */
+} Branch;
+
 /* A list that grows. */
 typedef struct Records {
     NewtonRecord *row; /* [count] */
     int count, room;
 } Records;
 
-typedef struct Branch {
-    bool fresh;  /* starts from options; else goes on from the one below */
-    long run;    /* counts fresh ones: those of one run have one number */
-    long first;  /* step of its entry 0 */
-    long count;  /* entries; never 0 */
-    long room;   /* for so many */
-    long left;   /* the step shown when it was left */
-    long stride; /* every so manyth state is kept, and that of entry 0 */
-    int panes;
-    int source[OPTIONS_MAX_PANES]; /* the pane below that each one goes on from
-                                    */
-    Entry *entry;                  /* [count][panes] */
-    int gesture;  /* of the mouse; 0: none.  Changes of the same one
-                     change this branch's end */
-    Command edit; /* what began it */
-    const Control
-        *then[OPTIONS_MAX_PANES];      /* from its entry 1 on; NULL: the same */
-    Curves *curves[OPTIONS_MAX_PANES]; /* as it was left; NULL: long ago */
-} Branch;
-
 /* A simulation that stands at an entry. */
 typedef struct Machine {
     Simulation simulation;
     const Control *control; /* that it uses */
     long run;               /* that it was made for; 0: it is none */
-    int branch, pane;       /* whose entry it stands at, */
-    long step;              /* -1: at none, its state has to be loaded */
-    bool stepping;          /* a step of the simulation is begun */
+    long entry;             /* number of the one where it stands, */
+    long step;              /* and its step; 0: its state has to be loaded */
+    bool iterating;         /* a step of the simulation is begun */
     int substeps;           /* made of the step after it */
     long before;            /* the simulation's steps before the last of them */
     Outcome outcome;        /* of the step that is made, or the last one */
@@ -101,14 +101,13 @@ typedef struct Machine {
     Rounds rounds;
     bool known;      /* they are of the step it stands at, or failed after it */
     Records records; /* all that Newton told of that step, for the log */
-    Curves curves;
 } Machine;
 
 typedef struct Past {
     Branch *branch;
     int branches, room; /* for so many */
     int now;            /* the present one; those above it were undone */
-    long runs;          /* fresh branches so far */
+    long numbers;       /* given to runs and entries */
     long step;          /* shown, in all panes */
     Machine machine[OPTIONS_MAX_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
@@ -117,12 +116,11 @@ typedef struct Past {
     /* Work that is under way, a Newton iteration at a time. */
     bool works;    /* the rest means nothing otherwise */
     long aim;      /* the step that is to be shown */
-    int pane;      /* whose turn it is; those before it stand at the aim */
-    bool making;   /* the aim is a new step, and all panes have come to the
+    long from;     /* where machines are brought first; -1: they are */
+    bool making;   /* the aim is a new step, and all machines have come to the
                       newest one that is known */
-    bool again;    /* a known step is made again, and the one before it */
     double target; /* of a new step: s, where it ends, */
-    bool moved;    /* whether any pane has made it, */
+    bool made;     /* whether any pane has made it, */
     Status worst;  /* and with what */
 } Past;
 
@@ -198,8 +196,7 @@ long past_last_seen(const Past *past, int pane, long step, long from);
 /* What plots have kept of a pane; NULL: memory is missing. */
 Curves *past_curves(const Past *past, int pane);
 
-/* s, and s of one step; 0 and 1 in scenes without time. */
-double machine_time(const Machine *machine);
+/* s of one step; 1 in scenes without time. */
 double machine_pace(const Machine *machine);
 
 #endif

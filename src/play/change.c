@@ -149,7 +149,7 @@ static bool are_unlike(const Player *player)
     const Branch *branch = &past->branch[past->now];
     const Simulation *simulation = player_simulation(player);
     double was = player->retake.extent, is = extent_of(player_machine(player));
-    if (branch->panes > 1 || !branch->then[0] || past->step >= SOON ||
+    if (branch->panes > 1 || !branch->second[0] || past->step >= SOON ||
         branch->edit.kind != COMMAND_SET ||
         option_rows[branch->edit.number].effect != EFFECT_AGAIN ||
         !(simulation->scene->needs & NEEDS_MESH) ||
@@ -504,6 +504,6 @@ Status move_handle(Player *player, const Command *command)
     if (!status)
         status = change_all(player, command);
     if (past->now > now)
-        past->branch[now].left = step; /* where undo leads back to */
+        past->branch[now].shown = step; /* where undo leads back to */
     return status;
 }

@@ -65,7 +65,7 @@ double player_time(const Player *player)
     int pane = player->active;
     for (int p = 0; p < past_panes(past) && past_ended(past, pane) >= 0; p++)
         pane = p;
-    return machine_time(&past->machine[pane]);
+    return simulation_time(&past->machine[pane].simulation);
 }
 
 bool player_stands(const Player *player)

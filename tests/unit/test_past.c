@@ -12,6 +12,7 @@
 #include "model/fracture.h"
 #include "model/plasticity.h"
 #include "play/script.h"
+#include "scenes/scene.h"
 
 enum { STEPS = 70 };
 
@@ -175,7 +176,7 @@ TEST(changes_come_back_and_go)
             }
             hash[i + 1] = show(i + 1);
         }
-        CHECK_NEAR(machine_time(&past.machine[0]),
+        CHECK_NEAR(simulation_time(&past.machine[0].simulation),
                    3 * 0.004 + 20 * 0.01 + 24 * 0.002 + 12 * 0.0003 + 5 * 0.005,
                    1e-12);
         CHECK(simulation_is_pinned(&past.machine[0].simulation, 3));
@@ -485,6 +486,179 @@ TEST(pins_hold)
         CHECK(run->v[0] == 0);
         past_free(&past);
     }
+}
+
+/* ---- anything in any order ------------------------------------------------
+ */
+
+/* What was seen when a step was first made, as each branch has it. */
+enum { LAST = 12, DEPTH = 40, PANES = 3 };
+static uint64_t truth[DEPTH][LAST + 1][PANES];
+
+/* The state that is shown, if it is a new one; else it has been seen. */
+static void look(bool fresh)
+{
+    for (int p = 0; p < past_panes(&past); p++) {
+        const Simulation *simulation = &past.machine[p].simulation;
+        uint64_t hash = state_hash(simulation, STATE_HASH_SEED);
+        CHECK(fresh || truth[past.now][past.step][p] == hash);
+        truth[past.now][past.step][p] = hash;
+    }
+}
+
+static void visit(long step, bool again)
+{
+    bool fresh = step > past_newest(&past);
+    past_aim(&past, step, again);
+    CHECK_STATUS(work(), STATUS_OK);
+    CHECK(past.step == step);
+    look(fresh);
+}
+
+/* Work that is given up somewhere, or not. */
+static void visit_in_part(Random *random)
+{
+    long newest = past_newest(&past);
+    past_aim(&past, random_below(random, (int)newest + 2),
+             random_below(random, 2));
+    for (int k = random_below(random, 9); k > 0 && past.works; k--)
+        past_iterate(&past);
+    past_drop(&past);
+    CHECK_STATUS(work(), STATUS_OK);
+    look(past_newest(&past) > newest);
+}
+
+/* A change of a random kind in all panes, or a number in one. */
+static Command random_edit(Random *random, int kind)
+{
+    static const char *const settings[] = {
+        "timestep 0.01",  "timestep 0.003", "stiffness 2e4",
+        "stiffness 1e5",  "filter none",    "filter clamp",
+        "tolerance 1e-6", "integrator avf", "integrator backward-euler"};
+    const Simulation *simulation = &past.machine[0].simulation;
+    const double *x = simulation->run[0].x;
+    double at[SCENE_MAX_HANDLES][2];
+    int nodes = simulation->system.nodes;
+    int node = random_below(random, nodes < 2 ? nodes : 2);
+    bool pinned = simulation_is_pinned(simulation, node);
+    Command edit = {0};
+    char message[256], line[40];
+    bool mesh = simulation->scene->needs & NEEDS_MESH;
+    int all = contact_of(&simulation->system) ? 7 : mesh ? 9 : 2;
+    snprintf(line, sizeof line, "set %s", settings[random_below(random, all)]);
+    CHECK_STATUS(command_parse(line, &edit, message, sizeof message),
+                 STATUS_OK);
+    if (kind < 2)
+        return edit;
+    edit = (Command){.number = node};
+    edit.x = x[0] + random_uniform(random, -0.1, 0.1);
+    edit.y = x[1] + random_uniform(random, -0.1, 0.1);
+    if (kind < 4)
+        edit.kind = COMMAND_PIN;
+    else if (exhibit_handles(simulation, at) > 0)
+        edit.kind = COMMAND_HANDLE;
+    else if (past_control(&past, 0)->hand < 0)
+        edit.kind = COMMAND_GRAB;
+    else
+        edit.kind = kind < 5 ? COMMAND_DRAG : COMMAND_RELEASE;
+    if (edit.kind == COMMAND_PIN)
+        edit.x = !pinned;
+    return edit;
+}
+
+static void change_at_random(Random *random, int gesture)
+{
+    char message[256];
+    int kind = random_below(random, 6), panes = past_panes(&past);
+    int now = past.now, one = random_below(random, 2 * panes);
+    bool all = kind > 1 || one >= panes;
+    bool again = kind < 2 && past.step > 0 && random_below(random, 3) == 0;
+    const Command edit = random_edit(random, kind);
+    CHECK_STATUS(past_edit(&past, &edit, all ? 0 : one, all ? panes : one + 1,
+                           again, gesture, message, sizeof message),
+                 STATUS_OK);
+    if (past.now != now)
+        memcpy(truth[past.now], truth[now], sizeof *truth);
+    past_aim(&past, past.step, false);
+    CHECK_STATUS(work(), STATUS_OK);
+    look(true); /* a node that was pinned has stopped */
+    if (again)
+        visit(past.step + 1, false);
+}
+
+static void change_panes(int panes)
+{
+    const Command edit = {.kind = COMMAND_ADD_PANE};
+    int had = past_panes(&past), now = past.now;
+    if (panes < 1 || panes > PANES)
+        return;
+    CHECK_STATUS(past_set_panes(&past, panes, 0, &edit), STATUS_OK);
+    CHECK_STATUS(work(), STATUS_OK);
+    memcpy(truth[past.now], truth[now], sizeof *truth);
+    for (int step = 0; step <= LAST && panes > had; step++)
+        truth[past.now][step][had] = truth[now][step][had - 1];
+    look(false);
+}
+
+static void undo_at_random(int way)
+{
+    if (past_undo(&past, way, &forked)) {
+        CHECK_STATUS(work(), STATUS_OK);
+        look(false);
+    }
+}
+
+static void play_at_random(const char *line, uint64_t seed, size_t states)
+{
+    Random random = {seed};
+    int gesture = 1;
+    begin_past(line);
+    past.limit = states * past.bytes;
+    look(true);
+    for (int i = 0; i < 60; i++) {
+        long newest = past_newest(&past), step = past.step;
+        int kind = random_below(&random, 12), way = random_below(&random, 2);
+        bool deep = past.now + 2 == DEPTH;
+        gesture += random_below(&random, 6) == 0;
+        if (kind < 4 && newest < LAST)
+            visit(newest + 1, false);
+        else if (kind < 6)
+            visit(random_below(&random, (int)newest + 1), way);
+        else if (kind < 7)
+            undo_at_random(2 * way - 1);
+        else if (kind < 8 && newest < LAST)
+            visit_in_part(&random);
+        else if (kind < 9 && !deep)
+            change_panes(past_panes(&past) + 2 * way - 1);
+        else if (!deep)
+            change_at_random(&random, gesture);
+        else if (step > 0)
+            visit(step - 1, false);
+    }
+    while (past_undo(&past, -1, &forked))
+        continue;
+    do {
+        CHECK_STATUS(work(), STATUS_OK);
+        for (long step = past_newest(&past); step >= 0; step--)
+            visit(step, false);
+        for (long step = 0; step <= past_newest(&past); step++)
+            visit(step, false);
+    } while (past_undo(&past, 1, &forked));
+    past_free(&past);
+}
+
+/* Steps, changes of all kinds, undo, work that is given up, with plenty of
+ * memory or little: each step as each branch has it is always the same. */
+TEST(anything_in_any_order)
+{
+    static const char *const some[] = {"square --segments 2",
+                                       "drop --segments 2",
+                                       "square --segments 2 --integrator avf4",
+                                       "arrows --integrator backward-euler"};
+    static const size_t states[] = {1, 6, 1000};
+    for (int seed = 1; seed <= (tests_are_long() ? 200 : 9); seed++)
+        for (int i = 0; i < 4; i++)
+            play_at_random(some[i], (uint64_t)seed, states[seed % 3]);
 }
 
 /* What is written can be read, and is the same. */
