@@ -328,9 +328,8 @@ static Status solve_and_test(Newton *newton)
     return status ? status : newton_test(newton, error);
 }
 
-/* Gradient and direction at x, and the test of Algorithm 3.
- * Returns OK (converged), RUNNING, or a failure. */
-static Status direction_at(Newton *newton)
+/* The gradient at x; no factor there is known yet. */
+static void take_gradient(Newton *newton)
 {
     const Iterate *at = &newton->at;
     incremental_potential_gradient(&at->E, at->u, at->x, at->g);
@@ -338,14 +337,22 @@ static Status direction_at(Newton *newton)
     newton->record.factorised = false;
     newton->record.projected = 0;
     newton->record.shift = 0;
+}
+
+/* Gradient and direction at x, and the test of Algorithm 3.
+ * Returns OK (converged), RUNNING, or a failure. */
+static Status direction_at(Newton *newton)
+{
+    take_gradient(newton);
     /* The projected Hessian is M plus something positive semi-definite, so
      * |p|_M <= |g|_(M^-1).  Where this bound passes the test, p itself would:
      * no factorisation is needed.  (On demand, where the Hessian as it is may
      * be less than M, the test is that of the projected one here.) */
     if (newton->settings.filter != FILTER_NONE) {
         newton->kind = RESIDUAL_BOUND;
-        newton->residual = residual_per_norm(newton) *
-                           system_inverse_mass_norm(newton->system, at->g);
+        newton->residual =
+            residual_per_norm(newton) *
+            system_inverse_mass_norm(newton->system, newton->at.g);
         if (newton_test(newton, 0) == STATUS_OK) {
             newton->counters.skipped++;
             return STATUS_OK;
@@ -423,8 +430,8 @@ static Status find_curvature(Newton *newton, bool *found)
     return status;
 }
 
-/* From where E bends down: p along negative curvature of the Hessian as it is,
- * if that is found; else as anywhere.  Returns RUNNING or a failure. */
+/* The gradient is known: p along negative curvature of the Hessian as it is, if
+ * that is found; else as anywhere.  Returns RUNNING or a failure. */
 static Status leave_saddle(Newton *newton)
 {
     const System *system = newton->system;
@@ -458,6 +465,13 @@ Status direction_next(Newton *newton)
         status = direction_judges_end(newton);
     newton->bends_down = status == STATUS_NOT_A_MINIMUM;
     return newton->bends_down ? leave_saddle(newton) : status;
+}
+
+Status direction_from_saddle(Newton *newton)
+{
+    take_gradient(newton);
+    newton->bends_down = true;
+    return leave_saddle(newton);
 }
 
 /* Whether g is 0 but for rounding, compared with the force of a spring that is

@@ -203,13 +203,15 @@ static Status pass_test(Newton *newton)
 }
 
 /* Newton goes on from the iterate that multigrid has reached; where that is a
- * saddle for one iteration, which leaves it. */
-static Status take_back(Newton *newton)
+ * saddle for one iteration, which leaves it.
+ *   why  NOT_A_MINIMUM: it is one */
+static Status take_back(Newton *newton, Status why)
 {
     int saddles = newton->saddles;
     newton->working = newton->record.solver = SOLVER_NEWTON;
     newton->rounding.E = NAN;
-    Status status = direction_first(newton);
+    Status status = why == STATUS_NOT_A_MINIMUM ? direction_from_saddle(newton)
+                                                : direction_first(newton);
     newton->lent = newton->saddles > saddles;
     newton->counters.taken_back += status == STATUS_RUNNING && !newton->lent;
     return status;
@@ -247,9 +249,9 @@ Status multigrid_start(Newton *newton)
     newton->counters.cycles = mg->cycle.cycles;
     /* A gradient that vanishes may be that of a maximum: Newton looks. */
     if (status == STATUS_OK && newton->kind == RESIDUAL_BOUND)
-        return take_back(newton);
+        return take_back(newton, status);
     status = status == STATUS_OK ? direction_judges_end(newton) : status;
-    return status == STATUS_NOT_A_MINIMUM ? take_back(newton) : status;
+    return status == STATUS_NOT_A_MINIMUM ? take_back(newton, status) : status;
 }
 
 /* ---- the iteration ---- */
@@ -353,6 +355,6 @@ Status multigrid_iterate(Newton *newton, NewtonRecord *done)
     bool stuck = is_stuck(newton, status, last);
     status = status == STATUS_OK ? direction_judges_end(newton) : status;
     if (stuck || status == STATUS_NOT_A_MINIMUM)
-        status = take_back(newton);
+        status = take_back(newton, status);
     return status == STATUS_RUNNING && last ? STATUS_ITERATION_LIMIT : status;
 }

@@ -24,8 +24,10 @@ void direction_free(Newton *newton);
  * Returns OK (the test is passed), RUNNING, NOT_A_MINIMUM, or a failure. */
 Status direction_first(Newton *newton);
 
-/* The same after an update.  Returns OK, RUNNING, or a failure. */
+/* The same after an update; at a saddle that multigrid came to, p leads away.
+ * Return OK, RUNNING, or a failure. */
 Status direction_next(Newton *newton);
+Status direction_from_saddle(Newton *newton);
 
 /* Whether the Hessian as it is, with `times` M in place of M, is positive
  * definite: by bounds, and where they do not tell by its Cholesky factor.
