@@ -8,6 +8,8 @@
  *           single unknown point also where the update began and ended; of
  *           several panes the last column says which, and their steps are
  *           those that they have together
+ *   energies  CSV: the ledger (simulation.h) of every run at every step from 0;
+ *           runs of all panes are counted from 0
  * Numbers have 17 digits: reading them gives the same double.
  */
 #ifndef ELASTO_RECORDING_H
@@ -18,7 +20,7 @@
 #include "play/output.h"
 #include "scenes/simulation.h"
 
-enum { RECORDING_NAME_SIZE = 4096 };
+enum { RECORDING_NAME_SIZE = 4096, RECORDING_TABLES = 3 };
 
 typedef struct Recording {
     const char *folder; /* of the frames, or NULL: none */
@@ -28,13 +30,18 @@ typedef struct Recording {
     long films;         /* that ended with a frame; of the last one: */
     long film_frames;
     char film_name[RECORDING_NAME_SIZE];
-    long film_every;    /* it has those of every so manyth step, once; 0: all,
-                           as often as the speed asks for */
-    bool points;        /* the log tells of points */
-    int panes;          /* of more than one the log tells which: 1 ... */
-    Output states, log; /* not open: not written */
-    bool aside;         /* set: at the end tables stay NAME.part */
-    int reason;         /* errno of the first failure, 0: none yet */
+    long film_every; /* it has those of every so manyth step, once; 0: all,
+                        as often as the speed asks for */
+    bool points;     /* the log tells of points */
+    int panes;       /* of more than one the log tells which: 1 ... */
+    union {          /* not open: not written */
+        struct {
+            Output states, log, energies;
+        };
+        Output table[RECORDING_TABLES];
+    };
+    bool aside; /* set: at the end tables stay NAME.part */
+    int reason; /* errno of the first failure, 0: none yet */
     char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
     char message[256];                /* why there is no film, or "" */
 } Recording;
@@ -45,7 +52,7 @@ typedef struct Recording {
  * Returns OK or INVALID_INPUT. */
 Status recording_check(const Options *options, char *message, size_t size);
 
-/* Opens what options->frames, film, states and log ask for; makes the folder.
+/* Opens what options->frames, film and the tables ask for; makes the folder.
  *   recording  out; close it in any case
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
  * all functions here do; INVALID_INPUT: message says why. */
@@ -63,8 +70,8 @@ Status recording_end_film(Recording *recording);
 /* Takes back the rows of later steps. */
 Status recording_cut(Recording *recording, long step);
 
-/* The states of `count` simulations now, if states are asked for; nodes of the
- * second follow those of the first. */
+/* States and energies of `count` simulations now, if they are asked for; nodes
+ * and runs of the second follow those of the first. */
 Status recording_states(Recording *recording,
                         const Simulation *const *simulation, int count,
                         long step);
@@ -73,14 +80,17 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane);
 
-/* Begins states and log anew, for the scene in the options. */
+/* Whether a table is open. */
+bool recording_has_tables(const Recording *recording);
+
+/* Begins all tables anew, for the scene in the options. */
 Status recording_restart(Recording *recording, const Options *options);
 
 /* Closes everything, whatever happened before: a run that fails keeps what it
  * wrote. */
 Status recording_close(Recording *recording);
 
-/* Closes both tables without a trace: for a run that did not begin. */
+/* Closes all tables without a trace: for a run that did not begin. */
 void recording_discard(Recording *recording);
 
 /* One picture as a PNG file, whole or not at all (output.h).

@@ -54,8 +54,10 @@ typedef struct Options {
     const struct Scene *scene;
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
-    const char *frames, *states, *log, *film, *script, *handout; /* or NULL */
-    int panes; /* side by side, 1: no lists of values */
+    const char *state;              /* the table it begins in, or NULL */
+    const char *frames, *states, *log, *energies, *film, *script,
+        *handout; /* or NULL */
+    int panes;    /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */

@@ -129,8 +129,10 @@ static bool fits_in_memory(const Options *options, char *message, size_t size)
 int program_end(Player *player, Status status)
 {
     const Options *options = &player->given[0];
-    bool standard = (options->states && output_is_standard(options->states)) ||
-                    (options->log && output_is_standard(options->log));
+    bool standard =
+        (options->states && output_is_standard(options->states)) ||
+        (options->log && output_is_standard(options->log)) ||
+        (options->energies && output_is_standard(options->energies));
     if (!player->begun)
         recording_discard(&player->recording);
     long steps = player->past.machine[0].simulation.steps;
@@ -173,8 +175,9 @@ static int make_handout(const Options *options,
 static void join_line(int argc, char **argv, char *line, size_t size)
 {
     static const char *const left_out[] = {
-        "--script", "--film",  "--frames", "--states", "--log",        "--size",
-        "--speed",  "--steps", "--paused", "--quiet",  "--fullscreen",
+        "--script", "--film",     "--frames", "--states",
+        "--log",    "--energies", "--size",   "--speed",
+        "--steps",  "--paused",   "--quiet",  "--fullscreen",
     };
     enum { LEFT_OUT = sizeof left_out / sizeof *left_out, SWITCHES = 3 };
     size_t used = (size_t)snprintf(line, size, "elasto");

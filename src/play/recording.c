@@ -34,6 +34,39 @@ static Status make_folder(const char *name)
     return STATUS_FILE_FAILED;
 }
 
+/* What the terms of all options may add to a ledger stands between these. */
+static const char *const first_energies[] = {"total",   "kinetic", "elastic",
+                                             "gravity", "contact", "hand"};
+static const char *const last_energies[] = {"friction", "work", "dissipated"};
+enum { ENERGY_COLUMNS = 32 };
+
+/* Adds a name that is not there yet; returns how many there are then. */
+static int add_name(const char *name, const char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!name || strcmp(names[i], name) == 0)
+            return count;
+    if (count < ENERGY_COLUMNS)
+        names[count++] = name;
+    return count;
+}
+
+/* The columns of energies, whatever the scene has; returns how many. */
+static int list_energies(const char *names[ENERGY_COLUMNS])
+{
+    int count = 0;
+    for (int i = 0; i < 6; i++)
+        count = add_name(first_energies[i], names, count);
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if (row->term) {
+            count = add_name(row->term->energy, names, count);
+            count = add_name(row->term->loss, names, count);
+        }
+    for (int i = 0; i < 3; i++)
+        count = add_name(last_energies[i], names, count);
+    return count;
+}
+
 /* Whether all of a table so far was written. */
 static Status check_table(Recording *recording, const Output *output)
 {
@@ -43,7 +76,10 @@ static Status check_table(Recording *recording, const Output *output)
 /* The lines above the columns. */
 static Status write_headers(Recording *recording)
 {
+    const char *names[ENERGY_COLUMNS];
     FILE *states = recording->states.file, *log = recording->log.file;
+    FILE *energies = recording->energies.file;
+    Status status = STATUS_OK;
     if (states)
         fputs("step,time,node,x,y,vx,vy\n", states);
     if (log)
@@ -52,11 +88,18 @@ static Status write_headers(Recording *recording)
                 "factorised,shift,status,seconds%s,solver,kind%s\n",
                 recording->points ? ",from_x,from_y,to_x,to_y" : "",
                 recording->panes > 1 ? ",pane" : "");
-    Status status = check_table(recording, &recording->states);
-    return status ? status : check_table(recording, &recording->log);
+    if (energies)
+        fputs("step,time", energies);
+    for (int i = 0, count = list_energies(names); energies && i < count; i++)
+        fprintf(energies, ",%s", names[i]);
+    if (energies)
+        fputs(",run\n", energies);
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+        status = check_table(recording, &recording->table[t]);
+    return status;
 }
 
-/* Opens one file of the two, if it has a name. */
+/* Opens one of the tables, if it has a name. */
 static Status open_table(Recording *recording, const char *name, Output *output)
 {
     if (!name)
@@ -102,7 +145,7 @@ Status recording_end_film(Recording *recording)
     return STATUS_OK;
 }
 
-/* Folder, film, states, log. */
+/* Folder, film, tables. */
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
     *recording = (Recording){
@@ -118,6 +161,8 @@ Status recording_open(const Options *options, int panes, Recording *recording)
         status = open_table(recording, options->states, &recording->states);
     if (!status)
         status = open_table(recording, options->log, &recording->log);
+    if (!status)
+        status = open_table(recording, options->energies, &recording->energies);
     if (!status)
         status = write_headers(recording);
     if (status)
@@ -154,9 +199,11 @@ Status recording_check(const Options *options, char *message, size_t size)
     } file[] = {
         {"states", options->states, table},
         {"log", options->log, table},
+        {"energies", options->energies, table},
         {"film", options->film, NULL},
         {"frames", options->frames, NULL},
         {"script", options->script, NULL},
+        {"state", options->state, NULL},
         {"handout", options->handout, ".html, .htm"},
     };
     enum { FILES = sizeof file / sizeof *file };
@@ -233,23 +280,44 @@ static void write_run(FILE *file, const Simulation *simulation,
     }
 }
 
+/* The ledger of one run; 0 where it has no such row. */
+static void write_ledger(Recording *recording, const Simulation *simulation,
+                         int run, long step, int number)
+{
+    const char *names[ENERGY_COLUMNS];
+    const Energies energies = simulation_energies(simulation, run);
+    FILE *file = recording->energies.file;
+    int count = list_energies(names);
+    fprintf(file, "%ld,%.17g", step, simulation_time(simulation));
+    for (int i = 0; i < count; i++) {
+        double value = 0;
+        for (int r = 0; r < energies.rows; r++)
+            if (strcmp(energies.row[r].name, names[i]) == 0)
+                value = energies.row[r].value;
+        fprintf(file, ",%.17g", value);
+    }
+    fprintf(file, ",%d\n", number);
+}
+
 /* Run by run. */
 Status recording_states(Recording *recording,
                         const Simulation *const *simulation, int count,
                         long step)
 {
-    int first = 0;
-    Output *states = &recording->states;
-    if (!states->file)
-        return STATUS_OK;
+    int first = 0, number = 0;
+    Output *states = &recording->states, *energies = &recording->energies;
     errno = 0;
     for (int i = 0; i < count; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
-            write_run(states->file, simulation[i], &simulation[i]->run[r], step,
-                      first);
+            if (states->file)
+                write_run(states->file, simulation[i], &simulation[i]->run[r],
+                          step, first);
+            if (energies->file)
+                write_ledger(recording, simulation[i], r, step, number++);
             first += simulation[i]->system.nodes;
         }
-    return check_table(recording, states);
+    Status status = check_table(recording, states);
+    return status ? status : check_table(recording, energies);
 }
 
 /* What is known of a residual. */
@@ -293,12 +361,21 @@ Status recording_restart(Recording *recording, const Options *options)
 
 Status recording_cut(Recording *recording, long step)
 {
-    Output *states = &recording->states, *log = &recording->log;
-    Status status =
-        recording_note(recording, output_cut(states, step), states->name);
-    if (status)
-        return status;
-    return recording_note(recording, output_cut(log, step), log->name);
+    Status status = STATUS_OK;
+    for (int t = 0; t < RECORDING_TABLES && !status; t++) {
+        Output *output = &recording->table[t];
+        status =
+            recording_note(recording, output_cut(output, step), output->name);
+    }
+    return status;
+}
+
+bool recording_has_tables(const Recording *recording)
+{
+    for (int t = 0; t < RECORDING_TABLES; t++)
+        if (recording->table[t].file)
+            return true;
+    return false;
 }
 
 /* Closes one table. */
@@ -311,18 +388,20 @@ static Status close_table(Recording *recording, Output *output)
     return recording_note(recording, output_close(output), name);
 }
 
-/* Film and both tables, also if one of them fails. */
+/* Film and all tables, also if one of them fails; the first failure counts. */
 Status recording_close(Recording *recording)
 {
-    Status film = recording_end_film(recording);
-    Status states = close_table(recording, &recording->states);
-    Status log = close_table(recording, &recording->log);
-    return film ? film : states ? states : log;
+    Status first = recording_end_film(recording);
+    for (int t = 0; t < RECORDING_TABLES; t++) {
+        Status status = close_table(recording, &recording->table[t]);
+        first = first ? first : status;
+    }
+    return first;
 }
 
 void recording_discard(Recording *recording)
 {
     film_discard(&recording->film);
-    output_discard(&recording->states, false);
-    output_discard(&recording->log, false);
+    for (int t = 0; t < RECORDING_TABLES; t++)
+        output_discard(&recording->table[t], false);
 }

@@ -72,7 +72,7 @@ Status player_write_rest(Player *player)
     if (failed && shown == player->written) /* its iterations are told */
         status = record_updates(player, shown + 1);
     if (past->keeps && past->branches > 0 &&
-        (player->recording.states.file || player->recording.log.file)) {
+        recording_has_tables(&player->recording)) {
         while (player->written < past_newest(past) && !status &&
                !*player->stop) {
             long from = player->written > 0 ? player->written : 0;

@@ -12,6 +12,7 @@
 #include "model/friction.h"
 #include "model/plasticity.h"
 #include "scenes/pins.h"
+#include "scenes/start_table.h"
 #include "base/mathematics.h"
 
 /* Part by which the strengths of springs differ. */
@@ -209,23 +210,48 @@ static Status set_terms(const Options *options, const SquareMesh *mesh,
     return status;
 }
 
-/* The run from where the options put the body, and where the scene's ball is,
- * which is the last node. */
+/* Whether a ball comes with the scene: it is the last node. */
+static bool has_ball(const Scene *scene, const Options *options)
+{
+    return scene->own && scene->own(options).kind == OBSTACLE_BALL;
+}
+
+/* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
+ * table, or where the options put it, and the scene's ball where it is.
+ *   message  [size] out, one line, if the table is none of this body */
+static Status place_body(const Options *options, const SquareMesh *shape,
+                         int run, double *x, double *v, char *message,
+                         size_t size)
+{
+    int more = has_ball(options->scene, options);
+    if (options->state)
+        return start_table_read(options->state, shape->nodes + more, run, x, v,
+                                message, size);
+    for (int i = 0; i < shape->nodes; i++) {
+        double rest[2];
+        square_mesh_place(shape, i, rest);
+        place_node(options, rest, x + 2 * i);
+        memcpy(v + 2 * i, options->velocity, sizeof rest);
+    }
+    if (more) {
+        memcpy(x + 2 * shape->nodes, options->scene->own(options).o,
+               2 * sizeof *x);
+        v[2 * shape->nodes] = v[2 * shape->nodes + 1] = 0;
+    }
+    return STATUS_OK;
+}
+
+/* The run from there; what is pinned does not move. */
 static Status start_run(Simulation *simulation, int run, const Options *options,
                         const SquareMesh *mesh, System *system)
 {
     size_t size = 2 * (size_t)system->nodes;
-    double *x = malloc(size * sizeof *x), *v = calloc(size, sizeof *v);
-    Status status = x && v ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; !status && i < mesh->nodes; i++) {
-        place_node(options, mesh->x + 2 * i, x + 2 * i);
-        for (int axis = 0; axis < 2; axis++)
-            if (!system->pinned || !system->pinned[i])
-                v[2 * i + axis] = options->velocity[axis];
-    }
-    if (!status && system->nodes > mesh->nodes)
-        memcpy(x + 2 * mesh->nodes, options->scene->own(options).o,
-               2 * sizeof *x);
+    double *x = malloc(size * sizeof *x), *v = malloc(size * sizeof *v);
+    Status status = x && v ? place_body(options, mesh, run, x, v, NULL, 0)
+                           : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; !status && system->pinned && i < system->nodes; i++)
+        if (system->pinned[i])
+            v[2 * i] = v[2 * i + 1] = 0;
     if (!status)
         status = simulation_start(simulation, run, options_method(options),
                                   system, x, v);
@@ -237,9 +263,8 @@ static Status start_run(Simulation *simulation, int run, const Options *options,
 Status body_create(Simulation *simulation, int run, const Options *options,
                    SquareMesh *mesh, System *system)
 {
-    const Scene *scene = options->scene;
-    bool ball = scene->own && scene->own(options).kind == OBSTACLE_BALL;
-    Status status = create_system(options, ball, mesh, system);
+    int more = has_ball(options->scene, options);
+    Status status = create_system(options, more, mesh, system);
     if (!status)
         status = set_terms(options, mesh, system);
     return status ? status : start_run(simulation, run, options, mesh, system);
@@ -307,17 +332,15 @@ static bool obstacle_is_sound(const Obstacle *obstacle)
 
 /* The gap of the body when it begins, m, and the node that has it; infinite
  * where all are pinned. */
-static double nearest_node(const Options *options, const unsigned char *pinned,
+static double nearest_node(const Options *options, const double *x,
+                           const unsigned char *pinned,
                            const Obstacle *obstacle, int *node)
 {
     const SquareMesh shape = body_shape(options);
     bool moves = options->scene->moving_pins || obstacle->motion.phases > 0;
     double nearest = INFINITY;
     for (int i = 0; i < shape.nodes; i++) {
-        double rest[2], x[2];
-        square_mesh_place(&shape, i, rest);
-        place_node(options, rest, x);
-        double d = contact_gap(obstacle, obstacle->o, x, 0).d;
+        double d = contact_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
         if (d < nearest && (moves || !pinned || !pinned[i])) {
             nearest = d;
             *node = i;
@@ -328,7 +351,7 @@ static double nearest_node(const Options *options, const unsigned char *pinned,
 
 /* Whether obstacle i is one, and the body begins off it; and off a ball that is
  * free, the last one. */
-static Status check_obstacle(const Options *options,
+static Status check_obstacle(const Options *options, const double *x,
                              const unsigned char *pinned, const Obstacle list[],
                              int count, int i, char *message, size_t size)
 {
@@ -343,7 +366,7 @@ static Status check_obstacle(const Options *options,
                      : "the radius must be above 0");
         return STATUS_INVALID_INPUT;
     }
-    double d = nearest_node(options, pinned, it, &node);
+    double d = nearest_node(options, x, pinned, it, &node);
     snprintf(who, sizeof who, "node %d", node);
     if (d > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
         it != own) {
@@ -358,27 +381,49 @@ static Status check_obstacle(const Options *options,
     return STATUS_INVALID_INPUT;
 }
 
-Status body_check(const Options *options, char *message, size_t size)
+/* Cells keep their sides: none begins turned over. */
+static Status check_cells(const Options *options, const double *x,
+                          char *message, size_t size)
 {
-    if (options->cells && !(options->stretch > 0)) {
+    const SquareMesh shape = body_shape(options);
+    int node[3], side[3];
+    for (int t = 0; options->cells && t < 4 * shape.cells; t++) {
+        square_mesh_triangle(&shape, t, node, side);
+        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
+        const double *c = x + 2 * node[2];
+        double part =
+            ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) /
+            (shape.spacing * shape.spacing);
+        if (part > 0)
+            continue;
         snprintf(message, size,
-                 "--stretch: %g turns cell 0 over (%g of its area), and all "
-                 "others; above 0, or --cells off",
-                 options->stretch, options->stretch);
+                 "%s: cell %d begins turned over (%.3g of its area); it must "
+                 "not, or --cells off",
+                 options->state ? "--state" : "--stretch", t / 4, part);
         return STATUS_INVALID_INPUT;
     }
+    return STATUS_OK;
+}
+
+Status body_check(const Options *options, char *message, size_t size)
+{
     Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
     int count = list_obstacles(options, list);
-    unsigned char *pinned = NULL;
-    Status status = STATUS_OK;
-    if (count > 0 && options->pin) {
-        pinned = calloc((size_t)shape.nodes, 1);
-        status = pinned ? pins_read(options->pin, &shape, pinned)
-                        : STATUS_OUT_OF_MEMORY;
-    }
+    unsigned char *pinned = calloc((size_t)shape.nodes, 1);
+    double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);
+    Status status = x && pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    if (!status)
+        status = place_body(options, &shape, 0, x, x + 2 * shape.nodes + 2,
+                            message, size);
+    if (!status)
+        status = check_cells(options, x, message, size);
+    if (!status && options->pin)
+        status = pins_read(options->pin, &shape, pinned);
     for (int i = 0; i < count && !status; i++)
-        status = check_obstacle(options, pinned, list, count, i, message, size);
+        status =
+            check_obstacle(options, x, pinned, list, count, i, message, size);
     free(pinned);
+    free(x);
     return status;
 }

@@ -102,8 +102,8 @@ TEST(starts_that_make_no_sense_are_refused)
         {"square --stretch 1 --ball 3,0,0",
          "--ball 3,0,0: the radius must be above 0", NULL, NULL},
         {"square --stretch 0 --cells on",
-         "--stretch: 0 turns cell 0 over (0 of its area), and all others; "
-         "above 0, or --cells off",
+         "--stretch: cell 0 begins turned over (0 of its area); it must not, "
+         "or --cells off",
          NULL, NULL},
         {"square --stretch 1 --pin bottom --ground 0,1,0,-0.4", "", NULL, NULL},
         {"square --stretch 1 --pin bottom --ground 0,1,0,-0.2",
