@@ -410,6 +410,8 @@ Status body_check(const Options *options, char *message, size_t size)
     Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
     int count = list_obstacles(options, list);
+    if (count == 0 && !options->cells && !options->state)
+        return STATUS_OK;
     unsigned char *pinned = calloc((size_t)shape.nodes, 1);
     double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);
     Status status = x && pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
