@@ -74,7 +74,7 @@ typedef struct Side {
     int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[64];
-    double *from;   /* [4n] m, where a glide begins, and where it is; NULL */
+    double *from;   /* [4n] m, where a glide begins, and where it is */
     char label[64]; /* what is different here */
     bool over;      /* that it ended was told */
     bool retried;   /* it was tried to know its rounds */

@@ -243,6 +243,36 @@ static void fill_chips(Player *player)
 
 /* ---- the picture --------------------------------------------------------- */
 
+/* From one line of Algorithm 3 to the next the square of a window glides,
+ * arrows grow and points drop, for a quarter of a second: the part that is
+ * still to go, 1 ... 0. */
+static double glide_rest(Player *player)
+{
+    static const double TIME = 0.25; /* s */
+    double part = (clock_now() - player->glide) / TIME;
+    if (player->glide > 0 && part < 1)
+        return 1 - part * part * (3 - 2 * part);
+    player->glide = 0;
+    return 0;
+}
+
+/* On the way from where it was drawn last; nothing where memory is missing. */
+static void glide(Side *side, double rest, Pane *pane)
+{
+    size_t size = 2 * (size_t)pane->simulation->system.nodes;
+    const double *to = pane_x(pane);
+    double *from = realloc(side->from, 2 * size * sizeof *from);
+    if (!from)
+        return;
+    side->from = from;
+    if (rest == 0)
+        memcpy(from, to, size * sizeof *from);
+    for (size_t i = 0; i < size && rest > 0; i++)
+        from[size + i] = to[i] + rest * (from[i] - to[i]);
+    if (rest > 0)
+        pane->x = from + size;
+}
+
 /* One picture on the stage. */
 static void fill_pane(Player *player, int p, double rest, Trace *trace)
 {
@@ -269,8 +299,8 @@ static void fill_pane(Player *player, int p, double rest, Trace *trace)
         pane->trace = trace;
         trace->rest = rest;
     }
-    if (rest > 0)
-        pane->x = glide_between(player, p, rest);
+    if (player->window)
+        glide(&player->side[p], rest, pane);
 }
 
 /* The hand, where it pulls. */

@@ -99,11 +99,6 @@ Status player_wish(Player *player, Then then);
 int player_place(const Player *player, int pane);
 void player_stand_at(Player *player, int pane, int place);
 
-/* The part of the way to another line that is still to go: 1 ... 0; 0: it is
- * over.  The positions there, [2n] m, the side's own. */
-double glide_rest(Player *player);
-const double *glide_between(Player *player, int pane, double rest);
-
 /* ---- change.c ------------------------------------------------------------ */
 
 /* A change from here on in panes from ... to - 1; again: the step that is shown

@@ -1,7 +1,5 @@
 /* walk.c - through time: run and pause, on and back by steps, by updates of
- * Newton's method, or by lines of Algorithm 3, undo.  From one line to the next
- * the square of a window glides, arrows grow and points drop, for a quarter of
- * a second.
+ * Newton's method, or by lines of Algorithm 3, undo.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +8,6 @@
 #include "base/clock.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
-
-static const double GLIDE_TIME = 0.25; /* s */
 
 static const Machine *machine_of(const Player *player, int pane)
 {
@@ -28,57 +24,6 @@ static bool has_lines(const Player *player, int pane)
 {
     const Machine *machine = machine_of(player, pane);
     return machine->known && machine->rounds.places > 2;
-}
-
-/* ---- gliding ------------------------------------------------------------- */
-
-/* Positions that a pane shows now, [2n] m. */
-static const double *shown(const Player *player, int pane)
-{
-    const Machine *machine = machine_of(player, pane);
-    Trace trace;
-    const double *x = NULL;
-    if (machine->known)
-        x = rounds_trace(&machine->rounds, player_place(player, pane), &trace);
-    return x ? x : machine->simulation.run[0].x;
-}
-
-/* From what is shown now, before another line is; only in a window. */
-static void glide_begin(Player *player)
-{
-    if (!player->window)
-        return;
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        Side *side = &player->side[p];
-        size_t bytes = 2 *
-                       (size_t)machine_of(player, p)->simulation.system.nodes *
-                       sizeof *side->from;
-        double *from = realloc(side->from, 2 * bytes);
-        if (!from)
-            return; /* the square jumps */
-        side->from = from;
-        memcpy(from, shown(player, p), bytes);
-    }
-    player->glide = clock_now();
-}
-
-double glide_rest(Player *player)
-{
-    double part = (clock_now() - player->glide) / GLIDE_TIME;
-    if (player->glide > 0 && part < 1)
-        return 1 - part * part * (3 - 2 * part);
-    player->glide = 0;
-    return 0;
-}
-
-const double *glide_between(Player *player, int pane, double rest)
-{
-    const double *to = shown(player, pane);
-    int size = 2 * machine_of(player, pane)->simulation.system.nodes;
-    double *from = player->side[pane].from, *x = from + size;
-    for (int i = 0; i < size; i++)
-        x[i] = to[i] + rest * (from[i] - to[i]);
-    return x;
 }
 
 /* ---- lines --------------------------------------------------------------- */
@@ -120,7 +65,7 @@ static void enter_rounds(Player *player, Then then)
 static bool walk(Player *player, int way)
 {
     bool moved = false;
-    glide_begin(player);
+    player->glide = player->window ? clock_now() : 0;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Rounds *rounds = &machine_of(player, p)->rounds;
         int last = rounds->places - 1, place = player_place(player, p);

@@ -78,19 +78,6 @@ static inline const Machine *machine(int pane)
     return &player.past.machine[pane];
 }
 
-static inline Side *side(int pane)
-{
-    return &player.side[pane];
-}
-
-/* The largest coordinate in the whole step, m. */
-static inline double extent(int pane)
-{
-    double inside = rounds_extent(&machine(pane)->rounds);
-    double after = machine(pane)->outcome.extent;
-    return inside > after ? inside : after;
-}
-
 /* What is told of a step. */
 static inline const Outcome *told(int pane, long step)
 {

@@ -1,12 +1,13 @@
 /* The program as a process: what it prints where, what it leaves in files and
- * its exit codes.  The program is named by ELASTO or the first argument, else
- * build/elasto.
+ * its exit codes.  The program is named by ELASTO, else build/elasto.
  */
+#include "test.h"
 #include "testing.h"
 
 #include <errno.h>
 #include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +55,16 @@ static void run(const char *arguments)
     read_text(path, result.error);
 }
 
+static void run_line(const char *format, ...)
+{
+    char line[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    run(line);
+}
+
 static void check_code(int expected)
 {
     if (result.code != expected)
@@ -91,48 +102,30 @@ static void check_refused(int code, const char *a, const char *b, const char *c)
     CHECK(good);
 }
 
-static void help_goes_to_standard_output(void **unused)
+/* On standard output, and that alone; where it cannot be written it is a
+ * failure. */
+TEST(information_is_printed)
 {
-    (void)unused;
-    run("--help");
-    check_code(0);
-    CHECK(strstr(result.out, "--segments") != NULL);
-    CHECK(count_lines(result.out) > 20 && result.error[0] == '\0');
-    run("--help --segments 3");
-    check_code(0);
-}
-
-static void version_is_one_line(void **unused)
-{
-    (void)unused;
-    run("--version");
-    check_code(0);
-    CHECK(count_lines(result.out) == 1 && result.error[0] == '\0');
-    CHECK(strncmp(result.out, "elasto ", 7) == 0);
-}
-
-static void list_names_the_scenes(void **unused)
-{
-    (void)unused;
-    run("--list");
-    check_code(0);
-    CHECK(strncmp(result.out, "square ", 7) == 0 && result.error[0] == '\0');
-}
-
-static void information_that_cannot_be_written_is_a_failure(void **unused)
-{
-    (void)unused;
-    const char *lines[] = {"--help >/dev/full", "--list >/dev/full",
-                           "--version >/dev/full"};
-    for (int i = 0; i < 3; i++) {
-        run(lines[i]);
-        CHECK(result.code == 1);
+    static const struct {
+        const char *line, *words;
+        int lines; /* at least */
+    } rows[] = {{"--help", "--segments", 20},
+                {"--help --segments 3", "--segments", 20},
+                {"--version", "elasto ", 1},
+                {"--list", "square ", 10}};
+    for (int i = 0; i < 4; i++) {
+        run(rows[i].line);
+        check_code(0);
+        CHECK(strstr(result.out, rows[i].words) && result.error[0] == '\0');
+        CHECK(count_lines(result.out) >= rows[i].lines);
+        CHECK(rows[i].lines != 1 || count_lines(result.out) == 1);
+        run_line("%s >/dev/full", rows[i].line);
+        check_code(1);
     }
 }
 
-static void summaries_tell_what_was_done(void **unused)
+TEST(summaries_tell_what_was_done)
 {
-    (void)unused;
     run("--headless --steps 5");
     check_code(0);
     const char *words[] = {"5",       "Newton", "factor",  "solve",
@@ -164,9 +157,8 @@ static void summaries_tell_what_was_done(void **unused)
 
 /* On standard output there is the table and nothing else; its last state is
  * that of the library, to the last bit. */
-static void states_are_clean_and_exact(void **unused)
+TEST(states_are_clean_and_exact)
 {
-    (void)unused;
     Simulation simulation;
     run("--headless --segments 2 --steps 7 --states -");
     check_code(0);
@@ -193,9 +185,8 @@ static void states_are_clean_and_exact(void **unused)
     simulation_free(&simulation);
 }
 
-static void logs_have_a_row_an_iteration(void **unused)
+TEST(logs_have_a_row_an_iteration)
 {
-    (void)unused;
     run("--headless --steps 5 --log log.csv --states states.csv --quiet");
     check_code(0);
     CHECK(exists("log.csv") && exists("states.csv"));
@@ -220,9 +211,8 @@ static void logs_have_a_row_an_iteration(void **unused)
     CHECK(count_lines(text) == 1 + 6 * 25);
 }
 
-static void frames_are_written(void **unused)
+TEST(frames_are_written)
 {
-    (void)unused;
     run("--headless --steps 3 --frames pictures --quiet");
     check_code(0);
     for (int i = 0; i <= 3; i++) {
@@ -238,38 +228,37 @@ static void frames_are_written(void **unused)
     CHECK(!exists("pictures/frame_000004.png"));
 }
 
-static void headless_alone_draws_nothing(void **unused)
+TEST(headless_alone_draws_nothing)
 {
-    (void)unused;
     run("--headless --steps 2 --quiet");
     check_code(0);
     CHECK(!exists("frames"));
 }
 
-static void failed_files_exit_with_1(void **unused)
+TEST(failed_files_exit_with_1)
 {
-    (void)unused;
-    run("--headless --steps 5 --quiet --states /dev/full");
-    check_refused(1, "/dev/full", strerror(ENOSPC), "");
-    run("--headless --steps 5 --quiet --log /dev/full");
-    check_refused(1, "/dev/full", strerror(ENOSPC), "");
-    run("--headless --steps 2 --quiet --states nowhere/states.csv");
-    check_refused(1, "nowhere/states.csv", strerror(ENOENT), "");
-    run("--headless --steps 2 --quiet --log nowhere/log.csv");
-    check_refused(1, "nowhere/log.csv", strerror(ENOENT), "");
-    run("--headless --steps 2 --quiet --frames out");
-    check_refused(1, "out", "", "");
-    run("--headless --steps 2 --quiet --frames nowhere/pictures");
-    check_refused(1, "nowhere/pictures", strerror(ENOENT), "");
-    run("--headless --steps 2 --quiet --states .");
-    check_refused(1, ".", "", "");
+    static const struct {
+        const char *option, *name;
+        int reason; /* 0: any */
+    } rows[] = {{"states", "/dev/full", ENOSPC},
+                {"log", "/dev/full", ENOSPC},
+                {"states", "nowhere/states.csv", ENOENT},
+                {"log", "nowhere/log.csv", ENOENT},
+                {"frames", "nowhere/pictures", ENOENT},
+                {"frames", "out", 0},
+                {"states", ".", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        run_line("--headless --steps 5 --quiet --%s %s", rows[i].option,
+                 rows[i].name);
+        check_refused(1, rows[i].name,
+                      rows[i].reason ? strerror(rows[i].reason) : "", "");
+    }
     CHECK(!exists("nowhere"));
 }
 
 /* Unconverged steps are made, counted and shown in the exit code. */
-static void unconverged_steps_exit_with_3(void **unused)
+TEST(unconverged_steps_exit_with_3)
 {
-    (void)unused;
     run("--headless --steps 5 --filter none --timestep 0.02 --stretch 0.5");
     check_code(3);
     run("--headless --steps 3 --tolerance 1e-30 --quiet --states s.csv");
@@ -290,9 +279,8 @@ static double estimated_bytes(char *segments, char *integrator, char *solver)
 }
 
 /* Machines that have room for 4096 segments are asked nothing. */
-static void squares_too_large_for_the_machine_are_refused(void **unused)
+TEST(squares_too_large_for_the_machine_are_refused)
 {
-    (void)unused;
     double there =
         (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     double newton = estimated_bytes("4096", "backward-euler", "newton");
@@ -306,9 +294,8 @@ static void squares_too_large_for_the_machine_are_refused(void **unused)
 
 /* The largest process so far, less what the program itself takes; sanitizers
  * take more. */
-static void memory_is_estimated_within_a_quarter(void **unused)
+TEST(memory_is_estimated_within_a_quarter)
 {
-    (void)unused;
 #if !defined __SANITIZE_ADDRESS__
     char *const solvers[] = {"multigrid", "newton"};
     for (int i = 0; i < 2; i++) {
@@ -337,9 +324,8 @@ static void memory_is_estimated_within_a_quarter(void **unused)
 #endif
 }
 
-static void overflow_exits_with_1(void **unused)
+TEST(overflow_exits_with_1)
 {
-    (void)unused;
     run("--headless --steps 100 --integrator forward-euler --timestep 1 "
         "--quiet --states blown.csv");
     check_refused(1, "step", "NaN or infinite", "--timestep");
@@ -350,9 +336,8 @@ static void overflow_exits_with_1(void **unused)
 }
 
 /* Signals end a run early and leave whole files. */
-static void signals_end_the_run(void **unused)
+TEST(signals_end_the_run)
 {
-    (void)unused;
     const char *names[] = {"INT", "TERM"};
     for (int i = 0; i < 2; i++) {
         static char line[256], text[TEXT];
@@ -370,9 +355,8 @@ static void signals_end_the_run(void **unused)
     }
 }
 
-static void same_line_gives_same_bits(void **unused)
+TEST(same_line_gives_same_bits)
 {
-    (void)unused;
     static char first[TEXT];
     run("--headless --segments 5 --steps 10 --states -");
     check_code(0);
@@ -384,7 +368,11 @@ static void same_line_gives_same_bits(void **unused)
 static int make_folder(void **unused)
 {
     (void)unused;
-    return mkdtemp(folder) ? 0 : -1;
+    const char *name = getenv("ELASTO");
+    if (realpath(name ? name : "build/elasto", program) && mkdtemp(folder))
+        return 0;
+    perror(program);
+    return -1;
 }
 
 static int remove_folder(void **unused)
@@ -395,32 +383,4 @@ static int remove_folder(void **unused)
     return system(command);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(help_goes_to_standard_output),
-        cmocka_unit_test(version_is_one_line),
-        cmocka_unit_test(list_names_the_scenes),
-        cmocka_unit_test(information_that_cannot_be_written_is_a_failure),
-        cmocka_unit_test(summaries_tell_what_was_done),
-        cmocka_unit_test(states_are_clean_and_exact),
-        cmocka_unit_test(logs_have_a_row_an_iteration),
-        cmocka_unit_test(frames_are_written),
-        cmocka_unit_test(headless_alone_draws_nothing),
-        cmocka_unit_test(failed_files_exit_with_1),
-        cmocka_unit_test(unconverged_steps_exit_with_3),
-        cmocka_unit_test(overflow_exits_with_1),
-        cmocka_unit_test(squares_too_large_for_the_machine_are_refused),
-        cmocka_unit_test(memory_is_estimated_within_a_quarter),
-        cmocka_unit_test(signals_end_the_run),
-        cmocka_unit_test(same_line_gives_same_bits),
-    };
-    const char *name = argc > 1 ? argv[1] : getenv("ELASTO");
-    if (!realpath(name ? name : "build/elasto", program)) {
-        fprintf(stderr, "%s: %s\n", name ? name : "build/elasto",
-                strerror(errno));
-        return 1;
-    }
-    return cmocka_run_group_tests_name("command", tests, make_folder,
-                                       remove_folder);
-}
+TESTS(make_folder, remove_folder)

@@ -9,56 +9,6 @@
 #include "base/clock.h"
 #include "scenes/scene.h"
 
-/* The sum of E over the updates so far, where it was highest, and at its end,
- * J s^2. */
-static double highest(int pane, double *last)
-{
-    double most = 0;
-    *last = 0;
-    for (int i = 0; i < machine(pane)->rounds.count; i++) {
-        *last += machine(pane)->rounds.record[i].change;
-        most = fmax(most, *last);
-    }
-    return most;
-}
-
-/* The scene opens at step 0; one key shows E rising to 1e16 J s^2 and nodes a
- * kilometre away; one more shows either ingredient taming it, beside it. */
-TEST(the_explosion_is_seen_and_tamed)
-{
-    static const char *const keys[] = {"projection", "line-search"};
-    for (int i = 0; i < 2; i++) {
-        double last, rise = 0, tamed;
-        begin("explosion");
-        CHECK(player.past.step == 0 &&
-              player_simulation(&player)->scene->explains);
-        CHECK_STATUS(obey("next"), STATUS_OK);
-        CHECK(highest(0, &last) > 1e16);
-        CHECK(player_place(&player, 0) >= 0 &&
-              rounds_peak(&machine(0)->rounds, &rise) >= 0);
-        CHECK(rise > 1e16 && extent(0) > 1000);
-        player_fill(&player);
-        const double *x = pane_x(&player.show.pane[0]);
-        double far = 0;
-        for (int k = 0; k < 2 * player_simulation(&player)->system.nodes; k++)
-            far = fmax(far, fabs(x[k]));
-        CHECK(far > 500); /* m, of a square of one metre */
-        CHECK(strstr(player.show.message, "E has risen") != NULL);
-        CHECK_STATUS(obey(keys[i]), STATUS_OK);
-        CHECK(past_panes(&player.past) == 2 && player.past.step == 1);
-        tamed = highest(0, &last);
-        CHECK(tamed <= 1e-9 && last <= 0 &&
-              rounds_peak(&machine(0)->rounds, &rise) < 0);
-        CHECK(extent(0) < 2);
-        CHECK(highest(1, &last) > 1e16 && player_place(&player, 1) >= 0);
-        player_fill(&player);
-        CHECK(player.show.panes == 2);
-        CHECK(pane_x(&player.show.pane[0]) != pane_x(&player.show.pane[1]));
-        CHECK(strcmp(side(0)->label, side(1)->label) != 0);
-        end();
-    }
-}
-
 /* E of a step from x_n with v_n where springs alone act, at x, J s^2. */
 static double step_energy(const Simulation *simulation, const double *x_n,
                           const double *v_n, const double *x)
@@ -341,38 +291,6 @@ TEST(the_picture_follows_the_mouse)
         input.kind = INPUT_RELEASE;
         CHECK_STATUS(player_input(&player, &input), STATUS_OK);
     }
-    end();
-}
-
-/* However a step is come to, its updates are known and those of the step
- * before it, and nothing of the steps that were made again on the way. */
-TEST(old_steps_have_their_rounds)
-{
-    enum { STEP = 12 };
-    begin("square");
-    for (int i = 0; i < STEP; i++)
-        CHECK_STATUS(obey("step"), STATUS_OK);
-    const Rounds *rounds = &machine(0)->rounds;
-    int count = rounds->count, before = rounds->before;
-    double first = rounds->record_before[0].residual;
-    CHECK(count > 0 && before > 0 && rounds->step == STEP);
-    CHECK(before == told(0, STEP - 1)->updates);
-    obey_all((const char *const[]){"step", "goto 7", "goto 12", NULL});
-    CHECK(!machine(0)->known && rounds->step == STEP + 1); /* going there */
-    CHECK(rounds->before == count);                        /* adds nothing */
-    CHECK_STATUS(player_show(&player, STEP, true, THEN_NOTHING), STATUS_OK);
-    CHECK(rounds->count == count && rounds->before == before);
-    CHECK(rounds->record_before[0].residual == first);
-    CHECK_STATUS(player_show(&player, 1, true, THEN_NOTHING), STATUS_OK);
-    CHECK(rounds->before == 0 && rounds->step == 1);
-    CHECK(rounds->count == told(0, 1)->updates);
-    /* A step far from the one before has nothing before it. */
-    obey_all((const char *const[]){"goto 5", "step", NULL});
-    CHECK(rounds->step == 6 && rounds->before == 0 && rounds->count > 0);
-    /* The same step with another method: both are seen. */
-    int with = rounds->count;
-    CHECK_STATUS(obey("projection"), STATUS_OK);
-    CHECK(rounds->step == 6 && rounds->before == with);
     end();
 }
 
@@ -673,34 +591,34 @@ TEST(a_long_step_is_made_in_slices)
     end();
 }
 
-/* Between two lines the square is where it was, then where it will be. */
+/* Between two lines the square is where it was, then on its way, then where it
+ * will be. */
 TEST(glides_begin_and_end_at_lines)
 {
-    begin("square --segments 2");
-    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
-    player.window = true;
     enum { SIZE = 18 };
-    double before[SIZE];
-    obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    const Rounds *rounds = &machine(0)->rounds;
-    while (rounds->place[player_place(&player, 0)].line != LINE_SEARCH)
-        CHECK_STATUS(obey("next"), STATUS_OK);
-    memcpy(before, side(0)->from, sizeof before);
-    CHECK_STATUS(obey("next"), STATUS_OK); /* line 6 moves the square */
-    CHECK_SAME_BITS(glide_between(&player, 0, 1), before, SIZE);
-    Trace trace;
-    const double *after =
-        rounds_trace(rounds, player_place(&player, 0), &trace);
-    CHECK(after && memcmp(after, before, sizeof before) != 0);
-    CHECK_SAME_BITS(glide_between(&player, 0, 0), after, SIZE);
-
-    /* 1 ... 0 and flat at both ends: a fifth of the time before the end about
-     * a tenth of the way is left, and never less than nothing. */
-    player.glide = clock_now() - 0.2;
-    double rest = glide_rest(&player);
-    CHECK(rest >= 0 && rest < 0.105);
+    double before[SIZE], now[SIZE];
+    begin("square --segments 2");
+    player.window = true;
+    obey_all((const char *const[]){"finer", "finer", "next", "next", "next",
+                                   "next", "next", NULL});
     player.glide = clock_now() - 1;
-    CHECK(glide_rest(&player) == 0 && player.glide == 0);
+    player_fill(&player);
+    CHECK(player.show.pane[0].trace->line == LINE_SEARCH && player.glide == 0);
+    memcpy(before, pane_x(&player.show.pane[0]), sizeof before);
+    CHECK_STATUS(obey("next"), STATUS_OK);   /* line 6 moves the square */
+    static const double ago[] = {0, 0.2, 1}; /* s */
+    for (int i = 0; i < 3; i++) {
+        /* 1 ... 0 and flat at both ends: a fifth of the time before the end
+         * about a tenth of the way is left. */
+        player.glide = clock_now() - ago[i];
+        player_fill(&player);
+        double rest = player.show.pane[0].trace->rest;
+        CHECK(i == 0 ? rest > 0.99 : i == 1 ? rest < 0.105 : rest == 0);
+        memcpy(now, pane_x(&player.show.pane[0]), sizeof now);
+        const double *to = machine(0)->rounds.round[1].x;
+        for (int k = 0; k < SIZE; k++)
+            CHECK_NEAR(now[k], to[k] + rest * (before[k] - to[k]), 1e-12);
+    }
     end();
 }
 
@@ -723,15 +641,17 @@ TEST(every_list_labels_its_panes)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         begin(lines[i]);
         player_fill(&player);
-        CHECK(side(0)->label[0] && side(1)->label[0]);
-        CHECK(strcmp(side(0)->label, side(1)->label) != 0);
+        CHECK(player.show.pane[0].label[0] && player.show.pane[1].label[0]);
+        CHECK(strcmp(player.show.pane[0].label, player.show.pane[1].label) !=
+              0);
         end();
     }
     begin("square --turn 0,30 --stiffness 1e4,1e5");
     player_fill(&player);
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < i; k++)
-            CHECK(strcmp(side(i)->label, side(k)->label) != 0);
+            CHECK(strcmp(player.show.pane[i].label,
+                         player.show.pane[k].label) != 0);
     end();
 }
 
