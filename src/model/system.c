@@ -183,8 +183,8 @@ bool system_has_gravity(const System *system)
     return system->gravity[0] != 0 || system->gravity[1] != 0;
 }
 
-/* Heights have digits: what is less than the rounding of all parts is 0, as in
- * a square whose middle is at the height 0. */
+/* What n roundings leave, about sqrt(n) of one, is 0: a square whose middle is
+ * at the height 0 has no energy there. */
 double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
@@ -194,7 +194,8 @@ double system_gravity_potential(const System *system, const double *x)
         sum -= part;
         size += fabs(part);
     }
-    return fabs(sum) <= DBL_EPSILON * size ? 0 : sum;
+    double rounding = sqrt(system->nodes) * DBL_EPSILON * size;
+    return fabs(sum) <= rounding ? 0 : sum;
 }
 
 double system_energy_of(const System *system, const TermKind *kind,

@@ -22,32 +22,6 @@ static Options parse_good(const char *line)
     return options;
 }
 
-/* Every number with a range: the first and the last that are read, and what
- * they are by default ("": nothing, or none of these). */
-typedef struct Range {
-    const char *option, *low, *high, *standard;
-} Range;
-
-static const Range ranges[] = {
-    {"segments", "1", "4096", "4"},
-    {"side", "1e-30", "1e30", "1"},
-    {"density", "1e-30", "1e30", "1000"},
-    {"stiffness", "1e-30", "1e30", "1e5"},
-    {"stretch", "-1e200", "1e200", "1.4"},
-    {"turn", "-1e6", "1e6", "0"},
-    {"gravity", "0", "1e30", "0"},
-    {"friction", "0", "1000", "0"},
-    {"slip-speed", "1e-12", "1e6", "0.001"},
-    {"yield", "1e-09", "1e9", ""},
-    {"hardening", "0", "1e9", "0"},
-    {"tear", "1e-09", "1e9", ""},
-    {"damping", "0", "1e6", "0"},
-    {"timestep", "1e-30", "1e30", "0.004"},
-    {"tolerance", "1e-300", "1e300", "0.01"},
-    {"steps", "0", "1e15", ""},
-    {"speed", "0.015625", "1024", ""},
-};
-
 /* One option of a square that has all there is.  message [512] */
 static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
@@ -69,39 +43,42 @@ static void check_refused(const char *option, const char *value,
 }
 
 /* Borders are read, the numbers next to them are not; nor is what is no whole
- * decimal number.  No number of the table is forgotten here. */
+ * decimal number.  Each number has a slot of its own. */
 TEST(numbers_have_ranges)
 {
     static const char *const bad[] = {
         "nan", "NAN",   "inf", "-infinity", "0x10", "",   "1e999",
         "4x",  "1.4.1", "-",   "e5",        "+-1",  "ten"};
-    size_t count = 0;
-    for (const OptionRow *row = option_rows; row->name; row++)
-        count += row->high > row->low && !row->count;
-    CHECK(count == sizeof ranges / sizeof *ranges);
-    for (size_t i = 0; i < count; i++) {
-        const Range *it = &ranges[i];
-        const OptionRow *row = option_find(it->option);
-        char range[80], message[512], beyond[32];
-        Options options;
-        snprintf(range, sizeof range, "from %s to %s", it->low, it->high);
-        CHECK(it->standard[0] ? row->standard == strtod(it->standard, NULL)
-                              : !(row->standard >= row->low));
+    int numbers = 0;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        for (const OptionRow *other = option_rows; other < row; other++)
+            CHECK(row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
+                  other->kind == OPTION_TEXT || other->kind == OPTION_PAGE ||
+                  !row->name[0] || !other->name[0] || row->slot != other->slot);
+        if (!(row->high > row->low) || row->count)
+            continue;
+        numbers++;
         for (int end = 0; end < 2; end++) {
-            const char *text = end ? it->high : it->low;
-            double border = strtod(text, NULL), up = end ? 1 : -1;
-            CHECK_STATUS(set_option(&options, it->option, text, message),
+            double border = end ? row->high : row->low, up = end ? 1 : -1;
+            char text[32], beyond[32], message[512];
+            Options options;
+            option_write(row, border, text, sizeof text);
+            CHECK_STATUS(set_option(&options, row->name, text, message),
                          STATUS_OK);
             CHECK(options.number[row->slot] == border);
-            snprintf(beyond, sizeof beyond, "%.17g",
-                     row->kind == OPTION_WHOLE
-                         ? border + up
-                         : nextafter(border, up * INFINITY));
-            check_refused(it->option, beyond, range);
+            option_write(row,
+                         row->kind == OPTION_WHOLE
+                             ? border + up
+                             : nextafter(border, up * INFINITY),
+                         beyond, sizeof beyond);
+            check_refused(row->name, beyond, "a ");
         }
         for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-            check_refused(it->option, bad[k], range);
+            check_refused(row->name, bad[k], " from ");
     }
+    CHECK(numbers > 15);
+    check_refused("side", "0", "a number from 1e-30 to 1e30, in m");
+    check_refused("steps", "-1", "a whole number from 0 to 1e15");
     check_refused("segments", "4.5", "a whole number from 1 to 4096");
     check_refused("at", "1", "X,Y, each from -1e30 to 1e30, in m");
     check_refused("at", "1,2,3", "X,Y, each");
@@ -155,36 +132,31 @@ TEST(values_are_read)
     CHECK(parse_good("--segments 3 7").segments == 3);
 }
 
-/* Each name of each option. */
+/* Each name of each option; what no name is chosen of is the first, or what the
+ * slides have. */
 TEST(names_are_read)
 {
-    static const struct {
-        const char *option;
-        int standard;
-        const char *names[10];
-    } rows[] = {
-        {"solver", SOLVER_AUTO, {"newton", "multigrid", "auto"}},
-        {"filter", FILTER_CLAMP, {"clamp", "none", "abs", "on-demand"}},
-        {"line-search", LINE_SEARCH_BACKTRACK, {"backtrack", "none"}},
-        {"cells", 0, {"off", "on"}},
-        {"integrator",
-         -1,
-         {"backward-euler", "forward-euler", "symplectic-euler", "verlet",
-          "bdf2", "midpoint", "sdirk2", "avf", "avf4"}},
-    };
     const Options standard = parse_good("");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const OptionRow *row = option_find(rows[i].option);
-        CHECK(standard.number[row->slot] == rows[i].standard);
-        for (int k = 0; rows[i].names[k]; k++) {
-            char line[64], value[64];
-            snprintf(line, sizeof line, "--%s %s", row->name, rows[i].names[k]);
+    int names = 0;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        const char *name;
+        char line[64], value[64];
+        for (int k = 0; row->kind == OPTION_NAME &&
+                        (name = name_at(row->names, k)) != NULL;
+             k++, names++) {
+            snprintf(line, sizeof line, "--%s %s", row->name, name);
             const Options options = parse_good(line);
             CHECK(options.number[row->slot] == k);
             option_value(row, &options, value, sizeof value);
-            assert_string_equal(value, rows[i].names[k]);
+            assert_string_equal(value, name);
         }
     }
+    CHECK(names == 20);
+    CHECK(standard.solver == SOLVER_AUTO && standard.filter == FILTER_CLAMP);
+    CHECK(standard.line_search == LINE_SEARCH_BACKTRACK && !standard.cells);
+    assert_string_equal(solver_name(SOLVER_MULTIGRID), "multigrid");
+    assert_string_equal(filter_name(FILTER_ON_DEMAND), "on-demand");
+    assert_string_equal(line_search_name(LINE_SEARCH_NONE), "none");
 }
 
 /* The line, and what its message must name: option, value, range; or what may
