@@ -61,7 +61,7 @@ stress: build/stress build/elasto
 	@$(SETTINGS) FAULTS=all sh tests/checks/check_faults.sh
 
 envelope: build/stress
-	./build/stress --envelope tests/data/envelope.csv tests/data/envelope.png
+	./build/stress --envelope tests/data/envelope.csv
 
 same-bits: build/elasto
 	@$(SETTINGS) sh tests/checks/same_bits.sh

@@ -35,6 +35,17 @@ bool wide_factor(int n, Wide *H, int *negative);
 /* b = (L D L^T)^-1 b */
 void wide_solve(int n, const Wide *H, Wide *b);
 
+typedef enum LargeVerdict {
+    LARGE_PASSED,
+    LARGE_FAILED,
+    LARGE_UNDECIDED /* too close to the tolerance, or too slow */
+} LargeVerdict;
+
+/* The test of Algorithm 3 with clamped blocks, at u of a minimisation by
+ * springs alone, not averaged, without a matrix.  tolerance in m/s */
+LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
+                         double h, double tolerance);
+
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
 typedef enum Verdict {
@@ -162,26 +173,6 @@ bool case_close(Case *c);
 /* Coordinates of all nodes. */
 int case_size(const Case *c);
 
-/* ---- large squares by multigrid (stress_large.c) ------------------------ */
-
-typedef enum LargeVerdict {
-    LARGE_PASSED,
-    LARGE_FAILED,
-    LARGE_UNDECIDED /* too close to the tolerance, or too slow */
-} LargeVerdict;
-
-/* The test of Algorithm 3 at the iterate of a minimisation by springs alone,
- * not averaged. */
-LargeVerdict large_judge(const Newton *newton);
-
-/* So many steps of this command line by multigrid; false and a reason [512]
- * where one that is called converged is not. */
-bool large_steps(const char *line, int steps, Tally *tally, char *reason);
-
-/* For the list of cases. */
-bool large_squares(Tally *tally, char *reason);
-bool random_large_squares(Tally *tally, char *reason);
-
 /* ---- the envelope (stress_envelope.c) ---------------------------------- */
 
 enum { ENVELOPE_H = 25, ENVELOPE_K = 22, ENVELOPE_STRETCH = 8 };
@@ -202,7 +193,6 @@ char envelope_cell(Solver solver, int stretch, int k, int h, Tally *tally,
 
 bool envelope_write(const char *name, const Envelope *envelope);
 bool envelope_read(const char *name, Envelope *envelope);
-bool envelope_draw(const char *name, const Envelope *envelope);
 
 /* Share of verdict c where the stretch is at least 0.1, and something was done.
  */

@@ -78,54 +78,84 @@ int case_size(const Case *c)
     return 2 * c->run->system->nodes;
 }
 
-/* So many steps of a command line, with both solvers. */
-static bool run_line(Tally *tally, char *reason, const char *line, int steps,
-                     bool converge)
+/* So many steps of a command line, with one solver or the other; where it
+ * begins with '!' all must converge. */
+typedef struct Line {
+    int steps;
+    const char *line; /* NULL: the end of a list */
+} Line;
+
+static bool run_line(Tally *tally, char *reason, Line row, int solver)
 {
-    for (int solver = 0; solver < SOLVER_COUNT; solver++) {
-        char whole[256];
-        Case c = {.tally = tally, .reason = reason};
-        snprintf(whole, sizeof whole, "%s --solver %s", line,
-                 solver_name((Solver)solver));
-        if (case_open(&c, whole))
-            converge ? case_converges(&c, steps) : case_steps(&c, steps);
-        if (!case_close(&c)) {
-            size_t used = strlen(reason);
-            snprintf(reason + used, 512 - used, " (%s)", whole);
-            return false;
-        }
-    }
-    return true;
+    char line[STRESS_LINE];
+    Case c = {.tally = tally, .reason = reason};
+    bool converge = row.line[0] == '!';
+    snprintf(line, sizeof line, "%s --solver %s", row.line + converge,
+             solver_name(solver));
+    if (case_open(&c, line))
+        converge ? case_converges(&c, row.steps) : case_steps(&c, row.steps);
+    if (c.wrong)
+        strncat(reason, line, 511 - strlen(reason));
+    return case_close(&c);
 }
 
 static bool extreme_squares(Tally *tally, char *reason)
 {
-    static const struct {
-        int steps;
-        bool converge;
-        const char *line;
-    } rows[] = {
-        {5, true, "--timestep 1e3"},
-        {5, true, "--timestep 1e3 --stretch 0.3"},
-        {5, true, "--timestep 1e3 --stretch 100"},
-        {5, true, "--timestep 1e3 --segments 1"},
-        {5, true, "--stiffness 1e-6"},
-        {5, true, "--stiffness 1e15"},
-        {5, true, "--stiffness 1e-6 --stretch 0.1"},
-        {5, true, "--stiffness 1e15 --stretch 0.9"},
-        {5, false, "--stretch 1e6"},
-        {5, false, "--stretch 1e-6"},
-        {5, false, "--stretch 0"},
-        {5, false, "--stretch -1.4"},
-        {5, false, "--stretch 1e3"},
-        {5, false, "--stretch 0.1"},
-        {50, true, "--segments 1"},
-        {50, true, "--segments 1 --stretch 0.2"},
-        {50, true, "--segments 1 --timestep 1"},
+    static const Line rows[] = {
+        {5, "!--timestep 1e3"},
+        {5, "!--timestep 1e3 --stretch 0.3"},
+        {5, "!--timestep 1e3 --stretch 100"},
+        {5, "!--timestep 1e3 --segments 1"},
+        {5, "!--stiffness 1e-6"},
+        {5, "!--stiffness 1e15"},
+        {5, "!--stiffness 1e-6 --stretch 0.1"},
+        {5, "!--stiffness 1e15 --stretch 0.9"},
+        {5, "--stretch 1e6"},
+        {5, "--stretch 1e-6"},
+        {5, "--stretch 0"},
+        {5, "--stretch -1.4"},
+        {5, "--stretch 1e3"},
+        {5, "--stretch 0.1"},
+        {50, "!--segments 1"},
+        {50, "!--segments 1 --stretch 0.2"},
+        {50, "!--segments 1 --timestep 1"},
+        {0, NULL},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!run_line(tally, reason, rows[i].line, rows[i].steps,
-                      rows[i].converge))
+    for (const Line *row = rows; row->line; row++)
+        if (!run_line(tally, reason, *row, SOLVER_NEWTON) ||
+            !run_line(tally, reason, *row, SOLVER_MULTIGRID))
+            return false;
+    return true;
+}
+
+static bool large_squares(Tally *tally, char *reason)
+{
+    static const Line rows[] = {
+        {40, "--segments 33"},
+        {20, "--segments 64"},
+        {14, "--segments 64 --minimum"},
+        {6, "--segments 97 --stretch 0.7"},
+        {10, "--segments 128"},
+        {6, "--segments 128 --timestep 0.0166"},
+        {8, "--segments 48 --stretch 2.5"},
+        {5, "--segments 48 --stretch 0.5 --timestep 0.02"},
+        {4, "--segments 40 --stretch 0.1 --timestep 0.1"},
+        {5, "--segments 40 --stiffness 1e9 --stretch 1.1"},
+        {8, "--segments 40 --stiffness 1e3 --timestep 0.1"},
+        {12, "--segments 40 --integrator bdf2"},
+        {12, "--segments 40 --integrator midpoint --stretch 1.2"},
+        {8, "--segments 40 --integrator sdirk2"},
+        {10, "--segments 40 --tolerance 1e-6"},
+        {14, "--segments 40 --tolerance 1"},
+        {15, "--segments 36 --gravity 9.81 --pin top-corners --stretch 1 "
+             "--timestep 0.01 --stiffness 1e4"},
+        {12, "--segments 35 --pin left --stretch 1.3"},
+        {6, "--segments 33 --side 1e-3 --density 1e-3 --stiffness 1e-3"},
+        {6, "--segments 33 --side 1e3 --stiffness 1e9"},
+        {0, NULL},
+    };
+    for (const Line *row = rows; row->line; row++)
+        if (!run_line(tally, reason, *row, SOLVER_MULTIGRID))
             return false;
     return true;
 }
@@ -133,121 +163,14 @@ static bool extreme_squares(Tally *tally, char *reason)
 /* Every integrator, gently and hard. */
 static bool every_integrator(Tally *tally, char *reason)
 {
-    for (int i = 0; integrator_methods[i].name; i++) {
-        char line[128];
-        for (int hard = 0; hard < 2; hard++) {
+    for (int i = 0; integrator_methods[i].name; i++)
+        for (int way = 0; way < 4; way++) {
+            char line[128];
             snprintf(line, sizeof line, "--integrator %s --timestep %s",
-                     integrator_methods[i].name, hard ? "0.05" : "1e-3");
-            if (!run_line(tally, reason, line, 20, false))
+                     integrator_methods[i].name, way < 2 ? "0.05" : "1e-3");
+            if (!run_line(tally, reason, (Line){20, line}, way % 2))
                 return false;
         }
-    }
-    return true;
-}
-
-/* Where |d|^4 overflows nothing moves, whatever the integrator. */
-static bool overflow(Tally *tally, char *reason)
-{
-    for (int i = 0; integrator_methods[i].name; i++) {
-        char line[128];
-        Case c = {.tally = tally, .reason = reason};
-        snprintf(line, sizeof line, "--integrator %s --stretch 1e160",
-                 integrator_methods[i].name);
-        if (case_open(&c, line) && case_steps(&c, 2) &&
-            c.watch.status != STATUS_NOT_FINITE)
-            case_wrong(&c, "%s: %s", line, status_name(c.watch.status));
-        if (!case_close(&c))
-            return false;
-    }
-    return true;
-}
-
-static void mix_stiffness(Case *c)
-{
-    System *system = &c->simulation.system;
-    for (int s = 0; s < system->springs; s++)
-        system->k[s] = pow(10, s * 21.0 / (system->springs - 1) - 6);
-}
-
-static void mix_masses(Case *c)
-{
-    System *system = &c->simulation.system;
-    for (int i = 0; i < system->nodes; i++)
-        system->m[i] = pow(10, i * 12.0 / (system->nodes - 1) - 6);
-}
-
-static void alternate(Case *c)
-{
-    for (int i = 0; i < case_size(c); i++)
-        c->run->x[i] *= i / 2 % 2 ? 1e6 : 1e-6;
-}
-
-static void put_on_a_line(Case *c)
-{
-    for (int i = 1; i < case_size(c); i += 2)
-        c->run->x[i] = 0;
-}
-
-static void make_pairs(Case *c)
-{
-    for (int i = 0; i + 3 < case_size(c); i += 4)
-        memcpy(c->run->x + i + 2, c->run->x + i, 2 * sizeof(double));
-}
-
-static void fold(Case *c)
-{
-    for (int i = 0; i < case_size(c); i += 2)
-        c->run->x[i] = fabs(c->run->x[i]);
-}
-
-static void scatter(Case *c)
-{
-    Random random = {12345};
-    for (int i = 0; i < case_size(c); i++) {
-        c->run->x[i] = random_uniform(&random, -1, 1);
-        c->run->v[i] = random_uniform(&random, -10, 10);
-    }
-}
-
-/* A square in which something is changed before the steps, with both solvers.
- */
-static bool changed_squares(Tally *tally, char *reason)
-{
-    static const struct {
-        void (*change)(Case *);
-        int steps;
-        const char *line;
-    } rows[] = {
-        {mix_stiffness, 5, "--stretch 1.4"},
-        {mix_stiffness, 5, "--timestep 1"},
-        {mix_masses, 5, "--stretch 1.4"},
-        {mix_masses, 5, "--timestep 1"},
-        {alternate, 3, "--stretch 1"},
-        {alternate, 3, "--timestep 10"},
-        {put_on_a_line, 10, "--stretch 0.7"},
-        {put_on_a_line, 5, "--timestep 1"},
-        {make_pairs, 10, "--stretch 1"},
-        {make_pairs, 5, "--timestep 1"},
-        {fold, 20, "--stretch 1"},
-        {fold, 5, "--timestep 1"},
-        {scatter, 20, "--stretch 1"},
-        {scatter, 5, "--timestep 1"},
-        {scatter, 5, "--timestep 1e-6"},
-        {scatter, 5, "--segments 5 --timestep 0.1"},
-    };
-    for (size_t i = 0; i < 2 * sizeof rows / sizeof *rows; i++) {
-        char line[128];
-        Case c = {.tally = tally, .reason = reason};
-        snprintf(line, sizeof line, "%s --solver %s", rows[i / 2].line,
-                 solver_name((Solver)(i % 2)));
-        if (case_open(&c, line)) {
-            rows[i / 2].change(&c);
-            if (case_restart(&c, 1))
-                case_steps(&c, rows[i / 2].steps);
-        }
-        if (!case_close(&c))
-            return false;
-    }
     return true;
 }
 
@@ -267,22 +190,6 @@ static bool many_steps(Tally *tally, char *reason)
 }
 
 /* ---- answers known beforehand ------------------------------------------- */
-
-/* Nothing moves, not by one bit, and no matrix is made. */
-static bool at_rest(Tally *tally, char *reason)
-{
-    Case c = {.tally = tally, .reason = reason};
-    double x[2 * 81];
-    if (case_open(&c, "--segments 8 --stretch 1")) {
-        memcpy(x, c.run->x, sizeof x);
-        case_converges(&c, 100);
-        if (memcmp(x, c.run->x, sizeof x) != 0)
-            case_wrong(&c, "the square at rest moved");
-        if (simulation_counters(&c.simulation).factorisations > 0)
-            case_wrong(&c, "a square at rest needs no factor");
-    }
-    return case_close(&c);
-}
 
 /* A square at rest lengths that flies far out, for every length of step. */
 static bool fly(Tally *tally, char *reason, double h, double offset)
@@ -322,75 +229,6 @@ static bool free_flight(Tally *tally, char *reason)
         if (!fly(tally, reason, pow(10, i), 0) ||
             !fly(tally, reason, pow(10, i), 1e6))
             return false;
-    return true;
-}
-
-/* Where the distance d of two masses goes in one implicit step:
- * mu (d - t) + h^2 2 k (d^2/l2 - 1) d = 0, by bisection. */
-static long double next_distance(long double mu, long double t, long double w,
-                                 long double l2)
-{
-    long double low = sqrtl(l2) / 2, high = 10 * (fabsl(t) + sqrtl(l2));
-    for (int i = 0; i < 100; i++) {
-        long double d = (low + high) / 2;
-        if (mu * (d - t) + 2 * w * (d * d / l2 - 1) * d > 0)
-            high = d;
-        else
-            low = d;
-    }
-    return (low + high) / 2;
-}
-
-/* Two masses on a spring, against the recurrence for their distance. */
-static bool two_masses(Tally *tally, char *reason)
-{
-    const double x[4] = {0, 0, 1.1}, v[4] = {0};
-    NewtonSettings settings = {
-        .h = 0.003, .tolerance = 1e-12, .max_iterations = 100};
-    Case c = {.tally = tally, .reason = reason};
-    System *system = &c.simulation.system;
-    if (system_create(2, 1, system))
-        return case_wrong(&c, "no memory");
-    system->m[0] = 2;
-    system->m[1] = 3;
-    system->e[0] = 0;
-    system->e[1] = 1;
-    system->l2[0] = 1;
-    system->k[0] = 1e3;
-    c.run = &c.simulation.run[0];
-    if (time_integrator_create(&integrator_methods[0], system, &settings, x, v,
-                               c.run) ||
-        !watch_create(c.run, &c.watch))
-        case_wrong(&c, "no memory");
-    long double d = x[2], speed = 0, h = settings.h;
-    for (int step = 0; step < 300 && case_converges(&c, 1); step++) {
-        long double next = next_distance(1.2L, d + h * speed, h * h * 1e3L, 1);
-        speed = (next - d) / h;
-        d = next;
-        long double got = (long double)c.run->x[2] - c.run->x[0];
-        if (!(fabsl(got - d) <= 1e-12L) || c.run->x[1] != 0)
-            case_wrong(&c, "step %d: distance %.17Lg, expected %.17Lg", step,
-                       got, d);
-    }
-    return case_close(&c);
-}
-
-/* A maximum of P: left or reported where the springs outweigh the masses. */
-static bool nodes_in_one_point(Tally *tally, char *reason)
-{
-    for (int far = 0; far < 2; far++) {
-        Case c = {.tally = tally, .reason = reason};
-        if (case_open(&c, "--timestep 0.1")) {
-            for (int i = 0; i < case_size(&c); i++)
-                c.run->x[i] = far ? 1e3 : 0;
-            double high = system_potential(c.run->system, c.run->x);
-            if (case_steps(&c, 1) && c.watch.status != STATUS_NOT_A_MINIMUM &&
-                !(system_potential(c.run->system, c.run->x) < 0.9 * high))
-                case_wrong(&c, "taken for %s", status_name(c.watch.status));
-        }
-        if (!case_close(&c))
-            return false;
-    }
     return true;
 }
 
@@ -518,128 +356,13 @@ static bool other_places(Tally *tally, char *reason)
     return true;
 }
 
-/* Stops at the given record; 0: never. */
-static bool stop_at_record(void *user, const NewtonRecord *record)
-{
-    (void)record;
-    return --*(int *)user != 0;
-}
-
-/* Interrupts the third step at this record, makes it again, and compares with
- * a run that nobody interrupted.  Returns whether there was such a record. */
-static bool interrupt_at(Case *c, const char *line, int record)
-{
-    Simulation other;
-    int never = 0, left = 0;
-    simulation_from_line(line, stop_at_record, &left, &c->simulation);
-    simulation_from_line(line, stop_at_record, &never, &other);
-    bool stopped = false;
-    for (int step = 0; step < 4; step++) {
-        left = step == 2 ? record : 0;
-        Status status = simulation_step(&c->simulation);
-        if (step == 2 && status == STATUS_INTERRUPTED) {
-            size_t bytes = 50 * sizeof(double);
-            stopped = true;
-            if (memcmp(c->simulation.run[0].x, other.run[0].x, bytes) != 0 ||
-                memcmp(c->simulation.run[0].v, other.run[0].v, bytes) != 0)
-                case_wrong(c, "%s: moved though interrupted", line);
-            left = 0;
-            status = simulation_step(&c->simulation);
-        }
-        never = 0;
-        if (status != simulation_step(&other))
-            case_wrong(c, "%s: other status after an interruption", line);
-    }
-    for (int i = 0; i < 50 && !c->wrong; i++)
-        if (c->simulation.run[0].x[i] != other.run[0].x[i] ||
-            c->simulation.run[0].v[i] != other.run[0].v[i])
-            case_wrong(c, "%s: an interruption left a trace", line);
-    simulation_free(&c->simulation);
-    simulation_free(&other);
-    return stopped;
-}
-
-/* A step that was interrupted can be made again, to the same bits. */
-static bool interrupted(Tally *tally, char *reason)
-{
-    for (int i = 0; integrator_methods[i].name; i++) {
-        char line[128];
-        Case c = {.tally = tally, .reason = reason};
-        if (!integrator_methods[i].implicit)
-            continue;
-        snprintf(line, sizeof line, "--integrator %s --tolerance 1e-8",
-                 integrator_methods[i].name);
-        int record = 1;
-        while (interrupt_at(&c, line, record) && !c.wrong)
-            record++;
-        if (record < 4)
-            case_wrong(&c, "%s: only %d records", line, record);
-        if (!case_close(&c))
-            return false;
-    }
-    return true;
-}
-
-/* Numbers that make no sense are refused, wherever they stand; with 1e308 a
- * step may fail, but then nothing moves. */
-static bool refused_input(Tally *tally, char *reason)
-{
-    const double bad[] = {NAN, INFINITY, -INFINITY, -1, 0, 0x1p-1074};
-    for (int place = 0; place < 7; place++) {
-        Case c = {.tally = tally, .reason = reason};
-        if (!case_open(&c, "--segments 1"))
-            return case_close(&c);
-        System *system = &c.simulation.system;
-        double *number[] = {system->m + 1,
-                            system->l2 + 1,
-                            system->k + 1,
-                            &c.run->h,
-                            c.run->x + 4,
-                            c.run->v + 5,
-                            &c.run->newton->settings.tolerance};
-        /* positive numbers; the time step; any; a tolerance, maybe infinite */
-        int count = place < 3 ? 6 : place == 3 || place == 6 ? 5 : 3;
-        for (int b = 0; b < count; b++) {
-            TimeIntegrator run;
-            NewtonSettings settings = c.run->newton->settings;
-            *number[place] = bad[b];
-            settings.h = c.run->h;
-            settings.tolerance = c.run->newton->settings.tolerance;
-            Status status =
-                time_integrator_create(&integrator_methods[0], system,
-                                       &settings, c.run->x, c.run->v, &run);
-            time_integrator_free(&run);
-            if (status != STATUS_INVALID_INPUT && (place < 6 || b != 1))
-                case_wrong(&c, "place %d took %g", place, bad[b]);
-        }
-        *number[place] = 1e308;
-        Status status = watch_restart(c.run, 1);
-        watch_free(&c.watch);
-        if (!status && watch_create(c.run, &c.watch))
-            case_steps(&c, 1);
-        else if (status != STATUS_INVALID_INPUT)
-            case_wrong(&c, "place %d: %s", place, status_name(status));
-        if (!case_close(&c))
-            return false;
-    }
-    return true;
-}
-
 const StressCase stress_cases[] = {
+    {"extreme squares", false, false, extreme_squares},
     {"large squares", true, false, large_squares},
-    {"random large squares", true, false, random_large_squares},
-    {"at rest", false, false, at_rest},
+    {"every integrator", false, false, every_integrator},
     {"free flight", false, false, free_flight},
-    {"two masses", false, false, two_masses},
-    {"nodes in one point", false, false, nodes_in_one_point},
-    {"changed squares", false, false, changed_squares},
-    {"refused input", false, false, refused_input},
     {"other units", false, true, other_units},
     {"other places", false, true, other_places},
-    {"extreme squares", false, false, extreme_squares},
-    {"every integrator", false, false, every_integrator},
-    {"overflow", false, false, overflow},
-    {"interrupted", false, false, interrupted},
     {"many steps", true, false, many_steps},
     {NULL, false, false, NULL},
 };

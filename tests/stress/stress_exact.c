@@ -1,12 +1,18 @@
 /* The energy of a step once more, in more digits than the solver has: averages
  * along the step by Gauss's two points, which are exact for the polynomials
  * that occur, plain sums over springs, and a dense L D L^T.
+ *
+ * Squares that are too large for that are judged by conjugate gradients in
+ * extended precision, which know their error: M is a lower bound of the clamped
+ * Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is at most
+ * sqrt(2/m)/h |r|_(M^-1) away from that of p.
  */
 #include "model/pull_energy.h"
 #include "stress.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 /* Where along the step from x_n to x_n + u the springs are looked at. */
 static const long double gauss[2] = {0.2113248654051871177454256L,
@@ -107,9 +113,10 @@ static void cut_negative(Wide H[3], int share)
     H[2] = (share * H[2] + yy / sum) / (share + 1);
 }
 
-/* Force [2] on node i and block [3] of one spring, both weighted. */
+/* Force [2] on node i and block [3] of one spring, both weighted, the block
+ * filtered. */
 static void wide_spring(const IncrementalPotential *E, const double *u, int s,
-                        Wide f[2], Wide H[3])
+                        Filter filter, Wide f[2], Wide H[3])
 {
     Wide l2 = E->system->l2[s], k = E->system->k[s];
     f[0] = f[1] = H[0] = H[1] = H[2] = 0;
@@ -125,6 +132,8 @@ static void wide_spring(const IncrementalPotential *E, const double *u, int s,
         H[1] += share * t * 2 * k * (2 * dx * dy / l2);
         H[2] += share * t * 2 * k * (2 * dy * dy / l2 + more);
     }
+    if (filter == FILTER_CLAMP || filter == FILTER_ABS)
+        cut_negative(H, filter == FILTER_ABS ? 0 : 1);
 }
 
 /* The rows and columns of pinned nodes become those of the unit matrix. */
@@ -140,32 +149,72 @@ static void wide_pin(const System *system, Wide *g, Wide *H)
     }
 }
 
+/* What draws coordinate i to points: k (x - o); returns k, J/m^2. */
+static Wide wide_pull(const System *system, int i, Wide x, Wide *force)
+{
+    Wide sum = 0;
+    *force = 0;
+    for (int t = 0; t < system->terms; t++) {
+        const TermKind *kind = system->term[t].kind;
+        const Pull *pull = system->term[t].data;
+        if (kind != &central_field && kind != &hand_energy)
+            continue;
+        Wide k = pull->node < 0        ? (Wide)pull->k * system->m[i / 2]
+                 : pull->node == i / 2 ? pull->k
+                                       : 0;
+        sum += k;
+        *force += k * (x - pull->target[i % 2]);
+    }
+    return sum;
+}
+
+/* The same with the springs' blocks [3 springs] in the place of H, behind what
+ * is its diagonal besides, [2n]; NULL: none. */
+static void wide_blocks(const IncrementalPotential *E, const double *u,
+                        Filter filter, Wide *g, Real *blocks)
+{
+    const System *system = E->system;
+    Wide way = E->averaged ? (Wide)0.5 : (Wide)1;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        Wide m = system->m[i / 2], force;
+        Wide k = wide_pull(system, i, E->x_n[i] + way * u[i], &force);
+        g[i] = m * ((Wide)u[i] - E->u_tilde[i]) + E->weight * force;
+        if (blocks)
+            *blocks++ = (Real)(m + way * E->weight * k);
+    }
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        Wide f[2], block[3];
+        wide_spring(E, u, s, filter, f, block);
+        for (int c = 0; c < 2; c++) {
+            g[2 * e[0] + c] += f[c];
+            g[2 * e[1] + c] -= f[c];
+        }
+        for (int t = 0; t < 3 && blocks; t++)
+            blocks[3 * s + t] = (Real)block[t];
+    }
+    wide_pin(system, g, NULL);
+}
+
 void wide_derivatives(const IncrementalPotential *E, const double *u,
                       Filter filter, Wide *g, Wide *H)
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
-    Wide w = E->weight * (Wide)central_omega2(system);
-    Wide way = E->averaged ? (Wide)0.5 : (Wide)1;
-    for (int i = 0; i < n * n && H; i++)
+    Wide way = E->averaged ? (Wide)0.5 : (Wide)1, force;
+    wide_blocks(E, u, filter, g, NULL);
+    if (!H)
+        return;
+    for (int i = 0; i < n * n; i++)
         H[i] = 0;
-    for (int i = 0; i < n; i++) {
-        Wide m = system->m[i / 2], x = E->x_n[i] + way * u[i];
-        g[i] = m * ((Wide)u[i] - E->u_tilde[i]) + w * m * x;
-        if (H)
-            H[n * i + i] = m + way * w * m;
-    }
+    for (int i = 0; i < n; i++)
+        H[i * (n + 1)] = system->m[i / 2] +
+                         way * E->weight * wide_pull(system, i, 0, &force);
     for (int s = 0; s < system->springs; s++) {
         int end[2] = {2 * system->e[2 * s], 2 * system->e[2 * s + 1]};
         Wide f[2], block[3];
-        wide_spring(E, u, s, f, block);
-        if (filter == FILTER_CLAMP || filter == FILTER_ABS)
-            cut_negative(block, filter == FILTER_ABS ? 0 : 1);
-        for (int c = 0; c < 2; c++) {
-            g[end[0] + c] += f[c];
-            g[end[1] + c] -= f[c];
-        }
-        for (int t = 0; t < 16 && H; t++) {
+        wide_spring(E, u, s, filter, f, block);
+        for (int t = 0; t < 16; t++) {
             int r = end[t / 8] + t / 4 % 2, c = end[t / 2 % 2] + t % 2;
             Wide value = block[t / 4 % 2 + t % 2];
             H[n * r + c] += t / 8 == t / 2 % 2 ? value : -value;
@@ -206,4 +255,103 @@ void wide_solve(int n, const Wide *H, Wide *b)
     for (int r = n - 1; r >= 0; r--)
         for (int c = r + 1; c < n; c++)
             b[r] -= H[n * c + r] * b[c];
+}
+
+/* ---- too large for a matrix -------------------------------------------- */
+
+enum { MAX_JUDGE_ITERATIONS = 20000 };
+
+/* Below this share of the tolerance rounding of u says nothing. */
+static const Real judge_margin = 1e-6L;
+
+/* y = H d, 0 where nodes are pinned; blocks: of wide_blocks. */
+static void product(const System *system, const Real *blocks, const Real *d,
+                    Real *y)
+{
+    for (int i = 0; i < 2 * system->nodes; i++)
+        y[i] = *blocks++ * d[i];
+    for (int s = 0; s < system->springs; s++) {
+        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+        Real q0 = d[i] - d[j], q1 = d[i + 1] - d[j + 1];
+        for (int c = 0; c < 2; c++) {
+            Real f = blocks[3 * s + c] * q0 + blocks[3 * s + c + 1] * q1;
+            y[i + c] += f;
+            y[j + c] -= f;
+        }
+    }
+    for (int i = 0; i < 2 * system->nodes && system->pinned; i++)
+        y[i] = system->pinned[i / 2] ? 0 : y[i];
+}
+
+/* max over nodes |p_x| + |p_y| */
+static Real largest_step(int size, const Real *p)
+{
+    Real largest = 0;
+    for (int i = 0; i < size; i += 2)
+        largest = fmaxl(largest, fabsl(p[i]) + fabsl(p[i + 1]));
+    return largest;
+}
+
+/* |r|_(M^-1)^2 */
+static Real inverse_square(const System *system, const Real *r)
+{
+    Real sum = 0;
+    for (int i = 0; i < 2 * system->nodes; i++)
+        sum += r[i] * r[i] / system->m[i / 2];
+    return sum;
+}
+
+/* Conjugate gradients, with the masses as preconditioner, until the test is
+ * decided.  p, r, d, y [2n] workspace; p is 0, r is -grad E. */
+static LargeVerdict decide(const System *system, Real h, Real tolerance,
+                           const Real *blocks, Real *p, Real *r, Real *d,
+                           Real *y)
+{
+    Real lightest = INFINITY;
+    int size = 2 * system->nodes;
+    for (int i = 0; i < system->nodes; i++)
+        if (!system->pinned || !system->pinned[i])
+            lightest = fminl(lightest, system->m[i]);
+    Real now = inverse_square(system, r), last = INFINITY;
+    for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
+        Real away = largest_step(size, p) / h - tolerance, bend = 0;
+        Real error = sqrtl(2 / lightest) / h * sqrtl(now);
+        if (away + error <= judge_margin * tolerance)
+            return LARGE_PASSED;
+        if (away - error > judge_margin * tolerance)
+            return LARGE_FAILED;
+        for (int i = 0; i < size; i++)
+            d[i] = r[i] / system->m[i / 2] + now / last * d[i];
+        product(system, blocks, d, y);
+        for (int i = 0; i < size; i++)
+            bend += d[i] * y[i];
+        for (int i = 0; i < size; i++) {
+            p[i] += now / bend * d[i];
+            r[i] -= now / bend * y[i];
+        }
+        last = now;
+        now = inverse_square(system, r);
+    }
+    return LARGE_UNDECIDED;
+}
+
+LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
+                         double h, double tolerance)
+{
+    size_t size = 2 * (size_t)E->system->nodes;
+    size_t entries = size + 3 * (size_t)E->system->springs;
+    Wide *g = malloc(size * sizeof *g);
+    Real *blocks = calloc(4 * size + entries, sizeof *blocks);
+    LargeVerdict verdict = LARGE_UNDECIDED;
+    if (g && blocks) {
+        Real *r = blocks + entries;
+        wide_blocks(E, u, FILTER_CLAMP, g, blocks);
+        for (size_t i = 0; i < size; i++)
+            r[i] = -(Real)g[i];
+        verdict = decide(E->system, h, tolerance, blocks, r + size, r,
+                         r + 2 * size, r + 3 * size);
+    }
+    free(g);
+    free(blocks);
+    return verdict;
 }

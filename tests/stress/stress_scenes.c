@@ -70,7 +70,7 @@ static const struct Draw {
     {"l", 1,
      "square --segments (5 9 16 17 24 33 40 54) --stretch <0.1 3> --timestep "
      "<1e-4 0.1> --stiffness <1e2 1e9> --tolerance <1e-5 1> --integrator "
-     "(backward-euler bdf2 midpoint sdirk2)"},
+     "(backward-euler bdf2 midpoint sdirk2) --solver multigrid"},
     {"l", 3, " --pin top --gravity 5"},
     {"l", 2, " --minimum"},
     {"s", 2, " shaken [1 1e6]"}};
@@ -126,8 +126,8 @@ void stress_line(const char *kinds, uint64_t seed, long number,
 }
 
 /* Masses, springs, positions and velocities of no square: each over some
- * powers of ten, springs that hardly are, nodes on a line or in one point, or
- * far away. */
+ * powers of ten, springs that hardly are, nodes on a line, in one point or in
+ * pairs, folded, some a million times further out than others, or far away. */
 static void shake(uint64_t seed, TimeIntegrator *run)
 {
     Random random = {seed * 0x9e3779b97f4a7c15u};
@@ -140,7 +140,7 @@ static void shake(uint64_t seed, TimeIntegrator *run)
                       ? 0
                       : size * random_logarithmic(&random, 1, 1e7);
     double speed = size / run->h * random_logarithmic(&random, 1e-6, 1);
-    int shape = random_below(&random, 6), missing = random_below(&random, 4);
+    int shape = random_below(&random, 8), missing = random_below(&random, 4);
     for (int i = 0; i < 2 * system->nodes; i++) {
         bool pinned = system->pinned && system->pinned[i / 2];
         if (shape == 1)
@@ -149,6 +149,12 @@ static void shake(uint64_t seed, TimeIntegrator *run)
             run->x[i] = 0;
         if (shape == 3 && random_below(&random, 3) == 0)
             run->x[i] = run->x[i % 2];
+        if (shape == 4)
+            run->x[i] = fabs(run->x[i]);
+        if (shape == 5)
+            run->x[i] *= i / 2 % 2 ? 1e3 : 1e-3;
+        if (shape == 6 && i % 4 > 1)
+            run->x[i] = run->x[i - 2];
         run->x[i] += away;
         run->v[i] += pinned ? 0 : speed * random_uniform(&random, -1, 1);
         if (i % 2)

@@ -15,7 +15,7 @@ enum { ROUNDINGS = 16 };
 /* Beyond this squares may overflow, and NOT_FINITE is the truth. */
 static const long double HUGE_ENERGY = 1e280L;
 
-/* Larger systems are not solved again: that costs n^3 in wide numbers. */
+/* Larger systems are not solved by a matrix: that costs n^3 in wide numbers. */
 enum { LARGEST_JUDGED = 80 };
 
 /* The first broken promise is remembered. */
@@ -115,6 +115,20 @@ static double judged_residual(Watch *watch, const double *u, Filter filter,
     return residual;
 }
 
+/* The same of many nodes, where there are eigenvalues to clamp. */
+static void judge_large(Watch *watch, const double *u, double tolerance)
+{
+    IncrementalPotential E = watch_potential(watch);
+    const NewtonSettings *settings = &watch->run->newton->settings;
+    if (E.averaged || settings->filter != FILTER_CLAMP)
+        return;
+    LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
+    watch->judged++;
+    watch->blurred += verdict == LARGE_UNDECIDED;
+    if (verdict == LARGE_FAILED)
+        blame(watch, "converged, but the residual is above %g m/s", tolerance);
+}
+
 /* Where a minimisation says it converged at u: once more, in wide numbers.
  * Projection on demand may have judged with either Hessian.
  *   factor  of the tolerance that is allowed */
@@ -125,10 +139,13 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
     bool guess = watch->run->moves && watch->run->left > 0;
     double limit = guess ? watch->run->newton->tolerance : settings->tolerance;
     double noise;
-    if (!watch->residuals || !watch->springs ||
-        watch_size(watch) > LARGEST_JUDGED)
+    if (!watch->residuals || !watch->springs)
         return;
     limit *= factor;
+    if (watch_size(watch) > LARGEST_JUDGED) {
+        judge_large(watch, u, limit);
+        return;
+    }
     double residual = judged_residual(
         watch, u, either ? FILTER_CLAMP : settings->filter, limit, &noise);
     watch->judged++;
@@ -254,7 +271,8 @@ bool watch_create(TimeIntegrator *run, Watch *watch)
         good = (*vectors[i] = calloc(n, sizeof(double))) && good;
     for (int i = 0; i < run->system->terms; i++) {
         const TermKind *kind = run->system->term[i].kind;
-        if (kind != &mass_spring_energy && kind != &central_field)
+        if (kind != &mass_spring_energy && kind != &central_field &&
+            kind != &hand_energy)
             watch->springs = false;
     }
     if (n <= LARGEST_JUDGED) {

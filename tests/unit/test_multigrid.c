@@ -331,7 +331,8 @@ static bool see_fall(void *user, const NewtonRecord *record)
         CHECK_AT_MOST(now - E->now, record->change + 2e-14L * E->start);
     E->now = now;
     if (record->status == STATUS_OK) {
-        CHECK(large_judge(newton) == LARGE_PASSED);
+        CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
+                          newton->tolerance) == LARGE_PASSED);
         E->judged++;
     }
     return true;
