@@ -23,7 +23,6 @@ typedef struct Film {
     const FilmKind *kind;
     int width, height; /* pixels; those of the first frame */
     long frames;       /* so far */
-    double rate;       /* frames a second, until the first one */
     Output output;
     uint32_t *frame;    /* [width height] */
     int process, pipe;  /* of ffmpeg, where a process is above 0 */

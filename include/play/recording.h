@@ -30,8 +30,6 @@ typedef struct Recording {
     long films;         /* that ended with a frame; of the last one: */
     long film_frames;
     char film_name[RECORDING_NAME_SIZE];
-    long film_every; /* it has those of every so manyth step, once; 0: all,
-                        as often as the speed asks for */
     bool points;     /* the log tells of points */
     int panes;       /* of more than one the log tells which: 1 ... */
     union {          /* not open: not written */

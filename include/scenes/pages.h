@@ -22,13 +22,12 @@ typedef struct LecturePage {
     const char *lit;      /* its lines with this text are those at work */
     const char *claim;    /* what a test holds */
     unsigned flips;       /* bit s: switch s of the scene is turned over */
-    int film;             /* steps of the handout's film; 0: a picture */
-    int every;            /* of which it shows every so manyth; 0: each */
+    int picture;          /* the step that the handout shows */
     bool plays;           /* runs at once instead of waiting */
     double speed;         /* steps a frame; 0: the scene's */
     bool numbers;         /* the nodes' are shown */
     const char *open;     /* commands when it opens, ';' between; or NULL */
-    int lines;            /* of Algorithm 3 that the film goes on; 0: none */
+    int lines;            /* or so many lines on from where the page opens */
     bool predict;         /* a click says where the next step leads */
 } LecturePage;
 

@@ -17,7 +17,7 @@ enum { KIND_WORDS = 10, WORDS = 32 };
 /* What ffmpeg is told behind its input. */
 struct FilmKind {
     const char *end; /* of the name; without its dot the name of the format */
-    double most;     /* frames a second */
+    int rate;        /* frames a second */
     const char *words[KIND_WORDS];
 };
 
@@ -57,7 +57,7 @@ Status film_open(const char *name, Film *film, char *message, size_t size)
 {
     char shown[128];
     one_line(name, shown, sizeof shown);
-    *film = (Film){.rate = FILM_RATE, .kind = kind_of(name)};
+    *film = (Film){.kind = kind_of(name)};
     if (!film->kind)
         snprintf(message, size,
                  "--film: '%s' does not end in .mp4, .webm, .gif or .apng",
@@ -89,7 +89,7 @@ static void run_ffmpeg(const Film *film, int from)
 {
     char size[32], rate[32], file[4096];
     snprintf(size, sizeof size, "%dx%d", film->width, film->height);
-    snprintf(rate, sizeof rate, "%g", film->rate);
+    snprintf(rate, sizeof rate, "%d", film->kind->rate);
     snprintf(file, sizeof file, "file:%s", film->output.temporary);
     const char *words[WORDS] = {
         "ffmpeg",      "-loglevel", "quiet",         "-y",
@@ -117,7 +117,6 @@ static Status start_ffmpeg(Film *film, const Canvas *canvas)
     size_t count = (size_t)canvas->width * (size_t)canvas->height;
     film->width = canvas->width;
     film->height = canvas->height;
-    film->rate = film->rate < film->kind->most ? film->rate : film->kind->most;
     film->frame = malloc(count * sizeof *film->frame);
     if (!film->frame)
         return STATUS_OUT_OF_MEMORY;

@@ -22,7 +22,7 @@ bool film_is_possible(void)
 
 Status film_open(const char *name, Film *film, char *message, size_t size)
 {
-    *film = (Film){.rate = FILM_RATE};
+    *film = (Film){0};
     if (!film_is_possible()) {
         snprintf(message, size, "this browser makes no films of a page");
         return STATUS_INVALID_INPUT;

@@ -1,12 +1,9 @@
-/* handout.c - the lecture as one HTML file for a course's page: words, pictures
- * and films of every page.
- *
- * The pictures are what the window shows, played without a screen; films are
- * animated PNGs.  Everything stands in the file itself: it has no scripts and
- * asks no network.
+/* handout.c - the lecture as one HTML file, to be printed: words and a picture
+ * of every page, which is what the window shows of it.  Everything stands in
+ * the file itself: it has no scripts and asks no network.
  */
 #include <errno.h>
-#include <math.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +14,7 @@
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-enum {
-    STILL_WIDTH = 1120, /* pixels of the pictures */
-    STILL_HEIGHT = 700,
-    FILM_WIDTH = 736, /* and of the films */
-    FILM_HEIGHT = 460
-};
+enum { PICTURE_WIDTH = 1120, PICTURE_HEIGHT = 700 }; /* pixels */
 
 static const char handout_head[] =
     "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -119,25 +111,29 @@ static Status write_base64(FILE *file, const char *name)
     return status;
 }
 
-/* The lines that the page opens with, and those after them, a frame each. */
-static Status play_lines(Player *player, const LecturePage *page)
+/* Goes to what the page's picture shows: what it opens with, and so many lines
+ * more, or a step. */
+static Status go_to_picture(Player *player, const LecturePage *page)
 {
     const Command next = {.kind = COMMAND_NEXT};
+    if (!page->open)
+        return player_run(player);
     Status status = player_open_page(player);
-    for (int i = 0; i <= page->lines && !status; i++) {
-        Paper *paper = view_paper(player->view);
-        if (!paper)
-            return STATUS_OUT_OF_MEMORY;
-        player_paint(player, paper);
-        status = film_add(&player->recording.film, &paper->canvas, 1);
-        if (!status && i < page->lines)
-            status = player_obey(player, &next);
-    }
+    for (int i = 0; i < page->lines && !status; i++)
+        status = player_obey(player, &next);
     return status;
 }
 
-/* Plays the page without a screen into a film, of one picture if it has no
- * more.  name in, where the film shall stand */
+static Status draw_picture(Player *player, const char *name)
+{
+    Paper *paper = view_paper(player->view);
+    if (!paper)
+        return STATUS_OUT_OF_MEMORY;
+    player_paint(player, paper);
+    return png_file_write(name, &paper->canvas);
+}
+
+/* Plays the page without a screen.  name in, of the file with its picture */
 static Status play_page(const LecturePage *page,
                         const volatile sig_atomic_t *stop, Player *player,
                         const char *name, char *message, size_t size)
@@ -147,29 +143,19 @@ static Status play_page(const LecturePage *page,
     if (status)
         return status;
     options.headless = options.quiet = true;
-    options.film = name;
-    bool moves = page->film > 0 || page->lines > 0;
-    options.size[0] = moves ? FILM_WIDTH : STILL_WIDTH;
-    options.size[1] = moves ? FILM_HEIGHT : STILL_HEIGHT;
-    options.steps = page->film;
+    options.steps = page->picture;
     status = player_create(&options, 1, "elasto", stop, player);
-    double every = page->every > 1 ? page->every : 1;
-    player->recording.film_every = (long)every;
-    player->recording.film.rate =
-        page->lines ? 1 : fmin(player_rate(player), FILM_RATE) / every;
-    if (!status && (page->open || page->lines))
-        status = play_lines(player, page);
-    else if (!status)
-        status = player_run(player);
+    if (!status)
+        status =
+            view_create_surface(PICTURE_WIDTH, PICTURE_HEIGHT, &player->view);
+    if (!status)
+        status = go_to_picture(player, page);
     if (status && status == player->past.machine[0].simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
-    Status finished = player_finish(player);
-    if (player->recording.message[0])
-        snprintf(message, size, "%s", player->recording.message);
-    if (!status && *stop)
-        status = STATUS_INTERRUPTED;
+    if (!status)
+        status = *stop ? STATUS_INTERRUPTED : draw_picture(player, name);
     player_free(player);
-    return status ? status : finished;
+    return status;
 }
 
 static Status write_page(FILE *file, int number,
@@ -189,9 +175,10 @@ static Status write_page(FILE *file, int number,
     fputs("\" src=\"data:image/png;base64,\n", file);
     status = write_base64(file, name);
     fprintf(file,
-            "\n\">\n<p class=\"small\"><code>elasto --lecture %s</code> or "
+            "\n\">\n<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
+            "live</a>; <code>elasto --lecture %s</code> or "
             "<code>elasto %s</code></p>\n",
-            page->name, page->line);
+            page->name, page->name, page->line);
     write_paragraph(file, "Look:", page->look);
     write_paragraph(file, "Try:", page->touch);
     write_paragraph(file, "Tested:", page->claim);
@@ -211,29 +198,19 @@ static void write_contents(FILE *file)
     fputs("</nav>\n", file);
 }
 
-/* Films are made beside the handout and go when they stand in it. */
+/* Pictures are made beside the handout and go when they stand in it. */
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player, char *message, size_t size)
 {
     Output output;
-    size_t room = strlen(options->handout) + sizeof ".film.apng";
-    char *name = malloc(room);
+    char name[PATH_MAX];
     message[0] = '\0';
-    if (!name)
-        return STATUS_OUT_OF_MEMORY;
-    if (!film_is_possible()) {
-        snprintf(message, size,
-                 "its pictures need the program ffmpeg: apt-get "
-                 "install ffmpeg");
-        free(name);
-        return STATUS_INVALID_INPUT;
-    }
-    snprintf(name, room, "%s.film.apng", options->handout);
+    snprintf(name, sizeof name, "%s.png", options->handout);
     Status status = output_open(options->handout, &output);
-    if (!status) {
-        fputs(handout_head, output.file);
-        write_contents(output.file);
-    }
+    if (status)
+        return status;
+    fputs(handout_head, output.file);
+    write_contents(output.file);
     for (int i = 1; i <= lecture_count() && !status; i++) {
         status = write_page(output.file, i, stop, player, name, message, size);
         if (!status)
@@ -241,7 +218,6 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
     }
     int reason = errno;
     unlink(name);
-    free(name);
     errno = reason;
     if (status) {
         output_discard(&output, false);

@@ -258,11 +258,9 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
 {
     Film *film = &recording->film;
     Status status = STATUS_OK;
-    long every = recording->film_every;
-    if (film_runs(film) && (every == 0 || step % every == 0))
-        status =
-            note_film(recording, film_add(film, canvas, every == 0 ? shown : 1),
-                      film->output.name);
+    if (film_runs(film))
+        status = note_film(recording, film_add(film, canvas, shown),
+                           film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;

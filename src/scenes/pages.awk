@@ -24,8 +24,6 @@ function put_word(    part)
         print "." word " = " text ","
     else if (word in switches && text == "")
         print "." word " = true,"
-    else if (word == "film" && split(text, part, " ") <= 2)
-        print ".film = " part[1] ", .every = " (part[2] + 0) ","
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
               ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) ","
@@ -55,7 +53,7 @@ BEGIN {
     texts["look"] = "look"
     texts["try"] = "touch"
     texts["claim"] = "claim"
-    numbers["lines"] numbers["speed"] numbers["flips"]
+    numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     switches["plays"] switches["numbers"] switches["predict"]
     print "const LecturePage lecture_pages[] = {"
 }

@@ -821,7 +821,7 @@ TEST(pages_are_complete)
         CHECK(strlen(page->touch) > 20 && strlen(page->touch) <= 100);
         CHECK(strlen(page->claim) > 20 && strlen(page->claim) <= 240);
         CHECK(page->cards && strncmp(page->cards, "page", 4) == 0);
-        CHECK(page->film >= 0 && page->every >= 0 && page->lines >= 0);
+        CHECK(page->picture >= 0 && page->lines >= 0);
         CHECK(!page->lines || page->open);
         for (const LecturePage *other = lecture_pages; other < page; other++)
             CHECK(strcmp(other->name, page->name) != 0);
@@ -891,7 +891,7 @@ TEST(bad_pages_are_refused)
         const char *text, *message;
     } rows[] = {{"text x", "-:1: no page has begun"},
                 {"== a: B\ntext u\ncolour red", "-:3: 'colour red' is nothing"},
-                {"== a: B\nfilm 1 2 3\nplays", "-:2: 'film 1 2 3' is"},
+                {"== a: B\nlines 1 2\nplays", "-:2: 'lines 1 2' is"},
                 {"== a: B\n\n  more", "-:3: nothing goes on here"},
                 {"== a: B\ntext u", "-:1: the page has no "}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -914,7 +914,7 @@ TEST(pages_are_found)
     snprintf(last, sizeof last, "%d", lecture_count());
     CHECK(lecture_find("1") == &lecture_pages[0]);
     CHECK(lecture_find(last) == &lecture_pages[lecture_count() - 1]);
-    CHECK(lecture_find("dial") && lecture_find("dial")->film == 20);
+    CHECK(lecture_find("dial") && lecture_find("dial")->picture == 20);
     CHECK(!lecture_find("0") && !lecture_find("-1") && !lecture_find("1000"));
     CHECK(!lecture_find("") && !lecture_find("no-such-page"));
     CHECK(!lecture_find("2x"));
