@@ -79,12 +79,6 @@ typedef struct Branch {
     Curves *curves[OPTIONS_MAX_PANES];        /* NULL: it was left long ago */
 } Branch;
 
-/* A list that grows. */
-typedef struct Records {
-    NewtonRecord *row; /* [count] */
-    int count, room;
-} Records;
-
 /* A simulation that stands at an entry. */
 typedef struct Machine {
     Simulation simulation;

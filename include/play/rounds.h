@@ -21,14 +21,20 @@
  * among them. */
 enum { ROUND_PARTS = 32, ROUND_VALUES = ROUND_PARTS * 3 / 2 + 1 };
 
+/* A list that grows. */
+typedef struct Records {
+    NewtonRecord *row; /* [count] */
+    int count, room;
+} Records;
+
+/* Makes room for so many.  Returns false where memory is missing. */
+bool records_fit(Records *records, int count);
+
 typedef struct Round {
     double *x, *p; /* [size] m; NULL: not kept */
     double first;  /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
     double *value; /* [ROUND_VALUES] J s^2, where it is not; NULL: it is */
-    double residual, slope;
-    ResidualKind kind; /* of the residual */
-    int projected;
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how
@@ -43,26 +49,24 @@ typedef struct Rounds {
     long step;           /* the one that they are of; 0: none */
     double h, tolerance; /* s, m/s, that it was made with */
     int size;            /* 2n */
-    int count;           /* rounds with a record */
-    int room;            /* of the arrays, one more */
+    Records made;        /* one a round that has a record; behind them, what is
+                            known of round made.count */
+    Records before;      /* of the step before, or of this step with other
+                            settings; none: not known */
     Round *round;
-    NewtonRecord *record; /* [count] */
-    int before;           /* updates of the step before, or of this step with */
-                          /* other settings; 0: not known */
-    int before_room;
-    NewtonRecord *record_before;
+    int room;        /* of it */
     bool ended;      /* round [count] is there: the last one made an update */
     bool passed;     /* its test was passed without a direction */
-    double *x_tilde; /* [size] m */
-    bool tilde;      /* it is known */
+    double *x_tilde; /* [size] m; NULL: not known */
     size_t bytes;
-    Station *place; /* [places] in the order of the listing */
+    Station *place; /* [places] in the order of the listing; none where memory
+                       is missing */
     int places;
 } Rounds;
 
 /* Before a step.  What was there is kept as the step before it where it was
- * that one, or this one with other settings.  Returns OK, OUT_OF_MEMORY. */
-Status rounds_begin(Rounds *rounds, const Simulation *simulation);
+ * that one, or this one with other settings. */
+void rounds_begin(Rounds *rounds, const Simulation *simulation);
 
 /* Before a Newton iteration: where a minimisation begins. */
 void rounds_look(Rounds *rounds, const Newton *newton);
@@ -71,9 +75,8 @@ void rounds_look(Rounds *rounds, const Newton *newton);
 void rounds_add(Rounds *rounds, const Newton *newton,
                 const NewtonRecord *record);
 
-/* After the step: the places to walk through, filled in for these settings.
- * Returns OK, OUT_OF_MEMORY. */
-Status rounds_end(Rounds *rounds, const Options *options);
+/* After the step: the places to walk through, filled in for these settings. */
+void rounds_end(Rounds *rounds, const Options *options);
 
 /* Forgets all but the memory. */
 void rounds_clear(Rounds *rounds);

@@ -324,16 +324,8 @@ static bool watch(void *user, const NewtonRecord *record)
     if (newton && machine->rounds.step > 0)
         rounds_add(&machine->rounds, newton, record);
     Records *records = &machine->records;
-    if (records->count == records->room) {
-        int room = records->room ? 2 * records->room : 64;
-        NewtonRecord *grown =
-            realloc(records->row, (size_t)room * sizeof *grown);
-        if (!grown)
-            return true;
-        records->row = grown;
-        records->room = room;
-    }
-    records->row[records->count++] = *record;
+    if (records_fit(records, records->count + 1))
+        records->row[records->count++] = *record;
     return true;
 }
 
@@ -580,8 +572,8 @@ static Status go_on(Past *past, int pane, Status status)
     if (status == STATUS_RUNNING)
         return status;
     machine->iterating = false;
-    if (past->keeps && rounds_end(&machine->rounds, &simulation->options))
-        return fail(past, pane, STATUS_OUT_OF_MEMORY);
+    if (past->keeps)
+        rounds_end(&machine->rounds, &simulation->options);
     bool moved = simulation->steps > machine->before;
     sum_up(machine, status);
     if (status && !moved && (lacks(status) || !simulation->done))
@@ -614,8 +606,8 @@ static Status begin_step(Past *past, int pane)
         machine->outcome.updates = 0;
         return arrive(past, pane);
     }
-    if (past->keeps && rounds_begin(&machine->rounds, &machine->simulation))
-        return fail(past, pane, STATUS_OUT_OF_MEMORY);
+    if (past->keeps)
+        rounds_begin(&machine->rounds, &machine->simulation);
     machine->before = machine->simulation.steps;
     machine->iterating = true;
     return go_on(past, pane, simulation_begin(&machine->simulation));

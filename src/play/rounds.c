@@ -7,15 +7,22 @@
 /* Trials of a line search that are walked through one by one. */
 enum { TRIALS_WALKED = 12 };
 
-static size_t array_bytes(const Rounds *rounds)
+bool records_fit(Records *records, int count)
 {
-    return (size_t)rounds->size * sizeof(double);
+    if (count <= records->room)
+        return true;
+    int room = count < 16 ? 16 : 2 * count;
+    NewtonRecord *row = realloc(records->row, (size_t)room * sizeof *row);
+    if (!row)
+        return false;
+    records->row = row;
+    records->room = room;
+    return true;
 }
 
 static void free_round(Round *round)
 {
     free(round->x);
-    free(round->p);
     free(round->value);
     *round = (Round){0};
 }
@@ -24,114 +31,81 @@ void rounds_clear(Rounds *rounds)
 {
     for (int i = 0; i < rounds->room; i++)
         free_round(&rounds->round[i]);
-    rounds->count = rounds->before = rounds->places = 0;
+    free(rounds->x_tilde);
+    rounds->x_tilde = NULL;
+    rounds->made.count = rounds->before.count = rounds->places = 0;
     rounds->bytes = 0;
-    rounds->ended = rounds->tilde = rounds->passed = false;
+    rounds->ended = rounds->passed = false;
 }
 
 void rounds_free(Rounds *rounds)
 {
     rounds_clear(rounds);
     free(rounds->round);
-    free(rounds->record);
-    free(rounds->record_before);
-    free(rounds->x_tilde);
+    free(rounds->made.row);
+    free(rounds->before.row);
     free(rounds->place);
     *rounds = (Rounds){0};
 }
 
-/* The records of the last step become those before this one. */
-static void turn_over(Rounds *rounds)
+void rounds_begin(Rounds *rounds, const Simulation *simulation)
 {
-    NewtonRecord *record = rounds->record_before;
-    int room = rounds->before_room, count = rounds->count;
-    if (!rounds->record)
-        return;
-    rounds->record_before = rounds->record;
-    rounds->before_room = rounds->room;
-    rounds->record = record;
-    if (room < rounds->room) {
-        NewtonRecord *larger =
-            realloc(record, (size_t)rounds->room * sizeof *larger);
-        if (!larger) { /* the old ones serve; nothing is drawn in grey */
-            rounds->record = rounds->record_before;
-            rounds->record_before = record;
-            rounds->before_room = room;
-            count = 0;
-        } else {
-            rounds->record = larger;
-        }
-    }
-    rounds_clear(rounds);
-    rounds->before = count;
-}
-
-Status rounds_begin(Rounds *rounds, const Simulation *simulation)
-{
-    int size = 2 * simulation->system.nodes;
     long step = simulation->steps + 1;
     bool near = rounds->step == step || rounds->step + 1 == step;
-    turn_over(rounds);
-    if (!near)
-        rounds->before = 0;
+    const Records last = rounds->made;
+    rounds_clear(rounds);
+    rounds->made = rounds->before;
+    rounds->before = last;
+    rounds->before.count = near ? last.count : 0;
     rounds->step = step;
     rounds->h = simulation->options.timestep;
     rounds->tolerance = simulation->options.tolerance;
-    if (rounds->size == size)
-        return STATUS_OK;
-    free(rounds->x_tilde);
-    rounds->x_tilde = calloc((size_t)size, sizeof(double));
-    rounds->size = rounds->x_tilde ? size : 0;
-    return rounds->x_tilde ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    rounds->size = 2 * simulation->system.nodes;
 }
 
 /* Room for a round more and for the last one. */
 static bool make_room(Rounds *rounds)
 {
-    if (rounds->count + 2 <= rounds->room)
-        return true;
-    int room = rounds->room ? 2 * rounds->room : 16;
-    Round *round = realloc(rounds->round, (size_t)room * sizeof *round);
-    if (!round)
-        return false;
-    memset(round + rounds->room, 0,
-           (size_t)(room - rounds->room) * sizeof *round);
-    rounds->round = round;
-    NewtonRecord *record =
-        realloc(rounds->record, (size_t)room * sizeof *record);
-    if (!record)
-        return false;
-    rounds->record = record;
-    rounds->room = room;
-    return true;
+    int count = rounds->made.count + 2;
+    if (count > rounds->room) {
+        Round *round =
+            realloc(rounds->round, 2 * (size_t)count * sizeof *round);
+        if (!round)
+            return false;
+        memset(round + rounds->room, 0,
+               (size_t)(2 * count - rounds->room) * sizeof *round);
+        rounds->round = round;
+        rounds->room = 2 * count;
+    }
+    return records_fit(&rounds->made, count);
 }
 
 /* Copies x and p, if there is memory for them. */
 static void keep_arrays(Rounds *rounds, Round *round, const double *x,
                         const double *p)
 {
-    size_t bytes = array_bytes(rounds);
-    if (rounds->bytes + 2 * bytes > ROUNDS_BYTES)
+    size_t size = (size_t)rounds->size, bytes = 2 * size * sizeof *x;
+    if (rounds->bytes + bytes > ROUNDS_BYTES)
         return;
     round->x = malloc(bytes);
-    round->p = malloc(bytes);
-    if (!round->x || !round->p) {
-        free_round(round);
+    if (!round->x)
         return;
-    }
-    rounds->bytes += 2 * bytes;
-    memcpy(round->x, x, bytes);
-    memcpy(round->p, p, bytes);
+    round->p = round->x + size;
+    rounds->bytes += bytes;
+    memcpy(round->x, x, bytes / 2);
+    memcpy(round->p, p, bytes / 2);
 }
 
-/* E along p, from the place where `at` is; nothing where memory is missing. */
-static void keep_line(Rounds *rounds, Round *round, const Iterate *at)
+/* E along p of the round that is due, from the place where `at` is; nothing
+ * where memory is missing. */
+static void keep_line(Rounds *rounds, const Iterate *at)
 {
+    Round *round = &rounds->round[rounds->made.count];
     round->first = incremental_potential_reach(at);
     double pace = round->first / ROUND_PARTS;
     Along along = incremental_potential_along(at);
     round->along = along.smooth;
-    round->slope = along.smooth.q[0];
+    rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     if (along.rough == 0 || !round->x)
         return;
     free(round->value);
@@ -161,21 +135,11 @@ static double kept_difference(const void *function, double alpha)
                            part * (round->value[i + 1] - round->value[i]);
 }
 
-/* E along p of a round, if it was kept. */
-static void show_line(const Round *round, Trace *trace)
-{
-    trace->first = round->first;
-    if (!round->p)
-        return;
-    trace->difference = kept_difference;
-    trace->function = round;
-}
-
 /* The direction of multigrid is the way that it went from x, and E along it. */
 static void keep_way(Rounds *rounds, const Newton *newton)
 {
     const IncrementalPotential *E = &newton->at.E;
-    Round *round = &rounds->round[rounds->count];
+    Round *round = &rounds->round[rounds->made.count];
     double *u = calloc(2 * (size_t)rounds->size, sizeof *u);
     for (int i = 0; u && round->x && i < rounds->size; i++) {
         u[i] = round->x[i] - E->x_n[i];
@@ -185,75 +149,70 @@ static void keep_way(Rounds *rounds, const Newton *newton)
         double *g = u + rounds->size;
         Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
         incremental_potential_gradient(E, u, round->x, g);
-        keep_line(rounds, round, &at);
+        keep_line(rounds, &at);
     }
     free(u);
 }
 
-/* Multigrid goes no line that p alone gives; what it made is shown as one. */
-static NewtonRecord as_line(const NewtonRecord *record)
-{
-    NewtonRecord line = *record;
-    if (record->solver == SOLVER_MULTIGRID && record->alpha != 0)
-        line.alpha = line.trials = 1;
-    return line;
-}
-
-/* The round that comes next: where the solver is now.  Where a bound decided
- * the test, no direction was computed, and p is still that of the round before.
- */
+/* The round that is due: where the solver is now.  Where a bound decided the
+ * test, no direction was computed, and p is still that of the round before. */
 static void keep_next(Rounds *rounds, const Newton *newton)
 {
-    Round *round = &rounds->round[rounds->count];
-    free_round(round);
-    keep_arrays(rounds, round, newton->at.x, newton->at.p);
-    keep_line(rounds, round, &newton->at);
-    round->residual = newton->residual;
-    round->kind = newton->kind;
-    round->projected = newton->record.projected;
+    int i = rounds->made.count;
+    free_round(&rounds->round[i]);
+    rounds->made.row[i] = newton->record;
+    rounds->made.row[i].residual = newton->residual;
+    rounds->made.row[i].kind = newton->kind;
+    keep_arrays(rounds, &rounds->round[i], newton->at.x, newton->at.p);
+    keep_line(rounds, &newton->at);
 }
 
 void rounds_look(Rounds *rounds, const Newton *newton)
 {
-    if (newton->record.iteration >= 0 || rounds->size == 0 ||
-        !make_room(rounds))
+    if (newton->record.iteration >= 0 || !make_room(rounds))
         return;
-    for (int i = 0; i < rounds->size && !rounds->tilde; i++)
-        rounds->x_tilde[i] = newton->at.E.x_n[i] + newton->u_tilde[i];
-    rounds->tilde = true;
     keep_next(rounds, newton);
+    if (rounds->x_tilde) /* of the first stage of a method with several */
+        return;
+    rounds->x_tilde = malloc((size_t)rounds->size * sizeof(double));
+    for (int i = 0; i < rounds->size && rounds->x_tilde; i++)
+        rounds->x_tilde[i] = newton->at.E.x_n[i] + newton->u_tilde[i];
 }
 
-void rounds_add(Rounds *rounds, const Newton *newton, const NewtonRecord *made)
+void rounds_add(Rounds *rounds, const Newton *newton,
+                const NewtonRecord *record)
 {
-    bool at_rest = made->iteration < 0 && rounds->count == 0;
-    if (at_rest || made->status == STATUS_OK)
+    int i = rounds->made.count;
+    bool at_rest = record->iteration < 0 && i == 0;
+    if (at_rest || record->status == STATUS_OK)
         rounds->passed =
             newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
-    if (rounds->size == 0 || !make_room(rounds))
+    if (!make_room(rounds))
         return;
-    if (at_rest && made->status == STATUS_OK) {
+    if (at_rest && record->status == STATUS_OK) {
         keep_next(rounds, newton);
         rounds->ended = true;
     }
-    if (made->iteration < 0)
+    if (record->iteration < 0)
         return;
-    const NewtonRecord line = as_line(made), *record = &line;
-    Round *round = &rounds->round[rounds->count];
+    NewtonRecord *made = &rounds->made.row[i];
     if (record->solver == SOLVER_MULTIGRID)
         keep_way(rounds, newton);
-    round->residual = record->residual;
-    round->kind = record->kind;
-    if (record->solver == SOLVER_NEWTON)
-        round->slope = record->slope;
-    round->projected = record->projected;
-    rounds->record[rounds->count++] = *record;
+    double slope = made->slope;
+    *made = *record;
+    if (record->solver == SOLVER_MULTIGRID) {
+        /* It goes no line that p alone gives; what it made is shown as one. */
+        made->slope = slope;
+        if (record->alpha != 0)
+            made->alpha = made->trials = 1;
+    }
+    rounds->made.count++;
     rounds->ended = record->alpha != 0 && (record->status == STATUS_RUNNING ||
                                            record->status == STATUS_OK);
     if (rounds->ended)
         keep_next(rounds, newton);
     else
-        free_round(&rounds->round[rounds->count]);
+        free_round(&rounds->round[i + 1]);
 }
 
 /* One more place. */
@@ -265,7 +224,7 @@ static void add_place(Rounds *rounds, int round, Line line, int trials)
 /* The lines of a round that has a record. */
 static void add_round(Rounds *rounds, const Options *options, int i)
 {
-    const NewtonRecord *record = &rounds->record[i];
+    const NewtonRecord *record = &rounds->made.row[i];
     bool searches = options->line_search != LINE_SEARCH_NONE;
     int trials =
         searches && record->trials < TRIALS_WALKED ? record->trials : 1;
@@ -283,28 +242,28 @@ static void add_round(Rounds *rounds, const Options *options, int i)
     add_place(rounds, i, LINE_TEST, record->trials);
 }
 
-Status rounds_end(Rounds *rounds, const Options *options)
+void rounds_end(Rounds *rounds, const Options *options)
 {
-    int count = rounds->count + 1;
-    Station *place = realloc(
-        rounds->place, (size_t)count * (TRIALS_WALKED + 8) * sizeof *place);
+    int count = rounds->made.count;
+    Station *place =
+        realloc(rounds->place,
+                ((size_t)count + 1) * (TRIALS_WALKED + 8) * sizeof *place);
     rounds->places = 0;
     if (!place)
-        return STATUS_OUT_OF_MEMORY;
+        return;
     rounds->place = place;
     add_place(rounds, 0, LINE_START, 0);
-    for (int i = 0; i < rounds->count; i++)
+    for (int i = 0; i < count; i++)
         add_round(rounds, options, i);
     if (rounds->ended) {
-        add_place(rounds, rounds->count, LINE_DO, 0);
+        add_place(rounds, count, LINE_DO, 0);
         if (options->filter != FILTER_NONE && !rounds->passed)
-            add_place(rounds, rounds->count, LINE_PROJECT, 0);
+            add_place(rounds, count, LINE_PROJECT, 0);
         if (!rounds->passed)
-            add_place(rounds, rounds->count, LINE_SOLVE, 0);
-        add_place(rounds, rounds->count, LINE_TEST, 0);
+            add_place(rounds, count, LINE_SOLVE, 0);
+        add_place(rounds, count, LINE_TEST, 0);
     }
-    add_place(rounds, rounds->count, LINE_END, 0);
-    return STATUS_OK;
+    add_place(rounds, count, LINE_END, 0);
 }
 
 /* Whether an update ends here. */
@@ -339,124 +298,103 @@ int rounds_peak(const Rounds *rounds, double *rise)
     double sum = 0;
     int round = -1;
     *rise = 0;
-    for (int i = 0; i < rounds->count; i++) {
-        sum += rounds->record[i].change;
+    for (int i = 0; i < rounds->made.count; i++) {
+        sum += rounds->made.row[i].change;
         if (sum > *rise) {
             *rise = sum;
             round = i;
         }
     }
-    if (round < 0 || !(*rise > FAR * fabs(sum)))
-        return -1;
-    for (int i = 0; i < rounds->places; i++)
-        if (rounds->place[i].round == round &&
-            rounds->place[i].line == LINE_UPDATE)
-            return i;
-    return -1;
+    bool far = round >= 0 && *rise > FAR * fabs(sum);
+    return far ? rounds_find(rounds, round, LINE_UPDATE) : -1;
 }
 
 double rounds_extent(const Rounds *rounds)
 {
     double extent = 0;
-    for (int i = 0; i <= rounds->count && i < rounds->room; i++)
+    for (int i = 0; i <= rounds->made.count && i < rounds->room; i++)
         for (int k = 0; rounds->round[i].x && k < rounds->size; k++)
             extent = fmax(extent, fabs(rounds->round[i].x[k]));
     return extent;
-}
-
-/* The whole step is over: its last update, and the test that ended it. */
-static void trace_last(const Rounds *rounds, Trace *trace)
-{
-    trace->iteration = rounds->count - 1;
-    trace->passed = rounds->passed;
-    if (rounds->ended) {
-        trace->residual = rounds->round[rounds->count].residual;
-        trace->kind = rounds->round[rounds->count].kind;
-    }
-    if (rounds->count == 0)
-        return;
-    const Round *round = &rounds->round[rounds->count - 1];
-    const NewtonRecord *record = &rounds->record[rounds->count - 1];
-    trace->x = round->x;
-    trace->p = round->p;
-    trace->given_up = !rounds->ended;
-    if (trace->given_up) {
-        trace->residual = round->residual;
-        trace->kind = round->kind;
-    }
-    trace->slope = round->slope;
-    trace->projected = round->projected;
-    trace->trials = record->trials;
-    trace->accepted = record->alpha > 0;
-    show_line(round, trace);
 }
 
 /* The numbers of a round from the line on at which they are known. */
 static void trace_round(const Rounds *rounds, const Station *at, Trace *trace)
 {
     const Round *round = &rounds->round[at->round];
-    bool made = at->round < rounds->count;
-    bool passed = !made && rounds->passed;
-    const NewtonRecord *record = made ? &rounds->record[at->round] : NULL;
-    bool solved = at->line >= LINE_SOLVE;
+    const NewtonRecord *record = &rounds->made.row[at->round];
+    bool made = at->round < rounds->made.count;
+    bool solved = at->line >= LINE_SOLVE, passed = !made && rounds->passed;
     trace->x = round->x;
     trace->passed = passed && solved;
     trace->updates = at->round + (made && solved);
     trace->trials = at->trials;
     trace->accepted = made && at->trials == record->trials && record->alpha > 0;
     if (solved) {
-        trace->residual = round->residual;
-        trace->kind = round->kind;
+        trace->residual = record->residual;
+        trace->kind = record->kind;
     }
-    if (passed)
-        return;
-    trace->projected = at->line >= LINE_PROJECT ? round->projected : -1;
-    if (!solved)
+    if (!passed && at->line >= LINE_PROJECT)
+        trace->projected = record->projected;
+    if (passed || !solved)
         return;
     trace->p = round->p;
-    trace->slope = round->slope;
-    show_line(round, trace);
+    trace->slope = record->slope;
+    trace->first = round->first;
+    if (!round->p)
+        return;
+    trace->difference = kept_difference;
+    trace->function = round;
 }
 
 const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
 {
+    int count = rounds->made.count;
+    const NewtonRecord *row = rounds->made.row;
+    bool over = place < 0 || place >= rounds->places;
+    const Station *at = over ? NULL : &rounds->place[place];
+    const Station last = {count - 1, LINE_END,
+                          count ? row[count - 1].trials : 0};
+    bool given_up = !rounds->ended && count > 0;
     *trace = (Trace){.h = rounds->h,
                      .tolerance = rounds->tolerance,
-                     .updates = rounds->count,
-                     .record = rounds->record,
-                     .updates_before = rounds->before,
-                     .record_before = rounds->record_before,
+                     .updates = count,
+                     .record = row,
+                     .updates_before = rounds->before.count,
+                     .record_before = rounds->before.row,
                      .projected = -1,
-                     .x_tilde = rounds->tilde ? rounds->x_tilde : NULL};
-    if (place < 0 || place >= rounds->places) {
-        trace_last(rounds, trace);
+                     .x_tilde = rounds->x_tilde};
+    if (over) { /* its last update, and the test that ended it */
+        if (count > 0)
+            trace_round(rounds, &last, trace);
+        trace->iteration = count - 1;
+        trace->passed = rounds->passed;
+        trace->given_up = given_up;
+        if (rounds->ended) {
+            trace->residual = row[count].residual;
+            trace->kind = row[count].kind;
+        }
         return NULL;
     }
-    const Station *at = &rounds->place[place];
     trace->line = at->line;
     trace->iteration = trace->updates = at->round;
     if (rounds->room == 0)
         return NULL;
     const Round *round = &rounds->round[at->round];
+    bool end = at->line == LINE_END;
     if (at->line == LINE_START)
         return round->x;
-    bool given_up = !rounds->ended && rounds->count > 0;
-    if (at->line == LINE_END && given_up) { /* as the last round left it */
-        const Station last = {rounds->count - 1, LINE_END,
-                              rounds->record[rounds->count - 1].trials};
+    if (end && given_up) /* as the last round left it */
         trace_round(rounds, &last, trace);
-    } else if (at->line != LINE_END || rounds->ended) {
+    else if (!end || rounds->ended)
         trace_round(rounds, at, trace);
-    }
     trace->given_up =
         given_up &&
-        (at->line == LINE_END ||
-         (at->round == rounds->count - 1 && at->line == LINE_SEARCH &&
-          at->trials == rounds->record[at->round].trials &&
-          rounds->record[at->round].alpha == 0));
-    bool moved = at->round < rounds->count &&
-                 (at->line == LINE_UPDATE || at->line == LINE_TEST);
-    if (moved && (at->round + 1 < rounds->count || rounds->ended))
-        return rounds->round[at->round + 1].x;
-    return moved || at->line == LINE_END ? NULL : round->x;
+        (end || (at->round == count - 1 && at->line == LINE_SEARCH &&
+                 at->trials == last.trials && row[count - 1].alpha == 0));
+    bool moved =
+        at->round < count && (at->line == LINE_UPDATE || at->line == LINE_TEST);
+    if (moved && (at->round + 1 < count || rounds->ended))
+        return round[1].x;
+    return moved || end ? NULL : round->x;
 }

@@ -55,7 +55,7 @@ static void enter_rounds(Player *player, Then then)
         player_note(player,
                     "update %d of %d: E has risen by %.3g J s\u00b2, and nodes "
                     "are %.4g m away; N goes on",
-                    rounds->place[place].round + 1, rounds->count, rise,
+                    rounds->place[place].round + 1, rounds->made.count, rise,
                     fmax(machine->outcome.extent, rounds_extent(rounds)));
         player->warning = true;
     }

@@ -319,7 +319,7 @@ TEST(the_curve_goes_through_the_step)
                     CHECK(i == 3 && round == 0 && !trace.difference);
                     continue;
                 }
-                const NewtonRecord *record = &rounds->record[round];
+                const NewtonRecord *record = &rounds->made.row[round];
                 double change = trace.difference(trace.function, record->alpha);
                 rough += rounds->round[round].value != NULL;
                 if (rounds->round[round].value &&
@@ -349,11 +349,11 @@ TEST(last_rounds_have_their_lines)
         char line[9] = "";
         CHECK_STATUS(obey("step"), STATUS_OK);
         const Rounds *rounds = &machine(0)->rounds;
-        for (int i = 0; i < rounds->places && rounds->count > 0; i++)
-            if (rounds->place[i].round == rounds->count &&
+        for (int i = 0; i < rounds->places && rounds->made.count > 0; i++)
+            if (rounds->place[i].round == rounds->made.count &&
                 rounds->place[i].line != LINE_END)
                 snprintf(line + strlen(line), 3, "%d", rounds->place[i].line);
-        if (rounds->count == 0)
+        if (rounds->made.count == 0)
             continue;
         assert_string_equal(line, lines[rounds->passed]);
         passed[rounds->passed]++;
