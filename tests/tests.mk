@@ -28,13 +28,8 @@ $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(Q)$(COMPILE) -DFAST= -MMD -MP -c $< -o $@
 $(B)/tests/unit/test_widths: $(GRID_LOOPS:%=$(B)/narrow/%.o)
 
-# What the frames say, and of which states, for checks/frame_numbers.py.
-$(B)/tests/unit/texts: LIBS += $(call wrap,text_draw paper_paragraph \
+$(B)/tests/unit/test_numbers: LIBS += $(call wrap,text_draw paper_paragraph \
   plot_create plot_on)
-$(B)/tests/unit/texts: $(B)/tests/unit/texts.o $(B)/tests/unit/testing.o \
-                       $(LIBRARY) $(B)/flags
-	$(call shown,LINK)
-	$(Q)$(LINK)
 
 # The program with faults linked in: sanitizers see what they do.
 FAULTY = malloc calloc realloc fopen fdopen open rename mkdir
@@ -47,7 +42,7 @@ $(B)/elasto-faults: $(B)/main.o $(LIBRARY) tests/checks/faults.c
 # the benchmark.  What was tested is then in build/, ready to be used.
 suites: $(SUITES)
 long-test: $(B)/elasto-bench
-test long-test: $(SUITES) $(B)/tests/unit/texts $(B)/elasto $(B)/lecture \
+test long-test: $(SUITES) $(B)/elasto $(B)/lecture \
                 $(if $(SANITIZE),$(B)/elasto-faults,build/elasto build/lecture)
 	@$(SETTINGS) LONG=$(filter long-test,$@) sh tests/checks/run.sh $(SUITES)
 

@@ -67,7 +67,7 @@ const Trace *pane_trace(const Pane *pane, DescentTrace *space)
 {
     if (pane->trace)
         return pane->trace;
-    if (pane->simulation->scene->needs & NEEDS_TIME)
+    if (pane->simulation->scene->step != step_descent)
         return NULL;
     return descent_trace(pane->simulation, space);
 }

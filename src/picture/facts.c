@@ -112,7 +112,8 @@ static const char *ordinal(int number)
 static void add_trace(const Simulation *simulation, const Trace *trace,
                       Facts *facts)
 {
-    bool known = isfinite(trace->residual) && !trace->passed;
+    bool made = trace->line == LINE_NONE || trace->line >= LINE_SOLVE;
+    bool known = made && isfinite(trace->residual) && !trace->passed;
     bool above = trace->residual > trace->tolerance;
     if (trace->projected >= 0) {
         fact(facts, "projected", trace->projected);
@@ -145,7 +146,9 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
                trace->kind == RESIDUAL_BOUND ? "bound" : "estimate");
     if (known) {
         fact(facts, "residual", trace->residual);
-        fact(facts, "p size", trace->residual * trace->h);
+        fact(facts, "p size",
+             simulation->descent.by_gradient ? NAN
+                                             : trace->residual * trace->h);
         fact_words(facts, ">", above ? ">" : "\u2264");
         fact_words(facts, "above", above ? "above" : "not above");
         fact_words(facts, "given",

@@ -22,7 +22,7 @@ build() { # targets...
 run_killer() { # name
     case $1 in
     *.sh)
-        build build/elasto build/release/tests/unit/texts || return 2
+        build build/elasto || return 2
         set -- sh "tests/checks/$1"
         ;;
     *)

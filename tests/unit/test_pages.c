@@ -42,6 +42,24 @@ static Simulation *open_page(const char *name, const char *more)
                             more[0] ? " " : "", more);
 }
 
+/* The numbers in what a page says, in their order: what a claim's test holds,
+ * or what stands in its scene. */
+static void says(const char *name, const char *numbers)
+{
+    const LecturePage *page = lecture_find(name);
+    char words[1024], found[256] = "";
+    snprintf(words, sizeof words, "%s %s %s %s", page->text, page->look,
+             page->touch, page->claim);
+    for (char *at = words; *(at += strcspn(at, "0123456789"));) {
+        size_t used = strlen(found), length = strspn(at, "0123456789.");
+        length -= at[length - 1] == '.'; /* the end of a sentence */
+        snprintf(found + used, sizeof found - used, "%s%.*s", used ? " " : "",
+                 (int)length, at);
+        at += length;
+    }
+    assert_string_equal(found, numbers);
+}
+
 static void check_falls(void)
 {
     CHECK(updates.count > 0);
@@ -60,6 +78,7 @@ static double total_mass(const System *system)
 
 TEST(claim_solid)
 {
+    says("solid", "4 25 72 1 4 2 1000 4 25 72 1000");
     for (int n = 1; n <= 32; n *= 2) {
         char more[32];
         snprintf(more, sizeof more, "--segments %d", n);
@@ -73,15 +92,20 @@ TEST(claim_solid)
 
 TEST(claim_mesh)
 {
+    says("mesh", "1 2 0 8 6 6 8 2 1 0 3 0 3 1 4 1 2");
     Simulation *simulation = open_page("mesh", "");
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
+    int level = 0;
     CHECK(system->nodes == 9 && system->springs == 20);
     CHECK(x[2] == x[0] && x[3] > x[1]);
     CHECK(x[6] > x[0] && x[7] == x[1]);
     CHECK(system->e[0] == 0 && system->e[1] == 3);
-    for (int s = 0; s < system->springs; s++)
+    for (int s = 0; s < system->springs; s++) {
         CHECK(system->l2[s] == (s < 12 ? 0.25 : 0.5));
+        level += x[2 * system->e[2 * s] + 1] == x[2 * system->e[2 * s + 1] + 1];
+    }
+    CHECK(level == 6 && x[16] == x[14] && x[17] > x[13]);
 }
 
 /* The place of the middle, m. */
@@ -97,6 +121,7 @@ static void centre(const Simulation *simulation, double c[2])
 
 TEST(claim_equation)
 {
+    says("equation", "25 40 50");
     double g[50] = {0}, sum[2] = {0}, scale = 0, before[2], after[2];
     Simulation *simulation = open_page("equation", "");
     for (int i = 0; i < 25; i++)
@@ -136,16 +161,19 @@ static void check_euler(const char *name, double x, double y, double factor)
 
 TEST(claim_forward)
 {
+    says("forward", "1 0 0 1 0.5 1 0.5 1");
     check_euler("forward", 1, 0.5, 1.25);
 }
 
 TEST(claim_backward)
 {
+    says("backward", "1 0 0 1 0.5 0.8 0.4 1");
     check_euler("backward", 0.8, 0.4, 1 / 1.25);
 }
 
 TEST(claim_symplectic)
 {
+    says("symplectic", "2 1000 0.5");
     Simulation *simulation = open_page("symplectic", "");
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
     double start = 0;
@@ -156,10 +184,17 @@ TEST(claim_symplectic)
         CHECK_NEAR(now, start, 1e-12);
         make_steps(simulation, 1);
     }
+    for (int flies = 0; flies < 2; flies++) {
+        simulation =
+            open_page("symplectic", flies ? "--timestep 2" : "--timestep 1.98");
+        make_steps(simulation, 400);
+        CHECK((mass_energy(simulation) > 1e4) == flies);
+    }
 }
 
 TEST(claim_stability)
 {
+    says("stability", "1 2 0.318 0.02 1.00786 4 0.31 7 0.33 10");
     Simulation *simulation = open_page("stability", "");
     for (int i = 0; i < 300; i++) {
         double r[2][3];
@@ -203,6 +238,7 @@ static Status end_of(const char *name, const char *more, int steps)
 
 TEST(claim_explicit)
 {
+    says("explicit", "0.003 0.008 20 0.003 1000 0.008 1");
     CHECK_STATUS(end_of("explicit", "", 20), STATUS_NOT_FINITE);
     CHECK_STATUS(end_of("explicit", "--timestep 0.003", 1000), STATUS_OK);
     CHECK_STATUS(end_of("explicit", "--integrator backward-euler", 100),
@@ -215,6 +251,7 @@ TEST(claim_explicit)
 /* g''/(2 g') of E = (x - 2)^2/2 + 0.45 (x^2 - 1)^2 at the root of g. */
 TEST(claim_tangent)
 {
+    says("tangent", "2.5 1.17799 2 0.95");
     double x[16];
     int count = 0;
     Simulation *simulation = open_page("tangent", "");
@@ -245,6 +282,7 @@ TEST(claim_tangent)
 
 TEST(claim_newton)
 {
+    says("newton", "0.6 0.9 1 5 12 0.05 0.05");
     Simulation *simulation = open_page("newton", "");
     const Descent *descent = &simulation->descent;
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
@@ -283,6 +321,7 @@ TEST(claim_newton)
 
 TEST(claim_overshoot)
 {
+    says("overshoot", "2 11.6 3 10 0 1.0886 2 11.645 3 9 1.08 1.09");
     end_of("overshoot", "", 10);
     CHECK_NEAR(updates.record[0].to[0], -11.645, 5e-4);
     CHECK(fabs(updates.record[1].to[0]) > 3e9);
@@ -300,6 +339,7 @@ TEST(claim_overshoot)
 
 TEST(claim_explodes)
 {
+    says("explodes", "1 2 10 5 10 5");
     static const char *const watched[] = {
         "--filter clamp", "--line-search backtrack",
         "--filter clamp --line-search backtrack"};
@@ -325,6 +365,7 @@ TEST(claim_explodes)
  * most 100 M, as it is here: h^2 k is 1.6 and M is 40. */
 TEST(claim_minimise)
 {
+    says("minimise", "0");
     Simulation *simulation = open_page("minimise", "--tolerance 1e-9");
     const TimeIntegrator *run = &simulation->run[0];
     double h = run->h, x_tilde[50], x_n[50];
@@ -346,6 +387,7 @@ TEST(claim_minimise)
 
 TEST(claim_parts)
 {
+    says("parts", "");
     Simulation *simulation = open_page("parts", "");
     const double *target = simulation->exhibit.target, rest = sqrt(1.25);
     CHECK_STATUS(run_steps(simulation, 100), STATUS_OK);
@@ -366,6 +408,7 @@ TEST(claim_parts)
 
 TEST(claim_dial)
 {
+    says("dial", "1 1 10 1");
     Simulation *simulation = open_page("dial", "");
     const Walk *walk = &simulation->exhibit.walk;
     const double *target = simulation->exhibit.target;
@@ -390,6 +433,7 @@ TEST(claim_dial)
 
 TEST(claim_inertia)
 {
+    says("inertia", "0.6 0.9 0.26");
     const LecturePage *page = lecture_find("inertia");
     Simulation *simulation = open_page("inertia", "");
     exhibit_flip(simulation, 1);
@@ -409,6 +453,7 @@ TEST(claim_inertia)
 
 TEST(claim_alpha)
 {
+    says("alpha", "1 1 1 8");
     bool eighth = false;
     Simulation *simulation = open_page("alpha", "");
     make_steps(simulation, 1);
@@ -421,6 +466,7 @@ TEST(claim_alpha)
 
 TEST(claim_algorithm2)
 {
+    says("algorithm2", "1 2 1 4 1 2 1 2 1 4 1 2 1 1 1 1");
     static const double alpha[] = {0.25, 0.5, 1, 1, 1, 1};
     CHECK_STATUS(end_of("algorithm2", "", 100), STATUS_OK);
     CHECK(updates.count == 6);
@@ -431,6 +477,7 @@ TEST(claim_algorithm2)
 
 TEST(claim_descent)
 {
+    says("descent", "0 0.1 0.35 0.1 0.1 289");
     Simulation *simulation = open_page("descent", "");
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
@@ -446,6 +493,7 @@ TEST(claim_descent)
 
 TEST(claim_psd)
 {
+    says("psd", "4 4 0 1 0.577 0 0 3 0");
     for (double r = 0.02; r < 1.5; r += 0.02) {
         SpringFacts facts;
         double most = 0, expected[2];
@@ -466,6 +514,7 @@ TEST(claim_psd)
 
 TEST(claim_energy)
 {
+    says("energy", "1 0 2 0 0 4 1 2 3996");
     SpringFacts rest, near;
     const double k = 100;
     spring_facts((double[2]){1, 0}, 1, k, &rest);
@@ -478,6 +527,7 @@ TEST(claim_energy)
 
 TEST(claim_force)
 {
+    says("force", "1 2 2 2 1.2 0.5 23.805 165.6 69");
     SpringFacts facts, more;
     const double e = 1e-5;
     Simulation *simulation = open_page("force", "");
@@ -501,6 +551,7 @@ TEST(claim_force)
 
 TEST(claim_potential)
 {
+    says("potential", "2 2 50 72 16 676 2500");
     Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
     double *x = simulation->run[0].x, u[50] = {0}, q[50], y[50], unused[50];
@@ -537,6 +588,7 @@ TEST(claim_potential)
 
 TEST(claim_algorithm3)
 {
+    says("algorithm3", "52 72 5 1");
     Simulation *simulation = open_page("algorithm3", "");
     make_steps(simulation, 1);
     CHECK(updates.count == 5);
@@ -548,6 +600,7 @@ TEST(claim_algorithm3)
 
 TEST(claim_step)
 {
+    says("step", "2 36 330 0.01 10 2 10");
     int count[2];
     for (int i = 0; i < 2; i++) {
         make_steps(open_page("step", i ? "" : "--tolerance 0.01"), 1);
@@ -564,6 +617,7 @@ TEST(claim_step)
 
 TEST(claim_simulator)
 {
+    says("simulator", "50");
     Simulation *simulation = open_page("simulator", "");
     for (int i = 0; i < 50; i++) {
         double before = simulation_energies(simulation, 0).total;
@@ -584,6 +638,7 @@ static void check_ledger(const Simulation *simulation, double start)
 
 TEST(claim_contact)
 {
+    says("contact", "300 1");
     double nearest = 1;
     Simulation *simulation = open_page("contact", "");
     for (int step = 0; step < 300; step++) {
@@ -620,6 +675,7 @@ static double slide(const char *more, double way[3])
 
 TEST(claim_friction)
 {
+    says("friction", "20 20 0.364 0.5 0.9 1.1 0.404 3 7 2 0.41 6 0.4 0.32 50");
     double way[3];
     slide("", way);
     CHECK(way[0] > 7 && way[0] > way[1] && way[1] > 1 && way[2] < 0.02);
@@ -632,6 +688,7 @@ TEST(claim_friction)
 
 TEST(claim_inelastic)
 {
+    says("inelastic", "300 0.05");
     double nearest = 1, most = 0;
     Simulation *simulation = open_page("inelastic", "");
     double start = simulation_energies(simulation, 0).total;
@@ -653,6 +710,7 @@ TEST(claim_inelastic)
 
 TEST(claim_fracture)
 {
+    says("fracture", "20 100 100");
     Simulation *simulation = open_page("fracture", "");
     double start = simulation_energies(simulation, 0).total;
     const Fracture *broken = fracture_of(&simulation->system);
@@ -667,6 +725,7 @@ TEST(claim_fracture)
 
 TEST(claim_race)
 {
+    says("race", "2 4 16 4 8 4");
     static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 16};
     Simulation *simulation = open_page("race", "");
     const Race *race = &simulation->exhibit.race;
@@ -697,6 +756,7 @@ TEST(claim_race)
 
 TEST(claim_trust)
 {
+    says("trust", "21 280 550 97 100");
     int undone = 0, good = 0, all = ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     Simulation *simulation = open_page("trust", "");
     for (int row = 0; row < ENVELOPE_ROWS; row++)

@@ -668,7 +668,7 @@ static int drawn_text(const char *text)
 
 /* Bars as long as a spring's eigenvalues, hollow and in the colour of
  * projection for the two below 0, none of them in the words.  (The numbers in
- * this note are calculated again by check_numbers.sh.) */
+ * this note are calculated again by test_numbers.) */
 TEST(notes_of_springs_have_bars)
 {
     enum { SPRING = 12, MOST = 40 };

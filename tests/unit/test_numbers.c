@@ -1,0 +1,1150 @@
+/* Every number on the screen is a true one.  What the texts of the pictures
+ * know by name (facts.h) is calculated again, in extended precision and by
+ * formulas that stand here or in the oracle; and every number that a frame
+ * says is one of these, rounded to the digits shown.  (Numbers at axes are held
+ * by test_picture, messages by test_player, a page's words by test_pages, what
+ * plasticity, fracture and friction took by test_laws.) */
+#include "attended.h"
+#include "test.h"
+
+#include <ctype.h>
+#include <math.h>
+
+#include "model/cells.h"
+#include "model/contact.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
+#include "model/pull_energy.h"
+#include "picture/cards.h"
+#include "picture/plot.h"
+#include "scenes/scene.h"
+#include "scenes/small_scenes.h"
+
+enum { WIDE = 1200, HIGH = 900, MOST = 400, UNKNOWNS = 50, NODES = 700 };
+
+/* ---- what is drawn ------------------------------------------------------- */
+
+static struct {
+    double x, y;
+    char words[400];
+} texts[MOST];
+static Paper paper;
+static int count;
+static Box map_box;          /* of the last axes on a stage */
+static bool listens, within; /* a paragraph is one text; axes are none */
+
+static void keep(double x, double y, const char *words)
+{
+    if (!listens || within || !strpbrk(words, "0123456789"))
+        return;
+    assert_true(count < MOST);
+    texts[count].x = x;
+    texts[count].y = y;
+    snprintf(texts[count++].words, sizeof texts[0].words, "%s", words);
+}
+
+int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup);
+int __real_paper_paragraph(Paper *on, Face face, double size, Colour colour,
+                           Box box, int lines, const char *markup);
+Plot __real_plot_create(Paper *on, Box outer, Axis x, Axis y);
+Plot __real_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
+
+int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+                     double x, double y, Align align, const char *markup)
+{
+    if (!style->plain)
+        keep(x, y, markup);
+    return __real_text_draw(text, canvas, style, x, y, align, markup);
+}
+
+int __wrap_paper_paragraph(Paper *on, Face face, double size, Colour colour,
+                           Box box, int lines, const char *markup)
+{
+    const LecturePage *page = player.show.lecture;
+    bool own = page && (markup == page->text || markup == page->look ||
+                        markup == page->touch || markup == page->claim);
+    if (lines > 0 && !own && markup != player.show.message)
+        keep(box.x, box.y, markup);
+    within = true;
+    int used =
+        __real_paper_paragraph(on, face, size, colour, box, lines, markup);
+    within = false;
+    return used;
+}
+
+Plot __wrap_plot_create(Paper *on, Box outer, Axis x, Axis y)
+{
+    within = true;
+    Plot plot = __real_plot_create(on, outer, x, y);
+    within = false;
+    return plot;
+}
+
+Plot __wrap_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y)
+{
+    within = true;
+    Plot plot = __real_plot_on(stage, room, x, y);
+    within = false;
+    map_box = plot.box;
+    return plot;
+}
+
+/* ---- what is true -------------------------------------------------------- */
+
+typedef struct Truth {
+    const char *name;
+    int run;
+    Real value, slack;
+} Truth;
+
+static int faults;
+
+static void wrong(const char *name, const char *what, double value)
+{
+    print_error("%s, step %ld: '%s' says %.12g\n", name, player.past.step, what,
+                value);
+    faults++;
+}
+
+static Truth truth[MOST];
+static int truths, run_now;
+
+static void near(const char *name, Real value, Real slack)
+{
+    assert_true(truths < MOST);
+    truth[truths++] = (Truth){name, run_now, value, slack};
+}
+
+static void is(const char *name, Real value)
+{
+    near(name, value, 1e-12L * fabsl(value));
+}
+
+static void is_point(const char *name, Real x, Real y)
+{
+    Real slack = 1e-12L * (fabsl(x) + fabsl(y));
+    near(name, x, slack);
+    near(name, y, slack);
+}
+
+/* A number that is shown with two digits. */
+static void is_rough(const char *name, Real value)
+{
+    Real last = powl(10, floorl(log10l(fabsl(value))) - 1);
+    near(name, value, value == 0 ? 0 : 0.51L * last);
+}
+
+/* The two last states, and with what the step between them was made; without h
+ * nothing is known of it. */
+static double x_n[2 * NODES], v_n[2 * NODES], x_now[2 * NODES],
+    v_now[2 * NODES];
+static Options made;
+static int terms_made;
+static long step_now;
+
+static void remember(void)
+{
+    const Simulation *simulation = &machine(0)->simulation;
+    size_t size = 2 * (size_t)simulation->system.nodes * sizeof(double);
+    assert_true(simulation->system.nodes <= NODES);
+    if (!simulation->run[0].x)
+        return;
+    if (player.past.step == step_now + 1) {
+        memcpy(x_n, x_now, size);
+        memcpy(v_n, v_now, size);
+        made = simulation->options;
+        terms_made = simulation->system.terms;
+    } else if (player.past.step != step_now) {
+        made.timestep = 0;
+    } else if (memcmp(x_now, simulation->run[0].x, size) != 0) {
+        made = simulation->options; /* it was taken again */
+        terms_made = simulation->system.terms;
+    }
+    step_now = player.past.step;
+    memcpy(x_now, simulation->run[0].x, size);
+    memcpy(v_now, simulation->run[0].v, size);
+}
+
+/* ---- a step in time ------------------------------------------------------ */
+
+static bool only_springs(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    const IntegratorMethod *method = simulation->run[0].method;
+    Filter filter = simulation->options.filter;
+    return system->terms == 1 && terms_made == 1 && made.timestep > 0 &&
+           made.stiffness == simulation->options.stiffness &&
+           made.filter == filter && !system->pinned && system->nodes <= 25 &&
+           system_find_term(system, &mass_spring_energy) && method &&
+           strcmp(method->name, "backward-euler") == 0 &&
+           system->gravity[1] == 0 &&
+           (filter == FILTER_CLAMP || filter == FILTER_NONE);
+}
+
+/* What Algorithm 3 knows at x: p [2n] out, its residual, m/s. */
+static Real newton_at(const Simulation *simulation,
+                      const IncrementalPotential *E, const double *u,
+                      const double *x, Real *p)
+{
+    static Real H[UNKNOWNS * UNKNOWNS];
+    int size = 2 * simulation->system.nodes;
+    Real most = 0;
+    exact_derivatives(E, u, x, p, NULL);
+    exact_hessian(E, x, simulation->options.filter == FILTER_CLAMP, H);
+    CHECK(dense_solve(size, H, p));
+    for (int i = 0; i < size; i++)
+        p[i] = -p[i];
+    for (int i = 0; i < size; i += 2)
+        most = fmaxl(most, fabsl(p[i]) + fabsl(p[i + 1]));
+    return most / made.timestep;
+}
+
+/* The minimisation of the step that led here: where its trace stands. */
+static void tell_springs(const Simulation *simulation, const Trace *trace)
+{
+    const System *system = &simulation->system;
+    bool over = trace->line == LINE_NONE || trace->line == LINE_END;
+    const double *x = over && !trace->given_up ? x_now : trace->x;
+    double u[UNKNOWNS], u_tilde[UNKNOWNS], q[UNKNOWNS];
+    Real p[UNKNOWNS], g[UNKNOWNS], slope = 0, pair = 0;
+    int size = 2 * system->nodes, least = 0, most = 0;
+    const IncrementalPotential E = {.system = system,
+                                    .weight = made.timestep * made.timestep,
+                                    .x_n = x_n,
+                                    .u_tilde = u_tilde};
+    for (int i = 0; i < size; i++) {
+        u_tilde[i] = made.timestep * v_n[i];
+        u[i] = x[i] - x_n[i];
+    }
+    Real residual = newton_at(simulation, &E, u, x, p);
+    near("residual", residual, 1e-6L * residual + 1e-12L);
+    near("p size", residual * made.timestep,
+         1e-6L * residual * made.timestep + 1e-14L);
+    for (int i = 0; i < size; i++)
+        u[i] = trace->x[i] - x_n[i];
+    newton_at(simulation, &E, u, trace->x, p);
+    exact_derivatives(&E, u, trace->x, g, NULL);
+    for (int i = 0; i < size; i++) {
+        q[i] = (double)p[i];
+        slope += g[i] * p[i];
+    }
+    for (int i = 0; i < size && trace->p; i++)
+        CHECK_NEAR(trace->p[i], p[i], 1e-6L * (residual + fabsl(slope)));
+    CHECK(!trace->p || (slope > 0) == (trace->slope > 0));
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        Real dx = (Real)trace->x[2 * e[0]] - trace->x[2 * e[1]];
+        Real dy = (Real)trace->x[2 * e[0] + 1] - trace->x[2 * e[1] + 1];
+        pair = (dx * dx + dy * dy) / system->l2[s] - 1;
+        least += pair < -1e-9L;
+        most += pair < 1e-9L;
+    }
+    if (simulation->options.filter == FILTER_NONE)
+        least = most = 0;
+    near("projected", (least + most) / 2.0L, (most - least) / 2.0L);
+    Place at = place_at(system, x_n, u, trace->x);
+    at.w = E.weight;
+    Spot spot = {.at = &at, .h = made.timestep, .t = 1};
+    Real before = oracle_step(&spot, u_tilde).f;
+    spot.p = q;
+    spot.alpha = trace_alpha(trace, trace->trials);
+    Real change = oracle_step(&spot, u_tilde).f - before;
+    near("change", change, 1e-6L * fabsl(change) + 1e-14L * before);
+    if (trace->trials > 0 &&
+        simulation->options.line_search != LINE_SEARCH_NONE)
+        CHECK(fabsl(change) < 1e-14L * before || /* rounding */
+              (change > 0) == !trace->accepted);
+}
+
+static void tell_trace(const Simulation *simulation, const Trace *trace)
+{
+    is("tolerance", simulation->options.tolerance);
+    is("h then", trace->h);
+    CHECK(made.timestep == 0 || trace->h == made.timestep);
+    for (int i = -9; i <= 9 && (trace->p || player.show.panes > 1); i++)
+        is("search direction", powl(10, i));
+    is("nth", trace->iteration + 1);
+    is("length", powl(2, 1 - fmaxl(trace->trials, 1)) *
+                     (trace->first > 0 ? trace->first : 1));
+    if (only_springs(simulation) && trace->x) {
+        tell_springs(simulation, trace);
+        return;
+    }
+    is("projected", trace->projected);
+    is("residual", trace->residual);
+    is("p size", (Real)trace->residual * trace->h);
+    if (trace->difference && trace->trials > 0)
+        is("change", trace->difference(trace->function,
+                                       trace_alpha(trace, trace->trials)));
+}
+
+/* ---- energies ------------------------------------------------------------ */
+
+/* The rows of the ledger: what terms hold, by the oracle. */
+static void tell_energies(const Simulation *simulation)
+{
+    static const struct {
+        const char *name;
+        const TermKind *kind[3];
+    } rows[] = {
+        {"elastic", {&mass_spring_energy, &plastic_energy, &central_field}},
+        {"contact", {&contact_energy, &cell_energy}},
+        {"hand", {&hand_energy}}};
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
+    Energies ledger = simulation_energies(simulation, 0);
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at, .h = 1, .t = 1};
+    Real kinetic = 0, gravity = 0, sum = 0, size = 0;
+    for (int i = 0; i < 2 * system->nodes; i++) {
+        kinetic += (Real)system->m[i / 2] * v[i] * v[i] / 2;
+        size += fabsl((Real)system->m[i / 2] * system->gravity[i % 2] * x[i]);
+        gravity -= (Real)system->m[i / 2] * system->gravity[i % 2] * x[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        Real part = 0;
+        for (int k = 0; k < 3 && rows[i].kind[k]; k++)
+            if (system_find_term(system, rows[i].kind[k])) {
+                part += oracle_energy(&spot, rows[i].kind[k]).f;
+                size += spot.size.f;
+            }
+        near(rows[i].name, part, 1e-13L * (kinetic + size));
+        sum += part;
+    }
+    near("kinetic", kinetic, 1e-13L * (kinetic + size));
+    near("gravity", gravity, 1e-13L * (fabsl(gravity) + size));
+    near("total", kinetic + gravity + sum,
+         1e-13L * (kinetic + size + fabsl(gravity)));
+    for (int i = 0; i < ledger.rows; i++)
+        is(ledger.row[i].name, ledger.row[i].value);
+}
+
+/* ---- one mass, one spring ------------------------------------------------ */
+
+static void tell_masses(const Simulation *simulation)
+{
+    bool one = simulation->runs == 1;
+    for (int r = 0; r < simulation->runs; r++) {
+        const TimeIntegrator *run = &simulation->run[r];
+        const char *name = run->method->name;
+        const double *x = run->x, *v = run->v;
+        Real h = simulation->options.timestep, a[2], new_x[2], new_v[2];
+        Real E[2] = {0, 0}, by[2];
+        bool backward = strcmp(name, "backward-euler") == 0;
+        for (int i = 0; i < 2; i++) {
+            new_v[i] =
+                backward ? (v[i] - h * x[i]) / (1 + h * h) : v[i] - h * x[i];
+            by[i] = strcmp(name, "forward-euler") == 0 ? v[i] : new_v[i];
+            new_x[i] = x[i] + h * by[i];
+            a[i] = backward ? -new_x[i] : -x[i];
+            E[0] += ((Real)x[i] * x[i] + (Real)v[i] * v[i]) / 2;
+            E[1] += (new_x[i] * new_x[i] + new_v[i] * new_v[i]) / 2;
+        }
+        run_now = r + 1;
+        is("radius", hypotl(x[0], x[1]));
+        is("exact radius", 1);
+        run_now = one ? 0 : r + 1;
+        is("energy", E[0]);
+        is("later", E[1]);
+        is("factor", E[1] / E[0]);
+        is("h", h);
+        is_point("place", x[0], x[1]);
+        is_point("v", v[0], v[1]);
+        is_point("a", a[0], a[1]);
+        is_point("x'", new_x[0], new_x[1]);
+        is_point("v'", new_v[0], new_v[1]);
+        is_point("carrying", by[0], by[1]);
+        run_now = 0;
+    }
+}
+
+static void tell_spring(const Simulation *simulation)
+{
+    Real l = 1, k = simulation->system.k[0]; /* small_scenes.h */
+    Real x = simulation->run[0].x[0], y = simulation->run[0].x[1];
+    Real r = hypotl(x, y), s = r * r / (l * l) - 1;
+    Real high = 2 * k * (3 * r * r / (l * l) - 1), low = 2 * k * s;
+    is_point("d", x, y);
+    is("distance", r);
+    is("l", l);
+    is("l2", l * l);
+    is("k", k);
+    near("strain", s, 1e-15L);
+    near("energy", l * l * k / 2 * s * s, 1e-15L * k);
+    near("force", -2 * k * s * x, 1e-15L * k);
+    near("force", -2 * k * s * y, 1e-15L * k);
+    near("along", high, 1e-14L * k);
+    near("across", low, 1e-14L * k);
+    near("root energy", 2 * k * (r - l) * (r - l), 1e-15L * k);
+    is("root along", 4 * k);
+    near("root across", 4 * k * (1 - l / r), 1e-14L * k);
+    near("eigenvalue", 2 * low, 0.05L); /* one digit is shown */
+    near("eigenvalue", 2 * high, 0.05L);
+    near("clamped", 0, 0);
+}
+
+/* ---- minima that are searched -------------------------------------------- */
+
+/* E, E' and E'' of one unknown. */
+static void scalar_E(const Simulation *simulation, Real x, Real E[3])
+{
+    Real d = x - simulation->exhibit.target[0], s = x * x - 1;
+    Real w =
+        10 * (Real)simulation->options.timestep * simulation->options.timestep;
+    bool line = simulation->scene->picture == PICTURE_TANGENT;
+    E[0] = line ? d * d / 2 + w * s * s / 2
+                : fabsl(x) + log1pl(expl(-2 * fabsl(x)));
+    E[1] = line ? d + 2 * w * x * s : tanhl(x);
+    E[2] = line ? 1 + 2 * w * (3 * x * x - 1) : 1 / (coshl(x) * coshl(x));
+}
+
+/* E of the map of small_scenes.h at a point, its gradient and the direction
+ * with this projection; returns the slope.  springs: projected ones, out */
+static Real map_E(const Simulation *simulation, const Real at[2], Filter filter,
+                  Real *value, Real g[2], Real p[2], int *springs)
+{
+    unsigned parts = simulation->exhibit.parts;
+    Real h = simulation->run[0].h, w = parts & PART_ELASTICITY ? h * h : 0;
+    Real m = parts & PART_INERTIA ? 1 : 0, H[3] = {m, 0, m};
+    Real k = simulation->system.k[0], l2 = simulation->system.l2[0];
+    *value = *springs = 0;
+    for (int i = 0; i < 2; i++) {
+        g[i] = m * (at[i] - simulation->exhibit.target[i]);
+        *value += g[i] * (at[i] - simulation->exhibit.target[i]) / 2;
+    }
+    for (int pin = 1; pin <= 2; pin++) {
+        const double *o = simulation->run[0].x + 2 * pin;
+        Real d[2] = {at[0] - o[0], at[1] - o[1]};
+        Real q = d[0] * d[0] + d[1] * d[1], s = q / l2 - 1;
+        Real low = 2 * k * s, high = 2 * k * (3 * q / l2 - 1);
+        *springs += low < 0 && w > 0;
+        if (filter != FILTER_NONE) {
+            low = filter == FILTER_ABS ? fabsl(low) : fmaxl(low, 0);
+            high = filter == FILTER_ABS ? fabsl(high) : fmaxl(high, 0);
+        }
+        *value += w * l2 * k / 2 * s * s;
+        for (int i = 0; i < 2; i++)
+            g[i] += w * 2 * k * s * d[i];
+        for (int i = 0; i < 3; i++)
+            H[i] += w * ((i != 1) * low +
+                         (high - low) / q * d[i / 2] * d[(i + 1) / 2]);
+    }
+    Real det = H[0] * H[2] - H[1] * H[1];
+    p[0] = -(H[2] * g[0] - H[1] * g[1]) / det;
+    p[1] = -(H[0] * g[1] - H[1] * g[0]) / det;
+    return g[0] * p[0] + g[1] * p[1];
+}
+
+static void tell_search(const Simulation *simulation)
+{
+    const Descent *descent = &simulation->descent;
+    const NewtonRecord *last = &descent->record[descent->count - 1];
+    Filter filter = simulation->options.filter;
+    bool begun = descent->count > 0,
+         whole = simulation->options.line_search == LINE_SEARCH_NONE;
+    const double *from = begun ? last->from : descent->point;
+    bool scalar = descent->scalar != NULL;
+    Real at[2] = {from[0], from[1]}, to[2], g[2], p[2] = {0}, E[3], new[3];
+    Real alpha = 1, value, trial = INFINITY, slope;
+    int projected = -1;
+    if (scalar) {
+        scalar_E(simulation, at[0], E);
+        value = E[0];
+        p[0] = -E[1] / E[2];
+        slope = E[1] * p[0];
+    } else {
+        slope = map_E(simulation, at, filter, &value, g, p, &projected);
+    }
+    for (alpha = 2; trial > value && alpha > 1e-20L;) {
+        alpha /= 2;
+        for (int i = 0; i < 2; i++)
+            to[i] = at[i] + alpha * p[i];
+        if (scalar) {
+            scalar_E(simulation, to[0], new);
+            trial = new[0];
+        } else {
+            Real unused[2], way[2];
+            int none;
+            map_E(simulation, to, filter, &trial, unused, way, &none);
+        }
+        if (whole || (!begun && scalar))
+            break;
+    }
+    if (begun && last->alpha > 0) /* and there it is now */
+        CHECK_NEAR(to[0], descent->point[0], 1e-9L * (1 + fabsl(to[0])));
+    is("length", begun && last->alpha > 0 ? alpha : 1);
+    is("shorter", alpha);
+    near("change", trial - value, 1e-6L * fabsl(trial - value) + 1e-15L);
+    is("tolerance", simulation->options.tolerance);
+    is("h then", simulation->options.timestep);
+    is("nth", descent->count + 1);
+    is("projected", scalar || filter == FILTER_NONE ? 0 : projected);
+    is("number", begun ? descent->count - 1 : 0);
+    is("next number", begun ? descent->count : 1);
+    is("iterate", at[0]);
+    near("next", to[0], 1e-9L * (1 + fabsl(to[0])));
+    near("direction", p[0], 1e-9L * fabsl(p[0]) + 1e-15L);
+    if (scalar) {
+        near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
+        near("slope", E[1], 1e-13L);
+        is("curvature", E[2]);
+        near("E", E[0], 1e-14L);
+        near("next E", new[0], 1e-9L * fabsl(new[0]));
+        scalar_E(simulation, descent->point[0], new);
+        near("residual", fabsl(new[1]), 1e-13L);
+        return;
+    }
+    Real now[2] = {descent->point[0], descent->point[1]};
+    static const Filter ways[] = {FILTER_NONE, FILTER_CLAMP};
+    for (int way = 0; way < 2; way++) {
+        slope = map_E(simulation, now, ways[way], &value, g, p, &projected);
+        is_rough("slope", slope);
+        near("residual", hypotl(g[0], g[1]), 1e-13L);
+        Real residual = (fabsl(p[0]) + fabsl(p[1])) / simulation->run[0].h;
+        near("residual", residual, 1e-12L);
+        near("p size", residual * simulation->run[0].h, 1e-12L);
+    }
+}
+
+static void tell_dial(const Simulation *simulation)
+{
+    Real h = simulation->run[0].h, d[2], P = 0, g[2], inertia = 0;
+    const double *x = simulation->run[0].x;
+    for (int i = 0; i < 2; i++) {
+        g[i] = d[i] = x[i] - (Real)simulation->exhibit.target[i];
+        inertia += d[i] * d[i] / 2;
+    }
+    for (int pin = 1; pin <= 2; pin++) {
+        Real k = simulation->system.k[0], l2 = simulation->system.l2[0];
+        Real e[2] = {(Real)x[0] - x[2 * pin], (Real)x[1] - x[2 * pin + 1]};
+        Real s = (e[0] * e[0] + e[1] * e[1]) / l2 - 1;
+        P += l2 * k / 2 * s * s;
+        for (int i = 0; i < 2; i++)
+            g[i] += h * h * 2 * k * s * e[i];
+    }
+    CHECK_AT_MOST(hypotl(g[0], g[1]), 1e-13L * (1 + 100 * h * h));
+    is("h", h);
+    is_point("minimiser", x[0], x[1]);
+    is("distance", hypotl(d[0], d[1]));
+    near("inertia", inertia, 1e-15L);
+    near("elasticity", h * h * P, 1e-13L * h * h);
+    near("P", P, 1e-13L);
+    for (int i = -2; i <= 1; i++) /* the marks on the path */
+        is("h", powl(10, i));
+}
+
+/* ---- race and map -------------------------------------------------------- */
+
+static void tell_race(const Simulation *simulation)
+{
+    static const char *const ms[2] = {"explicit ms", "implicit ms"};
+    static const char *const h[2] = {"explicit h", "implicit h"};
+    const Race *race = &simulation->exhibit.race;
+    is("methods", 6);
+    is("count", simulation->steps);
+    is("most", 42);
+    is("duration", 0.064L);
+    for (run_now = 1; run_now <= 3; run_now++) {
+        Real error = powl(10, -2 * run_now);
+        is("error", error);
+        for (int implicit = 0; implicit < 2; implicit++) {
+            const RacePoint *best = NULL;
+            for (int i = 0; i < race->count; i++) {
+                const RacePoint *one = &race->point[i];
+                if (one->error <= error && one->stable &&
+                    one->method->implicit == implicit &&
+                    (!best || one->seconds < best->seconds))
+                    best = one;
+            }
+            if (best) {
+                is(ms[implicit], 1e3L * best->seconds);
+                is(h[implicit], 1e3L * best->h);
+            }
+        }
+    }
+    run_now = 0;
+}
+
+/* A cell that is known has run; its three steps are made again. */
+static void tell_map(const Simulation *simulation)
+{
+    const EnvelopeMap *map = &simulation->exhibit.map;
+    const Options *options = &simulation->options;
+    Real h = powl(10, map->column / 2.0L - 9), k = powl(10, map->row - 6);
+    int known = 0, undone = 0, bad = 0, updates = 0;
+    Simulation *again = simulate(
+        "square --segments %g --stretch %.17g --tolerance %.17g --timestep "
+        "%.17g --stiffness %.17g",
+        options->segments, options->stretch, options->tolerance, (double)h,
+        (double)k);
+    for (int i = 0; i < 3; i++)
+        simulation_step(again);
+    updates = (int)simulation_counters(again).iterations;
+    for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
+        const EnvelopeCell *cell =
+            &map->cell[i / ENVELOPE_COLUMNS][i % ENVELOPE_COLUMNS];
+        known += cell->known;
+        undone += cell->known && !cell->worst && cell->undone;
+        bad += cell->known && cell->worst;
+    }
+    is("known", known);
+    is("undone", undone);
+    is("converged", known - undone - bad);
+    is("h", h);
+    is("k", k);
+    is("passing", h * options->tolerance);
+    is("steps", 3);
+    is("updates", updates);
+}
+
+/* ---- beside the mouse ---------------------------------------------------- */
+
+static Jet potential_along(const System *system, const double *x,
+                           const TermKind *kind, int p, int q)
+{
+    static double way[2][2 * NODES];
+    Place at = place_at(system, x, NULL, x);
+    Spot spot = {.at = &at, .h = 1, .t = 1, .p = way[0], .q = way[1]};
+    way[0][p] = way[1][q] = 1;
+    Jet out = oracle_energy(&spot, kind);
+    way[0][p] = way[1][q] = 0;
+    return out;
+}
+
+static void tell_node(const Pane *pane, int i)
+{
+    const Simulation *simulation = pane->simulation;
+    const System *system = &simulation->system;
+    const double *x = pane_x(pane), *v = simulation->run[0].v;
+    const Trace *trace = pane->trace;
+    is("node", i);
+    is("m", system->m[i]);
+    for (int k = 2 * i; k < 2 * i + 2; k++) {
+        Jet P = potential_along(system, x, NULL, k, k);
+        Real f = (Real)system->m[i] * system->gravity[k % 2] - P.p;
+        is("x", x[k]);
+        is("v", v[k]);
+        near("f", f, 1e-9L * (1 + fabsl(f)));
+        bool backward =
+            strcmp(simulation->run[0].method->name, "backward-euler") == 0;
+        Real tilde = trace && trace->x_tilde && !backward ? trace->x_tilde[k]
+                     : trace && trace->x_tilde
+                         ? x_n[k] + (Real)made.timestep * v_n[k] +
+                               (Real)made.timestep * made.timestep *
+                                   system->gravity[k % 2]
+                         : x[k] + (Real)simulation->options.timestep * v[k];
+        near("x tilde", tilde, 1e-12L);
+    }
+}
+
+static void tell_hovered_spring(const Pane *pane, int s)
+{
+    const System *system = &pane->simulation->system;
+    const double *x = pane_x(pane);
+    const int *e = system->e + 2 * s;
+    const TermKind *kind = system_find_term(system, &plastic_energy)
+                               ? &plastic_energy
+                               : &mass_spring_energy;
+    Real d[2], H[3], most = 0;
+    for (int i = 0; i < 3; i++)
+        H[i] = -potential_along(system, x, kind, 2 * e[0] + i / 2,
+                                2 * e[1] + (i + 1) / 2)
+                    .pq;
+    for (int i = 0; i < 2; i++)
+        d[i] = (Real)x[2 * e[0] + i] - x[2 * e[1] + i];
+    most = fabsl(H[0]) + fabsl(H[1]) + fabsl(H[2]);
+    is("node", e[0]);
+    is("node", e[1]);
+    is("l2", system->l2[s]);
+    near("strain", 100 * (hypotl(d[0], d[1]) / sqrtl(system->l2[s]) - 1),
+         1e-11L);
+    Real middle = (H[0] + H[2]) / 2, apart = hypotl((H[0] - H[2]) / 2, H[1]);
+    for (int i = 0; i < 3; i++) {
+        near("H", H[i], 1e-9L * most);
+        near("H", -H[i], 1e-9L * most);
+    }
+    near("eigenvalue", 2 * (middle - apart), 1e-9L * most);
+    near("eigenvalue", 2 * (middle + apart), 1e-9L * most);
+    is("nothing", 0);
+}
+
+/* The largest force of contact and friction on a node, N, up to the next round
+ * number. */
+static void tell_contact(const Pane *pane)
+{
+    const Simulation *simulation = pane->simulation;
+    Real most = 0;
+    for (int r = 0; r < simulation->runs; r++) {
+        const TimeIntegrator *run = &simulation->run[r];
+        const System *system = run->system;
+        const double *x = r ? run->x : pane_x(pane);
+        const Contact *contact = contact_of(system);
+        const Term *term = system_find_term(system, &friction_energy);
+        for (int k = 0; contact && k < contact->obstacles; k++)
+            for (int i = 0; i < system->nodes; i++) {
+                const Obstacle *o = &contact->obstacle[k];
+                if (!contact_has_pair(contact, system, i, k))
+                    continue;
+                Real s =
+                    exact_gap(system, x, i, k) / (Real)contact->barrier.d_hat;
+                Real way[2] = {o->n[0], o->n[1]}, v[2];
+                if (!(s < 1))
+                    continue;
+                for (int c = 0; c < 2; c++) {
+                    bool ball = o->kind == OBSTACLE_BALL;
+                    const double *at = o->node >= 0 ? x + 2 * o->node : o->o;
+                    way[c] = ball ? (Real)x[2 * i + c] - at[c] : way[c];
+                    v[c] = run->v[2 * i + c] -
+                           (o->node >= 0 ? run->v[2 * o->node + c] : o->v[c]);
+                }
+                Real slip = fabsl(way[0] * v[1] - way[1] * v[0]) /
+                            hypotl(way[0], way[1]);
+                Real a =
+                    term ? fminl(slip /
+                                     ((const Friction *)term->data)->slip_speed,
+                                 1)
+                         : 0;
+                Real push = -contact->barrier.c / contact->barrier.d_hat *
+                            (logl(s) + 1 - 1 / s);
+                most = fmaxl(most, push * hypotl(1, o->friction * a * (2 - a)));
+            }
+    }
+    if (simulation->scene->needs & NEEDS_TIME && simulation->runs == 3)
+        for (int r = 0; r < 3; r++) { /* the blocks on their slopes */
+            const Real part[] = {0.5L, 0.9L, 1.1L}, degree = M_PI / 180;
+            is("slope", 20);
+            is("slope", part[r]);
+            is("slope",
+               part[r] * simulation->options.friction / tanl(20 * degree));
+        }
+    Real power = powl(10, floorl(log10l(most)));
+    Real part = most / power * (1 - 1e-9L);
+    if (most > 0)
+        is("contact", /* force */ power * (part <= 1   ? 1
+                                           : part <= 2 ? 2
+                                           : part <= 5 ? 5
+                                                       : 10));
+}
+
+/* ---- a frame ------------------------------------------------------------- */
+
+static void tell_all(const Show *show)
+{
+    const Pane *pane = &show->pane[show->active];
+    const Simulation *simulation = pane->simulation;
+    const Options *o = &simulation->options;
+    const double settings[] = {o->timestep, o->stiffness, o->stretch,
+                               o->segments, o->tolerance, o->friction,
+                               o->damping};
+    PictureKind kind = simulation->scene->picture;
+    truths = 0;
+    for (int i = 0; i < 7; i++)
+        is("setting", settings[i]);
+    is("step", player.past.step);
+    is("newest", past_newest(&player.past));
+    near("t", simulation_time(simulation), 1e-12L);
+    for (int s = -12; s <= 12; s++) /* 60 frames a second; two digits */
+        is_rough("real time", 60 * (Real)o->timestep * powl(2, s));
+    is("panes", show->panes);
+    is("runs", simulation->runs);
+    is("springs", simulation->system.springs);
+    is("h eps", (Real)o->timestep * o->tolerance);
+    is("h eps", (Real)made.timestep * o->tolerance);
+    if (show->lecture) {
+        is("page", show->lecture - lecture_pages + 1);
+        is("pages", lecture_count());
+    }
+    double needed;
+    if (simulation->scene->needs & NEEDS_TIME &&
+        simulation_is_loose(simulation, &needed))
+        is("needed",
+           fminl(0.1L * o->timestep * fabs(o->gravity), 0.1L * o->slip_speed));
+    if (pane->trace)
+        tell_trace(simulation, pane->trace);
+    if (kind == PICTURE_CIRCLE || kind == PICTURE_MASS)
+        tell_masses(simulation);
+    for (int p = 0; p < show->panes; p++)
+        if (kind == PICTURE_SQUARE || kind == PICTURE_SPRING)
+            tell_energies(show->pane[p].simulation);
+    if (kind == PICTURE_SPRING)
+        tell_spring(simulation);
+    if (kind == PICTURE_CURVE || kind == PICTURE_TANGENT ||
+        kind == PICTURE_LANDSCAPE)
+        tell_search(simulation);
+    if (kind == PICTURE_DIAL)
+        tell_dial(simulation);
+    if (kind == PICTURE_RACE)
+        tell_race(simulation);
+    if (kind == PICTURE_ENVELOPE)
+        tell_map(simulation);
+    tell_contact(pane);
+    if (show->hover.kind == PICK_NODE && kind == PICTURE_SQUARE)
+        tell_node(&show->pane[0], show->hover.index);
+    if (show->hover.kind == PICK_SPRING && kind == PICTURE_SQUARE)
+        tell_hovered_spring(&show->pane[0], show->hover.index);
+    is("folded", pane_folded(pane));
+}
+
+/* Whether some truth of this name is the value. */
+static bool holds(const Fact *fact, int k)
+{
+    bool named = false;
+    for (int i = 0; i < truths; i++) {
+        if (strcmp(truth[i].name, fact->name) != 0 || truth[i].run != fact->run)
+            continue;
+        Real off = fabsl(fact->value[k] - truth[i].value);
+        if (off <= truth[i].slack + 1e-13L * fabsl(truth[i].value) ||
+            (isinf(fact->value[k]) && isinf(truth[i].value)))
+            return true;
+        named = true;
+    }
+    if (!named)
+        print_error("no formula for %s\n", fact->name);
+    return false;
+}
+
+/* All facts with numbers. */
+static void check_facts(const char *name)
+{
+    Facts facts;
+    facts_of(&player.show, player.show.active, &facts);
+    for (int i = 0; i < facts.count; i++)
+        for (int k = 0; k <= facts.fact[i].point && !facts.fact[i].words; k++)
+            if (!holds(&facts.fact[i], k))
+                wrong(name, facts.fact[i].name, facts.fact[i].value[k]);
+}
+
+/* ---- numbers in words ---------------------------------------------------- */
+
+/* Names and formulas with digits. */
+static const char notation[] =
+    "Algorithm 1|Algorithm 2|Algorithm 3|line 1|line 2|line 3|line 4|line 5|"
+    "line 6|line 7|line 8|lines 3 and 5|4 \u00d7 4|2 \u00d7 2|BDF2|SDIRK2|"
+    "(1 + (h\u03c9)\u00b2)|/3 + \u2154|(4{x}|(4v|1 \u2212 1/\u221a2|"
+    "(1 \u2212 4g)|1/(4 \u2212 4|l/\u221a3|m/2|P = l\u00b2 k/2|/2 \u00b7|"
+    "f = \u22122 k s d|2k|\u00b2 \u2212 1 =|alpha} = 1|h\u03c9 < 2|"
+    "6 methods|3 integrators|4th order|below 0";
+
+/* Blanks out what is no number: notation, what stands behind ^ and _ but a
+ * power of ten. */
+static void strip(char *words)
+{
+    char names[sizeof notation];
+    snprintf(names, sizeof names, "%s", notation);
+    for (char *name = strtok(names, "|"); name; name = strtok(NULL, "|"))
+        for (char *at; (at = strstr(words, name));)
+            memset(at, 'x', strlen(name));
+    for (char *at = words; (at = strpbrk(at, "^_")); at++)
+        if (at[1] == '{' && !(at - words >= 2 && strncmp(at - 2, "10", 2) == 0))
+            memset(at + 1, 'x', strcspn(at + 1, "}"));
+}
+
+/* The number at this place, its digits and what it is in: goes behind it. */
+static double token_at(char **at, int *digits, double *unit)
+{
+    static const struct {
+        const char *name;
+        double value;
+    } units[] = {{" TJ", 1e12}, {" GJ", 1e9},  {" MJ", 1e6},
+                 {" kJ", 1e3},  {" mJ", 1e-3}, {" \u00b5J", 1e-6}};
+    const char *from = *at;
+    double value = strtod(from, at);
+    *digits = 0;
+    bool point = memchr(from, '.', (size_t)(*at - from)) != NULL;
+    int zeros = 0; /* behind the last digit of a whole number */
+    for (const char *c = from; c < *at; c++) {
+        *digits += isdigit((unsigned char)*c) && (*digits > 0 || *c != '0');
+        zeros = *c == '0' && !point ? zeros + 1 : 0;
+    }
+    *digits -= zeros;
+    if ((*at)[0] == '/' && isdigit((unsigned char)(*at)[1])) /* 1/4 */
+        value /= strtod(*at + 1, at);
+    bool alone = value == 10 && strncmp(*at, "^{", 2) == 0;
+    if (alone || strncmp(*at, "\u00b710^{", 6) == 0) {
+        char *power = strchr(*at, '{') + 1;
+        bool minus = strncmp(power, "\u2212", 3) == 0;
+        long exponent = strtol(power + (minus ? 3 : 0), at, 10);
+        value = (alone ? 1 : value) * pow(10, minus ? -exponent : exponent);
+    }
+    *unit = 1;
+    for (int i = 0; i < 6; i++)
+        if (strncmp(*at, units[i].name, strlen(units[i].name)) == 0)
+            *unit = units[i].value;
+    return value;
+}
+
+/* Whether some truth, rounded to the digits shown and at least three, is this
+ * number (its sign is that of a minus before it); where the words begin with
+ * the name of a truth, one of this name. */
+static bool is_true(const char *words, double shown, int digits, double unit)
+{
+    double size = fabs(shown) * unit;
+    double last = pow(10, floor(log10(size)) - (digits > 3 ? digits : 3) + 1);
+    size_t name = strcspn(words, " ");
+    bool named = false, found = false, both = false;
+    for (int i = 0; i < truths; i++) {
+        double value = (double)fabsl(truth[i].value);
+        double off = fabs(size - value);
+        bool own = strlen(truth[i].name) == name &&
+                   strncmp(words, truth[i].name, name) == 0;
+        bool equal = off <= (size > 0 ? 0.5 * last * (1 + 1e-6) : 0) +
+                                (double)truth[i].slack + 1e-15 * value;
+        named = named || own;
+        found = found || equal;
+        both = both || (own && equal);
+    }
+    return named ? both : found;
+}
+
+/* A number on a contour: E within two pixels of it. */
+static bool is_contour(const Show *show, const Layout *layout, int i,
+                       double shown)
+{
+    const Simulation *simulation = show->pane[0].simulation;
+    Camera camera = show_camera(show, layout, 0);
+    Real low = INFINITY, high = 0;
+    for (int k = 0; k < 9; k++) {
+        double world[2];
+        Real at[2], value, g[2], p[2];
+        int springs;
+        camera_world(&camera, map_box.x + texts[i].x + 2 * (k % 3 - 1),
+                     map_box.y + texts[i].y + 0.53 * layout->em + k / 3 - 1,
+                     world);
+        at[0] = world[0];
+        at[1] = world[1];
+        map_E(simulation, at, FILTER_NONE, &value, g, p, &springs);
+        low = fminl(low, value);
+        high = fmaxl(high, value);
+    }
+    return shown >= low * 0.998L && shown <= high * 1.002L;
+}
+
+/* A text of one number: a node's stands beside it, that of a listing's line is
+ * small. */
+static bool is_count(const Show *show, const Layout *layout, int i,
+                     double shown)
+{
+    const double *x = pane_x(&show->pane[0]) + 2 * (int)shown;
+    double at[2];
+    if (texts[i].x > layout->column.x && layout->column.width > 0)
+        return shown >= 1 && shown <= 8;
+    Camera camera = show_camera(show, layout, 0);
+    camera_pixel(&camera, x, at);
+    return show->numbers &&
+           hypot(texts[i].x - at[0], texts[i].y - at[1]) < 2 * layout->em;
+}
+
+/* The line of a scale is as long as it says. */
+static bool is_scale(const Show *show, const Layout *layout, int i,
+                     double shown)
+{
+    const char *unit = strchr(texts[i].words, ' ');
+    double metre = !unit                      ? NAN
+                   : strcmp(unit, " m") == 0  ? 1
+                   : strcmp(unit, " mm") == 0 ? 1e-3
+                   : strcmp(unit, " km") == 0 ? 1e3
+                                              : NAN;
+    for (int p = 0; p < show->panes; p++) {
+        double scale = show_camera(show, layout, p).scale[0];
+        double half = texts[i].x - layout->pane[p].x - layout->em;
+        if (fabs(shown * metre * scale - 2 * half) < 2)
+            return true;
+    }
+    return false;
+}
+
+static void check_text(const Show *show, const Layout *layout, const char *name,
+                       int i)
+{
+    char words[sizeof texts[0].words], *at = words;
+    PictureKind kind = show->pane[0].simulation->scene->picture;
+    bool map = kind == PICTURE_LANDSCAPE || kind == PICTURE_DIAL;
+    snprintf(words, sizeof words, "%s", texts[i].words);
+    strip(words);
+    while (*(at += strcspn(at, "0123456789"))) {
+        int digits;
+        double unit;
+        bool whole = at == words && strspn(at, "0123456789") == strlen(at);
+        bool alone = at == words && !strchr(at, ' ');
+        bool first = at == words + strcspn(words, "0123456789");
+        double shown = token_at(&at, &digits, &unit);
+        bool percent = strstr(words, " %") && strlen(words) < 12;
+        if (percent || is_true(first ? words : "", shown, digits, unit) ||
+            (whole && is_count(show, layout, i, shown)) ||
+            (alone && map && is_contour(show, layout, i, shown)) ||
+            is_scale(show, layout, i, shown))
+            continue;
+        wrong(name, texts[i].words, shown);
+    }
+}
+
+static void check_frame(const char *name, PickKind kind, int index)
+{
+    Show *show = &player.show;
+    player_sample(&player);
+    player_fill(&player);
+    show->hover = (Pick){kind, 0, index, {0, 0}};
+    tell_all(show);
+    check_facts(name);
+    count = 0;
+    listens = true;
+    show_draw(&paper, show);
+    listens = false;
+    Layout layout = show_layout(show, WIDE, HIGH);
+    for (int i = 0; i < count; i++)
+        if (strcmp(texts[i].words, show->message) != 0)
+            check_text(show, &layout, name, i);
+}
+
+/* ---- what is played ------------------------------------------------------ */
+
+static void open_scene(const char *line)
+{
+    begin(line);
+    made.timestep = 0;
+    step_now = -1;
+    remember();
+}
+
+static void run(int steps)
+{
+    for (Status status = STATUS_OK; steps > 0 && !status; steps--) {
+        status = player_step(&player);
+        player_pause_if_due(&player);
+        remember();
+    }
+}
+
+static void tell(const char *command)
+{
+    player.message[0] = '\0';
+    obey(command);
+    remember();
+}
+
+/* Every line of Algorithm 3. */
+static void walk(const char *name)
+{
+    tell("finer");
+    tell("finer");
+    for (int i = 0; i < 8; i++) {
+        tell("next");
+        check_frame(name, PICK_NONE, 0);
+    }
+}
+
+/* What is changed or dragged. */
+static const char *touch_now(void)
+{
+    const Scene *scene = machine(0)->simulation.scene;
+    return scene->grips                         ? "handle 0 0.4 -0.3"
+           : scene->picture == PICTURE_ENVELOPE ? "cell 300"
+           : scene->needs & NEEDS_MESH          ? "set stiffness 5e4"
+           : scene->needs & NEEDS_TIME          ? "set timestep 0.05"
+                                                : "start 0.7 0";
+}
+
+static const char walked[] =
+    "newton explodes alpha algorithm3 square unprojected drop landscape";
+
+/* At its start, later, line by line, touched. */
+static void play(const char *name)
+{
+    check_frame(name, PICK_NONE, 0);
+    run(2);
+    check_frame(name, PICK_SPRING, 5);
+    if (tests_are_long() || strstr(walked, name))
+        walk(name);
+    tell(touch_now());
+    check_frame(name, PICK_NODE, 1);
+    run(3);
+    check_frame(name, PICK_NODE, 1);
+    end();
+}
+
+TEST(numbers_of_scenes)
+{
+    faults = 0;
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        open_scene(scene->name);
+        play(scene->name);
+    }
+    CHECK(faults == 0);
+}
+
+TEST(numbers_of_pages)
+{
+    faults = 0;
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        char command[64];
+        open_scene("square");
+        snprintf(command, sizeof command, "page %s", page->name);
+        tell(command);
+        play(page->name);
+    }
+    CHECK(faults == 0);
+}
+
+/* Later, with other methods, and by hand. */
+TEST(numbers_of_long_runs)
+{
+    static const struct {
+        const char *line;
+        int steps;
+        const char *commands[5];
+    } rows[] = {
+        {"square --yield 0.05 --hardening 0.1", 4, {"", "set yield 0.1"}},
+        {"square --timestep 1000 --stiffness 10", 1, {""}},
+        {"square --damping 0.01", 5, {"", "set damping 0.02"}},
+        {"square --filter none --stretch 0.6", 3, {"", "projection"}},
+        {"square --integrator bdf2", 4, {"", "set integrator midpoint"}},
+        {"square --integrator sdirk2", 3, {"", "set integrator verlet"}},
+        {"square --segments 3", 2, {"", "grab 0", "drag -1 0.5", "release"}},
+        {"square --segments 2", 3, {"", "method", "add-pane", "add-pane"}},
+        {"dent", 90, {""}},
+        {"tear", 90, {""}},
+        {"drop", 70, {"", "enlarge 4"}},
+        {"squeeze", 40, {""}},
+        {"bend", 60, {""}},
+        {"slope", 30, {"", "set friction 0.5"}},
+        {"hang", 30, {"", "pin 3"}},
+        {"explosion", 1, {"", "projection"}},
+        {"arrows --integrator forward-euler", 2, {""}},
+        {"overshoot --start 1.08 --line-search none", 2, {"", "line-search"}},
+        {"landscape --start 0.4,0.9", 1, {"", "flip 0", "flip 0", "flip 1"}},
+        {"dial", 4, {"", "handle 0 0.3 0.5"}},
+        {"spring --start 0.3,0.2", 2, {"", "flip 0"}},
+        {"race", 14, {""}},
+        {"envelope", 3, {"", "cell 200", "cell 430"}}};
+    faults = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        open_scene(rows[i].line);
+        for (int k = 0; k < 5 && rows[i].commands[k]; k++) {
+            if (rows[i].commands[k][0])
+                tell(rows[i].commands[k]);
+            check_frame(rows[i].line, PICK_NODE, 7);
+            run(rows[i].steps);
+            check_frame(rows[i].line, PICK_SPRING, 2);
+        }
+        walk(rows[i].line);
+        end();
+    }
+    CHECK(faults == 0);
+}
+
+static int set_up(void **unused)
+{
+    (void)unused;
+    return paper_create(WIDE, HIGH, &paper);
+}
+
+static int take_down(void **unused)
+{
+    (void)unused;
+    paper_free(&paper);
+    return 0;
+}
+
+TESTS(set_up, take_down)
