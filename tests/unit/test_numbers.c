@@ -437,41 +437,62 @@ static Real map_E(const Simulation *simulation, const Real at[2], Filter filter,
     return g[0] * p[0] + g[1] * p[1];
 }
 
+/* What is minimised, there. */
+static Real searched_E(const Simulation *simulation, const Real at[2])
+{
+    Real E[3], g[2], p[2];
+    int springs;
+    if (simulation->descent.scalar)
+        scalar_E(simulation, at[0], E);
+    else
+        map_E(simulation, at, FILTER_NONE, E, g, p, &springs);
+    return E[0];
+}
+
+/* Where it stands now: what is tested. */
+static void tell_iterate(const Simulation *simulation)
+{
+    static const Filter ways[] = {FILTER_NONE, FILTER_CLAMP};
+    const Descent *descent = &simulation->descent;
+    Real at[2] = {descent->point[0], descent->point[1]}, E[3], g[2], p[2];
+    int springs;
+    scalar_E(simulation, at[0], E);
+    if (descent->scalar)
+        near("residual", fabsl(E[1]), 1e-13L);
+    for (int way = 0; way < 2 && !descent->scalar; way++) {
+        is_rough("slope", map_E(simulation, at, ways[way], E, g, p, &springs));
+        near("residual", hypotl(g[0], g[1]), 1e-13L);
+        Real size = fabsl(p[0]) + fabsl(p[1]);
+        near("residual", size / simulation->run[0].h, 1e-12L);
+        near("p size", size, 1e-12L);
+    }
+}
+
+/* The last update, or the first one that is to come. */
 static void tell_search(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
     const NewtonRecord *last = &descent->record[descent->count - 1];
-    Filter filter = simulation->options.filter;
-    bool begun = descent->count > 0,
-         whole = simulation->options.line_search == LINE_SEARCH_NONE;
+    const Filter filter = simulation->options.filter;
+    bool begun = descent->count > 0, scalar = descent->scalar != NULL;
+    bool whole = simulation->options.line_search == LINE_SEARCH_NONE ||
+                 (!begun && scalar);
     const double *from = begun ? last->from : descent->point;
-    bool scalar = descent->scalar != NULL;
-    Real at[2] = {from[0], from[1]}, to[2], g[2], p[2] = {0}, E[3], new[3];
-    Real alpha = 1, value, trial = INFINITY, slope;
-    int projected = -1;
-    if (scalar) {
-        scalar_E(simulation, at[0], E);
-        value = E[0];
+    Real at[2] = {from[0], from[1]}, to[2], g[2], p[2] = {0}, E[3];
+    Real alpha = 2, value, trial = INFINITY;
+    int projected = 0;
+    scalar_E(simulation, at[0], E);
+    if (scalar)
         p[0] = -E[1] / E[2];
-        slope = E[1] * p[0];
-    } else {
-        slope = map_E(simulation, at, filter, &value, g, p, &projected);
-    }
-    for (alpha = 2; trial > value && alpha > 1e-20L;) {
+    else
+        map_E(simulation, at, filter, &value, g, p, &projected);
+    value = searched_E(simulation, at);
+    do {
         alpha /= 2;
         for (int i = 0; i < 2; i++)
             to[i] = at[i] + alpha * p[i];
-        if (scalar) {
-            scalar_E(simulation, to[0], new);
-            trial = new[0];
-        } else {
-            Real unused[2], way[2];
-            int none;
-            map_E(simulation, to, filter, &trial, unused, way, &none);
-        }
-        if (whole || (!begun && scalar))
-            break;
-    }
+        trial = searched_E(simulation, to);
+    } while (trial > value && alpha > 1e-20L && !whole);
     if (begun && last->alpha > 0) /* and there it is now */
         CHECK_NEAR(to[0], descent->point[0], 1e-9L * (1 + fabsl(to[0])));
     is("length", begun && last->alpha > 0 ? alpha : 1);
@@ -480,32 +501,18 @@ static void tell_search(const Simulation *simulation)
     is("tolerance", simulation->options.tolerance);
     is("h then", simulation->options.timestep);
     is("nth", descent->count + 1);
-    is("projected", scalar || filter == FILTER_NONE ? 0 : projected);
+    is("projected", filter == FILTER_NONE ? 0 : projected);
     is("number", begun ? descent->count - 1 : 0);
     is("next number", begun ? descent->count : 1);
     is("iterate", at[0]);
     near("next", to[0], 1e-9L * (1 + fabsl(to[0])));
     near("direction", p[0], 1e-9L * fabsl(p[0]) + 1e-15L);
-    if (scalar) {
-        near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
-        near("slope", E[1], 1e-13L);
-        is("curvature", E[2]);
-        near("E", E[0], 1e-14L);
-        near("next E", new[0], 1e-9L * fabsl(new[0]));
-        scalar_E(simulation, descent->point[0], new);
-        near("residual", fabsl(new[1]), 1e-13L);
-        return;
-    }
-    Real now[2] = {descent->point[0], descent->point[1]};
-    static const Filter ways[] = {FILTER_NONE, FILTER_CLAMP};
-    for (int way = 0; way < 2; way++) {
-        slope = map_E(simulation, now, ways[way], &value, g, p, &projected);
-        is_rough("slope", slope);
-        near("residual", hypotl(g[0], g[1]), 1e-13L);
-        Real residual = (fabsl(p[0]) + fabsl(p[1])) / simulation->run[0].h;
-        near("residual", residual, 1e-12L);
-        near("p size", residual * simulation->run[0].h, 1e-12L);
-    }
+    near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
+    near("slope", E[1], 1e-13L);
+    is("curvature", E[2]);
+    near("E", E[0], 1e-14L);
+    near("next E", trial, 1e-9L * fabsl(trial));
+    tell_iterate(simulation);
 }
 
 static void tell_dial(const Simulation *simulation)
@@ -1012,7 +1019,6 @@ static void run(int steps)
 {
     for (Status status = STATUS_OK; steps > 0 && !status; steps--) {
         status = player_step(&player);
-        player_pause_if_due(&player);
         remember();
     }
 }
