@@ -163,47 +163,23 @@ static Status set_obstacles(const Options *options, const SquareMesh *mesh,
     return STATUS_OK;
 }
 
-static Status set_plasticity(const Options *options, const SquareMesh *mesh,
-                             System *system)
-{
-    (void)mesh;
-    return options->yield > 0 && !plasticity_of(system)
-               ? plasticity_set(system, options->yield, options->hardening)
-               : STATUS_OK;
-}
-
-static Status set_cells(const Options *options, const SquareMesh *mesh,
-                        System *system)
-{
-    double part = options->scene->cell_stiffness;
-    double stiffness = (part > 0 ? part : 0.5) * options->stiffness;
-    Cells *cells = system_data(system, &cell_energy);
-    if (cells)
-        cells->c = cells->area * stiffness;
-    return options->cells && !cells ? cells_add(system, mesh, stiffness)
-                                    : STATUS_OK;
-}
-
-static Status set_fracture(const Options *options, const SquareMesh *mesh,
-                           System *system)
-{
-    (void)mesh;
-    return options->tear > 0 && !fracture_of(system)
-               ? fracture_add(system, options->tear, TEAR_SCATTER)
-               : STATUS_OK;
-}
-
 /* Adds the terms that the options ask for, and gives those that are there
  * already their numbers: those of several options here, of one its row does. */
 static Status set_terms(const Options *options, const SquareMesh *mesh,
                         System *system)
 {
-    static Status (*const terms[])(const Options *, const SquareMesh *,
-                                   System *) = {set_obstacles, set_plasticity,
-                                                set_cells, set_fracture};
-    Status status = STATUS_OK;
-    for (size_t i = 0; i < sizeof terms / sizeof *terms && !status; i++)
-        status = terms[i](options, mesh, system);
+    double part = options->scene->cell_stiffness;
+    double k_c = (part > 0 ? part : 0.5) * options->stiffness;
+    Cells *cells = system_data(system, &cell_energy);
+    Status status = set_obstacles(options, mesh, system);
+    if (!status && options->yield > 0 && !plasticity_of(system))
+        status = plasticity_set(system, options->yield, options->hardening);
+    if (cells)
+        cells->c = cells->area * k_c;
+    else if (!status && options->cells)
+        status = cells_add(system, mesh, k_c);
+    if (!status && options->tear > 0 && !fracture_of(system))
+        status = fracture_add(system, options->tear, TEAR_SCATTER);
     for (const OptionRow *row = option_rows; row->name && !status; row++)
         if (row->term && row->term->set)
             status = row->term->set(system, mesh, options->number + row->slot);
