@@ -194,9 +194,7 @@ const IntegratorMethod *options_method(const Options *options);
 /* The text of --help, 80 columns wide; the same memory each time. */
 const char *options_help(void);
 
-/* The name of a value as on the command line; NULL: there is none. */
+/* The name of a solver as on the command line. */
 const char *solver_name(int solver);
-const char *filter_name(int filter);
-const char *line_search_name(int search);
 
 #endif

@@ -135,9 +135,6 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
  * allowed. */
 Status simulation_change(Simulation *simulation, const Options *options);
 
-/* The same of one number, by its slot. */
-Status simulation_set(Simulation *simulation, int slot, double value);
-
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);
 

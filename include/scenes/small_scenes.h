@@ -185,10 +185,6 @@ Status create_dial(Simulation *simulation);
 Status step_dial(Simulation *simulation);
 void dial_restart(Simulation *simulation);
 
-/* The minimiser for this h, m, to which the one before leads: projected Newton
- * from `point`.  point [2] in/out */
-void dial_minimise(const Simulation *simulation, double h, double point[2]);
-
 /* ---- run time against error ---------------------------------------------- */
 
 #define RACE_TIME 0.064 /* s, that every run covers */

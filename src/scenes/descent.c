@@ -369,10 +369,11 @@ Status create_landscape(Simulation *simulation)
 
 /* ---- the dial ------------------------------------------------------------ */
 
-/* Algorithm 3 for two unknowns; it ends at the size of rounding.  On the line
- * of the pins there may be a saddle, where the gradient is 0, too: it begins
- * beside it. */
-void dial_minimise(const Simulation *simulation, double h, double point[2])
+/* The minimiser for this h, m, to which the one before leads: Algorithm 3 for
+ * two unknowns, from `point` to the size of rounding.  On the line of the pins
+ * there may be a saddle, where the gradient is 0, too: it begins beside it. */
+static void dial_minimise(const Simulation *simulation, double h,
+                          double point[2])
 {
     double p[2], length = INFINITY;
     if (fabs(point[1]) < DIAL_BESIDE)

@@ -34,16 +34,6 @@ const char *solver_name(int solver)
     return solvers[solver];
 }
 
-const char *filter_name(int filter)
-{
-    return filters[filter];
-}
-
-const char *line_search_name(int search)
-{
-    return searches[search];
-}
-
 static const char *nothing_to_touch(const Options *options)
 {
     return options->grounds + options->balls > 0

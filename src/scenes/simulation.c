@@ -338,13 +338,6 @@ Status simulation_change(Simulation *simulation, const Options *options)
     return status;
 }
 
-Status simulation_set(Simulation *simulation, int slot, double value)
-{
-    Options options = simulation->options;
-    options.number[slot] = value;
-    return simulation_change(simulation, &options);
-}
-
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row)
 {
     unsigned needs = simulation->scene->needs;

@@ -155,8 +155,10 @@ TEST(names_are_read)
     CHECK(standard.solver == SOLVER_AUTO && standard.filter == FILTER_CLAMP);
     CHECK(standard.line_search == LINE_SEARCH_BACKTRACK && !standard.cells);
     assert_string_equal(solver_name(SOLVER_MULTIGRID), "multigrid");
-    assert_string_equal(filter_name(FILTER_ON_DEMAND), "on-demand");
-    assert_string_equal(line_search_name(LINE_SEARCH_NONE), "none");
+    assert_string_equal(name_at(option_find("filter")->names, FILTER_ON_DEMAND),
+                        "on-demand");
+    CHECK(name_place(option_find("line-search")->names, "none") ==
+          LINE_SEARCH_NONE);
 }
 
 /* The line, and what its message must name: option, value, range; or what may

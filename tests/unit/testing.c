@@ -219,6 +219,13 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     return begun.run[begun.count++] = run;
 }
 
+Status simulation_set(Simulation *simulation, int slot, double value)
+{
+    Options options = simulation->options;
+    options.number[slot] = value;
+    return simulation_change(simulation, &options);
+}
+
 Simulation *make_steps(Simulation *simulation, int count)
 {
     for (int i = 0; i < count; i++)

@@ -100,6 +100,9 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     __attribute__((format(printf, 3, 4)));
 void free_all_begun(void);
 
+/* simulation_change of one number, by its slot. */
+Status simulation_set(Simulation *simulation, int slot, double value);
+
 /* So many steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
 
