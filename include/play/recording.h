@@ -30,9 +30,9 @@ typedef struct Recording {
     long films;         /* that ended with a frame; of the last one: */
     long film_frames;
     char film_name[RECORDING_NAME_SIZE];
-    bool points;     /* the log tells of points */
-    int panes;       /* of more than one the log tells which: 1 ... */
-    union {          /* not open: not written */
+    bool points; /* the log tells of points */
+    int panes;   /* of more than one the log tells which: 1 ... */
+    union {      /* not open: not written */
         struct {
             Output states, log, energies;
         };

@@ -60,24 +60,26 @@ static const char *const font_folders[] = {
 static const char *const face_files[FACE_COUNT] = {
     "DejaVuSans.ttf", "DejaVuSans-Bold.ttf", "DejaVuSansMono.ttf"};
 
-/* The font that was asked for; else DejaVu from the first folder that has it;
- * NULL: there is none. */
-static FT_Face open_font(FT_Library library, Face face, const char *given)
+/* The font that was asked for; else DejaVu from the first folder that has it.
+ * Returns FreeType's last error: 0, or why there is none. */
+static FT_Error open_font(FT_Library library, Face face, const char *given,
+                          FT_Face *font)
 {
     const char *home = getenv("HOME") ? getenv("HOME") : "";
     char name[TEXT_NAME];
-    FT_Face font;
-    if (given && face != FACE_MONO && !FT_New_Face(library, given, 0, &font))
-        return font;
-    for (size_t i = 0; i < sizeof font_folders / sizeof *font_folders; i++) {
+    FT_Error error = FT_Err_Cannot_Open_Resource;
+    if (given && face != FACE_MONO)
+        error = FT_New_Face(library, given, 0, font);
+    for (size_t i = 0; error && error != FT_Err_Out_Of_Memory &&
+                       i < sizeof font_folders / sizeof *font_folders;
+         i++) {
         const char *folder = font_folders[i];
         bool at_home = *folder == '~';
         snprintf(name, sizeof name, "%s%s/%s", at_home ? home : "",
                  folder + at_home, face_files[face]);
-        if (!FT_New_Face(library, name, 0, &font))
-            return font;
+        error = FT_New_Face(library, name, 0, font);
     }
-    return NULL;
+    return error;
 }
 
 Status text_create(Text **text)
@@ -91,16 +93,19 @@ Status text_create(Text **text)
         free(made);
         return STATUS_OUT_OF_MEMORY;
     }
-    for (int face = 0; face < FACE_COUNT; face++) {
-        made->font[face] = open_font(made->library, (Face)face, given);
-        if (!made->font[face])
+    FT_Error error = 0;
+    for (int face = 0; face < FACE_COUNT && error != FT_Err_Out_Of_Memory;
+         face++) {
+        error = open_font(made->library, (Face)face, given, &made->font[face]);
+        if (error)
             made->font[face] = made->font[FACE_REGULAR];
     }
-    if (made->font[FACE_REGULAR])
+    bool full = error == FT_Err_Out_Of_Memory;
+    if (made->font[FACE_REGULAR] && !full)
         *text = made;
     else
         text_free(made);
-    return STATUS_OK;
+    return full ? STATUS_OUT_OF_MEMORY : STATUS_OK;
 }
 
 static void forget_glyphs(Text *text)

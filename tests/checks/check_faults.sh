@@ -1,5 +1,5 @@
 #!/bin/sh
-# What can go wrong around a run goes wrong: memory, files, signals, streams,
+# What can go wrong around a run goes wrong: memory, files, kills, streams,
 # locales, screens.  Each must end as documented: the right exit
 # code, one line that says why, no half file under a final name.  A selection of
 # the slow ones, LONG=1 a larger one, FAULTS=all everything (some minutes).
@@ -151,32 +151,7 @@ larger='--frames frames --size 400x300'
     faults_of folders_cannot_be_made folder '' 'frames: No space left' 1 $frames
 }
 
-# ---- signals ----------------------------------------------------------------
-# In the midst of a large square: it ends before its processor time does, which
-# a busy machine does not shorten, and the log is whole.
-signals() {
-    for name in INT TERM; do
-        rm -f l.csv
-        (
-            # shellcheck disable=SC3045
-            ulimit -t "$1"
-            exec "$elasto" --headless --segments 128 --solver multigrid \
-                --quiet --steps 100000 --log l.csv
-        ) 2>error &
-        child=$!
-        until_there l.csv.part
-        sleep 0.3
-        kill -s "$name" "$child"
-        wait "$child" || echo "$name: exit $?: $(cat error)"
-        [ ! -s error ] || echo "$name: $(cat error)"
-        check_table l.csv step,iteration 0
-        [ -f l.csv ] || echo "$name: no log"
-    done
-}
-limit=2
-[ -z "${SANITIZE:-}" ] || limit=30
-verdict signals_end_the_run "$(signals "$limit")"
-
+# ---- kills ------------------------------------------------------------------
 # Whatever is killed: what stands under a final name is whole.  Half of all
 # victims at least must have been caught while they wrote.
 kills() {

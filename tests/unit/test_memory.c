@@ -5,7 +5,6 @@
 #include "test.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include <SuiteSparse_config.h>
 
@@ -47,19 +46,12 @@ static void share_with_cholmod(void)
 #endif
 }
 
-/* Set-up and one step of this command line. */
-static Status run_once(int argc, char **argv)
+/* Set-up and one step. */
+static Status run_once(const Options *options)
 {
-    Options options;
     Simulation simulation;
-    char message[256];
-    char *copy[8];
-    memcpy(copy, argv, (size_t)argc * sizeof *copy);
-    CHECK_STATUS(
-        options_parse(argc, copy, 0, &options, message, sizeof message),
-        STATUS_OK);
     allocations = 0;
-    Status status = simulation_create(&options, NULL, NULL, &simulation);
+    Status status = simulation_create(options, NULL, NULL, &simulation);
     if (!status)
         status = simulation_step(&simulation);
     first_failure = -1;
@@ -67,49 +59,31 @@ static Status run_once(int argc, char **argv)
     return status;
 }
 
-static void check_failures(int argc, char **argv)
+/* Small and large squares, indefinite factors; contact, friction, cells, flow,
+ * damping and breaking. */
+TEST(every_allocation_may_fail)
 {
+    static const char *const lines[] = {
+        "--segments 3", "--segments 19", "--filter none",
+        "dent --segments 3 --damping 0.01 --tear 0.3"};
     share_with_cholmod();
-    first_failure = -1;
-    CHECK_STATUS(run_once(argc, argv), STATUS_OK);
-    long total = allocations;
-    CHECK(total > 20);
-    for (int pass = 0; pass < 2; pass++)
-        for (long i = 0; i < total; i++) {
-            for_good = pass == 1;
-            first_failure = i;
-            Status status = run_once(argc, argv);
+    for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
+        Options options;
+        char message[512];
+        CHECK_STATUS(parse_line(lines[l], 0, &options, message), STATUS_OK);
+        CHECK_STATUS(run_once(&options), STATUS_OK);
+        long total = allocations;
+        CHECK(total > 20);
+        for (long i = 0; i < 2 * total; i++) {
+            for_good = i >= total;
+            first_failure = i % total;
+            Status status = run_once(&options);
             if (status != STATUS_OUT_OF_MEMORY)
-                print_error("allocation %ld of %ld\n", i, total);
+                print_error("%s: %ld of %ld\n", lines[l], i, total);
             CHECK_STATUS(status, STATUS_OUT_OF_MEMORY);
         }
-    for_good = false;
-}
-
-TEST(small_squares_run_out)
-{
-    char program[] = "elasto", option[] = "--segments=3";
-    check_failures(2, (char *[]){program, option, NULL});
-}
-
-TEST(large_squares_run_out)
-{
-    char program[] = "elasto", option[] = "--segments=19";
-    check_failures(2, (char *[]){program, option, NULL});
-}
-
-TEST(indefinite_factors_run_out)
-{
-    char program[] = "elasto", option[] = "--filter=none";
-    check_failures(2, (char *[]){program, option, NULL});
-}
-
-/* Contact, friction, cells, flow, damping and breaking. */
-TEST(all_terms_run_out)
-{
-    char program[] = "elasto", scene[] = "dent", option[] = "--segments=3";
-    char damped[] = "--damping=0.01", tears[] = "--tear=0.3";
-    check_failures(5, (char *[]){program, scene, option, damped, tears, NULL});
+        for_good = false;
+    }
 }
 
 TESTS(NULL, NULL)
