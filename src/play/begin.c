@@ -39,7 +39,7 @@ Status player_own_options(Player *player, const char *scene,
 
 /* Another scene, from its start; it keeps the pause, and one that explains
  * something begins with one. */
-Status switch_scene(Player *player, const Command *command)
+Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int count;
@@ -58,7 +58,7 @@ Status switch_scene(Player *player, const Command *command)
 }
 
 /* Another start, where the scene has one. */
-Status pick_start(Player *player, const Command *command)
+Status obey_start(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     if (!(player_simulation(player)->scene->needs & NEEDS_START))
@@ -73,7 +73,7 @@ Status pick_start(Player *player, const Command *command)
 }
 
 /* From step 0 with the present numbers; a pause that nobody asked for ends. */
-Status begin_again(Player *player, const Command *command)
+Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int panes = player_options(player, options);
@@ -131,7 +131,7 @@ static const LecturePage *find_page(Player *player, const Command *command)
 }
 
 /* The page's scene from its start, with its settings. */
-Status open_page(Player *player, const Command *command)
+Status obey_page(Player *player, const Command *command)
 {
     Options options;
     int count;
@@ -154,7 +154,7 @@ Status open_page(Player *player, const Command *command)
 }
 
 /* A guess of where the next step leads. */
-Status predict(Player *player, const Command *command)
+Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
     Simulation *simulation = &player->past.machine[player->active].simulation;
@@ -176,7 +176,7 @@ static bool has_cell(const Player *player, long cell)
 }
 
 /* Shows a cell of the envelope. */
-Status visit_cell(Player *player, const Command *command)
+Status obey_cell(Player *player, const Command *command)
 {
     long cell = command->number;
     Simulation *simulation = &player->past.machine[player->active].simulation;

@@ -198,16 +198,10 @@ Status player_tell_retake(Player *player)
 
 /* ---- numbers and methods ------------------------------------------------- */
 
-/* Why an option has no meaning in what is shown; NULL: it has one. */
-static const char *why_not(const Player *player, const OptionRow *row)
+/* The option that a command is about, or NULL. */
+static const OptionRow *row_of(const Command *command)
 {
-    const Simulation *simulation = player_simulation(player);
-    if (row->slot == OPTION_SLOT(line_search) &&
-        !simulation_has_line_search(simulation))
-        return "no line search here";
-    if (row->slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
-        return "nothing to project here";
-    return NULL;
+    return command->number < 0 ? NULL : &option_rows[command->number];
 }
 
 /* The value of a command into these options. */
@@ -248,20 +242,22 @@ static Status restart_with(Player *player, const Options *options,
 
 /* An option while the run goes on, or from the start where it cannot change any
  * more: in the active pane where they are compared by it, else in all. */
-Status set(Player *player, const Command *command)
+Status obey_set(Player *player, const Command *command)
 {
-    const OptionRow *row = &option_rows[command->number];
+    const OptionRow *row = row_of(command);
     const Simulation *simulation = player_simulation(player);
     Options options[OPTIONS_MAX_PANES];
-    if (command->number < 0 || row->kind == OPTION_TEXT ||
-        row->kind == OPTION_PAGE) {
+    if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE) {
         snprintf(player->message, sizeof player->message,
                  "there is no option '%s' with a value",
-                 command->number < 0 ? command->text : row->name);
+                 row ? row->name : command->text);
         return STATUS_INVALID_INPUT;
     }
-    if (why_not(player, row))
-        return player_refuse(player, why_not(player, row));
+    bool search = row->slot == OPTION_SLOT(line_search);
+    if (search && !simulation_has_line_search(simulation))
+        return player_refuse(player, "no line search here");
+    if (row->slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
+        return player_refuse(player, "nothing to project here");
     bool one = player_compares(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
@@ -288,7 +284,7 @@ Status set(Player *player, const Command *command)
 }
 
 /* The selected number a pace up or down. */
-Status pace_number(Player *player, const Command *command)
+Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
     const Options now = player_numbers(player);
@@ -304,13 +300,13 @@ Status pace_number(Player *player, const Command *command)
 }
 
 /* The value of the page, or of the command line, or of the scene by itself. */
-Status set_default(Player *player, const Command *command)
+Status obey_default(Player *player, const Command *command)
 {
-    const OptionRow *row = &option_rows[command->number];
+    const OptionRow *row = row_of(command);
     const Options *now = &past_start(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
     int count;
-    if (command->number < 0 || !row->label)
+    if (!row || !row->label)
         return player_refuse(player, "there is no such number");
     Status status = player_own_options(player, now->scene->name, now->page,
                                        options, &count);
@@ -319,7 +315,7 @@ Status set_default(Player *player, const Command *command)
 }
 
 /* The next number, and after the last one none. */
-Status select_number(Player *player, const Command *command)
+Status obey_select(Player *player, const Command *command)
 {
     (void)command;
     const OptionRow *number[OPTIONS_MOST];
@@ -332,7 +328,7 @@ Status select_number(Player *player, const Command *command)
 
 /* Off, or on again as the command line has it; where there is something to
  * switch. */
-Status switch_method(Player *player, const Command *command)
+Status obey_switch(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;
     const OptionRow *row = option_find(search ? "line-search" : "filter");
@@ -344,7 +340,7 @@ Status switch_method(Player *player, const Command *command)
         .kind = COMMAND_SET,
         .number = row - option_rows,
         .x = player_settings(player)->number[row->slot] == off ? on : off};
-    return set(player, &change);
+    return obey_set(player, &change);
 }
 
 /* The next row of the table of integrators that all terms allow. */
@@ -360,25 +356,32 @@ static const IntegratorMethod *next_method(const Simulation *simulation)
     return next;
 }
 
-static Command choose_method(const IntegratorMethod *method)
+/* Another method than this simulation has, as a command. */
+static Status find_method(Player *player, const Simulation *simulation,
+                          const IntegratorMethod **next, Command *change)
 {
-    return (Command){.kind = COMMAND_SET,
-                     .number = option_find("integrator") - option_rows,
-                     .x = (double)(method - integrator_methods)};
-}
-
-Status switch_integrator(Player *player, const Command *command)
-{
-    (void)command;
-    const Simulation *simulation = player_simulation(player);
+    *next = next_method(simulation);
+    *change = (Command){.kind = COMMAND_SET,
+                        .number = option_find("integrator") - option_rows,
+                        .x = (double)(*next - integrator_methods)};
     if (!(simulation->scene->needs & NEEDS_TIME))
-        return player_refuse(player, "no time passes here");
-    const IntegratorMethod *next = next_method(simulation);
-    if (next == simulation->run[0].method)
+        return player_refuse(player,
+                             "no time passes here: there is no other method");
+    if (*next == simulation->run[0].method)
         return player_refuse(player, "no other method knows all terms of this "
                                      "scene");
-    const Command change = choose_method(next);
-    Status status = set(player, &change);
+    return STATUS_OK;
+}
+
+Status obey_method(Player *player, const Command *command)
+{
+    (void)command;
+    const IntegratorMethod *next;
+    Command change;
+    Status status =
+        find_method(player, player_simulation(player), &next, &change);
+    if (!status)
+        status = obey_set(player, &change);
     if (!status)
         player_note(player, "method: %s", next->label);
     return status;
@@ -387,27 +390,24 @@ Status switch_integrator(Player *player, const Command *command)
 /* ---- panes --------------------------------------------------------------- */
 
 /* The same run with the next method beside the last one. */
-Status add_pane(Player *player, const Command *command)
+Status obey_add_pane(Player *player, const Command *command)
 {
     Past *past = &player->past;
     int panes = past_panes(past);
     const Simulation *simulation = &past->machine[panes - 1].simulation;
-    const IntegratorMethod *next = next_method(simulation);
+    const IntegratorMethod *next;
+    Command change;
     if (panes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
-    if (!(simulation->scene->needs & NEEDS_TIME))
-        return player_refuse(player, "no time passes here: there is no other "
-                                     "method to put beside it");
     if (simulation->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    if (next == simulation->run[0].method)
-        return player_refuse(player, "no other method knows all terms of this "
-                                     "scene: nothing goes beside it");
     if (!past->keeps)
         return player_refuse(player, "nothing to be put beside it here");
-    const Command change = choose_method(next);
-    Status status = past_set_panes(past, panes + 1, player->gesture, command);
+    Status status = find_method(player, simulation, &next, &change);
+    if (status)
+        return status;
+    status = past_set_panes(past, panes + 1, player->gesture, command);
     if (!status)
         status = player_work(player);
     if (!status)
@@ -418,7 +418,7 @@ Status add_pane(Player *player, const Command *command)
 }
 
 /* The last pane goes. */
-Status end_pane(Player *player, const Command *command)
+Status obey_end_pane(Player *player, const Command *command)
 {
     Past *past = &player->past;
     if (past_panes(past) < 2)
@@ -431,7 +431,7 @@ Status end_pane(Player *player, const Command *command)
 }
 
 /* The pane whose numbers are shown. */
-Status choose_pane(Player *player, const Command *command)
+Status obey_pane(Player *player, const Command *command)
 {
     if (command->number >= past_panes(&player->past))
         return player_refuse(player, "there is no such pane");
@@ -442,7 +442,7 @@ Status choose_pane(Player *player, const Command *command)
 /* ---- hands --------------------------------------------------------------- */
 
 /* Pins a node, or sets it free. */
-Status switch_pin(Player *player, const Command *command)
+Status obey_pin(Player *player, const Command *command)
 {
     long node = command->number;
     const Simulation *simulation = player_simulation(player);
@@ -458,7 +458,7 @@ Status switch_pin(Player *player, const Command *command)
 }
 
 /* The hand takes a node where it is. */
-Status grab(Player *player, const Command *command)
+Status obey_grab(Player *player, const Command *command)
 {
     long node = command->number;
     const Simulation *simulation = player_simulation(player);
@@ -478,7 +478,7 @@ Status grab(Player *player, const Command *command)
 }
 
 /* It pulls, or lets go. */
-Status pull(Player *player, const Command *command)
+Status obey_drag(Player *player, const Command *command)
 {
     if (past_control(&player->past, player->active)->hand < 0)
         return player_refuse(player, "the hand holds nothing");
@@ -488,7 +488,7 @@ Status pull(Player *player, const Command *command)
 
 /* A point or a switch of the scene; a minimisation begins anew with a point, at
  * step 0. */
-Status move_handle(Player *player, const Command *command)
+Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
     const Simulation *simulation = player_simulation(player);

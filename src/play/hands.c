@@ -93,7 +93,7 @@ static void key_letter(const char *key, char *letter, size_t size)
 }
 
 /* One letter more or less.  The first one opens the field. */
-Status type(Player *player, const Command *command)
+Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->typed, letter[8];
     if (!player->typing)
@@ -123,7 +123,7 @@ Status type(Player *player, const Command *command)
 
 /* The page is opened, or the number is set; what cannot be read leaves the
  * field as it is. */
-Status enter(Player *player, const Command *command)
+Status obey_enter(Player *player, const Command *command)
 {
     (void)command;
     const bool page = player->selected < 0;
@@ -152,7 +152,7 @@ Status enter(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status close_field(Player *player, const Command *command)
+Status obey_close(Player *player, const Command *command)
 {
     (void)command;
     player_deselect(player);

@@ -6,16 +6,16 @@
 
 /* ---- obey.c: commands, deeds, the journal -------------------------------- */
 
-Deed play_or_pause, one_on, one_back, new_step, go_finer, go_to,
-    undo; /* walk */
-Deed set, set_default, select_number, pace_number, switch_method,
-    switch_integrator, add_pane, end_pane, choose_pane, switch_pin, grab, pull,
-    move_handle; /* change.c */
-Deed switch_scene, pick_start, begin_again, open_page, predict,
-    visit_cell; /* begin.c */
-Deed change_speed, switch_shown, switch_full, switch_column, leave, move_camera,
-    switch_card, save_picture, switch_film, tell_hash, end_program; /* screen */
-Deed type, enter, close_field; /* hands.c */
+Deed obey_pause, obey_next, obey_back, obey_step, obey_finer, obey_goto,
+    obey_undo; /* walk.c */
+Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
+    obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab, obey_drag,
+    obey_handle; /* change.c */
+Deed obey_scene, obey_start, obey_restart, obey_page, obey_predict,
+    obey_cell; /* begin.c */
+Deed obey_speed, obey_shown, obey_full, obey_column, obey_escape, obey_camera,
+    obey_card, obey_shot, obey_film, obey_hash, obey_quit; /* screen.c */
+Deed obey_type, obey_enter, obey_close;                    /* hands.c */
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);

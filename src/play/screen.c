@@ -40,7 +40,7 @@ void player_set_title(Player *player)
 }
 
 /* Twice or half as fast. */
-Status change_speed(Player *player, const Command *command)
+Status obey_speed(Player *player, const Command *command)
 {
     int speed = player->speed + (command->kind == COMMAND_FASTER ? 1 : -1);
     if (speed >= SPEED_LEAST && speed <= SPEED_MOST)
@@ -50,7 +50,7 @@ Status change_speed(Player *player, const Command *command)
 }
 
 /* What is on or off. */
-Status switch_shown(Player *player, const Command *command)
+Status obey_shown(Player *player, const Command *command)
 {
     bool *shown = command->kind == COMMAND_COLOURS ? &player->strain
                   : command->kind == COMMAND_BARE  ? &player->bare
@@ -59,7 +59,7 @@ Status switch_shown(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status switch_full(Player *player, const Command *command)
+Status obey_full(Player *player, const Command *command)
 {
     (void)command;
     if (player->view)
@@ -68,7 +68,7 @@ Status switch_full(Player *player, const Command *command)
 }
 
 /* The list of keys or of pages, or a page's code, or the cards again. */
-Status switch_column(Player *player, const Command *command)
+Status obey_column(Player *player, const Command *command)
 {
     Column column = command->kind == COMMAND_KEYS    ? COLUMN_KEYS
                     : command->kind == COMMAND_PAGES ? COLUMN_PAGES
@@ -81,7 +81,7 @@ Status switch_column(Player *player, const Command *command)
 }
 
 /* What is open ends first; then, asked twice, the program. */
-Status leave(Player *player, const Command *command)
+Status obey_escape(Player *player, const Command *command)
 {
     (void)command;
     bool asked = player->leaving;
@@ -105,7 +105,7 @@ Status leave(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status end_program(Player *player, const Command *command)
+Status obey_quit(Player *player, const Command *command)
 {
     (void)command;
     player->quit = true;
@@ -114,7 +114,7 @@ Status end_program(Player *player, const Command *command)
 
 /* Zooms at a point in metres, moves the picture by some of them, or all fits
  * again. */
-Status move_camera(Player *player, const Command *command)
+Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player->view ? view_paper(player->view) : NULL;
     Show *show = &player->show;
@@ -140,7 +140,7 @@ Status move_camera(Player *player, const Command *command)
 
 /* A card is closed or opened; one that is open is enlarged, or as the others.
  */
-Status switch_card(Player *player, const Command *command)
+Status obey_card(Player *player, const Command *command)
 {
     int cards = picture_cards(picture_of(player_simulation(player)->scene));
     int card = (int)fmin((double)command->number, 1e6);
@@ -174,7 +174,7 @@ static const char *reason_of(Status status)
 }
 
 /* The frame as it is, in the present folder. */
-Status save_picture(Player *player, const Command *command)
+Status obey_shot(Player *player, const Command *command)
 {
     (void)command;
     enum { WIDTH = 1280, HEIGHT = 800 };
@@ -201,7 +201,7 @@ Status save_picture(Player *player, const Command *command)
 }
 
 /* Begins a film of all that is drawn, or ends it. */
-Status switch_film(Player *player, const Command *command)
+Status obey_film(Player *player, const Command *command)
 {
     (void)command;
     char name[80];
@@ -233,7 +233,7 @@ Status switch_film(Player *player, const Command *command)
 
 /* The hash of the state; where commands have led here they are written down as
  * a script, which leads here again and stays. */
-Status tell_hash(Player *player, const Command *command)
+Status obey_hash(Player *player, const Command *command)
 {
     (void)command;
     const Command pause = {.kind = COMMAND_PAUSE};

@@ -98,7 +98,7 @@ Status player_wish(Player *player, Then then)
 
 /* ---- commands ------------------------------------------------------------ */
 
-Status play_or_pause(Player *player, const Command *command)
+Status obey_pause(Player *player, const Command *command)
 {
     player->mode = command->kind == COMMAND_PLAY ? MODE_RUN
                    : player->mode == MODE_WALK   ? MODE_WALK
@@ -116,7 +116,7 @@ static void stop(Player *player)
         player->mode = MODE_PAUSE;
 }
 
-Status one_on(Player *player, const Command *command)
+Status obey_next(Player *player, const Command *command)
 {
     (void)command;
     const Past *past = &player->past;
@@ -146,7 +146,7 @@ static bool has_updates(const Player *player)
 }
 
 /* From the first line of a step to the end of the one before. */
-Status one_back(Player *player, const Command *command)
+Status obey_back(Player *player, const Command *command)
 {
     (void)command;
     long step = player->past.step;
@@ -163,7 +163,7 @@ Status one_back(Player *player, const Command *command)
     return player_show(player, step - 1, true, THEN_LEAVE);
 }
 
-Status new_step(Player *player, const Command *command)
+Status obey_step(Player *player, const Command *command)
 {
     (void)command;
     stop(player);
@@ -171,7 +171,7 @@ Status new_step(Player *player, const Command *command)
 }
 
 /* Steps, updates, lines, and steps again. */
-Status go_finer(Player *player, const Command *command)
+Status obey_finer(Player *player, const Command *command)
 {
     (void)command;
     static const char *const text[] = {
@@ -192,7 +192,7 @@ Status go_finer(Player *player, const Command *command)
 }
 
 /* Step 0, the newest one, or the one with this number. */
-Status go_to(Player *player, const Command *command)
+Status obey_goto(Player *player, const Command *command)
 {
     long step = command->kind == COMMAND_HOME  ? 0
                 : command->kind == COMMAND_END ? past_newest(&player->past)
@@ -201,7 +201,7 @@ Status go_to(Player *player, const Command *command)
 }
 
 /* What was done last, or undone: "set stretch 1.2". */
-Status undo(Player *player, const Command *command)
+Status obey_undo(Player *player, const Command *command)
 {
     Past *past = &player->past;
     char line[2 * COMMAND_TEXT_SIZE];
