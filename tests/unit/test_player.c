@@ -240,60 +240,6 @@ TEST(a_failed_search_is_no_convergence)
     end();
 }
 
-/* What is under the mouse stays there while the middle button moves the
- * picture, from the first pixel on, in either pane; a node that is pulled at
- * has its hand where the mouse is. */
-TEST(the_picture_follows_the_mouse)
-{
-    begin("square --integrator backward-euler,bdf2 --size 1280x800");
-    CHECK_STATUS(view_create_surface(1280, 800, &player.view), STATUS_OK);
-    player_fill(&player);
-    Layout layout = show_layout(&player.show, 1280, 800);
-    for (int pane = 0; pane < 2; pane++) {
-        double world[2], after[2], node[2];
-        Box box = layout.pane[pane];
-        Input input = {.kind = INPUT_MOVE, .x = 9, .y = 9};
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        input = (Input){.kind = INPUT_PRESS,
-                        .button = BUTTON_MIDDLE,
-                        .x = box.x + 0.4 * box.width,
-                        .y = box.y + 0.3 * box.height};
-        Camera camera = show_camera(&player.show, &layout, pane);
-        camera_world(&camera, input.x, input.y, world);
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        input.kind = INPUT_MOVE;
-        for (int i = 0; i < 3; i++) {
-            input.x += 1 + 5 * i;
-            input.y -= 2 + 9 * i;
-            CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-            camera = show_camera(&player.show, &layout, pane);
-            camera_pixel(&camera, world, after);
-            CHECK_NEAR(after[0], input.x, 1e-9);
-            CHECK_NEAR(after[1], input.y, 1e-9);
-        }
-        input.kind = INPUT_RELEASE;
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        camera_pixel(&camera, pane_x(&player.show.pane[pane]) + 2 * 12, node);
-        input = (Input){.kind = INPUT_PRESS,
-                        .button = BUTTON_LEFT,
-                        .clicks = 1,
-                        .x = node[0],
-                        .y = node[1]};
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        input.kind = INPUT_MOVE;
-        input.x += 30;
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-        const Control *control = past_control(&player.past, pane);
-        camera_world(&camera, input.x, input.y, world);
-        CHECK(control->hand == 12);
-        CHECK_NEAR(control->at[0], world[0], 1e-12);
-        CHECK_NEAR(control->at[1], world[1], 1e-12);
-        input.kind = INPUT_RELEASE;
-        CHECK_STATUS(player_input(&player, &input), STATUS_OK);
-    }
-    end();
-}
-
 /* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
  * with contact; what is drawn of the last test is a p that belongs there, or
  * none. */
@@ -381,51 +327,6 @@ TEST(what_is_dragged_is_shown_as_it_is)
         CHECK_STATUS(obey("next"), STATUS_OK);
     }
     end();
-}
-
-/* The message of a refused command, or "". */
-static const char *refused(const char *line)
-{
-    Status status = obey(line);
-    CHECK(!status || status == STATUS_INVALID_INPUT);
-    return player.message;
-}
-
-/* Where a key makes no sense the last line says why. */
-TEST(what_makes_no_sense_is_said)
-{
-    static const struct {
-        const char *scene, *command, *words;
-    } rows[] = {
-        {"circle", "pin 0", "only nodes of a square"},
-        {"circle", "finer", "no step here has updates"},
-        {"circle", "projection", "nothing to project"},
-        {"circle", "add-pane", "several runs are in this picture"},
-        {"overshoot", "finer", "has no finer ones"},
-        {"overshoot", "add-pane", "no time passes"},
-        {"overshoot", "method", "no time passes"},
-        {"landscape", "grab 0", "nothing to take hold of"},
-        {"drop", "add-pane", "no other method knows all terms"},
-        {"drop", "method", "no other method knows all terms"},
-        {"slope", "method", "no other method knows all terms"},
-        {"dial", "projection", "nothing to project"},
-        {"dial", "line-search", "no line search"},
-        {"race", "finer", "has no finer ones"},
-        {"race", "pin 3", "only nodes of a square"},
-        {"square", "drag 1 1", "the hand holds nothing"},
-        {"square", "end-pane", "there is only one"},
-        {"square", "pin 25", "no node 25, they are 0 ... 24"},
-        {"square", "flip 0", "there is no switch here"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        begin(rows[i].scene);
-        player_fill(&player);
-        const char *why = refused(rows[i].command);
-        if (!why[0] || !strstr(why, rows[i].words))
-            print_error("%s, %s: '%s'\n", rows[i].scene, rows[i].command, why);
-        CHECK(why[0] && strstr(why, rows[i].words));
-        end();
-    }
 }
 
 /* A pane that fails is not made good by the one after it. */
@@ -619,39 +520,6 @@ TEST(glides_begin_and_end_at_lines)
         for (int k = 0; k < SIZE; k++)
             CHECK_NEAR(now[k], to[k] + rest * (before[k] - to[k]), 1e-12);
     }
-    end();
-}
-
-/* Whatever a list varies, the panes say. */
-TEST(every_list_labels_its_panes)
-{
-    static const char *const lines[] = {
-        "square --gravity 1,9.81",
-        "square --density 500,1000",
-        "square --side 1,2",
-        "square --turn 0,30",
-        "square --yield 0.1,0.2",
-        "square --tear 0.5,0.8",
-        "square --cells on,off",
-        "square --damping 0,0.01",
-        "square --stiffness 1e4,1e5",
-        "drop --friction 0,0.3",
-        "drop --slip-speed 0.001,0.002",
-    };
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        begin(lines[i]);
-        player_fill(&player);
-        CHECK(player.show.pane[0].label[0] && player.show.pane[1].label[0]);
-        CHECK(strcmp(player.show.pane[0].label, player.show.pane[1].label) !=
-              0);
-        end();
-    }
-    begin("square --turn 0,30 --stiffness 1e4,1e5");
-    player_fill(&player);
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < i; k++)
-            CHECK(strcmp(player.show.pane[i].label,
-                         player.show.pane[k].label) != 0);
     end();
 }
 

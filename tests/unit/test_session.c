@@ -5,7 +5,7 @@
  *     key K ...                "N", "Shift+N", "Return": the window's names
  *     type TEXT                a key for each letter
  *     press, move, release,    at a PLACE: X Y in pixels; +X +Y from where the
- *     right, wheel             mouse was; the number of the row with this name;
+ *     right, middle, wheel     mouse was; the number of the row with this name;
  *                              a step of the time line
  *     do COMMAND               as a script gives it
  *     run N, rest              until the run has come to this step, or stops
@@ -196,6 +196,8 @@ static void use_mouse(const char *verb, const char *place)
         put((Input){.kind = INPUT_WHEEL, .amount = 1});
     else if (strcmp(verb, "right") == 0)
         put((Input){.kind = INPUT_PRESS, .button = BUTTON_RIGHT});
+    else if (strcmp(verb, "middle") == 0)
+        put((Input){.kind = INPUT_PRESS, .button = BUTTON_MIDDLE});
     else
         put((Input){.kind = verb[0] == 'r' ? INPUT_RELEASE : INPUT_PRESS,
                     .button = BUTTON_LEFT,
@@ -446,7 +448,7 @@ static void session_line(const char *line)
         char step[16], words[64];
         sscanf(rest, "%15s %63s", step, words);
         check_row(step, words);
-    } else if (strstr("press double move release right wheel", verb))
+    } else if (strstr("press double move release right middle wheel", verb))
         use_mouse(verb, rest);
     else
         look(verb, rest);
@@ -821,6 +823,53 @@ static const Session sessions[] = {
     {"a resting mouse asks nothing",
      LINES("begin square --paused", "move 279 389", "move 279 389",
            "over none 0", "move 280 389", "over node 12")},
+    {"what is under the mouse stays there while the picture moves",
+     LINES("begin square --integrator backward-euler,bdf2 --paused", "move 1 1",
+           "move 279 212", "over node 12", "middle +0 +0", "move +1 -2",
+           "move +30 -40", "release +0 +0", "move +1 +0", "over node 12",
+           "press 310 170", "move +50 -20", "key N",
+           "number method backward Euler", "release +0 +0",
+           "begin square --integrator backward-euler,bdf2 --paused", "move 1 1",
+           "move 279 562", "over node 12", "middle +0 +0", "move +40 +50",
+           "release +0 +0", "move +1 +0", "over node 12", "press +0 +0",
+           "number method BDF2")},
+    {"where a key makes no sense it is said why",
+     LINES(
+         "begin circle --paused", "do pin 0", "says only nodes of a square",
+         "do finer", "says no step here has updates", "do projection",
+         "says nothing to project", "do add-pane", "says several runs are in",
+         "begin overshoot --paused", "do finer", "says has no finer ones",
+         "do add-pane", "says no time passes", "do method",
+         "says no time passes", "begin landscape --paused", "do grab 0",
+         "says nothing to take hold of", "begin drop --paused", "do add-pane",
+         "says no other method knows all terms", "do method",
+         "says no other method knows all terms", "begin dial --paused",
+         "do projection", "says nothing to project", "do line-search",
+         "says no line search", "begin race --paused", "do finer",
+         "says has no finer ones", "do pin 3", "says only nodes of a square",
+         "begin square --paused", "do drag 1 1", "says the hand holds nothing",
+         "do end-pane", "says there is only one", "do pin 25",
+         "says no node 25, they are 0 ... 24", "do flip 0",
+         "says there is no switch here", "do set nothing 3",
+         "says no option 'nothing'", "do set pin top", "says no option 'pin'",
+         "do set timestep -1", "says '-1' is not a number", "do set start 1,2",
+         "says has no start", "do handle 0 1 1", "says no point to drag here",
+         "do cell 3", "says no such cell", "do page 99", "says no page '99'",
+         "do predict 1 1", "says nothing to predict", "do scene nowhere",
+         "says no scene 'nowhere'", "at 0", "newest 0")},
+    {"what a list varies the panes say",
+     LINES("begin square --gravity 1,9.81 --paused", "label 0 gravity 1",
+           "label 1 gravity 9.81", "begin square --density 500,1000 --paused",
+           "label 0 500", "label 1 1000", "begin square --turn 0,30 --paused",
+           "label 0 turned by 0", "label 1 turned by 30",
+           "begin square --yield 0.1,0.2 --paused", "label 1 0.2",
+           "begin square --tear 0.5,0.8 --paused", "label 1 0.8",
+           "begin square --cells on,off --paused", "label 0 on", "label 1 off",
+           "begin square --damping 0,0.01 --paused", "label 1 0.01",
+           "begin drop --friction 0,0.3 --paused", "label 1 0.3",
+           "begin drop --slip-speed 0.001,0.002 --paused", "label 1 0.002",
+           "begin square --turn 0,30 --stiffness 1e4,1e5 --paused",
+           "label 1 k 10000", "label 1 turned by 30", "label 2 k 100000")},
     {"the screen obeys",
      LINES("begin square --segments 2 --paused", "do card 1", "card 1 closed",
            "do enlarge 2", "card 2 large", "do card 1", "do enlarge 2",
