@@ -6,7 +6,7 @@
  *   the deed changes the past, or says which step is to be shown
  *   player_work: past_iterate, until that step is shown  (steps.c)
  *
- * From a key to Newton's method: player_input, player_obey, the deed,
+ * From a key to Newton's method: player_input, player_obey (after the deed),
  * player_work, past_iterate, simulation_iterate, time_integrator_iterate,
  * newton_iterate.
  */

@@ -137,7 +137,7 @@ static Status retake_step(Player *player, const Command *change, int from,
     player->sampled = -1;
     past_aim(past, step, false);
     player->then = THEN_TELL;
-    return player_work(player);
+    return STATUS_OK;
 }
 
 /* Whether two outcomes of the step are such that no one picture can show both;
@@ -176,7 +176,7 @@ static Status put_beside(Player *player)
     player_leave_step(player);
     past_aim(past, step, true);
     player->then = THEN_TELL;
-    return status ? status : player_work(player);
+    return status;
 }
 
 Status player_tell_retake(Player *player)
@@ -425,9 +425,7 @@ Status obey_end_pane(Player *player, const Command *command)
         return player_refuse(player, "there is only one");
     Status status =
         past_set_panes(past, past_panes(past) - 1, player->gesture, command);
-    if (!status)
-        status = player_fork(player, past->step);
-    return status ? status : player_work(player);
+    return status ? status : player_fork(player, past->step);
 }
 
 /* The pane whose numbers are shown. */
@@ -501,6 +499,8 @@ Status obey_handle(Player *player, const Command *command)
         !(needs & NEEDS_TIME) &&
         command->number < exhibit_handles(simulation, at))
         status = player_show(player, 0, false, THEN_NOTHING);
+    if (!status)
+        status = player_work(player);
     if (!status)
         status = change_all(player, command);
     if (past->now > now)

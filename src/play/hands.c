@@ -457,14 +457,6 @@ static Status wheeled(Player *player, double amount)
     return STATUS_OK;
 }
 
-static Status key_pressed(Player *player, const Input *input)
-{
-    Command command =
-        command_from_key(input->key, input->repeats, keyboard_now(player));
-    command.joins = true;
-    return command.kind ? player_obey(player, &command) : STATUS_OK;
-}
-
 /* The mouse is where the input says. */
 static Status mouse_used(Player *player, const Input *input)
 {
@@ -489,6 +481,7 @@ static Status mouse_used(Player *player, const Input *input)
 Status player_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->mouse;
+    Command command;
     bool wheel = input->kind == INPUT_WHEEL;
     bool key = input->kind == INPUT_KEY && !input->repeats &&
                mouse->drag == COMMAND_NONE;
@@ -498,7 +491,10 @@ Status player_input(Player *player, const Input *input)
     player->gesture = mouse->gesture;
     switch (input->kind) {
     case INPUT_KEY:
-        return key_pressed(player, input);
+        command =
+            command_from_key(input->key, input->repeats, keyboard_now(player));
+        command.joins = true;
+        return command.kind ? player_obey(player, &command) : STATUS_OK;
     case INPUT_CLOSE:
         return ask(player, COMMAND_QUIT, 0);
     case INPUT_REDRAW:

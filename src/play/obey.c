@@ -165,6 +165,10 @@ Status player_obey(Player *player, const Command *asked)
     Status status = STATUS_OK;
     if (row->deed)
         status = row->deed(player, &command);
+    if (past->works && !(flags & SCREEN)) {
+        Status shown = player_work(player);
+        status = status ? status : shown;
+    }
     if (past->now > now && command.kind != COMMAND_REDO)
         tell_left(player, step, newest);
     if (flags & KEPT && status == STATUS_INVALID_INPUT)

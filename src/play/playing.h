@@ -58,8 +58,8 @@ Status player_begin(Player *player, const Options *options, int count,
  * frame is over. */
 Status player_work(Player *player);
 
-/* Shows another step, and waits there; again: with all that is told of its
- * iterations. */
+/* Wants another step shown, to wait there; again: with all that is told of its
+ * iterations.  player_work follows, after a deed by itself. */
 Status player_show(Player *player, long step, bool again, Then then);
 
 /* The next step, known or new. */

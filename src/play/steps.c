@@ -130,12 +130,8 @@ Status player_begin(Player *player, const Options *options, int count,
     Past *past = &player->past;
     bool again = past->branches > 0;
     Status status = past_begin(past, options, count, player->gesture, edit);
-    if (status && again) { /* what was there before is shown again */
-        Status shown = player_work(player);
-        return shown ? shown : player_refuse(player, status_text(status));
-    }
-    if (status)
-        return status;
+    if (status) /* what was there before is going to be shown again */
+        return again ? player_refuse(player, status_text(status)) : status;
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = player->written = -1;
@@ -304,7 +300,7 @@ Status player_show(Player *player, long step, bool again, Then then)
     long newest = past_newest(&player->past);
     past_aim(&player->past, step < newest ? step : newest, again);
     player->then = then;
-    return player_work(player);
+    return STATUS_OK;
 }
 
 /* A node that was held when this step was shown, long ago. */
@@ -333,10 +329,11 @@ Status player_go_on(Player *player, Then then)
     player->then = then == THEN_NOTHING && fresh && !player_stands(player)
                        ? THEN_JUDGE
                        : then;
-    return player_work(player);
+    return STATUS_OK;
 }
 
 Status player_step(Player *player)
 {
-    return player_go_on(player, THEN_NOTHING);
+    Status status = player_go_on(player, THEN_NOTHING);
+    return status ? status : player_work(player);
 }

@@ -167,7 +167,7 @@ Status obey_step(Player *player, const Command *command)
 {
     (void)command;
     stop(player);
-    return player_step(player);
+    return player_go_on(player, THEN_NOTHING);
 }
 
 /* Steps, updates, lines, and steps again. */
@@ -221,5 +221,5 @@ Status obey_undo(Player *player, const Command *command)
     Status status = player_fork(player, fork);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
-    return status ? status : player_work(player);
+    return status;
 }
