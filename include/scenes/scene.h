@@ -54,27 +54,27 @@ typedef struct Switch {
 
 typedef struct Scene {
     const char *name;     /* as on the command line */
-    const char *title;    /* above its picture; NULL: its name */
+    const char *title;    /* above its picture */
     const char *sentence; /* for --list and the window, at most 60 letters */
     PictureKind picture;
-    double frame[4]; /* m, left, bottom, right, top of what is seen; 0: the
-                        picture's choice */
-    double strain;   /* its springs are coloured by strain from the start, the
-                        full colours at this one; 0: only if one asks */
-    unsigned needs;  /* of enum SceneNeeds */
-    bool settles; /* the sentence tells of a motion that dies away: true only of
-                     methods that take energy out */
+    unsigned needs;   /* of enum SceneNeeds */
+    const char *line; /* its own numbers where the slides' are not right, as on
+                         the command line; NULL: there are none */
+    /* Fills simulation->system, mesh and the start. */
+    Status (*create)(struct Simulation *simulation);
+    double frame[4];  /* m, left, bottom, right, top of what is seen; 0: the
+                         picture's choice */
+    double strain;    /* its springs are coloured by strain from the start, the
+                         full colours at this one; 0: only if one asks */
+    bool settles;     /* the sentence tells of a motion that dies away: true
+                         only of methods that take energy out */
     const char *turn; /* what one step is; NULL: a step in time */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
-    /* Its own numbers where the slides' are not right, as on the command line;
-     * NULL: there are none.  pin: as --pin. */
-    const char *line, *pin;
+    const char *pin; /* as --pin, or NULL */
     /* What the command line has no words for: rows over columns, 0: a square;
      * k_c over k, 0: one half; whether pins are moved. */
     double aspect, cell_stiffness;
     bool moving_pins;
-    /* Fills simulation->system, mesh and the start. */
-    Status (*create)(struct Simulation *simulation);
     /* The obstacle that comes with the scene beside those of the options, as it
      * begins, o a ball's centre too; own_name is what messages call it.  NULL:
      * there is none. */

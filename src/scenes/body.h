@@ -12,6 +12,16 @@
 /* The square, or of its rows the part that the scene has; without arrays. */
 SquareMesh body_shape(const Options *options);
 
+/* The words that --pin knows besides node numbers. */
+#define PINS_WORDS "top-corners, top, bottom, left, right"
+
+/* Reads node numbers and words, separated by commas.
+ *   pinned  [nodes] in/out: 1 for each that is named; NULL: the text is only
+ *           checked
+ * Returns OK or INVALID_INPUT. */
+Status pins_read(const char *text, const SquareMesh *shape,
+                 unsigned char *pinned);
+
 /* Mesh, system with all terms of the options, and the simulation's run of this
  * number from where the options put it.  A ball that comes with the scene is
  * the last node.

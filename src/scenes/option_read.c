@@ -11,7 +11,6 @@
 #include "scenes/body.h"
 #include "scenes/one_line.h"
 #include "scenes/pages.h"
-#include "scenes/pins.h"
 #include "scenes/scene.h"
 
 /* ---- short texts -------------------------------------------------------- */

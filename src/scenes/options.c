@@ -20,7 +20,7 @@
 #include "model/plasticity.h"
 #include "model/square_mesh.h"
 #include "scenes/pages.h"
-#include "scenes/pins.h"
+#include "scenes/body.h"
 #include "scenes/scene.h"
 
 static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};

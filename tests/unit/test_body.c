@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/pins.h"
+#include "scenes/body.h"
 
 enum { STEPS = 25 };
 
