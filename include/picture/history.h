@@ -1,5 +1,4 @@
-/* history.h - a few quantities over time, for plots, in constant memory, and
- * where the first nodes were in the newest steps.
+/* history.h - a few quantities over time, for plots, in constant memory.
  *
  * When it is full every second point goes and from then on only every second
  * one is taken; so it always spans the whole run.
@@ -7,12 +6,7 @@
 #ifndef ELASTO_HISTORY_H
 #define ELASTO_HISTORY_H
 
-enum {
-    HISTORY_SERIES = 16,
-    HISTORY_POINTS = 1024,
-    HISTORY_RUNS = 3,
-    HISTORY_TRAIL = 256
-};
+enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
 
 typedef struct History {
     int series;                       /* rows in use, at most HISTORY_SERIES */
@@ -21,14 +15,8 @@ typedef struct History {
     int count;                        /* points, the newest included */
     long stride; /* every stride-th call of history_add is kept */
     long calls;  /* of history_add since it was empty */
-    double low;  /* smallest value that was ever added, at most 0 */
-    double high; /* largest, at least 0 */
     double time[HISTORY_POINTS];                  /* s, ascending */
     double value[HISTORY_SERIES][HISTORY_POINTS]; /* one row a quantity */
-    int trail;                                    /* newest steps, at most
-                                                     HISTORY_TRAIL ... */
-    double when[HISTORY_TRAIL];                   /* s, oldest first */
-    double place[HISTORY_RUNS][HISTORY_TRAIL][2]; /* m, of node 0 of a run */
 } History;
 
 /* Empties it; it has no series any more. */
@@ -42,11 +30,6 @@ int history_series(History *history, const char *name);
  *   time   s, in: above the one before
  *   value  [series] in */
 void history_add(History *history, double time, const double *value);
-
-/* Appends a step of the trail.
- *   place  [2 runs] m, in; runs at most HISTORY_RUNS */
-void history_follow(History *history, double time, int runs,
-                    const double *place);
 
 /* Forgets what is later than this time, for a run that goes on from an old
  * state. */

@@ -52,6 +52,14 @@ static bool series_are_runs(const Simulation *simulation)
            (simulation->scene->picture == PICTURE_MASS && simulation->runs > 1);
 }
 
+/* How many of its series are energies or radii, not places. */
+static int drawn_series(const Simulation *simulation, const History *history)
+{
+    PictureKind kind = simulation->scene->picture;
+    bool masses = kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
+    return masses && history->series ? simulation->runs : history->series;
+}
+
 /* Whether a quantity is worth a curve: the first three are, and those which at
  * some time could be told from 0 beside the largest one until then. */
 static bool is_worthy(const History *history, int series)
@@ -79,7 +87,8 @@ static int find_curves(const Show *show, Curve *curve)
             curve[count++] = (Curve){
                 show->pane[p].simulation, show->pane[p].history, 0, true,
                 colour_of_run(p),         show->pane[p].label};
-    for (int s = 0; show->panes <= 1 && history && s < history->series; s++)
+    int series = history ? drawn_series(active->simulation, history) : 0;
+    for (int s = 0; show->panes <= 1 && s < series; s++)
         if (runs || is_worthy(history, s))
             curve[count++] = (Curve){
                 active->simulation,
@@ -122,7 +131,8 @@ double energies_value(const Simulation *simulation, const History *history,
     if (is_beyond(simulation, history, time))
         return INFINITY;
     double value = history->value[series][point], now = 0, first = 0;
-    for (int s = 0; s < history->series && !series_are_runs(simulation); s++) {
+    int parts = drawn_series(simulation, history);
+    for (int s = 0; s < parts && !series_are_runs(simulation); s++) {
         now = fmax(now, fabs(history->value[s][point]));
         first = fmax(first, fabs(history->value[s][0]));
     }
@@ -149,8 +159,10 @@ Axis energies_axis(const Show *show, double *joule, double *last)
             if (curve[c].total && value[i] > 0)
                 least = fmin(least, value[i]);
         }
-        all[0] = fmin(all[0], history->low);
-        all[1] = fmax(all[1], history->high);
+        for (int i = 0; i < history->count; i++) {
+            all[0] = fmin(all[0], value[i]);
+            all[1] = fmax(all[1], value[i]);
+        }
         if (history->count > 0) {
             *last = fmax(*last, history->time[history->count - 1]);
             first = fmax(first, history->value[0][0]);

@@ -8,7 +8,7 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { MASS_CORNERS = 120 };
+enum { MASS_CORNERS = 120, TRAIL = 256 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double MASS_TURN = 6.283185307179586;
@@ -24,21 +24,26 @@ static Colour run_colour(const Simulation *simulation, int run, Colour alone)
     return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
 }
 
-/* Where the runs have been; with a disc for each step. */
+/* Where the runs have been in the newest steps; with a disc for each. */
 static void draw_trails(const Plot *stage, const Pane *pane, bool steps)
 {
     const History *history = pane->history;
-    for (int r = 0; history && r < pane->simulation->runs; r++)
-        for (int i = 0; i < history->trail; i++) {
-            const double *at = history->place[r][i];
-            Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
-                                  : circle_colour(pane->simulation, r);
+    int runs = pane->simulation->runs;
+    for (int r = 0; history && history->series && r < runs; r++) {
+        const double *x = history->value[runs + 2 * r];
+        const double *y = history->value[runs + 2 * r + 1];
+        Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
+                              : circle_colour(pane->simulation, r);
+        int first = history->count > TRAIL ? history->count - TRAIL : 0;
+        for (int i = first; i < history->count; i++) {
+            const double at[2] = {x[i], y[i]};
             if (steps)
                 plot_disc(stage, at, 3.5, colour);
-            if (i > 0)
-                plot_line(stage, history->place[r][i - 1], at,
+            if (i > first)
+                plot_line(stage, (double[2]){x[i - 1], y[i - 1]}, at,
                           steps ? 1.6 : 2.2, colour);
         }
+    }
 }
 
 static double mass_energy(const double *x, const double *v)
@@ -46,21 +51,23 @@ static double mass_energy(const double *x, const double *v)
     return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* The trail of each run; on the circle its radius, else its energy. */
+/* On the circle the radius of each run, else its energy; then its trail. */
 static void mass_sample(const Simulation *simulation, History *history)
 {
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
-    double value[HISTORY_SERIES] = {0}, place[2 * HISTORY_RUNS] = {0};
-    history->series = simulation->runs;
-    for (int r = 0; r < simulation->runs; r++) {
+    double value[HISTORY_SERIES] = {0};
+    int runs = simulation->runs;
+    history->series = 3 * runs;
+    for (int r = 0; r < runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
         history->name[r] = simulation->run[r].method->label;
         value[r] = circle ? hypot(x[0], x[1]) : mass_energy(x, v);
-        memcpy(place + 2 * r, x, 2 * sizeof *x);
+        for (int k = 0; k < 2; k++) {
+            history->name[runs + 2 * r + k] = "";
+            value[runs + 2 * r + k] = x[k];
+        }
     }
     history_add(history, simulation_time(simulation), value);
-    history_follow(history, simulation_time(simulation), simulation->runs,
-                   place);
 }
 
 /* ---- the circle ---------------------------------------------------------- */
