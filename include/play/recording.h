@@ -20,28 +20,25 @@
 #include "play/output.h"
 #include "scenes/simulation.h"
 
-enum { RECORDING_NAME_SIZE = 4096, RECORDING_TABLES = 3 };
+enum { RECORDING_NAME_SIZE = 4096, RECORDING_TABLES = 3, RECORDING_TOLD = 320 };
 
 typedef struct Recording {
-    const char *folder; /* of the frames, or NULL: none */
-    long frames;        /* written */
-    long last_frame;    /* its step; -1: none */
-    Film film;          /* of the frames */
-    long films;         /* that ended with a frame; of the last one: */
-    long film_frames;
-    char film_name[RECORDING_NAME_SIZE];
-    bool points; /* the log tells of points */
-    int panes;   /* of more than one the log tells which: 1 ... */
-    union {      /* not open: not written */
+    const char *folder;             /* of the frames, or NULL: none */
+    long frames;                    /* written */
+    long last_frame;                /* its step; -1: none */
+    Film film;                      /* of the frames */
+    long films;                     /* that ended with a frame; the last one: */
+    char film_told[RECORDING_TOLD]; /* frames and name */
+    bool points;                    /* the log tells of points */
+    int panes; /* of more than one the log tells which: 1 ... */
+    union {    /* not open: not written */
         struct {
             Output states, log, energies;
         };
         Output table[RECORDING_TABLES];
     };
-    bool aside; /* set: at the end tables stay NAME.part */
-    int reason; /* errno of the first failure, 0: none yet */
-    char failed[RECORDING_NAME_SIZE]; /* the file it happened to */
-    char message[256];                /* why there is no film, or "" */
+    bool aside;        /* set: at the end tables stay NAME.part */
+    char message[512]; /* the first failure in one line; "" */
 } Recording;
 
 /* Whether all files of the options can be written and read beside each other:
@@ -52,8 +49,8 @@ Status recording_check(const Options *options, char *message, size_t size);
 
 /* Opens what options->frames, film and the tables ask for; makes the folder.
  *   recording  out; close it in any case
- * Returns OK, OUT_OF_MEMORY, FILE_FAILED (reason and failed tell more), as
- * all functions here do; INVALID_INPUT: message says why. */
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED, as all functions here do, or
+ * INVALID_INPUT; the message says why. */
 Status recording_open(const Options *options, int panes, Recording *recording);
 
 /* One frame, if frames are asked for.  shown: for how many frames' time it

@@ -85,18 +85,15 @@ static int pane_that_ended(const Player *player, Status status)
 /* The one line about a failure. */
 static void report_failure(const Player *player, Status status)
 {
-    const Recording *recording = &player->recording;
+    const char *message = player->recording.message;
     int ended = pane_that_ended(player, status);
-    char reason[256] = "", name[256], pane[32] = "";
+    char reason[256] = "", pane[32] = "";
     if (ended >= 0 && past_panes(&player->past) > 1)
         snprintf(pane, sizeof pane, "pane %d, ", ended + 1);
     if (status == STATUS_SCREEN_FAILED)
         view_failure(reason, sizeof reason);
-    one_line(recording->failed, name, sizeof name);
-    if (player->message[0] || recording->message[0])
-        tell("%s", player->message[0] ? player->message : recording->message);
-    else if (recording->reason)
-        tell("%s: %s", name, output_reason(recording->reason));
+    if (player->message[0] || message[0])
+        tell("%s", player->message[0] ? player->message : message);
     else if (ended >= 0)
         tell("%sstep %ld failed: %s%s", pane,
              player->past.machine[ended].simulation.steps + 1,
@@ -171,27 +168,23 @@ static int make_handout(const Options *options,
     return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
 }
 
-/* The words of the command line that decide what is simulated, for messages. */
+/* The words of the command line that decide what is simulated, for messages:
+ * not how long it runs and what it leaves behind. */
 static void join_line(int argc, char **argv, char *line, size_t size)
 {
-    static const char *const left_out[] = {
-        "--script", "--film",     "--frames", "--states",
-        "--log",    "--energies", "--size",   "--speed",
-        "--steps",  "--paused",   "--quiet",  "--fullscreen",
-    };
-    enum { LEFT_OUT = sizeof left_out / sizeof *left_out, SWITCHES = 3 };
+    const OptionRow *first = option_find("steps");
     size_t used = (size_t)snprintf(line, size, "elasto");
     for (int i = 1; i < argc && used < size; i++) {
-        int k = 0;
+        char name[32], shown[256];
         size_t length = strcspn(argv[i], "=");
-        while (k < LEFT_OUT && (strlen(left_out[k]) != length ||
-                                strncmp(argv[i], left_out[k], length) != 0))
-            k++;
-        char shown[256];
+        snprintf(name, sizeof name, "%.*s", (int)length, argv[i]);
+        const OptionRow *row =
+            strncmp(name, "--", 2) == 0 ? option_find(name + 2) : NULL;
         one_line(argv[i], shown, sizeof shown);
-        if (k == LEFT_OUT)
+        if (!row || row < first || row == option_find("lecture") ||
+            row == option_find("headless"))
             used += (size_t)snprintf(line + used, size - used, " %s", shown);
-        else if (k < LEFT_OUT - SWITCHES && argv[i][length] == '\0')
+        else if (row->kind != OPTION_SWITCH && argv[i][length] == '\0')
             i++; /* its value is the next word */
     }
 }

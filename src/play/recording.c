@@ -10,15 +10,18 @@
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
 
-/* Remembers the first failure; returns status. */
-static Status recording_note(Recording *recording, Status status,
-                             const char *name)
+/* Tells of the first failure; returns status.
+ *   why  it failed, if errno does not say it; or NULL */
+static Status note(Recording *recording, Status status, const char *name,
+                   const char *why)
 {
-    if (status && status != STATUS_INVALID_INPUT && recording->reason == 0) {
-        recording->reason = status == STATUS_OUT_OF_MEMORY ? ENOMEM
-                            : errno                        ? errno
-                                                           : EIO;
-        snprintf(recording->failed, sizeof recording->failed, "%s", name);
+    if (status && recording->message[0] == '\0') {
+        char shown[256];
+        one_line(name, shown, sizeof shown);
+        snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
+                 why                              ? why
+                 : status == STATUS_OUT_OF_MEMORY ? output_reason(ENOMEM)
+                                                  : output_reason(errno));
     }
     return status;
 }
@@ -70,7 +73,7 @@ static int list_energies(const char *names[ENERGY_COLUMNS])
 /* Whether all of a table so far was written. */
 static Status check_table(Recording *recording, const Output *output)
 {
-    return recording_note(recording, output_check(output), output->name);
+    return note(recording, output_check(output), output->name, NULL);
 }
 
 /* The lines above the columns. */
@@ -99,70 +102,50 @@ static Status write_headers(Recording *recording)
     return status;
 }
 
-/* Opens one of the tables, if it has a name. */
-static Status open_table(Recording *recording, const char *name, Output *output)
-{
-    if (!name)
-        return STATUS_OK;
-    return recording_note(recording, output_open(name, output), name);
-}
-
-/* Why a film failed, where errno does not say it. */
-static Status note_film(Recording *recording, Status status, const char *name)
-{
-    char shown[128];
-    one_line(name, shown, sizeof shown);
-    if (status == STATUS_FILE_FAILED && recording->film.reason &&
-        recording->reason == 0)
-        snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
-                 recording->film.reason);
-    return recording_note(recording, status, name);
-}
-
 Status recording_film(Recording *recording, const char *name)
 {
+    Film *film = &recording->film;
     recording->message[0] = '\0';
-    return note_film(recording,
-                     film_open(name, &recording->film, recording->message,
-                               sizeof recording->message),
-                     name);
+    Status status =
+        film_open(name, film, recording->message, sizeof recording->message);
+    return note(recording, status, name, film->reason);
 }
 
 Status recording_end_film(Recording *recording)
 {
-    char name[RECORDING_NAME_SIZE];
-    const Film *film = &recording->film;
+    char name[256], told[RECORDING_TOLD];
+    Film *film = &recording->film;
     if (!film_runs(film))
         return STATUS_OK;
-    snprintf(name, sizeof name, "%s", film->output.name);
-    long frames = film->frames;
-    Status status = note_film(recording, film_close(&recording->film), name);
-    if (status)
-        return status;
-    recording->films++;
-    recording->film_frames = frames;
-    memcpy(recording->film_name, name, sizeof name);
-    return STATUS_OK;
+    one_line(film->output.name, name, sizeof name);
+    snprintf(told, sizeof told, "%ld frames, in %s", film->frames, name);
+    Status status = film_close(film);
+    if (!status) {
+        recording->films++;
+        memcpy(recording->film_told, told, sizeof told);
+    }
+    return note(recording, status, name, film->reason);
 }
 
 /* Folder, film, tables. */
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
+    const char *names[RECORDING_TABLES] = {options->states, options->log,
+                                           options->energies};
     *recording = (Recording){
         .folder = options->frames, .last_frame = -1, .panes = panes};
     recording->points = !(options->scene->needs & NEEDS_TIME);
     Status status = STATUS_OK;
     if (recording->folder)
-        status = recording_note(recording, make_folder(recording->folder),
-                                recording->folder);
+        status = note(recording, make_folder(recording->folder),
+                      recording->folder, NULL);
     if (!status && options->film)
         status = recording_film(recording, options->film);
-    if (!status)
-        status = open_table(recording, options->states, &recording->states);
-    if (!status)
-        status = open_table(recording, options->log, &recording->log);
-    if (!status)
-        status = open_table(recording, options->energies, &recording->energies);
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+        if (names[t])
+            status =
+                note(recording, output_open(names[t], &recording->table[t]),
+                     names[t], NULL);
     if (!status)
         status = write_headers(recording);
     if (status)
@@ -250,7 +233,7 @@ static Status write_frame(Recording *recording, const Canvas *canvas, long step)
     if (!status && recording->last_frame != step)
         recording->frames++;
     recording->last_frame = step;
-    return recording_note(recording, status, name);
+    return note(recording, status, name, NULL);
 }
 
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
@@ -259,8 +242,8 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     Film *film = &recording->film;
     Status status = STATUS_OK;
     if (film_runs(film))
-        status = note_film(recording, film_add(film, canvas, shown),
-                           film->output.name);
+        status = note(recording, film_add(film, canvas, shown),
+                      film->output.name, film->reason);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;
@@ -362,8 +345,7 @@ Status recording_cut(Recording *recording, long step)
     Status status = STATUS_OK;
     for (int t = 0; t < RECORDING_TABLES && !status; t++) {
         Output *output = &recording->table[t];
-        status =
-            recording_note(recording, output_cut(output, step), output->name);
+        status = note(recording, output_cut(output, step), output->name, NULL);
     }
     return status;
 }
@@ -383,7 +365,7 @@ static Status close_table(Recording *recording, Output *output)
     snprintf(name, sizeof name, "%s", output->name ? output->name : "");
     if (recording->aside)
         output_discard(output, true);
-    return recording_note(recording, output_close(output), name);
+    return note(recording, output_close(output), name, NULL);
 }
 
 /* Film and all tables, also if one of them fails; the first failure counts. */

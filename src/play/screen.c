@@ -218,15 +218,11 @@ Status obey_film(Player *player, const Command *command)
         player->sampled = -1; /* the present frame is the first */
     }
     if (status)
-        player_note(player, "no film: %s",
-                    recording->message[0] ? recording->message
-                                          : output_reason(recording->reason));
+        player_note(player, "no film: %s", recording->message);
     else if (ends)
-        player_note(player, "film ends: %ld frames, in %s",
-                    recording->film_frames, recording->film_name);
+        player_note(player, "film ends: %s", recording->film_told);
     else
         player_note(player, "filming %s", name);
-    recording->reason = 0;
     recording->message[0] = '\0';
     return STATUS_OK;
 }

@@ -101,14 +101,12 @@ static void print_frames(FILE *file, const Recording *recording)
                 name);
     else if (recording->films == 0)
         fprintf(file, "frames written      0\n");
-    if (recording->films == 0)
-        return;
-    one_line(recording->film_name, name, sizeof name);
-    fprintf(file, "film                %ld frames, in %s",
-            recording->film_frames, name);
+    if (recording->films > 0)
+        fprintf(file, "film                %s", recording->film_told);
     if (recording->films > 1)
         fprintf(file, "; the last of %ld films", recording->films);
-    fputc('\n', file);
+    if (recording->films > 0)
+        fputc('\n', file);
 }
 
 /* How far it came. */
