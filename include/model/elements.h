@@ -54,9 +54,9 @@ void element_add(const Element *element, double factor, const double g[4],
 struct ElementKind {
     int (*count)(const Place *at);
 
-    /* Element i at x; `near`: only if W, its gradient or its Hessian is not 0
-     * there.  Returns false where there is nothing. */
-    bool (*get)(const Place *at, int i, bool near, Element *element);
+    /* Element i at x.  Returns false where there is nothing, or W is 0 and
+     * stays so while a and b change by less than `way`, m, each. */
+    bool (*get)(const Place *at, int i, double way, Element *element);
 
     /* The blocks of the matrix, each with all entries of 1 to 3 nodes: how many
      * there are; the nodes of one, out, and how many.  x is not known. */
@@ -72,7 +72,8 @@ struct ElementKind {
 
     /* With P [4], the change of a and b along p: W at alpha minus W minus
      * alpha grad W.P, J, without cancellation; and the alpha that uses up
-     * ELEMENT_LIMIT of s, which must stay above 0.  NULL: any s will do. */
+     * ELEMENT_LIMIT of s, which must stay above 0, where W is not.  NULL: any s
+     * will do. */
     double (*remainder)(const Place *at, const Element *element,
                         const double P[4], double alpha);
     double (*reach)(const Place *at, const Element *element, const double P[4]);

@@ -110,8 +110,9 @@ struct TermKind {
     void (*along)(const Place *at, const double *p, double q[3]);
     double (*remainder)(const Place *at, const double *p, double alpha);
 
-    /* The largest alpha that p may be followed, > 0 (contact, cells); NULL:
-     * any.  Backtracking starts at the smallest of all terms and 1. */
+    /* The largest alpha that p may be followed, > 0 (contact, cells); NULL, or
+     * infinite: any up to 1.  Backtracking starts at the smallest of all terms
+     * and 1. */
     double (*reach)(const Place *at, const double *p);
 
     /* Whether x is a place where the energy exists: every distance and area

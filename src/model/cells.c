@@ -38,8 +38,9 @@ static bool is_whole(const Place *at, int t)
     return !at->system->breaks || (k[s[0]] > 0 && k[s[1]] > 0 && k[s[2]] > 0);
 }
 
-/* a = e1, b = e2, s = J. */
-static bool get(const Place *at, int t, bool near, Element *element)
+/* a = e1, b = e2, s = J, which a way changes by q way (|e1| + |e2| + way) at
+ * most, q = 1/(2 A0). */
+static bool get(const Place *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = cells_of(at);
@@ -48,8 +49,9 @@ static bool get(const Place *at, int t, bool near, Element *element)
     const double *x_c = at->x + 2 * cells->node[3 * t + 2];
     const double e[4] = {x_b[0] - x_a[0], x_b[1] - x_a[1], x_c[0] - x_a[0],
                          x_c[1] - x_a[1]};
-    double J = cross(e, e + 2) / (2 * cells->area);
-    if ((near && !(J < CELL_J_HAT)) || !is_whole(at, t))
+    double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
+    double q = 1 / (2 * cells->area), J = cross(e, e + 2) / (2 * cells->area);
+    if (J >= CELL_J_HAT + q * way * (sides + way) || !is_whole(at, t))
         return false;
     element->vectors = 2;
     element->nodes = nodes(at, t, element->node);

@@ -96,7 +96,7 @@ int contact_obstacle(const Place *at, int i)
     return i < at->system->nodes ? 0 : i / at->system->nodes;
 }
 
-static bool get(const Place *at, int i, bool near, Element *element)
+static bool get(const Place *at, int i, double way, Element *element)
 {
     static const double difference[1][3] = {{1, -1}};
     const Contact *contact = at->term->data;
@@ -105,7 +105,7 @@ static bool get(const Place *at, int i, bool near, Element *element)
     if (!contact_has_pair(contact, at->system, node, obstacle))
         return false;
     Gap gap = contact_pair_gap(contact, at->x, node, obstacle);
-    if (near && !(gap.d < contact->barrier.d_hat))
+    if (gap.d >= contact->barrier.d_hat + way)
         return false;
     element->vectors = 1;
     element->nodes = contact->obstacle[obstacle].node < 0 ? 1 : 2;

@@ -87,8 +87,7 @@ static void begin(Term *term, System *system, const double *x_n,
     friction->slides = 0;
     for (int i = 0; i < contact_elements.count(&at); i++) {
         const Obstacle *obstacle = &contact->obstacle[contact_obstacle(&at, i)];
-        if (!(obstacle->friction > 0) ||
-            !contact_elements.get(&at, i, true, &row))
+        if (!(obstacle->friction > 0) || !contact_elements.get(&at, i, 0, &row))
             continue;
         const double t[2] = {-row.n[1], row.n[0]};
         row.n[0] = t[0];
@@ -124,10 +123,10 @@ static int count(const Place *at)
 }
 
 /* s is y.  Nothing of it is stored: outside of a step (u NULL) it is 0. */
-static bool get(const Place *at, int i, bool near, Element *element)
+static bool get(const Place *at, int i, double way, Element *element)
 {
     const Slide *slide = &friction_of(at)->slide[i];
-    (void)near;
+    (void)way;
     if (!at->u)
         return false;
     *element = slide->row;
