@@ -116,7 +116,6 @@ static Status retake_step(Player *player, const Command *change, int from,
     int place = player_place(player, player->active);
     bool failed = machine->failed;
     long step = past->step + failed;
-    Mode mode = player->mode == MODE_WALK ? MODE_PAUSE : player->mode;
     if (step < 1)
         return player_change(player, change, from, to, false);
     *retake = (Retake){.extent = extent_of(machine), .at = {.round = -1}};
@@ -127,6 +126,7 @@ static Status retake_step(Player *player, const Command *change, int from,
                         : &past_entry(past, player->active, step)->outcome,
                  retake->had, sizeof retake->had);
     player_leave_step(player);
+    Mode mode = player->mode;
     if (row->effect == EFFECT_AGAIN && !failed &&
         !machine->simulation.scene->step)
         keep_ghost(player, row);

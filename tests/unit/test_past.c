@@ -743,6 +743,47 @@ TEST(keys_are_given_once)
     }
 }
 
+/* Whether this word stands alone in the text. */
+static bool has_word(const char *text, const char *word)
+{
+    static const char *const ends = " ,;|\n";
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        if (at > text && strchr(ends, at[-1]) && strchr(ends, at[strlen(word)]))
+            return true;
+    return false;
+}
+
+/* README's table of hands and keys has each key of the list. */
+TEST(the_readme_names_every_key)
+{
+    static const char *const names[][2] = {{"PageDown", "Page Down"},
+                                           {"PageUp", "Page Up"},
+                                           {"Escape", "Esc"},
+                                           {"N", "N or Right"}};
+    static char text[1 << 16];
+    FILE *file = fopen("README.md", "r");
+    CHECK(file != NULL);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    char *table = strstr(text, "| hand or key |");
+    CHECK(table != NULL);
+    *strstr(table, "\n\n") = '\0';
+    for (int kind = 1; kind < COMMAND_KINDS; kind++) {
+        const CommandRow *row = command_row((CommandKind)kind);
+        char key[16] = "";
+        if (!row->label)
+            continue;
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(row->keys, "|"),
+                 row->keys);
+        for (int i = 0; i < 4; i++)
+            if (strcmp(key, names[i][0]) == 0)
+                snprintf(key, sizeof key, "%s", names[i][1]);
+        if (!has_word(table, key))
+            print_error("README lacks %s\n", key);
+        CHECK(has_word(table, key));
+    }
+}
+
 /* Lines wait for their step unless nothing moves. */
 /* Writes the text to a file and reads it as a script. */
 static Status read_script(const char *name, const char *text, Script *script,
