@@ -369,7 +369,6 @@ Status direction_bends_up(Newton *newton, double times)
     const SearchDirection *search = &newton->search;
     int projected;
     if (newton->settings.filter == FILTER_NONE ||
-        newton->at.E.weight * newton->rounding.concave < times ||
         incremental_potential_concave(&newton->at, newton->x_trial) < times)
         return STATUS_OK;
     Status status = assemble(newton, FILTER_ON_DEMAND, &projected);

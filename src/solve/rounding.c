@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 /* After this many iterations without a smaller residual, rounding may be all
  * that is left. */
@@ -26,26 +25,15 @@ static const double MARGIN = 1e-12;
  * sample of that may be far smaller than another. */
 static const double AGREED = 1e-10, BLURS = 100;
 
-/* A spring bends down most where its ends meet: so in a system of internal
- * forces alone with all nodes in one point. */
 void rounding_bounds(Newton *newton)
 {
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    double *zero = newton->search.b;
     rounding->version = system->version;
     rounding->lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         rounding->lightest = fmin(rounding->lightest, system->m[i]);
     system_bounds(system, &rounding->stiffest, &rounding->force);
-    memset(zero, 0, 2 * (size_t)system->nodes * sizeof *zero);
-    Iterate point = {.E = {system, 1, zero, zero, newton->settings.averaged},
-                     .u = zero,
-                     .x = zero};
-    rounding->concave =
-        system_is_free(system)
-            ? incremental_potential_concave(&point, newton->x_trial)
-            : INFINITY;
 }
 
 void rounding_start(Newton *newton)
