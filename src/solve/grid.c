@@ -85,12 +85,11 @@ static void read_nodes(Grid *grid, const System *system, const double *m)
     const Rows *rows = &grid->rows;
     double *const arrays[] = {grid->m, grid->per_m};
     grid->lightest = INFINITY;
-    grid->mass = 0;
     for (int i = 0, node = 0, at = 0; i < rows->nodes; i++) {
         for (int j = 0; j < rows->nodes; j++, node++) {
             bool held = system->pinned && system->pinned[node];
             int q = place_of(rows, at, j);
-            grid->mass += grid->m[q] = m[2 * node];
+            grid->m[q] = m[2 * node];
             grid->per_m[q] = held ? 0 : 1 / m[2 * node];
             if (!held)
                 grid->lightest = fmin(grid->lightest, m[2 * node]);

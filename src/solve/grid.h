@@ -60,7 +60,7 @@ typedef struct Grid {
     double *c[KINDS];               /* [plane] kg/m^2; 0: no spring */
     double *l2[KINDS];              /* [plane] m^2 */
     double *m, *per_m;              /* [plane] kg; 1/kg, 0 for pins */
-    double lightest, mass;          /* kg, of nodes that move; of all */
+    double lightest;                /* kg, of nodes that move */
     double *x, *x_tilde, *u_tilde;  /* [2 planes] m */
     double *away;                   /* [2 planes] m, x - x_tilde in the digits
                                        of u; pins: 0 */
@@ -97,9 +97,8 @@ void grid_write_state(const Grid *grid, Iterate *at);
 
 /* ---- loops over all nodes (grid_energy.c); vectors have [2 planes] ---- */
 
-/* g = grad E; returns |g|_(M^-1)^2.  At pins and outside g is anything.
- *   moment  [2] kg m, out, sum m (x - x_tilde) */
-double grid_gradient(const Grid *grid, double *g, double moment[2]);
+/* g = grad E; returns |g|_(M^-1)^2.  At pins and outside g is anything. */
+double grid_gradient(const Grid *grid, double *g);
 
 /* rest = -g - H p, H clamped to be positive semi-definite (psd.h); returns
  * |rest|_(M^-1)^2.
@@ -113,8 +112,5 @@ void grid_along(const Grid *grid, const double *g, const double *p,
 
 /* x += a p */
 void grid_move(const Grid *grid, double a, const double *p);
-
-/* All nodes move by this, m. */
-void grid_shift(const Grid *grid, const double by[2]);
 
 #endif

@@ -39,13 +39,11 @@ FAST static void gradient(const void *job, int first, int end)
     {
         const double *const ax = grid.away, *const ay = ax + plane;
         double *const gx = pass->out, *const gy = gx + plane;
-        double sum[3][LANES] = {{0}};
+        double sum[LANES] = {0};
         EACH_NODE_OF (grid, band) {
             const int q = at.first + e;
             double fx = grid.m[q + at.node] * ax[q];
             double fy = grid.m[q + at.node] * ay[q];
-            sum[1][e] += fx;
-            sum[2][e] += fy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = spring_of(&grid, kind, q, to, numbers);                     \
@@ -56,20 +54,17 @@ FAST static void gradient(const void *job, int first, int end)
 #undef ADD
             gx[q] = fx;
             gy[q] = fy;
-            sum[0][e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
+            sum[e] += grid.per_m[q + at.node] * (fx * fx + fy * fy);
         }
-        for (int s = 0; s < 3; s++)
-            grid.sums[band * MAX_SUMS + s] = sum_of(sum[s]);
+        grid.sums[band * MAX_SUMS] = sum_of(sum);
     }
 }
 
-double grid_gradient(const Grid *grid, double *g, double moment[2])
+double grid_gradient(const Grid *grid, double *g)
 {
-    double sum[3];
-    run(gradient, (Pass){.grid = grid, .out = g}, HEAVY, 3, sum);
-    moment[0] = sum[1];
-    moment[1] = sum[2];
-    return sum[0];
+    double sum;
+    run(gradient, (Pass){.grid = grid, .out = g}, HEAVY, 1, &sum);
+    return sum;
 }
 
 /* By how much more one end of a spring moves than the other. */
@@ -173,17 +168,5 @@ FAST void grid_move(const Grid *grid, double a, const double *p)
     EACH_OF (2 * grid->rows.plane) {
         away[e] += a * p[e];
         x[e] = x_tilde[e] + away[e];
-    }
-}
-
-void grid_shift(const Grid *grid, const double by[2])
-{
-    const Rows *rows = &grid->rows;
-    for (int node = 0; node < rows->nodes * rows->nodes; node++) {
-        int q = place_of(rows, node / rows->nodes, node % rows->nodes);
-        for (int c = 0; c < 2; c++, q += rows->plane) {
-            grid->away[q] += by[c];
-            grid->x[q] = grid->x_tilde[q] + grid->away[q];
-        }
     }
 }

@@ -40,7 +40,6 @@ struct Multigrid {
     Memory memory;        /* all of their arrays, and these */
     double *g, *p, *rest; /* [2 planes] grad E and direction at x, remainder */
     double square;        /* |g|_(M^-1)^2 */
-    double moment[2];     /* kg m, sum m (x - x_tilde) */
     double bound;         /* m/s, of the residual */
     double last_bound;    /* m/s, an iteration before */
     double test_below;    /* m/s, half the bound when it said no */
@@ -170,7 +169,7 @@ static bool decide_test(Newton *newton)
 static void evaluate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
-    mg->square = grid_gradient(&mg->grid, mg->g, mg->moment);
+    mg->square = grid_gradient(&mg->grid, mg->g);
     mg->bound = sqrt(2 / mg->grid.lightest * mg->square) / newton->settings.h;
     mg->directed = mg->cycle.set_up = false;
     newton->residual = mg->bound;
@@ -190,11 +189,6 @@ static Status pass_test(Newton *newton)
         return STATUS_OK;
     if (!(mg->bound <= fmin(worth, mg->test_below)))
         return STATUS_RUNNING;
-    if (system_is_free(newton->system)) {
-        grid_shift(&mg->grid, (double[2]){-mg->moment[0] / mg->grid.mass,
-                                          -mg->moment[1] / mg->grid.mass});
-        evaluate(newton);
-    }
     mg->directed = decide_test(newton);
     mg->test_below = mg->bound / 2;
     newton->kind = RESIDUAL_ESTIMATE;

@@ -162,16 +162,13 @@ static void move_centre(Newton *newton)
  * nodes alike, lowers E, and conserves linear momentum to rounding.  The second
  * move removes the rounding errors of the first, which is long where springs
  * are stiff beyond the digits of the masses.  If E has risen even so, all nodes
- * make the centre's way from x_n instead.  Where multigrid solved for its
- * test, it had moved it before that. */
+ * make the centre's way from x_n instead. */
 static void finish(Newton *newton)
 {
     Status before = newton->status;
     if (before && !status_is_unconverged(before))
         return;
-    bool moved = !before && newton->working == SOLVER_MULTIGRID &&
-                 newton->kind == RESIDUAL_ESTIMATE;
-    if (system_is_free(newton->system) && !moved) {
+    if (system_is_free(newton->system)) {
         move_centre(newton);
         move_centre(newton);
         if (before != STATUS_DIVERGED &&

@@ -345,13 +345,11 @@ static void check_failure(Watch *watch, Status status)
 
 /* What the last minimisation left, after the centre of mass was moved: E is
  * not above its start, and the residual is at most twice as large, because
- * the mean of the direction was taken away from it.  Multigrid moves the centre
- * before its test. */
+ * the mean of the direction was taken away from it. */
 static void check_last_minimisation(Watch *watch, Status status)
 {
     const Newton *newton = watch->run->newton;
     bool composed = strcmp(watch->run->method->name, "avf4") == 0;
-    bool centred = newton->working == SOLVER_MULTIGRID;
     if (composed && newton->record.iteration < 0)
         return; /* where its last part began is not known here */
     int n = watch_size(watch);
@@ -360,13 +358,13 @@ static void check_last_minimisation(Watch *watch, Status status)
         memset(watch->u, 0, (size_t)n * sizeof *watch->u);
         IncrementalPotential E = watch_potential(watch);
         watch->start = watch->energy = wide_energy(&E, watch->u);
-        if (!status && watch->run->system->springs > 0 && !centred)
+        if (!status && watch->run->system->springs > 0)
             judge_convergence(watch, watch->u, 1);
     }
     if (newton->settings.search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->at.u, "as the step ends");
     if (newton->status == STATUS_OK)
-        judge_convergence(watch, newton->at.u, centred ? 1 : 2);
+        judge_convergence(watch, newton->at.u, 2);
 }
 
 /* The state after a step that was made. */
