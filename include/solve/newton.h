@@ -110,17 +110,16 @@ typedef struct SearchDirection {
 
 /* What guards the digits of a minimisation (rounding.c). */
 typedef struct Rounding {
-    unsigned version; /* of the system, for which the next three were found */
-    double lightest;  /* kg, the smallest mass */
-    double stiffest;  /* J/m^2, the largest curvature of a term */
-    double force;     /* J/m, the largest of a spring without a length */
-    bool blurred;     /* w stiffest > 1e10 lightest: factors are not exact */
-    double first;     /* J s^2, E at the start; NAN: it can only fall */
-    double most;      /* J s^2, E may be, as at the start; INFINITY: any */
-    double E;         /* J s^2, at the iterate; NAN: not asked for yet */
-    double E_trial;   /* J s^2, where a step may lead */
-    double best;      /* m/s, smallest residual of this minimisation */
-    int stagnant;     /* iterations since it was the smallest */
+    double lightest; /* kg, the smallest mass */
+    double stiffest; /* J/m^2, the largest curvature of a term */
+    double force;    /* J/m, the largest of a spring without a length */
+    bool blurred;    /* w stiffest > 1e10 lightest: factors are not exact */
+    double first;    /* J s^2, E at the start; NAN: it can only fall */
+    double most;     /* J s^2, E may be, as at the start; INFINITY: any */
+    double E;        /* J s^2, at the iterate; NAN: not asked for yet */
+    double E_trial;  /* J s^2, where a step may lead */
+    double best;     /* m/s, smallest residual of this minimisation */
+    int stagnant;    /* iterations since it was the smallest */
 } Rounding;
 
 typedef struct Multigrid Multigrid;

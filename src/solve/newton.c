@@ -234,10 +234,7 @@ Status newton_create(const System *system, const NewtonSettings *settings,
     newton->u_tilde = newton->at.p + size;
     newton->u_trial = newton->u_tilde + size;
     newton->x_trial = newton->u_trial + size;
-    Status status = direction_create(newton);
-    if (!status)
-        rounding_bounds(newton);
-    return status;
+    return direction_create(newton);
 }
 
 void newton_free(Newton *newton)

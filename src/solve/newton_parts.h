@@ -52,9 +52,6 @@ Status step_length(Newton *newton);
  * second kind of scene, and in every one without a line search, a minimisation
  * is held to what E really is. */
 
-/* Bounds of the system as it is. */
-void rounding_bounds(Newton *newton);
-
 /* At the start of a minimisation. */
 void rounding_start(Newton *newton);
 

@@ -25,23 +25,15 @@ static const double MARGIN = 1e-12;
  * sample of that may be far smaller than another. */
 static const double AGREED = 1e-10, BLURS = 100;
 
-void rounding_bounds(Newton *newton)
+void rounding_start(Newton *newton)
 {
+    const Iterate *at = &newton->at;
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    rounding->version = system->version;
     rounding->lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         rounding->lightest = fmin(rounding->lightest, system->m[i]);
     system_bounds(system, &rounding->stiffest, &rounding->force);
-}
-
-void rounding_start(Newton *newton)
-{
-    const Iterate *at = &newton->at;
-    Rounding *rounding = &newton->rounding;
-    if (rounding->version != newton->system->version)
-        rounding_bounds(newton);
     rounding->best = INFINITY;
     rounding->stagnant = 0;
     rounding->E = NAN;
