@@ -21,7 +21,7 @@ static const double WORTH_SHARING = 6e3, WORTH_WAKING = 3e4;
 /* s: who is waited for so much longer than the whole loop takes is a thread
  * that the system does not run.  Then the caller works alone for so many times
  * as long as it has waited. */
-static const double LATE = 5e-5, ALONE_FOR = 32;
+static const double LATE = 5e-5, ALONE_FOR = 100;
 
 struct Crew {
     pthread_t thread;
