@@ -284,23 +284,22 @@ typedef enum Visit {
     PRODUCT /* w = A x, and the parts of x.b and x.w are added up */
 } Visit;
 
-/* Which springs of a node are looked at. */
-typedef struct Pulls {
-    bool row, cross;
-} Pulls;
-static const Pulls ALL = {true, true};
-
-INLINE void visit_row(const Level *of, int i, int odd, Visit visit, Pulls pulls,
+/* One colour of row i: 2 for odd rows, and 1 for odd columns.  Springs lead to
+ * earlier colours along the row from odd columns, and across rows from odd
+ * ones. */
+INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
                       float *xb, float *xw)
 {
     const Level level = *of;
     const int plane = level.rows.plane;
     const bool from_0 = visit == FIRST || visit == LEFT;
+    const bool along = !from_0 || (colour % 2 != 0) == (visit == FIRST);
+    const bool across = !from_0 || (colour / 2 != 0) == (visit == FIRST);
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
-    for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
-         at.first += WIDE_LANES)
+    for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
+         at.first < at.end; at.first += WIDE_LANES)
         EACH_OF (WIDE_LANES) {
             const int q = at.first + e;
             const float hx = from_0 ? 0 : x[q], hy = from_0 ? 0 : y[q];
@@ -317,10 +316,10 @@ INLINE void visit_row(const Level *of, int i, int odd, Visit visit, Pulls pulls,
         ax += level.K[kind][0][q + (numbers)] * dx + xy * dy;                  \
         ay += xy * dx + level.K[kind][2][q + (numbers)] * dy;                  \
     }
-            if (pulls.row) {
+            if (along) {
                 ROW_SPRINGS(ADD, at)
             }
-            if (pulls.cross) {
+            if (across) {
                 CROSS_SPRINGS(ADD, at)
             }
 #undef ADD
@@ -343,16 +342,16 @@ INLINE void visit_row(const Level *of, int i, int odd, Visit visit, Pulls pulls,
 
 INLINE void smooth_row(const Level *level, int i, bool back)
 {
-    visit_row(level, i, back, SMOOTH, ALL, NULL, NULL);
-    visit_row(level, i, !back, SMOOTH, ALL, NULL, NULL);
+    visit_row(level, i, back, SMOOTH, NULL, NULL);
+    visit_row(level, i, !back, SMOOTH, NULL, NULL);
 }
 
 /* sums  [2] out, x.b and x.w of the row */
 INLINE void product_row(const Level *level, int i, double *sums)
 {
     float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
-    visit_row(level, i, 0, PRODUCT, ALL, xb, xw);
-    visit_row(level, i, 1, PRODUCT, ALL, xb, xw);
+    visit_row(level, i, 0, PRODUCT, xb, xw);
+    visit_row(level, i, 1, PRODUCT, xb, xw);
     sums[0] = sums[1] = 0;
     for (int e = 0; e < WIDE_LANES; e++) {
         sums[0] += (double)xb[e];
@@ -394,20 +393,20 @@ FAST static void descend(const void *job, int first, int end)
         EACH_ROW_OF (s, part, 4) {
             int i = row;
             if (i % 2 == 0 && i < nodes && has_row(s, part, 0, i)) {
-                visit_row(l, i, 0, FIRST, (Pulls){false, false}, NULL, NULL);
-                visit_row(l, i, 1, FIRST, (Pulls){true, false}, NULL, NULL);
+                visit_row(l, i, 0, FIRST, NULL, NULL);
+                visit_row(l, i, 1, FIRST, NULL, NULL);
             }
             i = row - 1;
             if (i % 2 != 0 && i < nodes && has_row(s, part, 1, i)) {
-                visit_row(l, i, 0, FIRST, (Pulls){false, true}, NULL, NULL);
-                visit_row(l, i, 1, FIRST, (Pulls){true, true}, NULL, NULL);
-                visit_row(l, i, 0, LEFT, (Pulls){true, false}, NULL, NULL);
-                visit_row(l, i, 1, LEFT, (Pulls){false, false}, NULL, NULL);
+                visit_row(l, i, 2, FIRST, NULL, NULL);
+                visit_row(l, i, 3, FIRST, NULL, NULL);
+                visit_row(l, i, 2, LEFT, NULL, NULL);
+                visit_row(l, i, 3, LEFT, NULL, NULL);
             }
             i = row - 2;
             if (i % 2 == 0 && i < nodes && has_row(s, part, 2, i)) {
-                visit_row(l, i, 0, LEFT, (Pulls){true, true}, NULL, NULL);
-                visit_row(l, i, 1, LEFT, (Pulls){false, true}, NULL, NULL);
+                visit_row(l, i, 0, LEFT, NULL, NULL);
+                visit_row(l, i, 1, LEFT, NULL, NULL);
             }
             i = row - 3;
             if (s->coarse && i % 2 == 0 && has_row(s, part, 3, i))
