@@ -121,9 +121,12 @@ extern const Lens LENS_FITS;
  *   stretched  x and y have scales of their own, and fill the box */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens);
-void camera_pixels(const Camera *camera, int count, const double *world,
-                   double *pixels);
-void camera_pixel(const Camera *camera, const double world[2], double pixel[2]);
+static inline void camera_pixel(const Camera *camera, const double world[2],
+                                double pixel[2])
+{
+    pixel[0] = camera->origin[0] + camera->scale[0] * world[0];
+    pixel[1] = camera->origin[1] - camera->scale[1] * world[1];
+}
 void camera_world(const Camera *camera, double x, double y, double world[2]);
 
 /* Zooms by a factor so that the point under pixel (x, y) stays there; moves by

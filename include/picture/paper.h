@@ -25,8 +25,6 @@ typedef struct Paper {
     double unit; /* pixels */
     Canvas kept[KEEP_COUNT];
     uint64_t key[KEEP_COUNT]; /* of what is kept; 0: nothing */
-    double *places;           /* [room] pixels of nodes, while one is drawn */
-    size_t room;
 } Paper;
 
 /* White paper of this size in pixels, ready for the em that its layout has;
@@ -62,9 +60,6 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
  * false.  NULL: not enough memory. */
 Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
                    bool *drawn);
-
-/* Room for so many numbers, until the next call; NULL: not enough memory. */
-double *paper_places(Paper *paper, size_t count);
 
 /* A key out of count bytes, never 0 (FNV-1a). */
 uint64_t paper_key(uint64_t key, const void *bytes, size_t count);

@@ -358,21 +358,6 @@ Camera camera_create(Box box, const double bounds[4], bool stretched,
     return camera;
 }
 
-void camera_pixels(const Camera *camera, int count, const double *world,
-                   double *pixels)
-{
-    const Camera c = *camera;
-    for (size_t i = 0; i < 2 * (size_t)count; i += 2) {
-        pixels[i] = c.origin[0] + c.scale[0] * world[i];
-        pixels[i + 1] = c.origin[1] - c.scale[1] * world[i + 1];
-    }
-}
-
-void camera_pixel(const Camera *camera, const double world[2], double pixel[2])
-{
-    camera_pixels(camera, 1, world, pixel);
-}
-
 void camera_world(const Camera *camera, double x, double y, double world[2])
 {
     world[0] = (x - camera->origin[0]) / camera->scale[0];

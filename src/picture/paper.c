@@ -23,7 +23,6 @@ void paper_free(Paper *paper)
     text_free(paper->text);
     for (int k = 0; k < KEEP_COUNT; k++)
         canvas_free(&paper->kept[k]);
-    free(paper->places);
     *paper = (Paper){0};
 }
 
@@ -127,16 +126,6 @@ Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,
     canvas_clear(kept, 0xffffffffu);
     paper->key[keep] = key;
     return kept;
-}
-
-double *paper_places(Paper *paper, size_t count)
-{
-    if (count <= paper->room)
-        return paper->places;
-    free(paper->places);
-    paper->places = malloc(count * sizeof *paper->places);
-    paper->room = paper->places ? count : 0;
-    return paper->places;
 }
 
 uint64_t paper_key(uint64_t key, const void *bytes, size_t count)

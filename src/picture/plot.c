@@ -253,6 +253,16 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     canvas_clip(canvas, before);
 }
 
+void plot_face(const Plot *plot, const double *const corner[4], Colour colour)
+{
+    double p[8];
+    for (int k = 0; k < 4; k++)
+        plot_place(plot, corner[k], p + 2 * k);
+    const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
+    canvas_triangle(&plot->paper->canvas, p, false, colour);
+    canvas_triangle(&plot->paper->canvas, half, false, colour);
+}
+
 /* Moves the end of a line from p to q to the middle between two pixels of the
  * direction in which it is longer, so that the next line begins where no pixel
  * is covered by parts of both: their joint would be paler. */

@@ -73,6 +73,9 @@ void plot_line(const Plot *plot, const double *a, const double *b, double width,
 void plot_dashes(const Plot *plot, const double *a, const double *b,
                  double width, double *phase, Colour colour);
 
+/* Four corners, with no seam to its neighbours. */
+void plot_face(const Plot *plot, const double *const corner[4], Colour colour);
+
 /* Joins points x, y [count] as one curve whose joints are no paler than the
  * rest. */
 void plot_curve(const Plot *plot, int count, const double *x, const double *y,

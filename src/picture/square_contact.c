@@ -11,46 +11,40 @@ static const double SLAB = 1;           /* ems, depth of a thin wall */
 static const double FORCE_ROOM = 4;     /* ems, the arrow of the key */
 static const double FORCE_LEAST = 0.02; /* of the largest; less is not drawn */
 
-/* What its pair's obstacle does to its node; false: nothing. */
-static bool find_touch(const SpringPen *pen, Touch *touch)
+bool square_next_touch(const SpringPen *pen, Touch *touch)
 {
-    const System *system = pen->system;
     const Contact *contact = pen->contact;
-    int number = touch->pair / system->nodes, node = touch->node;
-    const Obstacle *obstacle = &contact->obstacle[number];
-    if (!contact_has_pair(contact, system, node, number))
-        return false;
-    Gap gap = contact_pair_gap(contact, pen->x, node, number);
-    double push = contact_force(&contact->barrier, gap.d), rub = 0;
-    if (!(push > 0) || !isfinite(push))
-        return false;
-    const Term *term = system_find_term(system, &friction_energy);
+    const Obstacle *obstacle = NULL;
     const double *v = pen->simulation->run[pen->run].v;
+    const Term *term = system_find_term(pen->system, &friction_energy);
+    double h = pen->simulation->options.timestep, push = 0, rub = 0;
+    int nodes = pen->system->nodes, pairs = nodes;
+    Gap gap;
+    for (pairs *= contact ? contact->obstacles : 0; !(push > 0);) {
+        if (++touch->pair >= pairs)
+            return false;
+        int number = touch->pair / nodes;
+        touch->node = touch->pair % nodes;
+        obstacle = &contact->obstacle[number];
+        if (!contact_has_pair(contact, pen->system, touch->node, number))
+            continue;
+        gap = contact_pair_gap(contact, pen->x, touch->node, number);
+        push = contact_force(&contact->barrier, gap.d);
+        push = isfinite(push) ? push : 0;
+    }
     const double *u = obstacle->node < 0 ? obstacle->v : v + 2 * obstacle->node;
-    double h = pen->simulation->options.timestep, t[2] = {-gap.n[1], gap.n[0]};
-    double slip = t[0] * (v[2 * node] - u[0]) + t[1] * (v[2 * node + 1] - u[1]);
+    const double *w = v + 2 * touch->node, t[2] = {-gap.n[1], gap.n[0]};
+    double slip = t[0] * (w[0] - u[0]) + t[1] * (w[1] - u[1]);
     touch->rough = term && obstacle->friction > 0;
     touch->slides = false;
     if (touch->rough) {
-        const Friction *friction = term->data;
-        rub = -obstacle->friction * push *
-              friction_slope(slip * h, friction->slip_speed * h);
-        touch->slides = fabs(slip) >= friction->slip_speed;
+        double speed = ((const Friction *)term->data)->slip_speed;
+        rub = -obstacle->friction * push * friction_slope(slip * h, speed * h);
+        touch->slides = fabs(slip) >= speed;
     }
     for (int c = 0; c < 2; c++)
         touch->force[c] = push * gap.n[c] + rub * t[c];
     return true;
-}
-
-bool square_next_touch(const SpringPen *pen, Touch *touch)
-{
-    int pairs = pen->contact ? pen->contact->obstacles * pen->system->nodes : 0;
-    while (++touch->pair < pairs) {
-        touch->node = touch->pair % pen->system->nodes;
-        if (find_touch(pen, touch))
-            return true;
-    }
-    return false;
 }
 
 /* Whether friction holds no node of a run that touches something. */
@@ -75,9 +69,9 @@ double square_contact_most(const SpringPen *pen)
 
 void square_contact_forces(const SpringPen *pen, double most)
 {
-    double scale = pen->stage->camera.scale[0], em = pen->paper->em;
+    double scale = pen->stage->camera.scale[0], em = pen->stage->em;
     double factor = FORCE_ROOM * em / (plot_round_up(most) * scale);
-    double radius = fmax(pen->radius / pen->paper->unit, 2);
+    double radius = fmax(pen->radius, 2);
     if (!(most > 0))
         return;
     for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
@@ -128,7 +122,7 @@ bool square_contact_words(const SpringPen *pen, char *text, size_t size)
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
-    double em = pen->paper->em, left[2], at[2];
+    double em = pen->stage->em, left[2], at[2];
     char words[64];
     if (!square_contact_words(pen, words, sizeof words))
         return;
@@ -143,44 +137,35 @@ static void draw_words(const SpringPen *pen)
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
-    paper_write(pen->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
+    paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
                 at[1] + 1.5 * em, ALIGN_LEFT, "%s", words);
 }
 
-/* The half plane as two triangles that reach beyond the stage, or a slab. */
+/* The half plane as far as the stage goes, or a slab, and how far it reaches.
+ */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool thin)
 {
-    Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    const double *n = wall->n;
-    double middle[2], p[4][2];
+    const double *n = wall->n, t[2] = {n[1], -n[0]};
+    double scale = stage->camera.scale[0], middle[2], p[4][2], near[2][2];
+    double far = 2 * (box->width + box->height) / scale;
+    double deep = thin ? SLAB * stage->em / scale : far;
     camera_world(&stage->camera, box->x + 0.5 * box->width,
                  box->y + 0.5 * box->height, middle);
-    double far = 2 * (box->width + box->height) / stage->camera.scale[0];
-    double t[2] = {n[1], -n[0]};
     double along =
         (middle[0] - wall->o[0]) * t[0] + (middle[1] - wall->o[1]) * t[1];
-    double foot[2] = {wall->o[0] + along * t[0], wall->o[1] + along * t[1]};
-    const double a[2] = {foot[0] - far * t[0], foot[1] - far * t[1]};
-    const double b[2] = {foot[0] + far * t[0], foot[1] + far * t[1]};
-    double deep = thin ? SLAB * paper->em / stage->camera.scale[0] : far;
-    const double c[2] = {b[0] - deep * n[0], b[1] - deep * n[1]};
-    const double d[2] = {a[0] - deep * n[0], a[1] - deep * n[1]};
-    plot_place(stage, a, p[0]);
-    plot_place(stage, b, p[1]);
-    plot_place(stage, c, p[2]);
-    plot_place(stage, d, p[3]);
-    for (int k = 0; k < 2; k++) {
-        const double corners[6] = {p[0][0],     p[0][1],     p[1 + k][0],
-                                   p[1 + k][1], p[2 + k][0], p[2 + k][1]};
-        canvas_triangle(&paper->canvas, corners, false, COLOUR_SOLID);
-    }
-    plot_line(stage, a, b, 1.5, COLOUR_EDGE);
-    const double a2[2] = {a[0] + reach * n[0], a[1] + reach * n[1]};
-    const double b2[2] = {b[0] + reach * n[0], b[1] + reach * n[1]};
-    if (reach * stage->camera.scale[0] > 2)
-        plot_dashes(stage, a2, b2, 1, NULL, COLOUR_GREY);
+    for (int k = 0; k < 4; k++) /* a b on the surface, c d below it */
+        for (int c = 0; c < 2; c++) {
+            double side = k == 0 || k == 3 ? along - far : along + far;
+            p[k][c] = wall->o[c] + side * t[c] - (k < 2 ? 0 : deep) * n[c];
+            if (k < 2)
+                near[k][c] = p[k][c] + reach * n[c];
+        }
+    plot_face(stage, (const double *[]){p[0], p[1], p[2], p[3]}, COLOUR_SOLID);
+    plot_line(stage, p[0], p[1], 1.5, COLOUR_EDGE);
+    if (reach * scale > 2)
+        plot_dashes(stage, near[0], near[1], 1, NULL, COLOUR_GREY);
 }
 
 void square_contact_obstacles(const SpringPen *pen)
@@ -188,7 +173,7 @@ void square_contact_obstacles(const SpringPen *pen)
     const Plot *stage = pen->stage;
     const Contact *contact = pen->contact;
     bool apart = pen->simulation->runs > 1;
-    double scale = stage->camera.scale[0] / pen->paper->unit;
+    double scale = stage->camera.scale[0] / stage->paper->unit;
     double reach = contact ? contact->barrier.d_hat : 0;
     for (int i = 0; contact && i < contact->obstacles; i++) {
         const Obstacle *obstacle = &contact->obstacle[i];

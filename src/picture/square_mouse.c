@@ -1,7 +1,6 @@
 /* square_mouse.c - what of the square is under the mouse, and the small card
  * beside it. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/mathematics.h"
@@ -9,17 +8,13 @@
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
-#include "picture/colour_map.h"
+#include "picture/facts.h"
 #include "picture/square_pen.h"
 #include "scenes/scene.h"
 
-enum { NOTE_LINES = 6, NOTE_TEXT = 128 };
-
-static const double LINE = 1.35; /* ems, of a line */
-static const double SMALL = 0.9; /* ems, size of the letters */
-static const double WIDTH = 17;  /* ems */
-static const double CELL = 4.7;  /* ems, a number of the block */
-static const double BARS = 3.6;  /* ems, the bars of the eigenvalues */
+static const double LINE = 1.35; /* ems, of a line of the note */
+static const double SMALL = 0.9; /* ems, size of its letters */
+static const double WIDTH = 17;  /* ems, of it at least */
 
 /* Squared distance of a pixel to a line between two pixels. */
 static double distance2(const double p[2], const double q[2], double x,
@@ -123,161 +118,102 @@ static void spring_law(const System *system, int s, double strain, double *tau,
 static Box body_box(const Plot *stage, const Pane *pane)
 {
     const Box *box = &stage->box;
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int i = 0; i < pane->simulation->system.nodes; i++) {
-        double at[2];
-        plot_place(stage, pane_x(pane) + 2 * (size_t)i, at);
-        for (int k = 0; k < 2 && isfinite(at[0]) && isfinite(at[1]); k++) {
-            low[k] = fmin(low[k], at[k]);
-            high[k] = fmax(high[k], at[k]);
-        }
-    }
+    double low[2], high[2];
+    square_fills(stage, pane->simulation->system.nodes, pane_x(pane), low,
+                 high);
     int left = (int)fmax(low[0], box->x), top = (int)fmax(low[1], box->y);
     int right = (int)fmin(high[0], box->x + box->width);
     int bottom = (int)fmin(high[1], box->y + box->height);
     return (Box){left, top, right - left, bottom - top};
 }
 
-/* Lines of a note, the first one bold; box in/out: what is left below. */
-static void draw_lines(Paper *paper, Box *box, int count,
-                       char line[][NOTE_TEXT])
+/* A text beside a point of the world. */
+static void draw_note(Plot *stage, const Pane *pane, const double *at,
+                      Facts *facts, const char *text)
 {
-    for (int i = 0; i < count; i++) {
-        paper_write(paper, i == 0 ? FACE_BOLD : FACE_REGULAR, SMALL,
-                    COLOUR_TEXT, box->x, box->y, ALIGN_LEFT, "%s", line[i]);
-        box->y += paper_pixels(paper, LINE);
+    Paper *paper = stage->paper;
+    int wide = paper_pixels(paper, WIDTH), lines = 0;
+    double p[2];
+    TextLine line;
+    for (const char *next = text; (next = text_line_of(facts, next, &line));) {
+        int width = paper_width(paper, line.face, SMALL, line.words);
+        wide = width > wide ? width : wide;
+        lines++;
+    }
+    plot_place(stage, at, p);
+    Box box =
+        plot_note(stage, p[0], p[1], wide, paper_pixels(paper, LINE * lines),
+                  body_box(stage, pane));
+    while ((text = text_line_of(facts, text, &line))) {
+        paper_write(paper, line.face, SMALL, line.colour, box.x, box.y,
+                    ALIGN_LEFT, "%s", line.words);
+        box.y += paper_pixels(paper, LINE);
     }
 }
 
-/* m, x, v, f, x_tilde. */
 static void note_node(Plot *stage, const Pane *pane, int node)
 {
-    Paper *paper = stage->paper;
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
     const double *x = pane_x(pane) + 2 * (size_t)node;
     const double *v = simulation->run[0].v + 2 * (size_t)node;
-    const Trace *trace = pane->trace;
-    double h = simulation->options.timestep, force[2], tilde[2], at[2];
-    char line[NOTE_LINES][NOTE_TEXT];
+    const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
+    double h = simulation->options.timestep, force[2], tilde[2];
+    Facts facts = {0};
     node_force(system, pane_x(pane), node, force);
     for (int k = 0; k < 2; k++)
-        tilde[k] = trace && trace->x_tilde ? trace->x_tilde[2 * node + k]
-                                           : x[k] + h * v[k];
-    const struct {
-        const char *name;
-        const double *a;
-        const char *unit;
-    } rows[4] = {{"{x}", x, "m"},
-                 {"v", v, "m/s"},
-                 {"f", force, "N"},
-                 {"{xt}", tilde, "m"}};
-    snprintf(line[0], NOTE_TEXT, "node %d%s", node,
-             system->pinned && system->pinned[node] ? ", pinned" : "");
-    snprintf(line[1], NOTE_TEXT, "m = %s kg", number_of(system->m[node]).text);
-    for (int i = 0; i < 4; i++)
-        snprintf(line[2 + i], NOTE_TEXT, "%s = (%s, %s) %s", rows[i].name,
-                 number_of(rows[i].a[0]).text, number_of(rows[i].a[1]).text,
-                 rows[i].unit);
-    plot_place(stage, x, at);
-    Box box = plot_note(stage, at[0], at[1], paper_pixels(paper, WIDTH),
-                        paper_pixels(paper, LINE * NOTE_LINES),
-                        body_box(stage, pane));
-    draw_lines(paper, &box, NOTE_LINES, line);
+        tilde[k] = ghost ? ghost[2 * node + k] : x[k] + h * v[k];
+    fact(&facts, "node", node);
+    fact_words(&facts, "pinned",
+               system->pinned && system->pinned[node] ? ", pinned" : "");
+    fact(&facts, "mass", system->m[node]);
+    fact_point(&facts, "place", x);
+    fact_point(&facts, "velocity", v);
+    fact_point(&facts, "force", force);
+    fact_point(&facts, "inertia", tilde);
+    draw_note(stage, pane, x, &facts,
+              "#text* node {node:9}{pinned}\n"
+              "m = {mass} kg\n"
+              "{x} = {place} m\n"
+              "v = {velocity} m/s\n"
+              "f = {force} N\n"
+              "{xt} = {inertia} m");
 }
 
-/* The block [[H, -H], [-H, H]], number by number. */
-static void draw_block(Paper *paper, Box *box, const double H[3])
-{
-    double most = fmax(fabs(H[0]), fmax(fabs(H[1]), fabs(H[2])));
-    for (int i = 0; i < 4; i++) {
-        for (int j = 0; j < 4; j++) {
-            double value = H[i % 2 + j % 2] * (i / 2 == j / 2 ? 1 : -1);
-            if (fabs(value) < 1e-9 * most)
-                value = 0;
-            paper_write(paper, FACE_REGULAR, 0.78,
-                        value == 0 ? COLOUR_GREY : COLOUR_TEXT,
-                        box->x + (j + 1) * CELL * paper->em, box->y,
-                        ALIGN_RIGHT, "%s", number_of(value).text);
-        }
-        box->y += paper_pixels(paper, 1.15);
-    }
-    box->y += paper_pixels(paper, 0.3);
-}
-
-/* Four pairs of bars: before projection in its colour, and after it. */
-static void draw_eigenvalues(Paper *paper, const Box *box,
-                             const double before[4], const double after[4])
-{
-    double most = 1e-300, low = 0;
-    int width = paper_pixels(paper, 1.1), room = paper_pixels(paper, BARS);
-    for (int k = 0; k < 4; k++) {
-        if (!isfinite(before[k]))
-            return; /* nothing that a bar could show */
-        most = fmax(most, fmax(fabs(before[k]), fabs(after[k])));
-        low = fmin(low, before[k]);
-    }
-    double scale = 0.6 * room / (fmax(most, -low) - low);
-    int base = box->y + (int)(0.62 * room + low * scale);
-    for (int k = 0; k < 4; k++) {
-        int x = box->x + (int)((k + 0.25) * CELL * paper->em);
-        int tall[2] = {(int)(before[k] * scale), (int)(after[k] * scale)};
-        bool below = before[k] < 0;
-        Colour colour[2] = {below ? COLOUR_PROJECT : COLOUR_GREY, COLOUR_X};
-        for (int b = 0; b < 2; b++) {
-            int top = base - (tall[b] > 0 ? tall[b] : 0);
-            int size = abs(tall[b]) < 2 ? 2 : abs(tall[b]);
-            canvas_rectangle(&paper->canvas, x + b * (width + 2), top, width,
-                             size, colour[b]);
-        }
-        paper_write(paper, FACE_REGULAR, 0.78,
-                    below ? COLOUR_PROJECT : COLOUR_FAINT, x + width,
-                    box->y + 0.64 * room, ALIGN_CENTRE, "%s",
-                    number_of(before[k]).text);
-    }
-}
-
-/* e, l2, strain, block, eigenvalues. */
+/* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice
+ * those of H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
 static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
 {
-    Paper *paper = stage->paper;
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
-    double k = system->k[s], l2 = system->l2[s], tau, bend, at[2], d[2];
+    Filter filter = pane->simulation->options.filter;
+    double k = system->k[s], l2 = system->l2[s], tau, bend, d[2];
     spring_strain(e, l2, pane_x(pane), d);
     double d2 = d[0] * d[0] + d[1] * d[1];
     spring_law(system, s, (d2 - l2) / l2, &tau, &bend);
-    /* Eigenvalues of the 4x4 block are 0, 0 and twice those of
-     * H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
-    const double H[3] = {2 * k / l2 * (l2 * tau + 2 * bend * d[0] * d[0]),
-                         2 * k / l2 * 2 * bend * d[0] * d[1],
-                         2 * k / l2 * (l2 * tau + 2 * bend * d[1] * d[1])};
-    const double before[4] = {0, 0, 4 * k * tau,
-                              4 * k / l2 * (2 * bend * d2 + l2 * tau)};
-    double after[4] = {0};
-    Filter filter = pane->simulation->options.filter;
-    for (int m = 2; m < 4; m++)
-        after[m] = filter_projects(filter)
-                       ? projected_eigenvalue(filter, before[m])
-                       : before[m];
-    char line[3][NOTE_TEXT];
-    snprintf(line[0], NOTE_TEXT, "spring %d\u2013%d", e[0], e[1]);
-    snprintf(line[1], NOTE_TEXT, "l\u00b2 = %s m\u00b2,  strain %s %%",
-             number_of(l2).text,
-             number_of(100 * (math_hypot(d[0], d[1]) / sqrt(l2) - 1)).text);
-    snprintf(line[2], NOTE_TEXT, "its block of \u2207\u00b2P, J/m\u00b2");
-    int height = paper_pixels(paper, LINE * 4) +
-                 paper_pixels(paper, 4 * 1.15 + 0.3 + BARS);
-    plot_place(stage, show->hover.point, at);
-    Box box =
-        plot_note(stage, at[0], at[1], paper_pixels(paper, 4 * CELL + 0.3),
-                  height, body_box(stage, pane));
-    draw_lines(paper, &box, 3, line);
-    draw_block(paper, &box, H);
-    paper_write(paper, FACE_REGULAR, SMALL, COLOUR_TEXT, box.x, box.y,
-                ALIGN_LEFT, "eigenvalues, and after projection");
-    box.y += paper_pixels(paper, LINE);
-    draw_eigenvalues(paper, &box, before, after);
+    const double across = 4 * k * tau;
+    const double along = 4 * k / l2 * (2 * bend * d2 + l2 * tau);
+    Facts facts = {0};
+    fact(&facts, "a", e[0]);
+    fact(&facts, "b", e[1]);
+    fact(&facts, "l2", l2);
+    fact(&facts, "strain", 100 * (math_hypot(d[0], d[1]) / sqrt(l2) - 1));
+    fact(&facts, "xx", 2 * k / l2 * (l2 * tau + 2 * bend * d[0] * d[0]));
+    fact(&facts, "xy", 2 * k / l2 * 2 * bend * d[0] * d[1]);
+    fact(&facts, "yy", 2 * k / l2 * (l2 * tau + 2 * bend * d[1] * d[1]));
+    fact(&facts, "across", across);
+    fact(&facts, "along", along);
+    if (filter_projects(filter) && fmin(along, across) < 0) {
+        fact(&facts, "across after", projected_eigenvalue(filter, across));
+        fact(&facts, "along after", projected_eigenvalue(filter, along));
+    }
+    draw_note(stage, pane, show->hover.point, &facts,
+              "#text* spring {a:9}\u2013{b:9}\n"
+              "l\u00b2 = {l2} m\u00b2,  strain {strain} %\n"
+              "H = ({xx}, {xy}; {xy}, {yy}) J/m\u00b2\n"
+              "its block of \u2207\u00b2P: (H, \u2212H; \u2212H, H)\n"
+              "eigenvalues 0, 0, {across}, {along}\n"
+              "#project after projection 0, 0, {across after}, {along after}");
 }
 
 /* Whether a node has a place. */

@@ -1,18 +1,45 @@
 #include "picture/square_pen.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "model/fracture.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 #include "scenes/scene.h"
 
 enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 
 static const double FLOWN = 10; /* times its side, what explodes fills */
 static const double NODE = 0.1; /* of the distance of two nodes */
+
+/* ---- sizes and colours -------------------------------------------------- */
+
+void square_fills(const Plot *stage, int n, const double *x, double low[2],
+                  double high[2])
+{
+    low[0] = low[1] = INFINITY;
+    high[0] = high[1] = -INFINITY;
+    for (int i = 0; i < n; i++) {
+        double at[2];
+        camera_pixel(&stage->camera, x + 2 * (size_t)i, at);
+        for (int k = 0; k < 2 && isfinite(at[0]) && isfinite(at[1]); k++) {
+            low[k] = at[k] < low[k] ? at[k] : low[k];
+            high[k] = at[k] > high[k] ? at[k] : high[k];
+        }
+    }
+}
+
+/* Pixels between two nodes: at rest, or where nodes have flown so far that the
+ * rest shape is nothing beside it, of as many over what they fill. */
+static double seen_spacing(const SpringPen *pen)
+{
+    const SquareMesh *mesh = &pen->simulation->mesh;
+    double spacing = pen->stage->camera.scale[0] * mesh->spacing;
+    double cells = mesh->side / mesh->spacing, low[2], high[2];
+    square_fills(pen->stage, pen->system->nodes, pen->x, low, high);
+    double reach = fmax(high[0] - low[0], high[1] - low[1]);
+    return reach > FLOWN * spacing * cells ? reach / cells : spacing;
+}
 
 /* Half of the largest plastic strain, or 5 %. */
 static double plastic_range(const System *system, const double *ep)
@@ -23,76 +50,42 @@ static double plastic_range(const System *system, const double *ep)
     return plot_round_up(0.5 * largest);
 }
 
-/* Pixels between two nodes: at rest, or where nodes have flown so far that the
- * rest shape is nothing beside it, of as many over what they fill. */
-static double seen_spacing(const SpringPen *pen)
+SpringPen square_pen(Plot *stage, const Show *show, int run)
 {
-    const SquareMesh *mesh = &pen->simulation->mesh;
-    double spacing = pen->stage->camera.scale[0] * mesh->spacing;
-    double cells = mesh->side / mesh->spacing, reach = 0;
-    for (int k = 0; k < 2; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (int i = 0; i < pen->system->nodes; i++) {
-            double at = pen->at[2 * (size_t)i + k];
-            low = isfinite(at) && at < low ? at : low;
-            high = isfinite(at) && at > high ? at : high;
-        }
-        reach = fmax(reach, high - low);
-    }
-    return reach > FLOWN * spacing * cells ? reach / cells : spacing;
-}
-
-/* Sizes and colours, where simulation, run and places are known. */
-static void set_looks(SpringPen *pen)
-{
-    const Show *show = pen->show;
-    const Trace *trace = pen->pane->trace;
-    double unit = pen->paper->unit;
-    pen->spacing = seen_spacing(pen);
-    pen->width = fmin(fmax(0.06 * pen->spacing / unit, 1.1), 1.9);
-    pen->width = fmax(1, pen->width * unit);
-    pen->radius = NODE * pen->spacing;
-    if (!show->bare)
-        pen->radius = fmin(pen->radius, 6.5 * unit);
-    const Plasticity *plasticity = plasticity_of(pen->system);
-    pen->contact = contact_of(pen->system);
-    pen->ep = plasticity ? plasticity->ep : NULL;
-    pen->plastic = !show->strain && !show->bare && pen->ep;
-    pen->strain = square_strain_range(pen->simulation);
-    pen->range = show->strain   ? pen->strain
-                 : pen->plastic ? plastic_range(pen->system, pen->ep)
-                                : 0;
-    if (pen->range > 0)
-        pen->width *= 1.4;
-    pen->projected = trace && trace->line >= LINE_PROJECT &&
-                     trace->line <= LINE_SEARCH && !show->strain &&
-                     pen->simulation->options.filter != FILTER_NONE &&
-                     trace->projected != 0;
-}
-
-bool square_pens(Plot *stage, const Show *show, SpringPen *pen)
-{
-    Paper *paper = stage->paper;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
-    int nodes = simulation->system.nodes;
-    double *places =
-        paper_places(paper, 2 * (size_t)nodes * (size_t)simulation->runs);
-    for (int r = 0; r < simulation->runs && places; r++) {
-        double *at = places + 2 * (size_t)nodes * (size_t)r;
-        pen[r] = (SpringPen){.paper = paper,
-                             .stage = stage,
-                             .show = show,
-                             .pane = pane,
-                             .simulation = simulation,
-                             .run = r,
-                             .system = simulation->run[r].system,
-                             .x = r ? simulation->run[r].x : pane_x(pane),
-                             .at = at};
-        camera_pixels(&stage->camera, nodes, pen[r].x, at);
-        set_looks(&pen[r]);
-    }
-    return places != NULL;
+    const Trace *trace = pane->trace;
+    const System *system = simulation->run[run].system;
+    const Plasticity *plasticity = plasticity_of(system);
+    SpringPen pen = {.stage = stage,
+                     .show = show,
+                     .pane = pane,
+                     .simulation = simulation,
+                     .run = run,
+                     .system = system,
+                     .x = run ? simulation->run[run].x : pane_x(pane),
+                     .strain = square_strain_range(simulation),
+                     .ep = plasticity ? plasticity->ep : NULL,
+                     .contact = contact_of(system)};
+    double unit = stage->paper->unit;
+    pen.spacing = seen_spacing(&pen);
+    pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
+    pen.width = fmax(1 / unit, pen.width);
+    pen.radius = NODE * pen.spacing / unit;
+    if (!show->bare)
+        pen.radius = fmin(pen.radius, 6.5);
+    pen.plastic = !show->strain && !show->bare && pen.ep;
+    if (pen.plastic)
+        pen.range = plastic_range(system, pen.ep);
+    if (show->strain)
+        pen.range = pen.strain;
+    if (pen.range > 0)
+        pen.width *= 1.4;
+    pen.projected = trace && trace->line >= LINE_PROJECT &&
+                    trace->line <= LINE_SEARCH && !show->strain &&
+                    simulation->options.filter != FILTER_NONE &&
+                    trace->projected != 0;
+    return pen;
 }
 
 /* What springs and faces tell alike: plastic flow, strain, or whether their
@@ -111,17 +104,29 @@ static bool told_colour(const SpringPen *pen, double plastic, double strain,
     return true;
 }
 
-void square_pen_springs(const SpringPen *pen)
+static const double *node_at(const SpringPen *pen, int node)
+{
+    return pen->x + 2 * (size_t)node;
+}
+
+/* Squared distance of two nodes; d [2] out, from a to b. */
+static double distance2(const SpringPen *pen, int a, int b, double d[2])
+{
+    d[0] = node_at(pen, b)[0] - node_at(pen, a)[0];
+    d[1] = node_at(pen, b)[1] - node_at(pen, a)[1];
+    return d[0] * d[0] + d[1] * d[1];
+}
+
+/* They are most of a frame's time. */
+void square_springs(const SpringPen *pen)
 {
     const System *system = pen->system;
+    const Camera *camera = &pen->stage->camera;
+    Paper *paper = pen->stage->paper;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * (size_t)s;
-        const double *p = pen->at + 2 * (size_t)e[0];
-        const double *q = pen->at + 2 * (size_t)e[1];
-        double l2 = system->l2[s], width = pen->width;
-        double dx = pen->x[2 * e[0]] - pen->x[2 * e[1]];
-        double dy = pen->x[2 * e[0] + 1] - pen->x[2 * e[1] + 1];
-        double d2 = dx * dx + dy * dy;
+        double l2 = system->l2[s], width = pen->width, d[2], p[2], q[2];
+        double d2 = distance2(pen, e[0], e[1], d);
         double strain = pen->range > 0 ? sqrt(d2 / l2) - 1 : 0;
         Colour colour = COLOUR_X;
         if (spring_is_broken(system, s))
@@ -130,23 +135,25 @@ void square_pen_springs(const SpringPen *pen)
                         &colour) &&
             pen->range == 0)
             width *= 1.15;
-        canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width, colour);
+        camera_pixel(camera, node_at(pen, e[0]), p);
+        camera_pixel(camera, node_at(pen, e[1]), q);
+        canvas_line(&paper->canvas, p[0], p[1], q[0], q[1], width * paper->unit,
+                    colour);
     }
 }
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* > 0 if the triangle a b c was not turned over: twice its area, in units in
- * which no product overflows. */
+/* > 0 if the triangle a b c was not turned over, in units in which no product
+ * overflows. */
 static double turn(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
                  *r = x + 2 * (size_t)c;
-    double one[2] = {q[0] - p[0], q[1] - p[1]};
-    double other[2] = {r[0] - p[0], r[1] - p[1]};
-    double unit = fmax(fabs(one[0]), fabs(one[1]));
+    double dx = q[0] - p[0], dy = q[1] - p[1];
+    double unit = fmax(fabs(dx), fabs(dy));
     unit = unit > 1e100 ? 1 / unit : 1;
-    return unit * one[0] * other[1] - unit * one[1] * other[0];
+    return unit * dx * (r[1] - p[1]) - unit * dy * (r[0] - p[0]);
 }
 
 /* A face of four nodes, anticlockwise at rest. */
@@ -156,54 +163,48 @@ static bool is_folded(const double *x, const int node[4])
            turn(x, node[0], node[2], node[3]) < 0;
 }
 
-/* Whether one of a cell's triangles has turned over and all of its springs are
- * there; node [4] out. */
-static bool cell_folded(const Simulation *simulation, const double *x, int cell,
-                        int node[4])
+typedef enum CellLook { CELL_FLAT, CELL_FOLDED, CELL_TORN } CellLook;
+
+/* A cell has folded over if one of its triangles has turned over, and is torn
+ * if one of its springs is broken; node [4] out. */
+static CellLook cell_look(const Simulation *simulation, const double *x,
+                          int cell, int node[4])
 {
+    const System *system = &simulation->system;
     int spring[6];
     square_mesh_cell(&simulation->mesh, cell, node, spring);
-    return is_folded(x, node) &&
-           !square_torn(&simulation->system, &simulation->mesh, cell);
-}
-
-bool square_torn(const System *system, const SquareMesh *mesh, int cell)
-{
-    int node[4], spring[6];
-    square_mesh_cell(mesh, cell, node, spring);
     for (int k = 0; system->breaks && k < 6; k++)
         if (spring_is_broken(system, spring[k]))
-            return true;
-    return false;
+            return CELL_TORN;
+    return is_folded(x, node) ? CELL_FOLDED : CELL_FLAT;
 }
 
 int pane_folded(const Pane *pane)
 {
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
-        folded += cell_folded(pane->simulation, pane_x(pane), c, node);
+        folded +=
+            cell_look(pane->simulation, pane_x(pane), c, node) == CELL_FOLDED;
     return folded;
 }
 
 static void fill_face(const SpringPen *pen, const int node[4], Colour colour)
 {
-    double p[8];
-    for (int k = 0; k < 8; k++)
-        p[k] = pen->at[2 * (size_t)node[k / 2] + k % 2];
-    const double half[6] = {p[0], p[1], p[4], p[5], p[6], p[7]};
-    canvas_triangle(&pen->paper->canvas, p, false, colour);
-    canvas_triangle(&pen->paper->canvas, half, false, colour);
+    const double *corner[4];
+    for (int k = 0; k < 4; k++)
+        corner[k] = node_at(pen, node[k]);
+    plot_face(pen->stage, corner, colour);
 }
 
-int square_pen_cells(const SpringPen *pen, bool all)
+int square_cells(const SpringPen *pen, bool all)
 {
-    const SquareMesh *mesh = &pen->simulation->mesh;
     int count = 0, node[4];
-    for (int c = 0; c < mesh->cells; c++) {
-        bool folded = cell_folded(pen->simulation, pen->x, c, node);
-        count += folded;
-        if (folded || (all && !square_torn(pen->system, mesh, c)))
-            fill_face(pen, node, folded ? 0x38d00000u : 0x180000ffu);
+    for (int c = 0; c < pen->simulation->mesh.cells; c++) {
+        CellLook look = cell_look(pen->simulation, pen->x, c, node);
+        count += look == CELL_FOLDED;
+        if (look == CELL_FOLDED || (all && look == CELL_FLAT))
+            fill_face(pen, node,
+                      look == CELL_FOLDED ? 0x38d00000u : 0x180000ffu);
     }
     return count;
 }
@@ -224,103 +225,84 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
                           int cell)
 {
     int corner[4], spring[6];
-    const double *x = pen->x;
-    double l2 = 2 * side * side, plastic = 0, d2[2], turned = 0;
+    double l2 = 2 * side * side, plastic = 0, d[2]; /* d: of a diagonal */
+    double other2 = distance2(pen, node[1], node[3], d);
+    double d2 = distance2(pen, node[0], node[2], d);
+    double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
     Colour colour;
-    for (int k = 0; k < 2; k++) { /* both diagonals */
-        const double *a = x + 2 * (size_t)node[k];
-        const double *c = x + 2 * (size_t)node[k + 2];
-        double d[2] = {c[0] - a[0], c[1] - a[1]};
-        d2[k] = d[0] * d[0] + d[1] * d[1];
-        if (k == 0) /* 0 at rest */
-            turned = (d[1] - d[0]) / sqrt(d2[k]);
-    }
-    double strain = (sqrt(d2[0]) + sqrt(d2[1])) / (2 * sqrt(l2)) - 1;
     if (pen->ep)
         square_mesh_cell(&pen->simulation->mesh, cell, corner, spring);
     for (int k = 0; pen->ep && k < 6; k++)
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
-    if (told_colour(pen, plastic, strain, d2[0] < l2 || d2[1] < l2, &colour))
+    if (told_colour(pen, plastic, strain, d2 < l2 || other2 < l2, &colour))
         return colour;
     double seen = copysign(sqrt(fabs(strain) / pen->strain), strain);
+    double turned = (d[1] - d[0]) / sqrt(d2); /* 0 at rest */
     return shade(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
-/* The faces that have folded over, or the others; stride: cells in one.
- * Returns how many it has left out. */
-static int draw_faces(const SpringPen *pen, int stride, bool folded)
+/* Those that have folded over are drawn last. */
+void square_faces(const SpringPen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    int left_out = 0, node[4];
-    double side = stride * mesh->spacing;
-    for (int cell = 0; cell < mesh->cells; cell++) {
-        if (!square_mesh_patch(mesh, cell, stride, node))
-            continue;
-        if (is_folded(pen->x, node) != folded)
-            left_out++;
-        else
-            fill_face(pen, node,
-                      folded ? COLOUR_FOLDED
-                             : face_colour(pen, node, side, cell));
+    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->cells);
+    int left = 1, node[4];
+    for (int folded = 0; folded < 2 && left > 0; folded++) {
+        left = 0;
+        for (int cell = 0; cell < mesh->cells; cell++) {
+            if (!square_mesh_patch(mesh, cell, stride, node))
+                continue;
+            if (is_folded(pen->x, node) != folded)
+                left++;
+            else
+                fill_face(pen, node,
+                          folded ? COLOUR_FOLDED
+                                 : face_colour(pen, node,
+                                               stride * mesh->spacing, cell));
+        }
     }
-    return left_out;
-}
-
-void square_pen_faces(const SpringPen *pen)
-{
-    int cells = pen->simulation->mesh.cells;
-    int stride = (int)fmin(fmax(1 / pen->spacing, 1), cells);
-    if (draw_faces(pen, stride, false) > 0)
-        draw_faces(pen, stride, true);
     square_outline(pen, pen->x, false, COLOUR_X);
 }
 
 /* ---- nodes, outlines, ghosts -------------------------------------------- */
 
-void square_pen_nodes(const SpringPen *pen)
+void square_nodes(const SpringPen *pen)
 {
     const System *system = pen->system;
     double radius = pen->radius;
     Colour colour = pen->range > 0 ? COLOUR_FAINT : COLOUR_X;
     if (pen->range > 0) /* they would hide the colours of a fine mesh */
         radius *= 0.75;
-    if (radius >= 0.5 * pen->width)
-        for (int i = 0; i < system->nodes; i++)
-            canvas_disc(&pen->paper->canvas, pen->at[2 * (size_t)i],
-                        pen->at[2 * (size_t)i + 1], radius, colour);
+    for (int i = 0; radius >= 0.5 * pen->width && i < system->nodes; i++)
+        plot_disc(pen->stage, node_at(pen, i), radius, colour);
     for (int i = 0; system->pinned && i < system->nodes; i++)
         if (system->pinned[i])
-            plot_pin(pen->stage, pen->x + 2 * (size_t)i,
-                     radius / pen->paper->unit);
+            plot_pin(pen->stage, node_at(pen, i), radius);
 }
 
 void square_outline(const SpringPen *pen, const double *x, bool dashed,
                     Colour colour)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    double unit = pen->paper->unit, width = fmax(1, 1.4 * unit), phase = 0;
-    double p[2], q[2];
-    plot_place(pen->stage, x, p);
-    for (int k = 1; k <= mesh->outline; k++) {
-        plot_place(pen->stage, x + 2 * (size_t)square_mesh_outline(mesh, k), q);
+    double phase = 0;
+    for (int k = 0; k < mesh->outline; k++) {
+        const double *a = x + 2 * (size_t)square_mesh_outline(mesh, k);
+        const double *b = x + 2 * (size_t)square_mesh_outline(mesh, k + 1);
         if (dashed)
-            canvas_dashes(&pen->paper->canvas, p[0], p[1], q[0], q[1], width,
-                          6 * unit, 4 * unit, &phase, colour);
+            plot_dashes(pen->stage, a, b, 1.4, &phase, colour);
         else
-            canvas_line(&pen->paper->canvas, p[0], p[1], q[0], q[1], width,
-                        colour);
-        memcpy(p, q, sizeof p);
+            plot_line(pen->stage, a, b, 1.4, colour);
     }
 }
 
 void square_ghost(const SpringPen *pen, const double *x, Colour colour)
 {
     const System *system = pen->system;
+    const int *e = system->e;
     Colour faint = (colour & 0xffffff) | 0x50000000u;
-    for (int s = 0; system->springs <= GHOST_SPRINGS && s < system->springs;
-         s++)
-        plot_line(pen->stage, x + 2 * (size_t)system->e[2 * s],
-                  x + 2 * (size_t)system->e[2 * s + 1], 1, faint);
+    int springs = system->springs <= GHOST_SPRINGS ? system->springs : 0;
+    for (int s = 0; s < springs; s++)
+        plot_line(pen->stage, x + 2 * e[2 * s], x + 2 * e[2 * s + 1], 1, faint);
     square_outline(pen, x, true, colour);
 }

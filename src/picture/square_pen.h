@@ -10,9 +10,9 @@
 #include "picture/plot.h"
 #include "scenes/simulation.h"
 
-/* One run of a pane, and what does not change from spring to spring. */
+/* One run of a pane, and what does not change from spring to spring.  Widths
+ * and radii in units of the paper. */
 typedef struct SpringPen {
-    Paper *paper;
     Plot *stage;
     const Show *show;
     const Pane *pane;
@@ -20,10 +20,9 @@ typedef struct SpringPen {
     int run;
     const System *system;
     const double *x;        /* [2n] m */
-    const double *at;       /* [2n] pixels */
     double spacing;         /* pixels, of two nodes at rest */
-    double width;           /* pixels, of a spring */
-    double radius;          /* pixels, of a node */
+    double width;           /* of a spring */
+    double radius;          /* of a node */
     double range;           /* of the strains; 0: all blue */
     double strain;          /* of the shades of faces, all blue */
     bool plastic;           /* the colour is the plastic strain ... */
@@ -32,19 +31,26 @@ typedef struct SpringPen {
     bool projected;         /* springs whose block was changed are lit */
 } SpringPen;
 
-/* A pen [runs] for each run of the stage's pane; false: not enough memory.  The
- * places of their nodes stand on the paper until the next call. */
-bool square_pens(Plot *stage, const Show *show, SpringPen *pen);
+SpringPen square_pen(Plot *stage, const Show *show, int run);
+
+/* What those of n nodes that have a place fill, pixels; without any, nothing:
+ * high is below low.  low, high [2] out */
+void square_fills(const Plot *stage, int n, const double *x, double low[2],
+                  double high[2]);
 
 /* All springs but the broken ones. */
-void square_pen_springs(const SpringPen *pen);
+void square_springs(const SpringPen *pen);
 
 /* The cells of a fine square as shaded faces, those that have folded over dark,
  * and its outline; of cells below a pixel, larger ones in their place. */
-void square_pen_faces(const SpringPen *pen);
+void square_faces(const SpringPen *pen);
+
+/* Cells whose springs are whole are filled lightly, if all are asked for; those
+ * that have turned over in another colour.  Returns how many have. */
+int square_cells(const SpringPen *pen, bool all);
 
 /* Discs at all nodes; those that the springs hide are left out. */
-void square_pen_nodes(const SpringPen *pen);
+void square_nodes(const SpringPen *pen);
 
 /* The outline of the square at x. */
 void square_outline(const SpringPen *pen, const double *x, bool dashed,
@@ -53,24 +59,16 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 /* All springs of a small square, faintly, and its outline in dashes. */
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
+/* A range for the colours: half the strain of the start, at least 5 %. */
+double square_strain_range(const Simulation *simulation);
+
 /* The node, spring or edge of the paused square under a pixel. */
 Pick square_pick(const Show *show, const Plot *stage, double x, double y);
 
 /* The small card beside a node or a spring under the mouse.  Node: m, x, v,
- * force, x_tilde.  Spring: e, l2, strain, its 4x4 block of the Hessian and the
+ * force, x_tilde.  Spring: e, l2, strain, its block of the Hessian and the
  * eigenvalues before and after projection. */
 void square_note(Plot *stage, const Show *show);
-
-/* A range for the colours: half the strain of the start, at least 5 %. */
-double square_strain_range(const Simulation *simulation);
-
-/* Whether a cell has lost one of its six springs; segments * column + row, from
- * the lower left. */
-bool square_torn(const System *system, const SquareMesh *mesh, int cell);
-
-/* Cells whose springs are whole are filled lightly, if all are asked for; those
- * that have turned over in another colour.  Returns how many have. */
-int square_pen_cells(const SpringPen *pen, bool all);
 
 /* ---- contact: it follows from positions and velocities alone, so that a state
  * from the history is drawn as it was when it was new ---------------------- */

@@ -37,71 +37,51 @@ static bool has_frame(const Simulation *simulation)
     return frame[2] > frame[0];
 }
 
-/* 1, 1.5, 1.5^2, ...: the first that is enough, so that the view jumps seldom.
- */
-static double grown(double need)
+/* Whether nothing holds the body or is in its way: then the view follows it. */
+static bool is_free(const Simulation *simulation)
 {
-    double grow = 1;
-    while (grow < need && grow < MOST_SEEN)
-        grow *= 1.5;
-    return grow;
-}
-
-/* How far the nodes are from a point, in parts of half [2]; at least 1. */
-static double reach_from(const Simulation *simulation, const double *x,
-                         const double from[2], const double half[2])
-{
-    double need = 1;
-    for (int i = 0; i < simulation->system.nodes; i++) {
-        double right = fabs(x[2 * i] - from[0]) / half[0];
-        double up = fabs(x[2 * i + 1] - from[1]) / half[1];
-        double reach = right > up || isnan(up) ? right : up;
-        if (isfinite(reach) && reach > need)
-            need = reach;
-    }
-    return need;
-}
-
-/* Where a body that nothing holds has drifted to, less the way that the view
- * has room for: what the view follows it by.  by [2] m, out. */
-static void drifted(const Simulation *simulation, const double *x,
-                    const double half[2], double by[2])
-{
-    const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
-    bool near_something = options->grounds + options->balls > 0 ||
-                          simulation->scene->own || simulation->runs != 1;
-    by[0] = by[1] = 0;
-    for (int k = 0; k < 2 && !near_something; k++) {
-        double centre = 0;
-        for (int i = 0; i < mesh->nodes; i++)
-            centre += x[2 * i + k] / mesh->nodes;
-        if (isfinite(centre) && fabs(centre) > 0.5 * half[k])
-            by[k] = centre - copysign(0.5 * half[k], centre);
-    }
+    return options->grounds + options->balls == 0 && !simulation->scene->own &&
+           simulation->runs == 1;
 }
 
-/* The square as it starts; where nodes have left that, 1.5, 1.5^2, ... times
- * as much around the same middle.  One that drifts off is followed. */
+/* The square as it starts, around the middle or where a free one has drifted,
+ * less the way that the view has room for; where nodes have left that, 1.5,
+ * 1.5^2, ... times as much, so that the view jumps seldom. */
 static void square_bounds(const Show *show, int pane, double bounds[4])
 {
     const Pane *shown = &show->pane[pane];
     const Simulation *simulation = shown->simulation;
-    const double *x = pane_x(shown), *frame = simulation->scene->frame;
+    const double *x = pane_x(shown);
+    int nodes = simulation->system.nodes;
     double extent = square_extent(simulation->options.stretch);
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     const double size[2] = {half * extent,
                             half * (show->bare ? extent : fmin(extent, 1.25))};
-    double by[2];
+    double middle[2] = {0, 0}, need = 1, grown = 1;
     if (has_frame(simulation)) {
-        memcpy(bounds, frame, 4 * sizeof *bounds);
+        memcpy(bounds, simulation->scene->frame, 4 * sizeof *bounds);
         return;
     }
-    drifted(simulation, x, size, by);
-    double grow = grown(reach_from(simulation, x, by, size));
     for (int k = 0; k < 2; k++) {
-        bounds[k] = by[k] - grow * size[k];
-        bounds[2 + k] = by[k] + grow * size[k];
+        double centre = 0, room = 0.5 * size[k];
+        for (int i = 0; i < nodes && is_free(simulation); i++)
+            centre += x[2 * i + k] / nodes;
+        if (isfinite(centre) && fabs(centre) > room)
+            middle[k] = centre - copysign(room, centre);
+    }
+    for (int i = 0; i < nodes; i++) {
+        double right = fabs(x[2 * i] - middle[0]) / size[0];
+        double up = fabs(x[2 * i + 1] - middle[1]) / size[1];
+        double reach = fmax(right, up); /* the other one, if one is NaN */
+        if (isfinite(reach))
+            need = fmax(need, reach);
+    }
+    while (grown < need && grown < MOST_SEEN)
+        grown *= 1.5;
+    for (int k = 0; k < 2; k++) {
+        bounds[k] = middle[k] - grown * size[k];
+        bounds[2 + k] = middle[k] + grown * size[k];
     }
 }
 
@@ -113,7 +93,7 @@ static void draw_direction(const SpringPen *pen)
     const Box *box = &pen->stage->box;
     const Trace *trace = pen->pane->trace;
     double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
-    double apart = ceil(ARROW_SPACING * pen->paper->unit / pen->spacing);
+    double apart = ceil(ARROW_SPACING * pen->stage->paper->unit / pen->spacing);
     double factor = plot_arrows(pen->stage, pen->system->nodes,
                                 (int)fmax(apart, 1), pen->x, trace->p, grown,
                                 0.5 * fmin(box->width, box->height), COLOUR_P);
@@ -133,7 +113,7 @@ static void draw_hand(const SpringPen *pen)
         return;
     const double *node = pen->x + 2 * (size_t)hand->node;
     plot_dashes(stage, node, hand->target, 2, NULL, COLOUR_HAND);
-    plot_ring(stage, node, pen->radius / pen->paper->unit + 4, 2, COLOUR_HAND);
+    plot_ring(stage, node, pen->radius + 4, 2, COLOUR_HAND);
     plot_disc(stage, hand->target, 4, COLOUR_HAND);
 }
 
@@ -146,7 +126,7 @@ static void draw_hover(const SpringPen *pen)
         return;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         plot_ring(pen->stage, pen->x + 2 * (size_t)hover->index,
-                  pen->radius / pen->paper->unit + 4, 2, COLOUR_TEXT);
+                  pen->radius + 4, 2, COLOUR_TEXT);
     if (hover->kind == PICK_SPRING && hover->index < system->springs)
         plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * hover->index],
                   pen->x + 2 * (size_t)system->e[2 * hover->index + 1], 4.5,
@@ -166,8 +146,7 @@ static int draw_ground(const SpringPen *pen)
         if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
     }
-    int folded =
-        square_pen_cells(pen, pen->contact || fracture_of(pen->system));
+    int folded = square_cells(pen, pen->contact || fracture_of(pen->system));
     if (pane->ghost) {
         square_ghost(pen, pane->ghost, COLOUR_GHOST);
         plot_legend(pen->stage, COLOUR_GHOST, "%s", pane->ghost_label);
@@ -214,7 +193,7 @@ static void draw_signs(const SpringPen *pen)
  * nothing to the largest plastic strain; above the label of a pane. */
 static void draw_colour_bar(const SpringPen *pen)
 {
-    Paper *paper = pen->paper;
+    Paper *paper = pen->stage->paper;
     const Box *box = &pen->stage->box;
     bool plastic = pen->plastic;
     double raised = pen->show->panes > 1 ? PANE_LABEL : 0;
@@ -248,11 +227,13 @@ static void draw_colour_bar(const SpringPen *pen)
 /* The number of each node beside it. */
 static void draw_numbers(const SpringPen *pen)
 {
-    Paper *paper = pen->paper;
+    Paper *paper = pen->stage->paper;
     for (int i = 0; i < pen->system->nodes; i++) {
-        const double at[2] = {pen->at[2 * i] + 0.7 * paper->em,
-                              pen->at[2 * i + 1] + 0.4 * paper->em};
+        double at[2];
         char number[16];
+        plot_place(pen->stage, pen->x + 2 * i, at);
+        at[0] += 0.7 * paper->em;
+        at[1] += 0.4 * paper->em;
         if (!box_contains(pen->stage->box, at[0], at[1]))
             continue;
         snprintf(number, sizeof number, "%d", i);
@@ -291,26 +272,26 @@ static void draw_tolerance(const SpringPen *pen)
 static void square_draw(Plot *stage, const Show *show)
 {
     SpringPen pen[SIMULATION_MAX_RUNS];
-    int folded = 0;
-    if (!square_pens(stage, show, pen))
-        return;
-    const System *system = pen->system;
-    int runs = pen->simulation->runs;
-    for (int r = 0; r < runs; r++)
+    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const System *system = &simulation->system;
+    int runs = simulation->runs, folded = 0;
+    for (int r = 0; r < runs; r++) {
+        pen[r] = square_pen(stage, show, r);
         square_contact_obstacles(&pen[r]);
+    }
     for (int r = 1; r < runs; r++) {
         if (!show->bare)
-            square_pen_cells(&pen[r], true);
-        square_pen_springs(&pen[r]);
-        square_pen_nodes(&pen[r]);
+            square_cells(&pen[r], true);
+        square_springs(&pen[r]);
+        square_nodes(&pen[r]);
     }
     if (!show->bare)
         folded = draw_ground(pen);
     if (pen->spacing >= LEAST_CELL || fracture_of(system))
-        square_pen_springs(pen);
+        square_springs(pen);
     else
-        square_pen_faces(pen);
-    square_pen_nodes(pen);
+        square_faces(pen);
+    square_nodes(pen);
     if (show->bare)
         return;
     if (pen->contact)
@@ -320,7 +301,6 @@ static void square_draw(Plot *stage, const Show *show)
     if (show->numbers && system->nodes <= NUMBERED)
         draw_numbers(pen);
     draw_tolerance(pen);
-    plot_scale(stage);
     if (pen->range > 0)
         draw_colour_bar(pen);
 }
@@ -353,6 +333,7 @@ const Picture square_picture = {
     .cards = square_cards,
     .bounds = square_bounds,
     .draw = square_draw,
+    .scale = true,
     .pick = square_pick,
     .hover = square_note,
     .sample = square_sample,

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
@@ -358,10 +357,11 @@ TEST(words_of_a_pane_keep_apart)
     show.pane[0].label = "label label label label label";
     show.pane[1] = show.pane[0];
     show.panes = 2;
+    show.lens.zoom = 2; /* there is no room beside the body */
     draw();
     Box pane = layout.pane[1];
     int before = count_colour(pane, colour_of_run(1));
-    show.hover = (Pick){PICK_SPRING, 1, 12, {0, -0.5}};
+    show.hover = (Pick){PICK_SPRING, 1, 12, {-0.2, -0.5}};
     draw();
     CHECK(before > 50 && count_colour(pane, colour_of_run(1)) < before - 20);
     show.hover.kind = PICK_NONE;
@@ -556,8 +556,7 @@ TEST(contacts_slide_or_hold)
         const double bounds[4] = {run->x[0] - 2, run->x[1] - 2, run->x[0] + 2,
                                   run->x[1] + 2};
         stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-        const SpringPen pen = {.paper = &paper,
-                               .stage = &stage,
+        const SpringPen pen = {.stage = &stage,
                                .simulation = &simulation,
                                .run = r,
                                .system = run->system,
@@ -593,11 +592,8 @@ TEST(contacts_slide_or_hold)
 
 /* ---- what is written and plotted ---------------------------------------- */
 
-/* Every text of a frame, and how far down it is. */
-static struct Writing {
-    char text[160];
-    double y;
-} written[500];
+/* Every text of a frame. */
+static char written[500][160];
 static int writings;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -608,10 +604,8 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
-    if (writings < 500) {
-        snprintf(written[writings].text, sizeof written->text, "%s", markup);
-        written[writings++].y = y;
-    }
+    if (writings < 500)
+        snprintf(written[writings++], sizeof *written, "%s", markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
@@ -653,47 +647,50 @@ void __wrap_plot_graph(const Plot *plot, double (*y)(const void *, double),
     __real_plot_graph(plot, y, data, width, colour);
 }
 
-/* The place of a text in the frame that is drawn now; fails where it is not. */
-static int drawn_text(const char *text)
+/* Whether a text of the frame that is drawn now begins so. */
+static bool is_drawn(const char *text)
 {
     writings = lines = 0;
     draw();
     for (int i = 0; i < writings; i++)
-        if (strcmp(written[i].text, text) == 0)
-            return i;
-    print_error("not written: %s\n", text);
-    fail();
-    return -1;
+        if (strncmp(written[i], text, strlen(text)) == 0)
+            return true;
+    return false;
 }
 
-/* Bars as long as a spring's eigenvalues, hollow and in the colour of
- * projection for the two below 0, none of them in the words.  (The numbers in
- * this note are calculated again by test_numbers.) */
-TEST(notes_of_springs_have_bars)
+/* What the mouse is over is told in numbers (which test_numbers calculates
+ * again); what projection makes of eigenvalues only where one is below 0. */
+TEST(notes_tell_of_nodes_and_springs)
 {
-    enum { SPRING = 12, MOST = 40 };
-    stand_up("square --stretch 0.5 --turn 10", 0);
-    text_free(paper.text);
-    paper.text = NULL;
-    show.hover = (Pick){PICK_SPRING, 0, SPRING, {0, 0}};
-    int words = drawn_text("eigenvalues, and after projection") + 1;
-    const System *system = &simulation.system;
-    double d[2], H[3];
-    spring_strain(system->e + 2 * SPRING, system->l2[SPRING],
-                  simulation.run[0].x, d);
-    spring_hessian(d, system->l2[SPRING], system->k[SPRING], FILTER_NONE, H);
-    double middle = H[0] + H[2], apart = hypot(H[0] - H[2], 2 * H[1]);
-    int bars = 0, tall[MOST] = {0}, last = 0;
-    for (int x = 0; x < 1280 && bars < MOST - 1; x++) {
-        int high = count_colour((Box){x, 0, 1, 800}, COLOUR_PROJECT);
-        bars += high != tall[bars];
-        tall[bars] = high;
-        last += count_colour((Box){x, (int)written[words].y, 1, 20},
-                             COLOUR_PROJECT);
+    static const struct {
+        const char *line, *text;
+        Pick hover;
+        bool told;
+    } rows[] = {
+        {"square", "node 7", {PICK_NODE, 0, 7, {0, 0}}, true},
+        {"square --pin 4", "node 4, pinned", {PICK_NODE, 0, 4, {0, 0}}, true},
+        {"square", "v = (0, 0) m/s", {PICK_NODE, 0, 7, {0, 0}}, true},
+        {"square", "spring 0\u20135", {PICK_SPRING, 0, 0, {0, 0}}, true},
+        {"square --stretch 1",
+         "H = (4\u00b710^{5}, 0; 0, 0) J/m\u00b2",
+         {PICK_SPRING, 0, 0, {0, 0}},
+         true},
+        {"square --stretch 0.9 --turn 9",
+         "after projection",
+         {PICK_SPRING, 0, 0, {0, 0}},
+         true},
+        {"square --stretch 0.9 --filter none",
+         "after projection",
+         {PICK_SPRING, 0, 0, {0, 0}},
+         false},
+        {"square", "after projection", {PICK_SPRING, 0, 0, {0, 0}}, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        stand_up(rows[i].line, 0);
+        show.hover = rows[i].hover;
+        if (is_drawn(rows[i].text) != rows[i].told)
+            fail_msg("%s: %s", rows[i].line, rows[i].text);
     }
-    CHECK(middle + apart < 0 && bars == 4 && last == 0 && tall[1] > 10);
-    CHECK_NEAR(tall[1] / (middle - apart), tall[3] / (middle + apart),
-               -1 / (middle + apart)); /* a pixel */
 }
 
 /* The tangent of g is 0 where the update goes, and the parabola, which E has in
@@ -707,7 +704,7 @@ TEST(tangents_lead_to_the_next_iterate)
     const double x = simulation.descent.point[0];
     const double E = descent_value(&simulation, x, 0);
     snprintf(text, sizeof text, "x^{1} = %.8g", next);
-    drawn_text(text);
+    CHECK(is_drawn(text));
     int first = 0;
     while (first < lines && plotted[first].colour != COLOUR_P)
         first++;
@@ -916,7 +913,7 @@ TEST(energies_have_colours_and_units)
     }
     stand_up("arrows --integrator midpoint", 3);
     history.value[0][history.count - 1] = 0.99999999;
-    drawn_text("implicit midpoint 1 J");
+    CHECK(is_drawn("implicit midpoint 1 J"));
 }
 
 /* Seven kinds of energy in a small card leave room for their curves: light
