@@ -101,13 +101,6 @@ static void drop_entry(Past *past, Entry *entry)
     *entry = (Entry){0};
 }
 
-static void use_entry(Entry *entry, const Control *control)
-{
-    control_keep(control);
-    control_drop(entry->control);
-    entry->control = control;
-}
-
 /* Room for one more entry a pane.  Where nobody goes back the last two are
  * enough. */
 static Status make_room(Past *past, Branch *branch)
@@ -531,7 +524,8 @@ static Status arrive(Past *past, int pane)
     Status status = STATUS_OK;
     if (!known) {
         bool second = machine->step == branch->first && branch->second[pane];
-        use_entry(to, second ? branch->second[pane] : from->control);
+        to->control =
+            control_keep(second ? branch->second[pane] : from->control);
         to->number = ++past->numbers;
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
@@ -809,112 +803,107 @@ static Status check_edit(const Simulation *simulation, const Command *edit,
     return STATUS_INVALID_INPUT;
 }
 
-/* The control after a change; edit NULL: after none. */
-static Status change_control(const Control *from, const Command *edit,
-                             const Control **to)
+/* The control after a change, for one user more.  NULL: no memory. */
+static const Control *changed(const Control *from, const Command *edit)
 {
-    Control *control = NULL;
-    *to = edit ? control = control_copy(from) : control_keep(from);
-    if (!edit)
-        return STATUS_OK;
+    Control *control = control_copy(from);
     if (!control)
-        return STATUS_OUT_OF_MEMORY;
+        return NULL;
     if (edit->kind == COMMAND_SET)
         control->options.number[option_rows[edit->number].slot] = edit->x;
     if (edit->kind == COMMAND_PIN)
         control_pin(control, (int)edit->number, edit->x != 0);
     if (edit->kind == COMMAND_GRAB)
         control->hand = (int)edit->number;
+    if (edit->kind == COMMAND_RELEASE)
+        control->hand = -1;
     if (edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG) {
         control->at[0] = edit->x;
         control->at[1] = edit->y;
     }
-    if (edit->kind == COMMAND_RELEASE)
-        control->hand = -1;
-    return STATUS_OK;
+    return control;
 }
 
-/* The newest entry of a pane, where its machine stands, gets this control. */
-static Status change_entry(Past *past, int pane, const Control *control,
-                           const Command *edit, bool joins)
+/* A change of the newest entry, where the machine of its pane stands; NULL: of
+ * other panes' alone.
+ *   joins  it is not the first of this branch */
+static Status change_entry(Past *past, int pane, const Command *edit,
+                           bool joins)
 {
     Machine *machine = &past->machine[pane];
-    const Branch *branch = &past->branch[past->now];
+    int panes = past_panes(past);
     Entry *entry = entry_of(past, pane, past->step);
-    bool own = control != entry->control; /* it is this pane's change */
-    bool drags = own && edit->kind == COMMAND_HANDLE;
-    bool flips = own && edit->kind == COMMAND_FLIP;
-    bool changed = joins && (branch->count == 1 ||
-                             entry->control != entry[-branch->panes].control);
-    bool hand = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG ||
-                edit->kind == COMMAND_RELEASE;
-    if (!own && joins)
-        return STATUS_OK;
-    if (own) /* the state that it was is no longer drawn */
-        cut_curves(past_curves(past, pane), past->step - 1,
-                   nextafter(entry->outcome.time, -INFINITY));
-    use_entry(entry, control);
-    entry->placed = entry->placed || drags || flips || (changed && !hand);
+    bool again = joins && (past->branch[past->now].count == 1 ||
+                           entry->control != entry[-panes].control);
+    const Control *control =
+        edit ? changed(entry->control, edit) : control_keep(entry->control);
+    if (!control)
+        return STATUS_OUT_OF_MEMORY;
+    control_drop(entry->control);
+    entry->control = control;
     entry->substeps += entry->substeps == 0; /* it may go on again */
     stand(past, pane, past->step);
     Status status = use_control(machine, control);
-    if (status)
-        return status;
-    if (drags)
-        exhibit_drag(&machine->simulation, (int)edit->number, edit->x, edit->y);
-    if (flips)
-        exhibit_flip(&machine->simulation, (int)edit->number);
-    return keep_state(past, pane);
+    if (edit) /* the state that it was is no longer drawn */
+        cut_curves(past_curves(past, pane), past->step - 1,
+                   nextafter(entry->outcome.time, -INFINITY));
+    if (edit && !status) {
+        bool drags = edit->kind == COMMAND_HANDLE;
+        bool flips = edit->kind == COMMAND_FLIP;
+        bool pulls = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG ||
+                     edit->kind == COMMAND_RELEASE;
+        entry->placed = entry->placed || drags || flips || (again && !pulls);
+        if (drags)
+            exhibit_drag(&machine->simulation, (int)edit->number, edit->x,
+                         edit->y);
+        if (flips)
+            exhibit_flip(&machine->simulation, (int)edit->number);
+    }
+    return status ? status : keep_state(past, pane);
 }
 
-/* The change of all panes' controls at the step that is shown, or if `second`
- * are given at the step before it and at this one. */
-static Status make_edit(Past *past, const Command *edit, int gesture,
-                        const Control *const control[],
-                        const Control *const second[])
+/* Entry 0 of a new branch, and what the entry behind it is to have: both as
+ * they were, with a change or without. */
+static Status change_both(Past *past, int pane, const Command *edit)
 {
-    int panes = past_panes(past);
     Branch *branch = &past->branch[past->now];
-    bool joins = gesture && branch->gesture == gesture && !second &&
-                 past->step == past_newest(past);
-    if (joins) /* those that were undone went on from what it was */
-        drop_branches(past, past->now + 1);
-    else
-        branch = push_branch(past, false, past->step - !!second, panes, edit,
-                             gesture);
-    Status status = branch ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    for (int p = 0; p < panes && !status; p++)
-        if (second) {
-            use_entry(&branch->entry[p], control[p]);
-            branch->second[p] = control_keep(second[p]);
-        } else {
-            status = change_entry(past, p, control[p], edit, joins);
-        }
-    return status;
+    Entry *entry = &branch->entry[pane];
+    const Control *old = entry->control;
+    const Control *later =
+        entry_in(past, past->now - 1, branch->source[pane], branch->first + 1)
+            ->control;
+    branch->second[pane] = edit ? changed(later, edit) : control_keep(later);
+    entry->control = edit ? changed(old, edit) : control_keep(old);
+    bool lacking = !entry->control || !branch->second[pane];
+    if (!entry->control)
+        entry->control = control_keep(old);
+    control_drop(old);
+    return lacking ? STATUS_OUT_OF_MEMORY : STATUS_OK;
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture, char *message, size_t size)
 {
-    const Control *control[OPTIONS_MAX_PANES] = {NULL};
-    const Control *second[OPTIONS_MAX_PANES] = {NULL};
+    int panes = past_panes(past);
+    const Branch *now = &past->branch[past->now];
     Status status = settle(past);
-    for (int p = 0; p < past_panes(past) && !status; p++) {
+    for (int p = from; p < to && !status; p++)
+        status = check_edit(&past->machine[p].simulation, edit, message, size);
+    if (status)
+        return status;
+    bool joins = gesture && now->gesture == gesture && !again &&
+                 past->step == past_newest(past);
+    if (joins) /* those that were undone went on from what it was */
+        drop_branches(past, past->now + 1);
+    else if (!push_branch(past, false, past->step - again, panes, edit,
+                          gesture))
+        return STATUS_OUT_OF_MEMORY;
+    for (int p = 0; p < panes && !status; p++) {
         const Command *own = p >= from && p < to ? edit : NULL;
-        const Control *now = past_entry(past, p, past->step - again)->control;
-        if (own)
-            status =
-                check_edit(&past->machine[p].simulation, edit, message, size);
-        if (!status)
-            status = change_control(now, own, &control[p]);
-        if (!status && again)
-            status = change_control(past_control(past, p), own, &second[p]);
-    }
-    if (!status)
-        status = make_edit(past, edit, gesture, control, again ? second : NULL);
-    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        control_drop(control[p]);
-        control_drop(second[p]);
+        if (again)
+            status = change_both(past, p, own);
+        else if (own || !joins)
+            status = change_entry(past, p, own, joins);
     }
     return status;
 }
