@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "picture/colour_map.h"
 #include "picture/plot.h"
@@ -95,9 +97,13 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     x += paper_write(paper, FACE_REGULAR, size, COLOUR_FAINT, x, y, ALIGN_LEFT,
                      "%s", setting->name) +
          0.5 * em;
-    char value[2 * SHOW_VALUE];
-    snprintf(value, sizeof value, "%s", setting->value);
-    plot_numbers(value, sizeof value);
+    char value[SHOW_VALUE + 64], *rest; /* 1e-06 m/s, as people write it */
+    double number = strtod(setting->value, &rest);
+    const char *power = strchr(setting->value, 'e');
+    bool typed = *rest == '_';
+    snprintf(value, sizeof value, "%s%s",
+             power && power < rest && !typed ? number_with(number, 6).text : "",
+             power && power < rest && !typed ? rest : setting->value);
     int width = paper_write(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
                             size, setting->off ? COLOUR_GREY : COLOUR_VALUE, x,
                             y, ALIGN_LEFT, "%s", value);

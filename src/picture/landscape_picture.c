@@ -201,8 +201,8 @@ static void draw_named_direction(Plot *plot, const double from[2],
     if (!box_contains(plot->box, at[0], at[1]))
         return;
     plot_keep_line(plot, from, place[0]);
-    snprintf(words, sizeof words, "%s (slope %.2g)", name, slope);
-    plot_numbers(words, sizeof words);
+    snprintf(words, sizeof words, "%s (slope %s)", name,
+             number_with(slope, 2).text);
     plot_words(plot, 2, place, 0.8, 1, FACE_BOLD, colour, words);
 }
 

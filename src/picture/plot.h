@@ -155,8 +155,4 @@ typedef struct Number {
 Number number_with(double value, int digits);
 Number number_of(double value); /* with three digits */
 
-/* The numbers in a text that printf made, written as people do: "1.5e-06" is
- * 1.5 x 10^{-6}, and a minus is no hyphen.  text [size] in, markup out. */
-void plot_numbers(char *text, size_t size);
-
 #endif

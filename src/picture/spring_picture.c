@@ -111,19 +111,16 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
     for (int i = 0; i < 4; i++) {
         double x = box.x + (i + 0.5) * wide;
         double high = value[i] / most * room;
-        char number[48];
         Colour colour = value[i] < 0 ? COLOUR_WARNING : COLOUR_X;
         int top = (int)(high > 0 ? middle - high : middle);
         canvas_rectangle(&paper->canvas, (int)(x - 0.28 * wide), top,
                          (int)(0.56 * wide), (int)fmax(fabs(high), 2),
                          value[i] == 0 ? COLOUR_GREY : colour);
-        snprintf(number, sizeof number, "%.5g",
-                 round(value[i] * 10) / 10 + 0.0);
-        plot_numbers(number, sizeof number);
         paper_write(paper, FACE_REGULAR, 0.92, colour, x,
                     value[i] < 0 ? middle - high + 0.1 * paper->em
                                  : middle + 0.15 * paper->em,
-                    ALIGN_CENTRE, "%s", number);
+                    ALIGN_CENTRE, "%s",
+                    number_with(round(value[i] * 10) / 10 + 0.0, 5).text);
     }
 }
 

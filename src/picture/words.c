@@ -1,6 +1,5 @@
 /* Words of a plot: legend, scale, labels that keep off what is drawn, notes,
  * and numbers as people write them. */
-#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -60,41 +59,6 @@ Number number_with(double value, int digits)
 Number number_of(double value)
 {
     return number_with(value, 3);
-}
-
-void plot_numbers(char *text, size_t size)
-{
-    char out[WORDS_TEXT] = "", *from = text;
-    size_t used = 0;
-    bool word = false; /* within a word, digits are no number */
-    while (*from && used + 64 < sizeof out) {
-        bool minus = *from == '-' && isdigit((unsigned char)from[1]);
-        if (word || !(minus || isdigit((unsigned char)*from))) {
-            word = isalpha((unsigned char)*from) || (*from & 0x80) ||
-                   (word && isdigit((unsigned char)*from));
-            out[used++] = *from++;
-            continue;
-        }
-        from += minus;
-        size_t length = strspn(from, "0123456789.");
-        const char *after = from + length;
-        bool power = *after == 'e' && (after[1] == '-' || after[1] == '+') &&
-                     isdigit((unsigned char)after[2]);
-        bool one = power && length == 1 && *from == '1';
-        int digits = one ? 0 : length < 24 ? (int)length : 24;
-        used += (size_t)snprintf(out + used, sizeof out - used, "%s%.*s",
-                                 minus ? "\u2212" : "", digits, from);
-        from += length;
-        if (power) {
-            int exponent = (int)strtol(from + 1, &from, 10);
-            used +=
-                (size_t)snprintf(out + used, sizeof out - used, "%s10^{%s%d}",
-                                 one ? "" : "\u00b7",
-                                 exponent < 0 ? "\u2212" : "", abs(exponent));
-        }
-    }
-    out[used] = '\0';
-    snprintf(text, size, "%s", out);
 }
 
 /* ---- beside a point, in a row, at the edges ----------------------------- */

@@ -351,29 +351,6 @@ TEST(numbers_are_read)
     }
 }
 
-/* As printf writes them, then as people do. */
-TEST(printed_numbers_become_markup)
-{
-    static const char *const rows[][2] = {
-        {"1e-06 m/s", "10^{\u22126} m/s"},
-        {"k = 2.5e+15 J/m\u00b2", "k = 2.5\u00b710^{15} J/m\u00b2"},
-        {"(-0.5, 1)", "(\u22120.5, 1)"},
-        {"-1.25e-07", "\u22121.25\u00b710^{\u22127}"},
-        {"on-demand", "on-demand"},
-        {"avf4 1e5x 0.01", "avf4 1e5x 0.01"},
-        {"x^{0} = 2.5", "x^{0} = 2.5"},
-        {"", ""}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        char text[64];
-        snprintf(text, sizeof text, "%s", rows[i][0]);
-        plot_numbers(text, sizeof text);
-        assert_string_equal(text, rows[i][1]);
-    }
-    char small[8] = "1e-300";
-    plot_numbers(small, sizeof small); /* cut, but ended */
-    CHECK(strlen(small) < sizeof small);
-}
-
 /* A plot of 400 times 300 pixels whose unit is one, y up. */
 static Plot bare_plot(Paper *paper)
 {
