@@ -110,28 +110,17 @@ static void draw_level_numbers(const Plot *plot, const Simulation *simulation,
 static void show_map(const Plot *plot, const Simulation *simulation, bool text)
 {
     const System *system = &simulation->system;
-    const double *target = simulation->exhibit.target;
-    const double *pins = simulation->run[0].x + 2;
-    const double facts[] = {plot->x.low,
-                            plot->x.high,
-                            plot->y.low,
-                            plot->y.high,
-                            target[0],
-                            target[1],
-                            pins[0],
-                            pins[1],
-                            pins[2],
-                            pins[3],
-                            system->k[0],
-                            system->l2[0],
-                            system->m[0],
-                            simulation->run[0].h,
-                            simulation->exhibit.parts,
-                            text};
+    const Exhibit *exhibit = &simulation->exhibit;
+    const double settings[] = {system->k[0], system->l2[0], system->m[0],
+                               simulation->run[0].h};
+    uint64_t key = paper_key(text, &plot->camera, sizeof plot->camera);
+    key = paper_key(key, settings, sizeof settings);
+    key = paper_key(key, exhibit->target, sizeof exhibit->target);
+    key = paper_key(key, &exhibit->parts, sizeof exhibit->parts);
+    key = paper_key(key, simulation->run[0].x + 2, 4 * sizeof(double));
     bool drawn = false;
-    Canvas *kept =
-        paper_keep(plot->paper, KEEP_MAP, paper_key(0, facts, sizeof facts),
-                   plot->box.width, plot->box.height, &drawn);
+    Canvas *kept = paper_keep(plot->paper, KEEP_MAP, key, plot->box.width,
+                              plot->box.height, &drawn);
     if (!kept)
         return;
     if (!drawn) {
@@ -151,6 +140,16 @@ static void show_map(const Plot *plot, const Simulation *simulation, bool text)
     canvas_copy(&plot->paper->canvas, kept, plot->box.x, plot->box.y);
 }
 
+/* x_tilde with its name, off the ring of its handle. */
+static void name_target(Plot *plot, const Simulation *simulation)
+{
+    const double(*target)[2] = &simulation->exhibit.target;
+    plot_keep_disc(plot, *target, 11);
+    if (plot->text)
+        plot_words(plot, 1, target, 0.9, 1.1, FACE_BOLD, COLOUR_X_TILDE,
+                   "{xt}");
+}
+
 /* The map, the springs, the pins and x_tilde. */
 static Plot draw_map(const Plot *stage, const Show *show)
 {
@@ -159,7 +158,7 @@ static Plot draw_map(const Plot *stage, const Show *show)
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_on(stage, &plot_room, (Axis){.label = "x in m"}, (Axis){0});
-    show_map(&plot, simulation, stage->text && !show->bare);
+    show_map(&plot, simulation, stage->text);
     for (int s = 0; s < system->springs; s++)
         plot_line(&plot, x + 2 * system->e[2 * s], x + 2 * system->e[2 * s + 1],
                   3.5, COLOUR_REST);
@@ -240,7 +239,6 @@ static void keep_places(Plot *plot, const Simulation *simulation)
     const Descent *descent = &simulation->descent;
     const double tip[2] = {descent->point[0] + descent->direction[0],
                            descent->point[1] + descent->direction[1]};
-    const double(*target)[2] = &simulation->exhibit.target;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
     for (int s = 0; s < system->springs; s++)
@@ -250,23 +248,21 @@ static void keep_places(Plot *plot, const Simulation *simulation)
         plot_keep_disc(plot, x + 2 * i, 14);
     plot_keep_line(plot, descent->point, tip);
     plot_keep_disc(plot, descent->point, 11);
-    plot_keep_disc(plot, *target, 11); /* the handle's ring */
-    if (plot->text)
-        plot_words(plot, 1, target, 0.9, 1.1, FACE_BOLD, COLOUR_X_TILDE,
-                   "{xt}");
+    name_target(plot, simulation);
 }
 
 static void landscape_facts(const Simulation *simulation, Facts *facts)
 {
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
-    const NewtonRecord *last = &descent->record[descent->count - 1];
+    int last = descent->count - 1;
     fact_words(facts, "part",
                parts == PART_BOTH      ? "E"
                : parts == PART_INERTIA ? "inertia"
                                        : "elasticity");
     fact_when(facts, "went uphill",
-              descent->slope > 0 || (descent->count > 0 && last->slope > 0));
+              descent->slope > 0 ||
+                  (last >= 0 && descent->record[last].slope > 0));
 }
 
 /* From the ground up. */
@@ -279,7 +275,7 @@ static void landscape_draw(Plot *stage, const Show *show)
     draw_updates(&plot, descent);
     for (int i = 0; i < 2; i++)
         plot_keep_box(&plot, stage_switch_box(stage, i));
-    if (!show->bare) {
+    if (plot.text) {
         keep_places(&plot, simulation);
         draw_other_direction(&plot, simulation);
     }
@@ -320,15 +316,13 @@ static void dial_draw(Plot *stage, const Show *show)
 {
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const Walk *walk = &simulation->exhibit.walk;
-    const double(*target)[2] = &simulation->exhibit.target;
     Plot plot = draw_map(stage, show);
     draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!stage->text)
         return;
     plot_keep_disc(&plot, simulation->run[0].x, 9);
-    plot_keep_disc(&plot, *target, 11); /* the handle's ring */
-    plot_words(&plot, 1, target, 0.9, 1.1, FACE_BOLD, COLOUR_X_TILDE, "{xt}");
+    name_target(&plot, simulation);
     for (int i = WALK_POINTS - 1; i > 0; i -= 10) {
         char words[32];
         snprintf(words, sizeof words, "h = %g s",

@@ -143,22 +143,20 @@ static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
 }
 
 /* The energies at a signed length along d. */
-static SpringFacts facts_over(const void *data, double d)
+static double energy_over(const void *data, double d)
 {
     const System *system = data;
     SpringFacts facts;
     spring_facts((double[2]){d, 0}, system->l2[0], system->k[0], &facts);
-    return facts;
-}
-
-static double energy_over(const void *data, double d)
-{
-    return facts_over(data, d).energy;
+    return facts.energy;
 }
 
 static double root_over(const void *data, double d)
 {
-    return facts_over(data, d).root_energy;
+    const System *system = data;
+    SpringFacts facts;
+    spring_facts((double[2]){d, 0}, system->l2[0], system->k[0], &facts);
+    return facts.root_energy;
 }
 
 static void spring_draw_profile(Paper *paper, Box inside, const Show *show)

@@ -207,7 +207,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
     const System *system = &simulation->system;
     bool over = trace->line == LINE_NONE || trace->line == LINE_END;
     const double *x = over && !trace->given_up ? x_now : trace->x;
-    double u[UNKNOWNS], u_tilde[UNKNOWNS], q[UNKNOWNS];
+    double u[UNKNOWNS] = {0}, u_tilde[UNKNOWNS], q[UNKNOWNS];
     Real p[UNKNOWNS], g[UNKNOWNS], slope = 0, pair = 0;
     int size = 2 * system->nodes, least = 0, most = 0;
     const IncrementalPotential E = {.system = system,
@@ -472,9 +472,9 @@ static void tell_iterate(const Simulation *simulation)
 static void tell_search(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
-    const NewtonRecord *last = &descent->record[descent->count - 1];
     const Filter filter = simulation->options.filter;
     bool begun = descent->count > 0, scalar = descent->scalar != NULL;
+    const NewtonRecord *last = &descent->record[begun ? descent->count - 1 : 0];
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE ||
                  (!begun && scalar);
     const double *from = begun ? last->from : descent->point;
@@ -933,14 +933,15 @@ static bool is_contour(const Show *show, const Layout *layout, int i,
 static bool is_count(const Show *show, const Layout *layout, int i,
                      double shown)
 {
-    const double *x = pane_x(&show->pane[0]) + 2 * (int)shown;
+    const Pane *pane = &show->pane[0];
     double at[2];
     if (texts[i].x > layout->column.x && layout->column.width > 0)
         return shown >= 1 && shown <= 8;
+    if (!show->numbers || shown >= pane->simulation->system.nodes)
+        return false;
     Camera camera = show_camera(show, layout, 0);
-    camera_pixel(&camera, x, at);
-    return show->numbers &&
-           hypot(texts[i].x - at[0], texts[i].y - at[1]) < 2 * layout->em;
+    camera_pixel(&camera, pane_x(pane) + 2 * (int)shown, at);
+    return hypot(texts[i].x - at[0], texts[i].y - at[1]) < 2 * layout->em;
 }
 
 /* The line of a scale is as long as it says. */
