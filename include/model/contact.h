@@ -105,11 +105,10 @@ double contact_node_radius(const Contact *contact, int node);
 Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
-/* Its elements, one for each pair, and the obstacle of the i-th, for friction:
- * s is the gap, n and r are those of Gap.  A block has the node and, where
- * there is one, the free ball. */
+/* Its elements, one for each pair, for friction: s is the gap, n and r are
+ * those of Gap.  A block has the node and, where there is one, the free ball.
+ */
 extern const ElementKind contact_elements;
-int contact_obstacle(const Place *at, int i);
 int contact_blocks(const Place *at);
 int contact_nodes(const Place *at, int block, int node[3]);
 

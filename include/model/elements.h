@@ -25,6 +25,7 @@ typedef struct Element {
     int node[3];
     const double (*weight)[3]; /* [vectors] of the nodes in a and in b */
     int block;                 /* it has the entries of this block */
+    int from; /* whom it is from, a number of the term: contact's obstacle */
     double factor;  /* of gradient and Hessian: 1, or w where the term's
                        functions leave it out */
     double v[4];    /* m, a and b, for terms that want them */

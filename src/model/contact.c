@@ -91,17 +91,12 @@ static int count(const Place *at)
     return contact->obstacles * at->system->nodes;
 }
 
-int contact_obstacle(const Place *at, int i)
-{
-    return i < at->system->nodes ? 0 : i / at->system->nodes;
-}
-
 static bool get(const Place *at, int i, double way, Element *element)
 {
     static const double difference[1][3] = {{1, -1}};
     const Contact *contact = at->term->data;
-    int obstacle = contact_obstacle(at, i);
-    int node = i - obstacle * at->system->nodes;
+    int nodes = at->system->nodes, obstacle = i < nodes ? 0 : i / nodes;
+    int node = i - obstacle * nodes;
     if (!contact_has_pair(contact, at->system, node, obstacle))
         return false;
     Gap gap = contact_pair_gap(contact, at->x, node, obstacle);
@@ -111,6 +106,7 @@ static bool get(const Place *at, int i, double way, Element *element)
     element->nodes = contact->obstacle[obstacle].node < 0 ? 1 : 2;
     element->node[0] = element->block = node;
     element->node[1] = contact->obstacle[obstacle].node;
+    element->from = obstacle;
     element->weight = difference;
     element->factor = 1;
     element->s = gap.d;

@@ -86,8 +86,10 @@ static void begin(Term *term, System *system, const double *x_n,
     friction->e = friction->slip_speed * h;
     friction->slides = 0;
     for (int i = 0; i < contact_elements.count(&at); i++) {
-        const Obstacle *obstacle = &contact->obstacle[contact_obstacle(&at, i)];
-        if (!(obstacle->friction > 0) || !contact_elements.get(&at, i, 0, &row))
+        if (!contact_elements.get(&at, i, 0, &row))
+            continue;
+        const Obstacle *obstacle = &contact->obstacle[row.from];
+        if (!(obstacle->friction > 0))
             continue;
         const double t[2] = {-row.n[1], row.n[0]};
         row.n[0] = t[0];

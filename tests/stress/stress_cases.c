@@ -90,9 +90,9 @@ static bool run_line(Tally *tally, char *reason, Line row, int solver)
     char line[STRESS_LINE];
     Case c = {.tally = tally, .reason = reason};
     bool converge = row.line[0] == '!';
-    snprintf(line, sizeof line, "%s --solver %s", row.line + converge,
+    snprintf(line, sizeof line, " %s --solver %s", row.line + converge,
              solver_name(solver));
-    if (case_open(&c, line))
+    if (case_open(&c, line + 1))
         converge ? case_converges(&c, row.steps) : case_steps(&c, row.steps);
     if (c.wrong)
         strncat(reason, line, 511 - strlen(reason));

@@ -358,29 +358,6 @@ TEST(pairs_are_those_that_can_move)
 /* As many as the scenes here have at most. */
 enum { NODES = 1024, SPRINGS = 8 * NODES };
 
-/* What is seen at each iterate. */
-typedef struct Watch {
-    const Simulation *simulation;
-    double gap, J; /* the smallest */
-    long iterates;
-} Watch;
-
-static bool watch_iterate(void *user, const NewtonRecord *record)
-{
-    Watch *watch = user;
-    (void)record;
-    for (int r = 0; watch->simulation && r < watch->simulation->runs; r++) {
-        const TimeIntegrator *it = &watch->simulation->run[r];
-        if (it->newton->counters.minimisations == 0)
-            continue;
-        watch->gap =
-            fmin(watch->gap, smallest_gap(it->system, it->newton->at.x));
-        watch->J = fmin(watch->J, smallest_cell(it->system, it->newton->at.x));
-        watch->iterates++;
-    }
-    return true;
-}
-
 /* What a minimum promises where nothing is moved: |v' - v|_M^2/2 and the
  * energies after a step are not more than those before it, with
  * k l2 theta (E - E_n)^2/2, half of what damping takes; and nothing lost comes
@@ -405,8 +382,8 @@ static void check_inequality(const TimeIntegrator *it, const double *v,
         CHECK_AT_MOST(sum, 1e-9 * size);
 }
 
-/* At every iterate each gap and each cell is above 0; every step converges,
- * where there is a line search, and keeps the inequality. */
+/* Every step converges, where there is a line search, and keeps the inequality;
+ * nothing is behind a wall or turned over.  (Of every iterate: stress.) */
 TEST(nothing_penetrates_turns_over_or_comes_back)
 {
     static const char *const lines[] = {
@@ -424,11 +401,8 @@ TEST(nothing_penetrates_turns_over_or_comes_back)
         "square --damping 0.01 --filter abs"};
     static double v[SIMULATION_MAX_RUNS][2 * NODES];
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        Watch watch = {NULL, INFINITY, INFINITY, 0};
-        Simulation *scene =
-            simulate_watched(watch_iterate, &watch, "%s", lines[i]);
+        Simulation *scene = simulate("%s", lines[i]);
         bool searched = !strstr(lines[i], "none");
-        watch.simulation = scene;
         CHECK(scene->system.nodes <= NODES);
         for (int n = 0; n < 120; n++) {
             Energies start[SIMULATION_MAX_RUNS];
@@ -439,13 +413,15 @@ TEST(nothing_penetrates_turns_over_or_comes_back)
             }
             Status status = simulation_step(scene);
             CHECK(!status || (!searched && status_is_unconverged(status)));
-            for (int r = 0; searched && r < scene->runs; r++) {
+            for (int r = 0; r < scene->runs; r++) {
+                const TimeIntegrator *it = &scene->run[r];
                 Energies end = simulation_energies(scene, r);
-                check_inequality(&scene->run[r], v[r], &start[r], &end);
+                CHECK(smallest_gap(it->system, it->x) > 0);
+                CHECK(smallest_cell(it->system, it->x) > 0);
+                if (searched)
+                    check_inequality(it, v[r], &start[r], &end);
             }
         }
-        CHECK(watch.iterates > 120);
-        CHECK(watch.gap > 0 && watch.J > 0);
         CHECK(!strstr(lines[i], "damping") ||
               energy_now(scene, 0, "damping") > 0);
     }
