@@ -325,6 +325,59 @@ TEST(axes_name_their_values)
     }
 }
 
+/* What crosses the edge of the axes is cut there, whatever draws it; what has
+ * its middle beyond is left out. */
+TEST(plots_keep_to_their_axes)
+{
+    const Axis axis = {0, 1, false, false, NULL};
+    const double in[2] = {0.5, 0.5}, out[2] = {1.02, 0.5}, d[2] = {0.52, 0};
+    Paper paper;
+    assert_int_equal(paper_create(300, 300, &paper), 0);
+    Plot plot = plot_create(&paper, (Box){50, 50, 200, 200}, axis, axis);
+    for (int shape = 0; shape < 5; shape++) {
+        canvas_clear(&paper.canvas, COLOUR_WHITE);
+        if (shape == 0)
+            plot_line(&plot, in, out, 3, COLOUR_X);
+        if (shape == 1)
+            plot_dashes(&plot, in, out, 3, NULL, COLOUR_X);
+        if (shape == 2)
+            plot_arrow(&plot, in, d, 1, 3, COLOUR_X);
+        if (shape == 3)
+            CHECK(!plot_disc(&plot, out, 9, COLOUR_X));
+        if (shape == 4)
+            plot_ring(&plot, out, 9, 2, COLOUR_X);
+        double inside = ink_in(&paper.canvas, plot.box);
+        CHECK_NEAR(ink(&paper.canvas), inside, 1e-9);
+        CHECK((inside > 100) == (shape < 3));
+    }
+    paper_free(&paper);
+}
+
+/* Arrows that would be too short or too long to be seen are a power of ten
+ * times as long. */
+TEST(arrows_have_a_length_that_is_seen)
+{
+    static const struct {
+        double length, most, factor; /* pixels, of the longest arrow */
+    } rows[] = {{50, 100, 1},   {10, 100, 1},     {5, 100, 10},
+                {14, 1000, 10}, {15, 1000, 1},    {1e-3, 100, 1e4},
+                {100, 100, 1},  {1000, 100, 0.1}, {2500, 100, 0.01},
+                {0, 100, 0}};
+    Paper paper;
+    assert_int_equal(paper_create(400, 300, &paper), 0);
+    const Plot plot = {.paper = &paper,
+                       .box = {0, 0, 400, 300},
+                       .camera = {{1, 1}, {0, 300}},
+                       .em = 10};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const double x[4] = {9, 9, 9, 9}, d[4] = {rows[i].length, 0, NAN, 0};
+        double factor =
+            plot_arrows(&plot, 2, 1, x, d, 1, rows[i].most, COLOUR_P);
+        CHECK_NEAR(factor, rows[i].factor, 1e-12 * factor);
+    }
+    paper_free(&paper);
+}
+
 /* Three digits, and a power of ten only where zeros would be many. */
 TEST(numbers_are_read)
 {
