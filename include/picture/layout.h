@@ -93,8 +93,6 @@ Box layout_close_box(const Layout *layout, int card);
 /* 0 ... 1: how far along the bars of the time line x is; clamped. */
 double layout_time_part(const Layout *layout, double x);
 
-/* Boxes side by side: part `index` of `count` of the box, `gap` between. */
-Box box_column(Box box, int index, int count, int gap);
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 

@@ -32,7 +32,8 @@ static int pixels(const Layout *layout, double ems)
     return (int)floor(ems * layout->em + 0.5);
 }
 
-Box box_column(Box box, int index, int count, int gap)
+/* Part `index` of `count` of the box, side by side, `gap` between. */
+static Box box_column(Box box, int index, int count, int gap)
 {
     int room = box.width - (count - 1) * gap;
     int left = (int)((long)room * index / count) + index * gap;
@@ -55,20 +56,14 @@ bool box_contains(Box box, double x, double y)
            y < box.y + box.height;
 }
 
-/* Takes a strip off the lower edge of `rest`. */
-static Box cut_bottom(Box *rest, int height)
+/* Takes a strip off the upper or the lower edge of `rest`. */
+static Box cut(Box *rest, bool below, int height)
 {
+    Box strip = {rest->x, rest->y, rest->width, height};
     rest->height -= height;
-    return (Box){rest->x, rest->y + rest->height, rest->width, height};
-}
-
-/* Takes a strip off its upper edge. */
-static Box cut_top(Box *rest, int height)
-{
-    Box top = {rest->x, rest->y, rest->width, height};
-    rest->y += height;
-    rest->height -= height;
-    return top;
+    rest->y += below ? 0 : height;
+    strip.y += below ? rest->height : 0;
+    return strip;
 }
 
 /* Boxes of these widths from the left, `gap` apart, in lines as high as the
@@ -104,7 +99,7 @@ static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
     layout->settings = place_row(room, 2, pixels(layout, SETTING_GAP),
                                  wish->settings, width, box);
     bool two = box[layout->settings - 1].y > room.y;
-    layout->row = cut_bottom(rest, pixels(layout, two ? 2 * ROW - 0.4 : ROW));
+    layout->row = cut(rest, true, pixels(layout, two ? 2 * ROW - 0.4 : ROW));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->row.y;
 }
@@ -138,10 +133,10 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
     if (wish->bare || high < 16)
         return rest;
     bool roomy = high >= 40;
-    layout->strip = cut_top(&rest, pixels(layout, roomy ? STRIP : 2.2));
+    layout->strip = cut(&rest, false, pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
-        layout->last = cut_bottom(&rest, pixels(layout, roomy ? LAST : 2.5));
-    layout->time = cut_bottom(&rest, pixels(layout, roomy ? TIME : 2));
+        layout->last = cut(&rest, true, pixels(layout, roomy ? LAST : 2.5));
+    layout->time = cut(&rest, true, pixels(layout, roomy ? TIME : 2));
     if (roomy && wish->settings > 0)
         place_settings(wish, layout, &rest);
     layout->bars = layout->time;
@@ -170,19 +165,18 @@ typedef enum Seen { HIDDEN, BAR, OPEN } Seen;
 static void see_cards(const LayoutWish *wish, bool pairs, double room,
                       Seen *seen)
 {
-    bool large = wish->large >= 0 && wish->large < wish->cards;
+    int count = wish->cards, open = 0;
+    bool large = wish->large >= 0 && wish->large < count;
     double least = -GAP;
-    int open = 0;
-    for (int i = 0; i < wish->cards; i++) {
+    for (int i = 0; i < count; i++) {
         bool bar = (wish->closed >> i & 1) || (large && i != wish->large);
         seen[i] = wish->hidden >> i & 1 ? HIDDEN : bar ? BAR : OPEN;
         open += seen[i] == OPEN;
         if (seen[i] != HIDDEN)
             least += GAP + (bar ? TITLE_BAR : wish->least[i]);
     }
-    for (int i = wish->cards - 1;
-         i > 0 && open > 1 && least > FOLDS * room && !pairs; i--)
-        if (seen[i] == OPEN) {
+    for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
+        if (least > FOLDS * room && seen[i] == OPEN) {
             seen[i] = BAR;
             least -= wish->least[i] - TITLE_BAR;
             open--;
@@ -195,7 +189,7 @@ static void place_cards(const LayoutWish *wish, Layout *layout)
 {
     Seen seen[LAYOUT_CARDS + 1] = {HIDDEN}; /* one more that is not there */
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
-    Box inner = box_inset(layout->column, pixels(layout, GAP));
+    Box inner = box_inset(layout->column, pixels(layout, GAP)), rest = inner;
     bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
     bool paired[LAYOUT_CARDS] = {false}; /* with the next one */
     double room = inner.height + gap, least = 0, weights = 0;
@@ -213,15 +207,14 @@ static void place_cards(const LayoutWish *wish, Layout *layout)
     }
     double shrink = least > room ? room / least : 1;
     double more = least < room ? (room - least) / weights : 0;
-    for (int i = 0, y = inner.y; i < wish->cards; i++) {
+    for (int i = 0; i < wish->cards; i++) {
         double height =
             shrink * wish->least[i] * layout->em + more * wish->weight[i];
         if (seen[i] == HIDDEN)
             continue;
-        if (seen[i] == BAR || height < bar)
-            height = bar;
-        Box row = {inner.x, y, inner.width, (int)height};
-        y += row.height + gap;
+        Box row = cut(&rest, false,
+                      seen[i] == BAR || height < bar ? bar : (int)height);
+        cut(&rest, false, gap);
         layout->card[i] = row;
         if (paired[i]) {
             layout->card[i] = box_column(row, 0, 2, gap);
