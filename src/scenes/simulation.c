@@ -485,45 +485,38 @@ bool simulation_projects_springs(const Simulation *simulation)
            !system_find_term(system, &cell_energy);
 }
 
-/* Centre of mass, m, and its velocity, m/s, at [4] out.  Returns the mass. */
-static double centre_of_mass(const Simulation *simulation, double at[4])
+/* The mean of an array [2n] over the body's mass, out. */
+static void mean_of(const System *system, const double *values, double mean[2])
 {
-    const TimeIntegrator *run = &simulation->run[0];
-    double mass = 0;
-    memset(at, 0, 4 * sizeof *at);
-    for (int i = 0; i < simulation->system.nodes; i++) {
-        double m = simulation->system.m[i];
-        mass += m;
-        for (int k = 0; k < 2; k++) {
-            at[k] += m * run->x[2 * i + k];
-            at[k + 2] += m * run->v[2 * i + k];
-        }
+    double mass = 0, sum[2] = {0, 0};
+    for (int i = 0; i < system->nodes; i++) {
+        mass += system->m[i];
+        sum[0] += system->m[i] * values[2 * i];
+        sum[1] += system->m[i] * values[2 * i + 1];
     }
-    for (int k = 0; k < 4; k++)
-        at[k] /= mass;
-    return mass;
+    mean[0] = sum[0] / mass;
+    mean[1] = sum[1] / mass;
 }
 
 double simulation_deforming(const Simulation *simulation, double *centre,
                             double *turn)
 {
-    const TimeIntegrator *run = &simulation->run[0];
-    int nodes = simulation->system.nodes;
-    double at[4], momentum = 0, inertia = 0, fastest = 0;
-    centre_of_mass(simulation, at);
-    for (int i = 0; i < nodes; i++) {
-        double m = simulation->system.m[i];
-        double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
-        double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
-        momentum += m * (r[0] * v[1] - r[1] * v[0]);
-        inertia += m * (r[0] * r[0] + r[1] * r[1]);
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
+    double x_c[2], v_c[2], momentum = 0, inertia = 0, fastest = 0;
+    mean_of(system, x, x_c);
+    mean_of(system, v, v_c);
+    for (int i = 0; i < 2 * system->nodes; i += 2) {
+        double rx = x[i] - x_c[0], ry = x[i + 1] - x_c[1];
+        momentum += system->m[i / 2] *
+                    (rx * (v[i + 1] - v_c[1]) - ry * (v[i] - v_c[0]));
+        inertia += system->m[i / 2] * (rx * rx + ry * ry);
     }
-    *centre = math_hypot(at[2], at[3]);
+    *centre = math_hypot(v_c[0], v_c[1]);
     *turn = inertia > 0 ? momentum / inertia : 0;
-    for (int i = 0; i < nodes; i++) {
-        double r[2] = {run->x[2 * i] - at[0], run->x[2 * i + 1] - at[1]};
-        double v[2] = {run->v[2 * i] - at[2], run->v[2 * i + 1] - at[3]};
-        double speed = math_hypot(v[0] + *turn * r[1], v[1] - *turn * r[0]);
+    for (int i = 0; i < 2 * system->nodes; i += 2) {
+        double speed = math_hypot(v[i] - v_c[0] + *turn * (x[i + 1] - x_c[1]),
+                                  v[i + 1] - v_c[1] - *turn * (x[i] - x_c[0]));
         fastest = speed <= fastest ? fastest : speed; /* NaN stays NaN */
     }
     return fastest;
@@ -531,8 +524,6 @@ double simulation_deforming(const Simulation *simulation, double *centre,
 
 bool simulation_is_free(const Simulation *simulation)
 {
-    const Options *options = &simulation->options;
-    return options->gravity == 0 && options->grounds + options->balls == 0 &&
-           !simulation->scene->own && !simulation->system.pinned &&
-           !hand_energy_of(&simulation->system);
+    const System *system = &simulation->system;
+    return system_is_free(system) && !system_has_gravity(system);
 }
