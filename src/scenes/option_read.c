@@ -396,25 +396,43 @@ static Word *given(Line *line, const OptionRow *row)
     return NULL;
 }
 
-/* The scene, by its name or its number in the list, or the page. */
-static Status find_scene(Line *line)
+/* The scene, by its name or its number in the list. */
+static Status find_scene(Line *line, const char *text)
+{
+    const Scene **scene = &line->options->scene;
+    if (*scene)
+        return refuse(line, "'%s': one scene at a time, please",
+                      typed(text).text);
+    *scene = scene_find(text);
+    return *scene ? STATUS_OK
+                  : refuse(line, "there is no scene '%s'; see elasto --list%s",
+                           typed(text).text,
+                           meant(text, "", NAMES_OF(scenes)).text);
+}
+
+/* The scene or the page, and what cannot be said in one line whatever they are:
+ * of two files only one would be written, and beside a handout nothing has a
+ * meaning. */
+static Status check_words(Line *line)
 {
     Options *options = line->options;
-    for (int i = 0; i < line->words; i++) {
-        const OptionRow *row = line->word[i].row;
-        const char *text = line->word[i].text;
-        if (row && row->kind == OPTION_PAGE && apply(line, row, text))
+    const OptionRow *handout = option_find("handout");
+    for (const Word *word = line->word; word < line->word + line->words;
+         word++) {
+        const OptionRow *row = word->row;
+        const Word *last = given(line, row);
+        if (row && row->kind == OPTION_TEXT && last != word)
+            return refuse(line, "--%s: '%s' and '%s': one at a time, please",
+                          row->name, typed(word->text).text,
+                          typed(last->text).text);
+        if (row && row != handout && given(line, handout))
+            return refuse(line,
+                          "--handout: the program writes the file and ends, "
+                          "--%s says nothing there",
+                          row->name);
+        if (!row ? find_scene(line, word->text)
+                 : row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
-        if (row)
-            continue;
-        if (options->scene)
-            return refuse(line, "'%s': one scene at a time, please",
-                          typed(text).text);
-        options->scene = scene_find(text);
-        if (!options->scene)
-            return refuse(line, "there is no scene '%s'; see elasto --list%s",
-                          typed(text).text,
-                          meant(text, "", NAMES_OF(scenes)).text);
     }
     if (options->scene && options->page)
         return refuse(line,
@@ -423,32 +441,6 @@ static Status find_scene(Line *line)
                       options->scene->name);
     if (!options->scene)
         options->scene = &scenes[0];
-    return STATUS_OK;
-}
-
-/* A page has said what its scene needs; beside a handout nothing has a meaning;
- * and of two files only one would be written. */
-static Status check_words(Line *line)
-{
-    const OptionRow *handout = option_find("handout");
-    for (int i = 0; i < line->words; i++) {
-        const OptionRow *row = line->word[i].row;
-        const Word *last = given(line, row);
-        if (!row)
-            continue;
-        if (line->options->page && row->needs)
-            return refuse(line, "--%s: the lecture's pages say that themselves",
-                          row->name);
-        if (row != handout && given(line, handout))
-            return refuse(line,
-                          "--handout: the program writes the file and ends, "
-                          "--%s says nothing there",
-                          row->name);
-        if (row->kind == OPTION_TEXT && last != &line->word[i])
-            return refuse(line, "--%s: '%s' and '%s': one at a time, please",
-                          row->name, typed(line->word[i].text).text,
-                          typed(last->text).text);
-    }
     return STATUS_OK;
 }
 
@@ -512,6 +504,9 @@ static Status apply_word(const Line *line, const Word *word)
     for (int i = word->pick; i > 0; i--)
         text = strchr(text, ',') + 1;
     snprintf(value, sizeof value, "%.*s", (int)strcspn(text, ","), text);
+    if (line->options->page && word->row->needs)
+        return refuse(line, "--%s: the lecture's pages say that themselves",
+                      word->row->name);
     if (check_scene(line, word->row))
         return STATUS_INVALID_INPUT;
     return apply(line, word->row, is_list(word) ? value : text);
@@ -547,8 +542,7 @@ static Status check_body(Line *line)
 static Status apply_words(Line *line, int pane)
 {
     *line->options = (Options){.panes = 1};
-    if (find_scene(line) || check_words(line) || begin_options(line) ||
-        pick_values(line, pane))
+    if (check_words(line) || begin_options(line) || pick_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++)
         if (apply_word(line, &line->word[i]))

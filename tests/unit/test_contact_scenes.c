@@ -115,21 +115,19 @@ TEST(starts_that_make_no_sense_are_refused)
  * the command line, while it runs, and in the system itself. */
 TEST(other_methods_refuse_damping)
 {
+    const System *damped = &simulate("--damping 0.1")->system;
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         char message[512], line[80];
-        const char *name = method->name;
-        Options options;
-        Simulation *damped = simulate("--damping 0.1");
-        snprintf(line, sizeof line, "--damping 0.1 --integrator %s", name);
-        Status status = parse_line(line, 0, &options, message);
-        CHECK_STATUS(status, method->at_end ? STATUS_OK : STATUS_INVALID_INPUT);
-        CHECK(!status || (strstr(message, "damping") && strstr(message, name)));
-        CHECK(integrator_method_refuses(method, &damped->system) == !!status);
-        options = simulate("--integrator %s", method->name)->options;
-        CHECK_STATUS(
-            options_set(&options, "damping", "0.1", message, sizeof message),
-            status);
+        Options options = simulate("--integrator %s", method->name)->options;
+        Status wanted = method->at_end ? STATUS_OK : STATUS_INVALID_INPUT;
+        CHECK_STATUS(options_set(&options, "damping", "0.1", message, 512),
+                     wanted);
+        snprintf(line, sizeof line, "--damping 0.1 --integrator %s",
+                 method->name);
+        CHECK_STATUS(parse_line(line, 0, &options, message), wanted);
+        CHECK(!wanted || strstr(message, "damping"));
+        CHECK(integrator_method_refuses(method, damped) == !!wanted);
     }
 }
 
