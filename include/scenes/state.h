@@ -18,8 +18,8 @@ size_t state_bytes(const Simulation *simulation);
 /* bytes [state_bytes] out. */
 void state_save(const Simulation *simulation, void *bytes);
 
-/* As it was when these bytes were saved.  Springs that are whole get the
- * stiffness of the simulation's options.
+/* As it was when these bytes were saved.  Springs that are whole, and walls,
+ * have the numbers of the simulation's options.
  *   bytes  [state_bytes] in, of a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 

@@ -5,6 +5,7 @@
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
+#include "scenes/body.h"
 
 /* Doubles of one array of a run. */
 static size_t array_size(const Simulation *simulation)
@@ -32,31 +33,9 @@ static void pass(Cursor *cursor, void *piece, size_t size)
 
 #define PASS(piece) pass(cursor, &(piece), sizeof(piece))
 
-/* Which springs are broken; the others have the stiffness k. */
-static void pass_breaks(Cursor *cursor, System *system, double k)
-{
-    for (int s = 0; s < system->springs; s++) {
-        unsigned char broken = spring_is_broken(system, s);
-        PASS(broken);
-        if (cursor->way == RESTORE)
-            system->k[s] = broken ? 0 : k;
-    }
-}
-
-/* Where obstacles are and how they move; how rough they are is an option. */
-static void pass_obstacles(Cursor *cursor, Contact *contact)
-{
-    for (int k = 0; k < contact->obstacles; k++) {
-        Obstacle *obstacle = &contact->obstacle[k];
-        double mu = obstacle->friction;
-        PASS(*obstacle);
-        obstacle->friction = mu;
-    }
-}
-
 /* What steps change in a system: broken springs, plastic strains, obstacles
  * that move, and what each term has lost. */
-static void pass_system(Cursor *cursor, System *system, const Options *options)
+static void pass_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = plasticity_of(system);
@@ -68,11 +47,12 @@ static void pass_system(Cursor *cursor, System *system, const Options *options)
         pass(cursor, plasticity->kappa, springs);
     }
     if (breaks) {
-        pass_breaks(cursor, system, options->stiffness);
+        pass(cursor, system->k, springs);
         PASS(breaks->broken);
     }
     if (contact)
-        pass_obstacles(cursor, contact);
+        pass(cursor, contact->obstacle,
+             (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
 /* Whether an earlier run has the same system. */
@@ -111,7 +91,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     PASS(run->memory_h);
     pass(cursor, run->memory, (size_t)run->method->memory * array);
     if (!is_known(simulation, r))
-        pass_system(cursor, run->system, &simulation->options);
+        pass_system(cursor, run->system);
     if (cursor->way == RESTORE)
         system_changed(run->system, false);
 }
@@ -161,6 +141,9 @@ void state_restore(const void *bytes, Simulation *simulation)
     Cursor cursor = {RESTORE, (unsigned char *)bytes, 0};
     simulation->prediction = (Prediction){0}; /* it was of another step */
     pass_all(&cursor, simulation);
+    for (int r = 0; r < simulation->runs; r++)
+        if (simulation->scene->needs & NEEDS_BODY)
+            body_follow(simulation, r);
 }
 
 /* FNV-1a over these bytes. */
