@@ -209,6 +209,10 @@ const addresses = async (browser) => {
   await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
   await follows('', 'circle+--timestep+0.05&bare');
   if (!(await tab.run('document.body.className === "bare"'))) wrong.push('not bare');
+  await tab.key('y');
+  await tab
+    .until(`/link .* copied/.test($('said').textContent)`, 3000)
+    .catch(() => wrong.push('Y copies no link'));
   verdict('the_address_follows_what_is_shown', [...wrong, ...tab.trouble]);
 
   // A bad line says what the program says, and what was there goes on.
@@ -245,20 +249,29 @@ const memory = async (browser) => {
 // Browsers that lack something, and tabs that nobody sees.
 const lacking = async (browser) => {
   const wrong = [];
-  const said = async (before, expected, line = 'square') => {
-    const tab = await browser.open(at(line), { before });
-    await tab.until(`$('said').textContent`, 5000).catch(() => {});
-    const text = await tab.run(`$('said').textContent`);
-    if (!expected.test(text)) wrong.push(`'${text}' for ${expected}`);
+  // A tab with 64 MB.
+  const full = `const grow = WebAssembly.Memory.prototype.grow;
+    WebAssembly.Memory.prototype.grow = function (pages) {
+      if (this.buffer.byteLength + 65536 * pages > 64 * 2 ** 20) throw new RangeError('no');
+      return grow.call(this, pages);
+    }`;
+  const shown = async (before, line, expression, expected) => {
+    const tab = await browser.open(at('circle'), { before });
+    await tab.run(`location.hash = ${JSON.stringify(line)}`);
+    const found = `${expression}.includes('${expected}')`;
+    await tab.until(found, 5000).catch(() => wrong.push(expected));
+    const frames = await tab.run('stats.frames');
+    if (before === full)
+      await tab.until(`stats.frames > ${frames}`, 3000).catch(() => wrong.push('nothing goes on'));
     await tab.close();
   };
-  await said('WebAssembly.validate = () => false', /WebAssembly SIMD/);
-  await said(
-    'WebAssembly.Memory.prototype.grow = () => { throw new RangeError("no") }',
-    /memory/,
-    'square --segments 300',
-  );
-  verdict('what_a_browser_lacks_is_said', wrong);
+  const said = `$('said').textContent`;
+  await shown('WebAssembly.validate = () => false', '', said, 'WebAssembly SIMD');
+  await shown(full, 'square+--segments+400', said, 'not enough memory');
+  const text = `ask('web_text', 'string')`;
+  await shown('window.matchMedia = () => ({ matches: true })', 'hang', text, 'paused');
+  await shown('', 'hang', text, 'running');
+  verdict('what_a_browser_lacks_is_said_and_it_goes_on', wrong);
 
   const tab = await browser.open(at('square'), {
     before: `Object.defineProperty(document, 'hidden', { get: () => window.away })`,
