@@ -255,7 +255,7 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
 /* Of bodies apart only one is told of. */
 const Card card_energies = {
     .name = "energies",
-    .title = "{blocks}Energies of the first block\nEnergies over time",
+    .title = "{blocks}Energies, first block\nEnergies over time",
     .least = 8,
     .weight = 1,
     .half = true,
