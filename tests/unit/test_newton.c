@@ -439,20 +439,6 @@ TEST(energy_never_rises_without_masses)
     }
 }
 
-/* |d|^4 overflows: the step fails and leaves everything as it was. */
-TEST(overflow_is_reported)
-{
-    double x[SIZE];
-    Simulation *simulation = simulate("--segments 3 --stretch 1e160");
-    memcpy(x, simulation->run[0].x, sizeof x);
-    CHECK_STATUS(simulation_step(simulation), STATUS_NOT_FINITE);
-    CHECK(!status_is_unconverged(STATUS_NOT_FINITE));
-    CHECK_SAME_BITS(simulation->run[0].x, x, SIZE);
-    CHECK(simulation->steps == 0 && simulation->unconverged == 0);
-    for (int i = 0; i < SIZE; i++)
-        CHECK(simulation->run[0].v[i] == 0);
-}
-
 /* Stops at the given record. */
 static bool stop_at(void *user, const NewtonRecord *record)
 {
