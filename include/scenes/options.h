@@ -34,7 +34,8 @@ typedef struct Options {
             double balls, ball[OPTIONS_MAX_BALLS][3];       /* which ones */
             double barrier[2]; /* 0: side/100, 4 k */
             double friction, slip_speed, cells;
-            double yield, hardening, tear; /* 0: never */
+            double material, young, poisson; /* 0: springs, 1: triangles */
+            double yield, hardening, tear;   /* 0: never */
             double damping;
             double terms[8]; /* of terms that nobody else asks for */
             double timestep, tolerance, minimum;

@@ -19,9 +19,9 @@ double barrier_curvature(double s)
     return s < 1 ? (1 + s) / (s * s) : 0;
 }
 
-/* log1p(z) - z, without cancellation for small z > -1: with r = z/(2 + z)
- * log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is -z r. */
-static double log1p_minus(double z)
+/* With r = z/(2 + z) log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is
+ * -z r. */
+double log1p_minus(double z)
 {
     if (!(fabs(z) < 0.25))
         return math_log1p(z) - z;

@@ -21,4 +21,7 @@ double barrier_curvature(double s);
  *   s, s + t  > 0; infinite where s + t <= 0 */
 double barrier_remainder(double s, double t);
 
+/* log1p(z) - z, without cancellation for small z > -1. */
+double log1p_minus(double z);
+
 #endif

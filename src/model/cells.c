@@ -4,14 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/mathematics.h"
+#include "model/area.h"
 #include "model/barrier.h"
 #include "model/elements.h"
-
-static double cross(const double a[2], const double b[2])
-{
-    return a[0] * b[1] - a[1] * b[0];
-}
 
 static const Cells *cells_of(const Place *at)
 {
@@ -80,73 +75,16 @@ static void cell_gradient(const Place *at, const Element *element, double g[4])
     g[3] = factor * e1[0];
 }
 
-/* v [4] made a unit vector; `instead` where it is 0.  Returns its length. */
-static double make_unit(double v[4], const double instead[4])
-{
-    double length = math_hypot(math_hypot(v[0], v[1]), math_hypot(v[2], v[3]));
-    for (int i = 0; i < 4; i++)
-        v[i] = length > 0 ? v[i] / length : instead[i];
-    return length;
-}
-
-/* H += w v v^T, all of it. */
-static void add_square(double w, const double v[4], double H[4][4])
-{
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            H[r][c] += w * v[r] * v[c];
-}
-
-/* (S v_1, S v_2): turned by a quarter, in the same eigenspace of K. */
-static void turn(const double v[4], double turned[4])
-{
-    turned[0] = v[1];
-    turned[1] = -v[0];
-    turned[2] = v[3];
-    turned[3] = -v[2];
-}
-
-/* The Hessian in e = (e1, e2): c2 g g^T + c1 K, where K = q [[0, S], [-S, 0]]
- * is the Hessian of J, q = 1/(2 A0) and g = K e.  K has the eigenvalues q and
- * -q, twice each; e+ and e- are e's parts in their spaces and
- * g = q (e+ - e-).  So H maps the plane of a = e+/|e+| and b = e-/|e-| to
- * itself, and what lies across, a' and b', are eigenvectors with c1 q < 0 and
- * -c1 q > 0.  Only the 2x2 matrix Q in that plane has to be projected. */
 static bool edge_hessian(const Place *at, const Element *element, Filter filter,
                          double H[4][4])
 {
-    static const double any_plus[4] = {0, 0.7071067811865476,
-                                       -0.7071067811865476, 0};
-    static const double any_minus[4] = {0, 0.7071067811865476,
-                                        0.7071067811865476, 0};
-    const double *e1 = element->v, *e2 = element->v + 2;
     double s = element->s / CELL_J_HAT, q = 1 / (2 * cells_of(at)->area);
-    double c1 = cells_of(at)->c / CELL_J_HAT * barrier_slope(s) * q;
-    double c2 =
-        cells_of(at)->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
-    double a[4] = {0.5 * (e1[0] + e2[1]), 0.5 * (e1[1] - e2[0]),
-                   0.5 * (e2[0] - e1[1]), 0.5 * (e2[1] + e1[0])};
-    double b[4] = {0.5 * (e1[0] - e2[1]), 0.5 * (e1[1] + e2[0]),
-                   0.5 * (e2[0] + e1[1]), 0.5 * (e2[1] - e1[0])};
-    double plus = q * make_unit(a, any_plus);
-    double minus = q * make_unit(b, any_minus), across[4];
-    double Q[3] = {c2 * plus * plus + c1, -c2 * plus * minus,
-                   c2 * minus * minus - c1};
-    filter_2x2(filter, Q);
-    for (int i = 0; i < 16; i++)
-        H[i / 4][i % 4] = 0;
-    add_square(Q[0], a, H);
-    add_square(Q[2], b, H);
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++)
-            H[r][c] += Q[1] * (a[r] * b[c] + b[r] * a[c]);
-    turn(b, across);
-    add_square(-c1, across, H);
-    if (filter == FILTER_CLAMP)
-        return c1 < 0;
-    turn(a, across);
-    add_square(filter == FILTER_ABS ? -c1 : c1, across, H);
-    return filter == FILTER_ABS && c1 < 0;
+    const AreaCurvature curvature = {
+        .slope = cells_of(at)->c / CELL_J_HAT * barrier_slope(s) * q,
+        .second =
+            cells_of(at)->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s),
+        .unit = q};
+    return area_hessian(element->v, &curvature, filter, H);
 }
 
 /* Along P J becomes J + alpha J1 + alpha^2 J2. */
@@ -154,21 +92,18 @@ static void cell_along(const Place *at, const Element *element,
                        const double P[4], double *J1, double *J2)
 {
     double q = 1 / (2 * cells_of(at)->area);
-    *J1 = q * (cross(P, element->v + 2) + cross(element->v, P + 2));
-    *J2 = q * cross(P, P + 2);
+    area_along(element->v, P, J1, J2);
+    *J1 *= q;
+    *J2 *= q;
 }
 
 /* J + alpha J1 + alpha^2 J2 = (1-F) J */
 static double cell_reach(const Place *at, const Element *element,
                          const double P[4])
 {
-    double J1, J2, c0 = ELEMENT_LIMIT * element->s;
+    double J1, J2;
     cell_along(at, element, P, &J1, &J2);
-    double discriminant = J1 * J1 - 4 * J2 * c0;
-    if (!(discriminant >= 0))
-        return INFINITY;
-    double denominator = -J1 + sqrt(discriminant);
-    return denominator > 0 ? 2 * c0 / denominator : INFINITY;
+    return area_reach(ELEMENT_LIMIT * element->s, J1, J2);
 }
 
 static double remainder_along(const Place *at, const Element *element,
@@ -182,7 +117,7 @@ static double remainder_along(const Place *at, const Element *element,
                               barrier_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* The lower eigenvalue across is c1 q (edge_hessian). */
+/* The lower eigenvalue across is that of slope K (area_hessian). */
 static double concave(const Place *at, const Element *element)
 {
     const Cells *cells = cells_of(at);

@@ -23,6 +23,8 @@ static const char sentences[] =
     "{line 3}{raw}line 3: the Hessian stays as it is\n"
     "{line 3}{of springs}line 3: the blocks of {projected} of {springs} "
     "springs had a negative eigenvalue and were projected\n"
+    "{line 3}{of a solid}line 3: {projected} blocks of triangles and contacts "
+    "had a negative eigenvalue and were projected\n"
     "{line 3}line 3: {projected} blocks of springs, contacts and cells had a "
     "negative eigenvalue and were projected\n"
     "{line 4}line 4: the direction points {way}; \u2016{p}\u2016_{\u221e} is "

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/neo_hookean.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/plot.h"
@@ -96,6 +97,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "raw", options->filter == FILTER_NONE);
     fact_when(facts, "whole", options->line_search == LINE_SEARCH_NONE);
     fact(facts, "springs", simulation->system.springs);
+    fact_when(facts, "of a solid", solid_of(&simulation->system));
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
 }

@@ -5,6 +5,7 @@
 
 #include "base/mathematics.h"
 #include "model/fracture.h"
+#include "model/neo_hookean.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
@@ -63,7 +64,9 @@ Pick square_pick(const Show *show, const Plot *stage, double x, double y)
         }
     }
     best = reach * reach / 4;
-    for (int s = 0; pick.kind == PICK_NONE && s < system->springs; s++) {
+    for (int s = 0;
+         pick.kind == PICK_NONE && s < system->springs && !solid_of(system);
+         s++) {
         double p[2], q[2];
         if (spring_is_broken(system, s))
             continue;

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "model/fracture.h"
+#include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/colour_map.h"
 #include "scenes/scene.h"
@@ -84,7 +85,7 @@ SpringPen square_pen(Plot *stage, const Show *show, int run)
     pen.projected = trace && trace->line >= LINE_PROJECT &&
                     trace->line <= LINE_SEARCH && !show->strain &&
                     simulation->options.filter != FILTER_NONE &&
-                    trace->projected != 0;
+                    trace->projected != 0 && !solid_of(system);
     return pen;
 }
 
@@ -196,8 +197,36 @@ static void fill_face(const SpringPen *pen, const int node[4], Colour colour)
     plot_face(pen->stage, corner, colour);
 }
 
+/* From dark at 0 over the springs' blue at 1/2 to light at 1. */
+static Colour shade(double part)
+{
+    double dark = fmin(fmax(1 - 2 * part, 0), 1);
+    double light = fmin(fmax(2 * part - 1, 0), 1);
+    return canvas_mix(canvas_mix(COLOUR_X, COLOUR_FOLDED, 0.75 * dark),
+                      COLOUR_WHITE, 0.7 * light);
+}
+
+/* The triangles of a solid by the area that each has kept, in pale colours:
+ * darker where it is pressed. */
+static void draw_triangles(const SpringPen *pen, const NeoHookean *solid)
+{
+    for (int t = 0; t < solid->triangles; t++) {
+        const int *n = solid->node[t];
+        const double *corner[4] = {node_at(pen, n[0]), node_at(pen, n[1]),
+                                   node_at(pen, n[2]), node_at(pen, n[2])};
+        double J = fabs(turn(pen->x, n[0], n[1], n[2])) / (2 * solid->area);
+        Colour colour = shade(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
+        plot_face(pen->stage, corner, canvas_mix(colour, COLOUR_WHITE, 0.6));
+    }
+}
+
 int square_cells(const SpringPen *pen, bool all)
 {
+    const NeoHookean *solid = solid_of(pen->system);
+    if (solid)
+        draw_triangles(pen, solid);
+    if (solid)
+        return 0;
     int count = 0, node[4];
     for (int c = 0; c < pen->simulation->mesh.cells; c++) {
         CellLook look = cell_look(pen->simulation, pen->x, c, node);
@@ -207,15 +236,6 @@ int square_cells(const SpringPen *pen, bool all)
                       look == CELL_FOLDED ? 0x38d00000u : 0x180000ffu);
     }
     return count;
-}
-
-/* From dark at 0 over the springs' blue at 1/2 to light at 1. */
-static Colour shade(double part)
-{
-    double dark = fmin(fmax(1 - 2 * part, 0), 1);
-    double light = fmin(fmax(2 * part - 1, 0), 1);
-    return canvas_mix(canvas_mix(COLOUR_X, COLOUR_FOLDED, 0.75 * dark),
-                      COLOUR_WHITE, 0.7 * light);
 }
 
 /* A face says what its springs would; else how far it is stretched and turned.

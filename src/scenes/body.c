@@ -416,7 +416,8 @@ static Status check_cells(const Options *options, const double *x,
 {
     const SquareMesh shape = body_shape(options);
     int node[3], side[3];
-    for (int t = 0; options->cells && t < 4 * shape.cells; t++) {
+    bool kept = options->cells || options->material != 0;
+    for (int t = 0; kept && t < 4 * shape.cells; t++) {
         square_mesh_triangle(&shape, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
@@ -427,8 +428,9 @@ static Status check_cells(const Options *options, const double *x,
             continue;
         snprintf(message, size,
                  "%s: cell %d begins turned over (%.3g of its area); it must "
-                 "not, or --cells off",
-                 options->state ? "--state" : "--stretch", t / 4, part);
+                 "not%s",
+                 options->state ? "--state" : "--stretch", t / 4, part,
+                 options->cells ? ", or --cells off" : "");
         return STATUS_INVALID_INPUT;
     }
     return STATUS_OK;
@@ -439,7 +441,8 @@ Status body_check(const Options *options, char *message, size_t size)
     Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
     int count = list_obstacles(options, list);
-    if (count == 0 && !options->cells && !options->state)
+    if (count == 0 && !options->cells && !options->state &&
+        options->material == 0)
         return STATUS_OK;
     unsigned char *pinned = calloc((size_t)shape.nodes, 1);
     double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);

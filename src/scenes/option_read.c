@@ -533,7 +533,14 @@ static Status check_body(Line *line)
     }
     if (check_integrator(line))
         return STATUS_INVALID_INPUT;
-    if (options->cells && !given(line, option_find("filter")))
+    if (options->material != 0 && (options->cells || options->yield > 0 ||
+                                   options->tear > 0 || options->damping > 0))
+        return refuse(line,
+                      "--material: the scene '%s' is about springs; triangles "
+                      "have no cells, yield, tear or damping",
+                      options->scene->name);
+    if ((options->cells || options->material != 0) &&
+        !given(line, option_find("filter")))
         options->filter = FILTER_ON_DEMAND;
     return body_check(options, line->message, line->size);
 }

@@ -18,6 +18,7 @@
 #include "model/damping.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
+#include "model/neo_hookean.h"
 #include "model/square_mesh.h"
 #include "scenes/pages.h"
 #include "scenes/body.h"
@@ -28,6 +29,7 @@ static const char *const filters[] = {"clamp", "none", "abs", "on-demand",
                                       NULL};
 static const char *const searches[] = {"backtrack", "none", NULL};
 static const char *const cells[] = {"off", "on", NULL};
+static const char *const materials[] = {"springs", "neo-hookean", NULL};
 
 const char *solver_name(int solver)
 {
@@ -39,6 +41,18 @@ static const char *nothing_to_touch(const Options *options)
     return options->grounds + options->balls > 0
                ? NULL
                : "there is nothing to touch; --ground or --ball put it there";
+}
+
+static const char *no_springs(const Options *options)
+{
+    return options->material == 0 ? NULL
+                                  : "triangles have none; --material springs";
+}
+
+static const char *no_triangles(const Options *options)
+{
+    return options->material != 0 ? NULL
+                                  : "springs have none; --material neo-hookean";
 }
 
 static const char *nothing_flows(const Options *options)
@@ -94,7 +108,14 @@ const OptionRow option_rows[] = {
     {NUMBER(density, "R", "mass of an area", "kg/m^2", 1000, 1e-30, 1e30),
      NEEDS(MESH), LIST("\u03c1")},
     {NUMBER(stiffness, "K", "of each spring", "J/m^2", 1e5, 1e-30, 1e30),
-     NEEDS(MESH), LIST("k"), LIVE, ROW(2, 11, 0)},
+     NEEDS(MESH), LIST("k"), LIVE, IDLE(no_springs), ROW(2, 11, 0)},
+    {NAME("material", material, "M", "of springs, or of triangles:", 0,
+          materials),
+     NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
+    {NUMBER(young, "E", "its stiffness, of triangles", "Pa", 1e5, 1e-30, 1e30),
+     NEEDS(BODY), IDLE(no_triangles), LIST("E"), LIVE, ROW(12, 8, 0)},
+    {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, -0.9, 0.499),
+     NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
     {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
      NEEDS(MESH), LIST("stretch"), ROW(3, 5, 0.05)},
     {NUMBER(turn, "DEG", "the square, anticlockwise", "degrees", 0, -1e6, 1e6),
@@ -133,16 +154,17 @@ const OptionRow option_rows[] = {
            "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
      NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
     {NAME("cells", cells, "on|off", "cells that cannot turn over", 0, cells),
-     NEEDS(BODY), LIST("cells"), TERM(cell_energy)},
+     NEEDS(BODY), IDLE(no_springs), LIST("cells"), TERM(cell_energy)},
     {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
-     NEEDS(BODY), LIST("yield"), TERM(plastic_energy)},
+     NEEDS(BODY), IDLE(no_springs), LIST("yield"), TERM(plastic_energy)},
     {NUMBER(hardening, "H", "how fast that strain grows", "", 0, 0, 1e9),
      NEEDS(BODY), IDLE(nothing_flows), LIST("hardening")},
     {NUMBER(tear, "S", "strain at which springs break", "", 0, 1e-9, 1e9),
-     NEEDS(BODY), LIST("tear"), TERM(fracture)},
+     NEEDS(BODY), IDLE(no_springs), LIST("tear"), TERM(fracture)},
     {NUMBER(damping, "ETA", "of the springs' strain rate (Kelvin-Voigt)", "s",
             0, 0, 1e6),
-     NEEDS(BODY), LIST("\u03b7"), LIVE, TERM(damping), ROW(7, 8, 0)},
+     NEEDS(BODY), IDLE(no_springs), LIST("\u03b7"), LIVE, TERM(damping),
+     ROW(7, 8, 0)},
 
     {SECTION("how it moves:")},
     {NUMBER(timestep, "H", "h", "s", 0.004, 1e-30, 1e30),

@@ -69,6 +69,12 @@ const Scene scenes[] = {
           "--ground 0,1,0,-0.51",
      create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain = 0.5,
      .own = squeeze_ceiling, .own_name = "the ceiling"},
+    {"return", "Solids that never turn over",
+     "pressed to 3 % of its width, a square again", PICTURE_SQUARE,
+     NEEDS_SQUARE,
+     "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
+     "--material neo-hookean",
+     .create = create_square, .settles = true, .frame = {-1.1, -1.1, 1.1, 1.1}},
     {"dent", "Inelasticity: a dent that stays",
      "springs beyond their yield strain flow, and keep it", PICTURE_SQUARE,
      NEEDS_SQUARE,

@@ -7,6 +7,7 @@
 #include "model/cells.h"
 #include "model/contact.h"
 #include "model/friction.h"
+#include "model/neo_hookean.h"
 #include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
 #include "scenes/body.h"
@@ -482,7 +483,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
-           !system_find_term(system, &cell_energy);
+           !system_find_term(system, &cell_energy) && !solid_of(system);
 }
 
 /* The mean of an array [2n] over the body's mass, out. */

@@ -8,6 +8,7 @@
 #include "model/damping.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/pull_energy.h"
 
@@ -218,6 +219,31 @@ static void cells(Spot *spot, Jet *sum, const void *data)
             barrier(spot, sum, cells->c, plus((Jet){0}, 1 / 0.4L, J));
 }
 
+/* A0 (mu/2 (|F|^2 - 2) - mu ln J + lambda/2 (ln J)^2): neo_hookean.h */
+static void solids(Spot *spot, Jet *sum, const void *data)
+{
+    const NeoHookean *solid = data;
+    for (int t = 0; t < solid->triangles; t++) {
+        Jet F[4] = {{0}}, size = {.f = -2}, J, L;
+        for (int c = 0; c < 4; c++)
+            for (int k = 0; k < 3; k++)
+                F[c] = plus(
+                    F[c], solid->weight[t][c / 2][k],
+                    coordinate(spot, 2 * solid->node[t][k] + c % 2, false));
+        for (int c = 0; c < 4; c++)
+            size = plus(size, 1, times(F[c], F[c]));
+        J = plus(times(F[0], F[3]), -1, times(F[1], F[2]));
+        if (!(J.f > 0)) {
+            book(spot, sum, 1, (Jet){.f = INFINITY});
+            continue;
+        }
+        L = chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
+        book(spot, sum, solid->area * (Real)solid->mu / 2, size);
+        book(spot, sum, -solid->area * (Real)solid->mu, L);
+        book(spot, sum, solid->area * (Real)solid->lambda / 2, times(L, L));
+    }
+}
+
 /* sum c/2 |x - o|^2: pull_energy.h */
 static void pulls(Spot *spot, Jet *sum, const void *data)
 {
@@ -239,7 +265,7 @@ static const struct {
 } formulas[] = {{&mass_spring_energy, springs}, {&plastic_energy, springs},
                 {&contact_energy, contacts},    {&friction_energy, contacts},
                 {&cell_energy, cells},          {&central_field, pulls},
-                {&hand_energy, pulls}};
+                {&hand_energy, pulls},          {&neo_hookean_energy, solids}};
 
 Jet oracle_energy(Spot *spot, const TermKind *only)
 {

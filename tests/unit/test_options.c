@@ -151,7 +151,7 @@ TEST(names_are_read)
             assert_string_equal(value, name);
         }
     }
-    CHECK(names == 20);
+    CHECK(names == 22);
     CHECK(standard.solver == SOLVER_AUTO && standard.filter == FILTER_CLAMP);
     CHECK(standard.line_search == LINE_SEARCH_BACKTRACK && !standard.cells);
     assert_string_equal(solver_name(SOLVER_MULTIGRID), "multigrid");
@@ -214,7 +214,7 @@ static const char *const bad_lines[][4] = {
     {"landscape --start 3", "--start: '3'", "X,Y, each from", "in m"},
     {"overshoot --start x", "--start: 'x'", "-1e300 to 1e300"},
     {"--lecture overshot", "--lecture: 'overshot'", "mean overshoot"},
-    {"--lecture 99", "--lecture: '99'", "from 1 to 32"},
+    {"--lecture 99", "--lecture: '99'", "from 1 to 33"},
     {"--lecture 2 drop", "--lecture", "'drop'", "scenes of their own"},
     {"--lecture 2 --side 2", "--side", "pages say that"},
     {"--handout h --quiet", "--handout", "--quiet says nothing"},

@@ -708,6 +708,36 @@ TEST(claim_inelastic)
     check_ledger(simulation, start);
 }
 
+/* Triangles turned over, of a square of springs each cell's two. */
+static int turned_over(const Simulation *simulation)
+{
+    int turned = 0, node[3], side[3];
+    const double *x = simulation->run[0].x;
+    for (int t = 0; t < 4 * simulation->mesh.cells; t++) {
+        square_mesh_triangle(&simulation->mesh, t, node, side);
+        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
+        const double *c = x + 2 * node[2];
+        turned += !(
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
+    }
+    return turned;
+}
+
+TEST(claim_return)
+{
+    Simulation *simulation = open_page("return", "");
+    double start = simulation_energies(simulation, 0).total;
+    make_steps(simulation, 200);
+    check_ledger(simulation, start);
+    CHECK(simulation->unconverged == 0);
+    CHECK(turned_over(simulation) == 0);
+    for (int i = 0; i < 2 * simulation->mesh.nodes; i++)
+        CHECK_NEAR(simulation->run[0].x[i], simulation->mesh.x[i], 0.01);
+    simulation = open_page("return", "--material springs");
+    make_steps(simulation, 200);
+    CHECK(turned_over(simulation) > 80);
+}
+
 TEST(claim_fracture)
 {
     says("fracture", "20 100 100");

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "model/cells.h"
+#include "model/neo_hookean.h"
 #include "model/contact.h"
 #include "model/damping.h"
 #include "model/friction.h"
@@ -25,6 +26,7 @@ typedef struct Row {
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID } shape;
     double yield, hardening, damping, pull; /* 0: none; hardening as it is */
     bool rubs, averaged, flat;              /* flat: no spring has a length */
+    bool solid;                             /* triangles for springs */
     double far; /* alpha goes up to this, where nothing limits it */
     const OptionRow *option; /* or NULL: another term, by its own numbers */
 } Row;
@@ -51,6 +53,7 @@ static const Row rows[] = {
     {"free ball that rubs", FREE_BALL, .rubs = true, .far = 1e3},
     {"corner", CORNER, .far = 1e3},
     {"cells with springs", GRID, .far = 1e3},
+    {"triangles", GRID, .solid = true, .far = 1e3},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
@@ -111,7 +114,12 @@ static void make_grid(const Row *row, Random *random, Case *c)
         c->system.l2[s] = (s < 2 * n * (n + 1) ? 1.0 : 2.0) / (n * n);
         c->system.k[s] = 2;
     }
-    CHECK_STATUS(cells_add(&c->system, &mesh, 5), STATUS_OK);
+    const double material[3] = {1, random_logarithmic(random, 0.1, 10),
+                                random_uniform(random, -0.5, 0.49)};
+    CHECK_STATUS(row->solid
+                     ? neo_hookean_energy.set(&c->system, &mesh, material)
+                     : cells_add(&c->system, &mesh, 5),
+                 STATUS_OK);
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
     square_mesh_free(&mesh);

@@ -1,0 +1,218 @@
+#include "model/neo_hookean.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/mathematics.h"
+#include "model/area.h"
+#include "model/barrier.h"
+#include "model/elements.h"
+#include "model/mass_spring_energy.h"
+
+static const NeoHookean *data_of(const Place *at)
+{
+    return at->term->data;
+}
+
+static int count(const Place *at)
+{
+    return data_of(at)->triangles;
+}
+
+static int nodes(const Place *at, int t, int node[3])
+{
+    for (int k = 0; k < 3; k++)
+        node[k] = data_of(at)->node[t][k];
+    return 3;
+}
+
+/* a = f1, b = f2, s = J. */
+static bool get(const Place *at, int t, double way, Element *element)
+{
+    (void)way; /* each triangle has a force */
+    element->vectors = 2;
+    element->nodes = nodes(at, t, element->node);
+    element->weight = (const double(*)[3])data_of(at)->weight[t];
+    element->block = t;
+    element->factor = at->w;
+    element_vectors(element, at->x, element->v);
+    element->s = cross(element->v, element->v + 2);
+    return true;
+}
+
+static double square_of(const double f[4])
+{
+    return f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
+}
+
+/* dW/dJ and d^2W/dJ^2 over A0, of the terms with J. */
+static double slope_in_J(const NeoHookean *data, double J)
+{
+    return (data->lambda * math_log(J) - data->mu) / J;
+}
+
+static double curvature_in_J(const NeoHookean *data, double J)
+{
+    return (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
+}
+
+static double value(const Place *at, const Element *element)
+{
+    const NeoHookean *data = data_of(at);
+    double L = math_log(element->s);
+    return data->area * (0.5 * data->mu * (square_of(element->v) - 2) -
+                         data->mu * L + 0.5 * data->lambda * L * L);
+}
+
+/* mu F + dW/dJ grad J, grad J = (S f2, -S f1) with S v = (v_y, -v_x). */
+static void gradient(const Place *at, const Element *element, double g[4])
+{
+    const NeoHookean *data = data_of(at);
+    const double *f = element->v;
+    double c1 = data->area * slope_in_J(data, element->s);
+    double mu = data->area * data->mu;
+    g[0] = mu * f[0] + c1 * f[3];
+    g[1] = mu * f[1] - c1 * f[2];
+    g[2] = mu * f[2] - c1 * f[1];
+    g[3] = mu * f[3] + c1 * f[0];
+}
+
+static bool hessian(const Place *at, const Element *element, Filter filter,
+                    double H[4][4])
+{
+    const NeoHookean *data = data_of(at);
+    double J = element->s;
+    const AreaCurvature curvature = {.all = data->area * data->mu,
+                                     .slope = data->area * slope_in_J(data, J),
+                                     .second =
+                                         data->area * curvature_in_J(data, J),
+                                     .unit = 1};
+    return area_hessian(element->v, &curvature, filter, H);
+}
+
+/* With J + alpha J1 + alpha^2 J2 = J (1 + z), and ln(1 + z) less its part of
+ * degree 1 in alpha, nothing cancels. */
+static double remainder_along(const Place *at, const Element *element,
+                              const double P[4], double alpha)
+{
+    const NeoHookean *data = data_of(at);
+    double J1, J2, J = element->s;
+    area_along(element->v, P, &J1, &J2);
+    double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
+    if (!(z > -1))
+        return INFINITY;
+    double L = math_log1p(z), t = log1p_minus(z) + bent;
+    return data->area *
+           (0.5 * data->mu * alpha * alpha * square_of(P) - data->mu * t +
+            0.5 * data->lambda * (2 * math_log(J) * t + L * L));
+}
+
+static double reach(const Place *at, const Element *element, const double P[4])
+{
+    double J1, J2;
+    (void)at;
+    area_along(element->v, P, &J1, &J2);
+    return area_reach(ELEMENT_LIMIT * element->s, J1, J2);
+}
+
+/* mu I + c1 K + c2 (K f)(K f)^T, where K has the eigenvalues 1 and -1. */
+static double concave(const Place *at, const Element *element)
+{
+    const NeoHookean *data = data_of(at);
+    double c2 = curvature_in_J(data, element->s);
+    double down = fabs(slope_in_J(data, element->s)) - data->mu +
+                  fmax(-c2, 0) * square_of(element->v);
+    return at->w * data->area * fmax(down, 0);
+}
+
+/* At F = I the Hessian is mu (I - K) + (lambda + mu) (K f)(K f)^T; a node has
+ * the weights 1/l of a triangle's height l. */
+static void bounds(const Place *at, double *stiffest, double *force)
+{
+    const NeoHookean *data = data_of(at);
+    double size = 4 * data->mu + 2 * data->lambda;
+    bound_raise(stiffest, 2 * size);
+    bound_raise(force, size * sqrt(data->area));
+}
+
+static const ElementKind triangle = {.count = count,
+                                     .get = get,
+                                     .blocks = count,
+                                     .nodes = nodes,
+                                     .value = value,
+                                     .gradient = gradient,
+                                     .hessian = hessian,
+                                     .remainder = remainder_along,
+                                     .reach = reach,
+                                     .concave = concave};
+
+/* The triangle's own f1 and f2: [f1 f2] = [x_b - x_a, x_c - x_a] B with the
+ * inverse B of the same at rest. */
+static void weigh(const SquareMesh *mesh, const int node[3],
+                  double weight[2][3])
+{
+    double a[2], b[2], c[2];
+    square_mesh_place(mesh, node[0], a);
+    square_mesh_place(mesh, node[1], b);
+    square_mesh_place(mesh, node[2], c);
+    const double e1[2] = {b[0] - a[0], b[1] - a[1]};
+    const double e2[2] = {c[0] - a[0], c[1] - a[1]};
+    double twice = cross(e1, e2);
+    for (int m = 0; m < 2; m++) {
+        weight[m][1] = (m == 0 ? e2[1] : -e2[0]) / twice;
+        weight[m][2] = (m == 0 ? -e1[1] : e1[0]) / twice;
+        weight[m][0] = -(weight[m][1] + weight[m][2]);
+    }
+}
+
+/* Two triangles of each cell; of the springs stay their sides, as lines. */
+static void cut_cells(const SquareMesh *mesh, System *system, NeoHookean *data)
+{
+    static const int corner[2][2][3] = {{{0, 1, 2}, {0, 2, 3}},
+                                        {{0, 1, 3}, {1, 2, 3}}};
+    for (int c = 0; c < mesh->cells; c++) {
+        int node[4], spring[6], odd = (c / mesh->rows + c % mesh->rows) % 2;
+        square_mesh_cell(mesh, c, node, spring);
+        system->k[spring[odd ? 4 : 5]] = 0;
+        for (int t = 0; t < 2; t++) {
+            for (int k = 0; k < 3; k++)
+                data->node[2 * c + t][k] = node[corner[odd][t][k]];
+            weigh(mesh, data->node[2 * c + t], data->weight[2 * c + t]);
+        }
+    }
+}
+
+static Status set(System *system, const SquareMesh *mesh, const double *number)
+{
+    NeoHookean *data = system_data(system, &neo_hookean_energy);
+    Status status = STATUS_OK;
+    if (number[0] == 0)
+        return STATUS_OK; /* springs, since the start */
+    if (!data) {
+        size_t triangles = 2 * (size_t)mesh->cells;
+        data = calloc(1, sizeof *data + triangles * (sizeof *data->weight +
+                                                     sizeof *data->node));
+        if (!data)
+            return STATUS_OUT_OF_MEMORY;
+        data->triangles = (int)triangles;
+        data->area = 0.5 * mesh->spacing * mesh->spacing;
+        data->weight = (double(*)[2][3])(data + 1);
+        data->node = (int(*)[3])(data->weight + triangles);
+        cut_cells(mesh, system, data);
+        system->breaks = true;
+        system_remove_term(system, &mass_spring_energy);
+        status = system_add_term(system, &neo_hookean_energy, data);
+    }
+    double E = number[1], nu = number[2];
+    if (!status) {
+        data->mu = E / (2 * (1 + nu));
+        data->lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+    }
+    return status;
+}
+
+const TermKind neo_hookean_energy = {
+    ELEMENTS(triangle),  .name = "triangles", .set = set,
+    .energy = "elastic", .bounds = bounds,    .internal = true,
+    .end_of_step = true,
+};
