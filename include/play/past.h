@@ -13,6 +13,11 @@
  * Branches are a stack.  Undo goes one down, to where that one was left; redo
  * one up; a change drops those above.
  *
+ * To show a step, the machine of each pane takes the nearest state that is kept
+ * of it or of a step before it, and makes the steps from there once more
+ * (past_iterate).  Where several branches begin at one step their changes are
+ * made one after the other, from the lowest up.
+ *
  * All panes have one time and one count of steps: a step is one of the pane
  * with the longest timestep, and as many of the others as fit into it.
  */

@@ -30,10 +30,6 @@ typedef struct Script {
 /* Appends a line.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command);
 
-/* Puts a line before the one with this index.  Returns OK, OUT_OF_MEMORY. */
-Status script_insert(Script *script, size_t at, long step,
-                     const Command *command);
-
 /* Reads a file.
  *   script   out; free it in any case
  *   message  [size] out: which line, and what is wrong with it

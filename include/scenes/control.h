@@ -26,7 +26,6 @@ Control *control_copy(const Control *from);
 
 /* Sets or frees a pin of a copy that nobody else uses. */
 void control_pin(Control *control, int node, bool pinned);
-bool control_has_pin(const Control *control, int node);
 
 /* One user more, one less; NULL is accepted. */
 const Control *control_keep(const Control *control);

@@ -755,9 +755,8 @@ static Status begin_pane(Past *past, int pane, const Options *options)
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
-    Options
-        own[OPTIONS_MAX_PANES]; /* they may be those of a branch that goes */
-    memcpy(own, options, (size_t)panes * sizeof *own);
+    Options own[OPTIONS_MAX_PANES];
+    memcpy(own, options, (size_t)panes * sizeof *own); /* their branch may go */
     stop_work(past);
     const Branch *now = past->now > 0 ? &past->branch[past->now] : NULL;
     if (now && gesture && now->gesture == gesture && now->fresh)

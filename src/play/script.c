@@ -25,18 +25,6 @@ Status script_add(Script *script, long step, const Command *command)
     return STATUS_OK;
 }
 
-Status script_insert(Script *script, size_t at, long step,
-                     const Command *command)
-{
-    Status status = script_add(script, step, command);
-    for (size_t i = script->count - 1; i > at && !status; i--) {
-        ScriptLine line = script->line[i];
-        script->line[i] = script->line[i - 1];
-        script->line[i - 1] = line;
-    }
-    return status;
-}
-
 /* One line of the file; an empty one adds nothing. */
 static Status read_line(char *text, Script *script, char *message, size_t size)
 {

@@ -17,10 +17,8 @@ static Control *make_control(int pins)
 
 Control *control_of(const Simulation *simulation)
 {
-    int nodes = simulation->system.nodes, pins = 0;
-    for (int i = 0; i < nodes; i++)
-        pins += simulation_is_pinned(simulation, i);
-    Control *control = make_control(pins);
+    int nodes = simulation->system.nodes;
+    Control *control = make_control(nodes);
     if (!control)
         return NULL;
     control->options = simulation->options;
@@ -42,34 +40,19 @@ Control *control_copy(const Control *from)
     return control;
 }
 
-/* Where `node` stands among the pins, or would. */
-static int pin_place(const Control *control, int node)
+void control_pin(Control *control, int node, bool pinned)
 {
     int at = 0;
     while (at < control->pins && control->pin[at] < node)
         at++;
-    return at;
-}
-
-bool control_has_pin(const Control *control, int node)
-{
-    int at = pin_place(control, node);
-    return at < control->pins && control->pin[at] == node;
-}
-
-void control_pin(Control *control, int node, bool pinned)
-{
-    int *pin = control->pin + pin_place(control, node);
-    size_t behind = (size_t)(control->pin + control->pins - pin);
-    if (control_has_pin(control, node) == pinned)
+    int *pin = control->pin + at, behind = control->pins - at;
+    bool had = behind > 0 && *pin == node;
+    if (had == pinned)
         return;
-    if (pinned) {
-        memmove(pin + 1, pin, behind * sizeof *pin);
+    memmove(pin + pinned, pin + had, (size_t)(behind - had) * sizeof *pin);
+    if (pinned)
         *pin = node;
-    } else {
-        memmove(pin, pin + 1, (behind - 1) * sizeof *pin);
-    }
-    control->pins += pinned ? 1 : -1;
+    control->pins += pinned - had;
 }
 
 const Control *control_keep(const Control *control)
