@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "play/playing.h"
-#include "scenes/listing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
@@ -29,13 +28,8 @@ static const char handout_head[] =
     "nav { columns: 2; font-size: .9em; } nav a { display: block; }\n"
     "a { color: #0044b0; text-decoration: none; }\n"
     "b { color: #0000ff; }\n"
-    "pre { font: 13px/1.35 \"DejaVu Sans Mono\", monospace; background: "
-    "#f6f6f6;\n"
-    "  padding: .8em; overflow-x: auto; }\n"
-    "mark { background: #fff1cd; } .small { font-size: .85em; color: #6a6a6a; "
-    "}\n"
-    "@media print { section { break-inside: avoid; } details { display: none; "
-    "} }\n"
+    ".small { font-size: .85em; color: #6a6a6a; }\n"
+    "@media print { section { break-inside: avoid; } }\n"
     "</style>\n</head>\n<body>\n"
     "<h1>Reliable simulation of elastodynamics</h1>\n"
     "<p>Every page is a scene of the program elasto; what stands below a "
@@ -54,27 +48,6 @@ static void write_escaped(FILE *file, const char *text)
             fputs("&lt;", file);
         else
             fputc(*text, file);
-}
-
-/* The function with the lines at work marked. */
-static void write_code(FILE *file, const LecturePage *page)
-{
-    const Listing *listing = listing_find(page->file);
-    int from, body, to;
-    if (!listing ||
-        !listing_function(listing, page->function, &from, &body, &to))
-        return;
-    fputs("<details><summary>Its code: ", file);
-    write_escaped(file, page->function);
-    fprintf(file, " in %s, from line %d</summary>\n<pre>", page->file,
-            body + 1);
-    for (int i = from; i < to; i++) {
-        bool lit = i >= body && strstr(listing->line[i], page->lit);
-        fputs(lit ? "<mark>" : "", file);
-        write_escaped(file, listing->line[i]);
-        fputs(lit ? "</mark>\n" : "\n", file);
-    }
-    fputs("</pre></details>\n", file);
 }
 
 /* <p>, a head in bold if there is one, and the text. */
@@ -182,7 +155,6 @@ static Status write_page(FILE *file, int number,
     write_paragraph(file, "Look:", page->look);
     write_paragraph(file, "Try:", page->touch);
     write_paragraph(file, "Tested:", page->claim);
-    write_code(file, page);
     fputs("</section>\n", file);
     return status;
 }
