@@ -69,8 +69,8 @@ double square_contact_most(const SpringPen *pen)
 
 void square_contact_forces(const SpringPen *pen, double most)
 {
-    double scale = pen->stage->camera.scale[0], em = pen->stage->em;
-    double factor = FORCE_ROOM * em / (plot_round_up(most) * scale);
+    double scale = pen->stage->camera.scale[0], round = plot_round_up(most);
+    double factor = FORCE_ROOM * pen->stage->em / (round * scale);
     double radius = fmax(pen->radius, 2);
     if (!(most > 0))
         return;
@@ -86,14 +86,10 @@ void square_contact_forces(const SpringPen *pen, double most)
         else if (touch.rough)
             plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
     }
-}
-
-void square_contact_legend(const SpringPen *pen, double most)
-{
-    if (!(most > 0))
+    if (pen->run > 0) /* the first one's legend is that of all */
         return;
     plot_key(pen->stage, FORCE_ROOM, COLOUR_FORCE, "contact force %s N",
-             number_of(plot_round_up(most)).text);
+             number_of(round).text);
     if (system_find_term(pen->system, &friction_energy))
         plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }

@@ -42,6 +42,15 @@ static double seen_spacing(const SpringPen *pen)
     return reach > FLOWN * spacing * cells ? reach / cells : spacing;
 }
 
+/* A range for the colours: half the strain of the start, at least 5 %. */
+static double strain_range(const Simulation *simulation)
+{
+    double strain = fabs(fabs(simulation->options.stretch) - 1);
+    if (simulation->scene->strain > 0)
+        return simulation->scene->strain;
+    return plot_round_up(fmax(0.5 * strain, 0.05));
+}
+
 /* Half of the largest plastic strain, or 5 %. */
 static double plastic_range(const System *system, const double *ep)
 {
@@ -65,7 +74,7 @@ SpringPen square_pen(Plot *stage, const Show *show, int run)
                      .run = run,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
-                     .strain = square_strain_range(simulation),
+                     .strain = strain_range(simulation),
                      .ep = plasticity ? plasticity->ep : NULL,
                      .contact = contact_of(system)};
     double unit = stage->paper->unit;

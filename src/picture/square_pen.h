@@ -59,9 +59,6 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 /* All springs of a small square, faintly, and its outline in dashes. */
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
-/* A range for the colours: half the strain of the start, at least 5 %. */
-double square_strain_range(const Simulation *simulation);
-
 /* The node, spring or edge of the paused square under a pixel. */
 Pick square_pick(const Show *show, const Plot *stage, double x, double y);
 
@@ -95,11 +92,8 @@ void square_contact_obstacles(const SpringPen *pen);
 double square_contact_most(const SpringPen *pen);
 
 /* These forces as arrows that end at their nodes, `most` some ems long; a disc
- * where friction holds a node, a ring where it slides. */
+ * where friction holds a node, a ring where it slides; and what they mean. */
 void square_contact_forces(const SpringPen *pen, double most);
-
-/* What arrows, discs and rings mean. */
-void square_contact_legend(const SpringPen *pen, double most);
 
 /* The first wall's coefficient of friction as a part of the options' and of its
  * slope, and whether the body slides; false: it has no slope.  text [size] out

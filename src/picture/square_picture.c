@@ -22,14 +22,6 @@ static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
 
 /* ---- how much of the world is seen -------------------------------------- */
 
-/* Side lengths that the square may fill: a stretched one springs back, and a
- * squeezed one springs out and bulges. */
-static double square_extent(double stretch)
-{
-    double s = fabs(stretch);
-    return s < 1 ? 1 + 1.5 * (1 - s) : s;
-}
-
 /* Whether the scene says what is to be seen. */
 static bool has_frame(const Simulation *simulation)
 {
@@ -45,7 +37,8 @@ static bool is_free(const Simulation *simulation)
            simulation->runs == 1;
 }
 
-/* The square as it starts, around the middle or where a free one has drifted,
+/* The square as it starts, or with the room that a squeezed one needs to spring
+ * out and bulge, around the middle or where a free one has drifted,
  * less the way that the view has room for; where nodes have left that, 1.5,
  * 1.5^2, ... times as much, so that the view jumps seldom. */
 static void square_bounds(const Show *show, int pane, double bounds[4])
@@ -54,7 +47,8 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
     const Simulation *simulation = shown->simulation;
     const double *x = pane_x(shown);
     int nodes = simulation->system.nodes;
-    double extent = square_extent(simulation->options.stretch);
+    double stretch = fabs(simulation->options.stretch);
+    double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     const double size[2] = {half * extent,
                             half * (show->bare ? extent : fmin(extent, 1.25))};
@@ -158,10 +152,12 @@ static int draw_ground(const SpringPen *pen)
     return folded;
 }
 
-/* In words what cannot be drawn: nodes without a place, folded cells. */
+/* In words what cannot be drawn: nodes without a place, folded cells, and a
+ * tolerance at which bodies would hang in the air or freeze. */
 static void draw_warnings(const SpringPen *pen, int folded)
 {
     int nodes = pen->system->nodes, lost = 0;
+    double needed;
     for (int i = 0; i < nodes; i++)
         lost += !isfinite(pen->x[2 * (size_t)i]) ||
                 !isfinite(pen->x[2 * (size_t)i + 1]);
@@ -174,6 +170,10 @@ static void draw_warnings(const SpringPen *pen, int folded)
     if (folded > 0)
         plot_legend(pen->stage, COLOUR_WARNING, "%d cell%s folded over", folded,
                     folded == 1 ? "" : "s");
+    if (simulation_is_loose(pen->simulation, &needed))
+        plot_legend(pen->stage, COLOUR_WARNING,
+                    "\u03b5 is loose: above %s m/s bodies may hang or freeze",
+                    number_of(needed).text);
 }
 
 /* Above them. */
@@ -245,28 +245,6 @@ static void draw_numbers(const SpringPen *pen)
     }
 }
 
-/* Forces on all runs, in one scale, and what they mean. */
-static void draw_forces(const SpringPen *pen)
-{
-    int runs = pen->simulation->runs;
-    double most = 0;
-    for (int r = 0; r < runs; r++)
-        most = fmax(most, square_contact_most(&pen[r]));
-    for (int r = 0; r < runs; r++)
-        square_contact_forces(&pen[r], most);
-    square_contact_legend(pen, most);
-}
-
-/* A tolerance at which bodies would hang in the air or freeze. */
-static void draw_tolerance(const SpringPen *pen)
-{
-    double needed;
-    if (simulation_is_loose(pen->simulation, &needed))
-        plot_legend(pen->stage, COLOUR_WARNING,
-                    "\u03b5 is loose: above %s m/s bodies may hang or freeze",
-                    number_of(needed).text);
-}
-
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 static void square_draw(Plot *stage, const Show *show)
@@ -275,6 +253,7 @@ static void square_draw(Plot *stage, const Show *show)
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
+    double most = 0; /* of all forces: they have one scale */
     for (int r = 0; r < runs; r++) {
         pen[r] = square_pen(stage, show, r);
         square_contact_obstacles(&pen[r]);
@@ -294,13 +273,14 @@ static void square_draw(Plot *stage, const Show *show)
     square_nodes(pen);
     if (show->bare)
         return;
-    if (pen->contact)
-        draw_forces(pen);
+    for (int r = 0; r < runs; r++)
+        most = fmax(most, square_contact_most(&pen[r]));
+    for (int r = runs - 1; r >= 0; r--)
+        square_contact_forces(&pen[r], most);
     draw_signs(pen);
     draw_warnings(pen, folded);
     if (show->numbers && system->nodes <= NUMBERED)
         draw_numbers(pen);
-    draw_tolerance(pen);
     if (pen->range > 0)
         draw_colour_bar(pen);
 }
@@ -314,14 +294,6 @@ static void square_sample(const Simulation *simulation, History *history)
         value[history_series(history, energies.row[i].name)] =
             energies.row[i].value;
     history_add(history, simulation_time(simulation), value);
-}
-
-double square_strain_range(const Simulation *simulation)
-{
-    double strain = fabs(fabs(simulation->options.stretch) - 1);
-    if (simulation->scene->strain > 0)
-        return simulation->scene->strain;
-    return plot_round_up(fmax(0.5 * strain, 0.05));
 }
 
 static const Card *const square_cards[] = {
