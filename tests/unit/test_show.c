@@ -550,29 +550,16 @@ TEST(contacts_slide_or_hold)
 {
     static const double part[] = {0.5, 0.9, 1.1};
     stand_up("slope", 60);
+    draw(); /* the paper has the size of its letters */
+    Plot stage = {.paper = &paper,
+                  .box = layout.stage,
+                  .camera = show_camera(&show, &layout, 0),
+                  .em = layout.em};
     for (int r = 0; r < 3; r++) {
-        const TimeIntegrator *run = &simulation.run[r];
-        Plot stage = {.paper = &paper, .box = {0, 0, 600, 600}, .em = 10};
-        const double bounds[4] = {run->x[0] - 2, run->x[1] - 2, run->x[0] + 2,
-                                  run->x[1] + 2};
-        stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-        const SpringPen pen = {.stage = &stage,
-                               .simulation = &simulation,
-                               .run = r,
-                               .system = run->system,
-                               .x = run->x,
-                               .contact = contact_of(run->system),
-                               .radius = 1};
-        double lowest = 0;
-        for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
-            double at[2];
-            CHECK(touch.rough && touch.slides == (r < 2));
-            plot_place(&stage, run->x + 2 * touch.node, at);
-            lowest = fmax(lowest, at[1]);
-        }
+        const SpringPen pen = square_pen(&stage, &show, r);
+        const double *n = pen.contact->obstacle[0].n;
+        double angle = atan2(fabs(n[0]), n[1]), lowest = 0, at[2];
         char words[64], expected[64];
-        const Obstacle *wall = &pen.contact->obstacle[0];
-        double angle = atan2(fabs(wall->n[0]), wall->n[1]);
         for (int k = 0; k < 2; k++) { /* with another mu, and as it is */
             double mu = k ? tan(angle) : 0.45;
             simulation_set(&simulation, OPTION_SLOT(friction), mu);
@@ -583,9 +570,14 @@ TEST(contacts_slide_or_hold)
             CHECK(square_contact_words(&pen, words, sizeof words));
             assert_string_equal(words, expected);
         }
+        for (Touch touch = {.pair = -1}; square_next_touch(&pen, &touch);) {
+            CHECK(touch.rough && touch.slides == (r < 2));
+            plot_place(&stage, pen.x + 2 * touch.node, at);
+            lowest = fmax(lowest, at[1]);
+        }
         canvas_clear(&paper.canvas, COLOUR_WHITE);
         square_contact_forces(&pen, square_contact_most(&pen));
-        Box below = {0, (int)lowest + 6, 600, 594 - (int)lowest};
+        Box below = {0, (int)lowest + 6, 900, 60};
         CHECK(lowest > 0 && count_colour(below, COLOUR_FORCE) > 10);
     }
 }
