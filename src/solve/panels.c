@@ -51,12 +51,16 @@ INLINE void block(const Product *at, int i, int wide, int n)
 /* Row i of C's n columns. */
 INLINE void row(const Product *at, int i, int n)
 {
+    const double *a = at->A + i, *b = at->B;
+    double s[GROUP] = {0};
+    for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
+#pragma GCC unroll 4
+        for (int q = 0; q < n; q++)
+            s[q] += *a * b[q];
+#pragma GCC unroll 4
     for (int q = 0; q < n; q++) {
-        const double *a = at->A + i, *b = at->B + q;
-        double s = 0, *c = at->C + (size_t)q * at->ldc + i;
-        for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
-            s += *a * *b;
-        *c = at->subtracts ? *c - s : s;
+        double *c = at->C + (size_t)q * at->ldc + i;
+        *c = at->subtracts ? *c - s[q] : s[q];
     }
 }
 
