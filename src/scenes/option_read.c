@@ -533,11 +533,13 @@ static Status check_body(Line *line)
     }
     if (check_integrator(line))
         return STATUS_INVALID_INPUT;
-    if (options->material != 0 && (options->cells || options->yield > 0 ||
-                                   options->tear > 0 || options->damping > 0))
+    if (options->material != 0)
+        options->cells = 0; /* triangles keep their sides anyway */
+    if (options->material != 0 &&
+        (options->yield > 0 || options->tear > 0 || options->damping > 0))
         return refuse(line,
                       "--material: the scene '%s' is about springs; triangles "
-                      "have no cells, yield, tear or damping",
+                      "do not flow or tear, and are not damped",
                       options->scene->name);
     if ((options->cells || options->material != 0) &&
         !given(line, option_find("filter")))

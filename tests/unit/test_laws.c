@@ -396,6 +396,7 @@ TEST(nothing_penetrates_turns_over_or_comes_back)
         "squeeze --yield 0.05 --segments 8 --damping 0.02",
         "drop --yield 0.05 --tear 0.2 --segments 8",
         "drop --segments 6 --line-search none",
+        "drop --segments 6 --material neo-hookean --poisson 0.45",
         "hang --damping 0.1",
         "square --damping 0.01 --filter on-demand",
         "square --damping 0.01 --filter abs"};
