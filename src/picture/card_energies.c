@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 #include "scenes/scene.h"
 
 static const double RADIUS_AXIS = 2;   /* m, upper end; curves may leave it */

@@ -1,10 +1,7 @@
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 
 /* A line of a listing; its texts have facts. */
 typedef struct Row {

@@ -1,4 +1,3 @@
-#include <math.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"

@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 #include "scenes/scene.h"
 
 /* Smallest and largest power of ten around the residuals, extended. */

@@ -1,10 +1,8 @@
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/small_scenes.h"
 
 /* From few updates (light) to many (dark), by powers of two. */

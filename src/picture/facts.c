@@ -1,4 +1,3 @@
-#include "picture/facts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +7,6 @@
 #include "model/neo_hookean.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 #include "scenes/scene.h"
 #include "scenes/small_scenes.h"
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "picture/plot.h"
 
 enum {
     LEAST_SPAN = 60,  /* steps that the time line shows room for */

@@ -1,4 +1,3 @@
-#include "picture/picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,8 +6,6 @@
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/facts.h"
-#include "picture/plot.h"
 #include "scenes/scene.h"
 
 /* By the kind that a scene names. */

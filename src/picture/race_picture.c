@@ -3,7 +3,6 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/small_scenes.h"
 
 /* The points of a method joined, hollow where it explodes later; words keep
@@ -39,7 +38,7 @@ static void race_draw(Plot *stage, const Show *show)
                 (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, &simulation->exhibit.race, i);
-    for (int i = 0; i < RACE_METHODS && stage->text && !show->bare; i++)
+    for (int i = 0; i < RACE_METHODS && stage->text; i++)
         if (last[i])
             plot_words(
                 &plot, 1, &(const double[2]){last[i]->seconds, last[i]->error},

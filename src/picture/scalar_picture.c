@@ -1,7 +1,6 @@
 /* Newton in one unknown: f with its quadratic models (overshoot), and g with
  * its tangents above E with its parabolas (tangent). */
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -267,14 +266,12 @@ static void tangent_draw(Plot *stage, const Show *show)
     if (update.made || !(guess->made && !guess->shown))
         tangent_model(plot, &update);
     tangent_iterates(plot, simulation);
-    if (show->bare)
+    if (!stage->text)
         return;
     stage_handles(&plot[1], show);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
         plot_text(&plot[1], target, 0, 0.7, 1, ALIGN_CENTRE, FACE_BOLD,
                   COLOUR_X_TILDE, "{xt}");
-    if (!stage->text)
-        return;
     Paper *paper = stage->paper;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_X, plot[0].box.x + paper->em,
                 stage->box.y + 0.5 * paper->em, ALIGN_LEFT,

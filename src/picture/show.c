@@ -5,8 +5,6 @@
 #include "picture/cards.h"
 #include "picture/exhibits.h"
 #include "picture/handles.h"
-#include "picture/picture.h"
-#include "picture/plot.h"
 
 void show_create(const Simulation *simulation, Show *show)
 {

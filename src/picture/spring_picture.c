@@ -1,11 +1,9 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
