@@ -8,6 +8,7 @@
 #include "model/neo_hookean.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "picture/facts.h"
 #include "picture/square_pen.h"
@@ -190,7 +191,8 @@ static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Filter filter = pane->simulation->options.filter;
-    double k = system->k[s], l2 = system->l2[s], tau, bend, d[2];
+    bool solid = system_find_term(system, &neo_hookean_energy) != NULL;
+    double k = solid ? NAN : system->k[s], l2 = system->l2[s], tau, bend, d[2];
     spring_strain(e, l2, pane_x(pane), d);
     double d2 = d[0] * d[0] + d[1] * d[1];
     spring_law(system, s, (d2 - l2) / l2, &tau, &bend);
@@ -204,6 +206,7 @@ static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
     fact(&facts, "xx", 2 * k / l2 * (l2 * tau + 2 * bend * d[0] * d[0]));
     fact(&facts, "xy", 2 * k / l2 * 2 * bend * d[0] * d[1]);
     fact(&facts, "yy", 2 * k / l2 * (l2 * tau + 2 * bend * d[1] * d[1]));
+    fact_when(&facts, "block", !solid); /* of triangles an edge has none */
     fact(&facts, "across", across);
     fact(&facts, "along", along);
     if (filter_projects(filter) && fmin(along, across) < 0) {
@@ -214,7 +217,7 @@ static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
               "#text* spring {a:9}\u2013{b:9}\n"
               "l\u00b2 = {l2} m\u00b2,  strain {strain} %\n"
               "H = ({xx}, {xy}; {xy}, {yy}) J/m\u00b2\n"
-              "its block of \u2207\u00b2P: (H, \u2212H; \u2212H, H)\n"
+              "{block}its block of \u2207\u00b2P: (H, \u2212H; \u2212H, H)\n"
               "eigenvalues 0, 0, {across}, {along}\n"
               "#project after projection 0, 0, {across after}, {along after}");
 }

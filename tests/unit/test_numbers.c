@@ -744,11 +744,12 @@ static void tell_all(const Show *show)
     const Options *o = &simulation->options;
     const double settings[] = {o->timestep, o->stiffness, o->stretch,
                                o->segments, o->tolerance, o->friction,
-                               o->damping};
+                               o->damping,  o->young,     o->poisson};
     PictureKind kind = simulation->scene->picture;
     truths = 0;
-    for (int i = 0; i < 7; i++)
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         is("setting", settings[i]);
+    is("of its width, %", 100 * o->stretch);
     is("step", player.past.step);
     is("newest", past_newest(&player.past));
     near("t", simulation_time(simulation), 1e-12L);
