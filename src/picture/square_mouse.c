@@ -51,33 +51,26 @@ Pick square_pick(const Show *show, const Plot *stage, double x, double y)
     const System *system = &pane->simulation->system;
     const double *at = pane_x(pane);
     double spacing = stage->camera.scale[0] * pane->simulation->mesh.spacing;
-    double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach;
+    double reach = fmin(fmax(0.3 * spacing, 7), 16);
     Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
     camera_world(&stage->camera, x, y, pick.point);
-    for (int i = 0; i < system->nodes; i++) {
-        double p[2];
-        plot_place(stage, at + 2 * (size_t)i, p);
-        double d2 = (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y);
-        if (d2 < best) {
-            best = d2;
-            pick.kind = PICK_NODE;
-            pick.index = i;
-        }
-    }
-    best = reach * reach / 4;
-    for (int s = 0;
-         pick.kind == PICK_NONE && s < system->springs && !solid_of(system);
-         s++) {
-        double p[2], q[2];
-        if (spring_is_broken(system, s))
-            continue;
-        plot_place(stage, at + 2 * (size_t)system->e[2 * s], p);
-        plot_place(stage, at + 2 * (size_t)system->e[2 * s + 1], q);
-        double d2 = distance2(p, q, x, y);
-        if (d2 < best) {
-            best = d2;
-            pick.kind = PICK_SPRING;
-            pick.index = s;
+    for (int springs = 0; springs < 2 && pick.kind == PICK_NONE; springs++) {
+        int count = !springs           ? system->nodes
+                    : solid_of(system) ? 0
+                                       : system->springs;
+        double best = springs ? reach * reach / 4 : reach * reach, p[2], q[2];
+        for (int i = 0; i < count; i++) {
+            const int node[2] = {i, i}, *e = springs ? system->e + 2 * i : node;
+            if (springs && spring_is_broken(system, i))
+                continue;
+            camera_pixel(&stage->camera, at + 2 * (size_t)e[0], p);
+            camera_pixel(&stage->camera, at + 2 * (size_t)e[1], q);
+            double d2 = distance2(p, q, x, y);
+            if (d2 < best) {
+                best = d2;
+                pick.kind = springs ? PICK_SPRING : PICK_NODE;
+                pick.index = i;
+            }
         }
     }
     if (pick.kind == PICK_SPRING)

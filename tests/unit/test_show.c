@@ -501,6 +501,13 @@ TEST(the_mouse_finds_nodes_and_springs)
         show_zoom(&show, &layout, at[0], at[1], 2.5);
     }
     show.lens = LENS_FITS;
+    for (int s = 0; s < system->springs; s++) { /* where diagonals cross, too */
+        const double *p = x + 2 * system->e[2 * s];
+        const double *q = x + 2 * system->e[2 * s + 1];
+        CHECK(picks(
+            pick_at(0.54 * p[0] + 0.46 * q[0], 0.54 * p[1] + 0.46 * q[1], 0, 0),
+            PICK_SPRING, s));
+    }
     CHECK(show_pick(&show, &layout, 5, 200).kind == PICK_NONE);
     CHECK(show_pick(&show, &layout, 1100, 200).kind == PICK_NONE);
     int left = 0; /* the spring of nodes 0 and 1, in the left column */
