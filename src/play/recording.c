@@ -15,7 +15,7 @@
 static Status note(Recording *recording, Status status, const char *name,
                    const char *why)
 {
-    if (status && recording->message[0] == '\0') {
+    if (status && !recording->message[0]) {
         char shown[256];
         one_line(name, shown, sizeof shown);
         snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
