@@ -91,17 +91,6 @@ typedef struct Command {
     bool joins; /* undone together with the one before it: "& set ..." */
 } Command;
 
-/* What stands behind the word of a command. */
-typedef enum CommandArguments {
-    TAKES_NOTHING,
-    TAKES_NUMBER, /* a whole number from 0 */
-    TAKES_POINT,  /* x y */
-    TAKES_BOTH,   /* both */
-    TAKES_WORD,   /* a word */
-    TAKES_OPTION, /* the name of an option */
-    TAKES_VALUE   /* the same, and its value */
-} CommandArguments;
-
 /* Who listens to the keys; a row of the table says for whom its keys are. */
 typedef enum Keyboard {
     AT_RUN = 1,    /* the run, */
@@ -130,7 +119,9 @@ typedef struct CommandRow {
      * NULL: not in the list. */
     const char *label;
     unsigned flags;
-    CommandArguments arguments;
+    /* What stands behind the word, a letter each: n a whole number from 0, x
+     * and y, w a word, o the name of an option, v its value; NULL: nothing. */
+    const char *takes;
     Keyboard keyboard; /* 0: AT_PLAY */
     const char *chip;  /* what it does now, for the chips: "play|pause" */
 } CommandRow;

@@ -28,7 +28,7 @@ static const CommandRow command_rows[COMMAND_KINDS] = {
     [COMMAND_HOME] = {obey_goto, "home", "Home", "to step 0; to the newest",
                       KEPT},
     [COMMAND_END] = {obey_goto, "end", "End", "", KEPT},
-    [COMMAND_GOTO] = {obey_goto, "goto", NULL, NULL, KEPT, TAKES_NUMBER},
+    [COMMAND_GOTO] = {obey_goto, "goto", NULL, NULL, KEPT, "n"},
     [COMMAND_UNDO] = {obey_undo, "undo", "Ctrl+Z", "undo a change; redo",
                       REPEATS | KEPT},
     [COMMAND_REDO] = {obey_undo, "redo", "Ctrl+Shift+Z", "", REPEATS | KEPT},
@@ -48,37 +48,36 @@ static const CommandRow command_rows[COMMAND_KINDS] = {
                           "next method, side by side", KEPT},
     [COMMAND_END_PANE] = {obey_end_pane, "end-pane", "Backspace",
                           "close the last pane", KEPT},
-    [COMMAND_PANE] = {obey_pane, "pane", NULL, NULL, KEPT, TAKES_NUMBER},
-    [COMMAND_SET] = {obey_set, "set", NULL, NULL, KEPT, TAKES_VALUE},
-    [COMMAND_DEFAULT] = {obey_default, "default", NULL, NULL, 0, TAKES_OPTION},
+    [COMMAND_PANE] = {obey_pane, "pane", NULL, NULL, KEPT, "n"},
+    [COMMAND_SET] = {obey_set, "set", NULL, NULL, KEPT, "ov"},
+    [COMMAND_DEFAULT] = {obey_default, "default", NULL, NULL, 0, "o"},
     [COMMAND_SELECT] = {obey_select, "select", "Tab", "next number",
                         REPEATS | SCREEN},
     [COMMAND_RAISE] = {obey_raise, "raise", "Up", "make it larger; smaller",
                        REPEATS},
     [COMMAND_LOWER] = {obey_raise, "lower", "Down", "", REPEATS},
     [COMMAND_SCENE] = {obey_scene, "scene", "1|2|3|4|5|6|7|8|9", NULL, KEPT,
-                       TAKES_WORD},
-    [COMMAND_START] = {obey_start, "start", NULL, NULL, KEPT, TAKES_POINT},
-    [COMMAND_GRAB] = {obey_grab, "grab", NULL, NULL, KEPT, TAKES_NUMBER},
-    [COMMAND_DRAG] = {obey_drag, "drag", NULL, NULL, KEPT, TAKES_POINT},
+                       "w"},
+    [COMMAND_START] = {obey_start, "start", NULL, NULL, KEPT, "xy"},
+    [COMMAND_GRAB] = {obey_grab, "grab", NULL, NULL, KEPT, "n"},
+    [COMMAND_DRAG] = {obey_drag, "drag", NULL, NULL, KEPT, "xy"},
     [COMMAND_RELEASE] = {obey_drag, "release", NULL, NULL, KEPT},
-    [COMMAND_PIN] = {obey_pin, "pin", NULL, NULL, KEPT, TAKES_NUMBER},
-    [COMMAND_HANDLE] = {obey_handle, "handle", NULL, NULL, KEPT, TAKES_BOTH},
-    [COMMAND_FLIP] = {obey_handle, "flip", NULL, NULL, KEPT, TAKES_NUMBER},
-    [COMMAND_ZOOM] = {obey_camera, "zoom", NULL, NULL, SCREEN, TAKES_BOTH},
-    [COMMAND_PAN] = {obey_camera, "pan", NULL, NULL, SCREEN, TAKES_POINT},
+    [COMMAND_PIN] = {obey_pin, "pin", NULL, NULL, KEPT, "n"},
+    [COMMAND_HANDLE] = {obey_handle, "handle", NULL, NULL, KEPT, "nxy"},
+    [COMMAND_FLIP] = {obey_handle, "flip", NULL, NULL, KEPT, "n"},
+    [COMMAND_ZOOM] = {obey_camera, "zoom", NULL, NULL, SCREEN, "nxy"},
+    [COMMAND_PAN] = {obey_camera, "pan", NULL, NULL, SCREEN, "xy"},
     [COMMAND_FIT] = {obey_camera, "fit", "0", "fit the picture", SCREEN},
     [COMMAND_COLOURS] = {obey_shown, "colours", "C", "colours show strain",
                          SCREEN},
     [COMMAND_BARE] = {obey_shown, "bare", "H", "the picture alone", SCREEN},
     [COMMAND_KEYS] = {obey_column, "keys", "?|F1", "these keys", SCREEN,
                       .chip = "all keys"},
-    [COMMAND_CARD] = {obey_card, "card", NULL, NULL, SCREEN, TAKES_NUMBER},
-    [COMMAND_ENLARGE] = {obey_card, "enlarge", NULL, NULL, SCREEN,
-                         TAKES_NUMBER},
-    [COMMAND_PREDICT] = {obey_predict, "predict", NULL, NULL, 0, TAKES_POINT},
-    [COMMAND_CELL] = {obey_cell, "cell", NULL, NULL, 0, TAKES_NUMBER},
-    [COMMAND_PAGE] = {obey_page, "page", NULL, NULL, KEPT, TAKES_WORD},
+    [COMMAND_CARD] = {obey_card, "card", NULL, NULL, SCREEN, "n"},
+    [COMMAND_ENLARGE] = {obey_card, "enlarge", NULL, NULL, SCREEN, "n"},
+    [COMMAND_PREDICT] = {obey_predict, "predict", NULL, NULL, 0, "xy"},
+    [COMMAND_CELL] = {obey_cell, "cell", NULL, NULL, 0, "n"},
+    [COMMAND_PAGE] = {obey_page, "page", NULL, NULL, KEPT, "w"},
     [COMMAND_PAGE_ON] = {obey_page, "page-on", "PageDown",
                          "the lecture: next page; back", KEPT,
                          .chip = "next page"},
@@ -142,162 +141,127 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
     return command;
 }
 
-/* ---- lines of scripts --------------------------------------------------- */
+/* ---- lines of scripts ---------------------------------------------------- */
 
-/* The next word of the line, or NULL.  word [COMMAND_TEXT_SIZE] out */
-static const char *take_word(const char **line, char *word)
+static const char blanks[] = " \t\r\n";
+
+/* The next word of the line, or "".  word [COMMAND_TEXT_SIZE] out */
+static bool take_word(const char **line, char *word)
 {
-    const char *at = *line;
-    size_t length = 0;
-    while (isspace((unsigned char)*at))
-        at++;
-    while (at[length] && !isspace((unsigned char)at[length]))
-        length++;
+    const char *at = *line + strspn(*line, blanks);
+    size_t length = strcspn(at, blanks);
+    bool fits = length > 0 && length < COMMAND_TEXT_SIZE;
+    snprintf(word, COMMAND_TEXT_SIZE, "%.*s", fits ? (int)length : 0, at);
     *line = at + length;
-    if (length == 0 || length >= COMMAND_TEXT_SIZE)
-        return NULL;
-    memcpy(word, at, length);
-    word[length] = '\0';
-    return word;
+    return fits;
 }
 
-/* A whole number from 0. */
-static bool take_number(const char **line, long *number)
+/* What stands behind the word of a command, by the letters of its row. */
+static const char *words_of(char letter)
 {
-    char word[COMMAND_TEXT_SIZE], *end = NULL;
-    if (!take_word(line, word) || !isdigit((unsigned char)word[0]))
-        return false;
+    return letter == 'n'   ? " a whole number from 0"
+           : letter == 'x' ? " X"
+           : letter == 'y' ? " Y"
+           : letter == 'o' ? " the name of an option"
+           : letter == 'v' ? " a value"
+                           : " a word";
+}
+
+/* A word as one of them.  An option or a value that makes no sense is refused
+ * when the command is obeyed, where somebody knows why. */
+static bool read_word(const char *word, char letter, Command *command)
+{
+    const OptionRow *row;
+    double number = strtod(word, NULL);
+    char *end = NULL;
+    bool one;
     errno = 0;
-    *number = strtol(word, &end, 10);
-    return errno == 0 && *end == '\0';
-}
-
-/* Two finite numbers. */
-static bool take_point(const char **line, Command *command)
-{
-    double *value[] = {&command->x, &command->y};
-    for (int i = 0; i < 2; i++) {
-        char word[COMMAND_TEXT_SIZE], *end = NULL;
-        if (!take_word(line, word))
-            return false;
-        *value[i] = strtod(word, &end);
-        if (end == word || *end || !isfinite(*value[i]))
-            return false;
-    }
-    return true;
-}
-
-/* Whether a value is one number, or a name. */
-static bool is_one_number(const OptionRow *row)
-{
-    return row->count <= 1 && row->times == 0 &&
-           (row->kind == OPTION_NUMBER || row->kind == OPTION_WHOLE ||
-            row->kind == OPTION_NAME);
-}
-
-/* An option and its value; what makes no sense is refused when it is obeyed,
- * where somebody knows why. */
-static bool take_option(const char **line, bool value, Command *command)
-{
-    char name[COMMAND_TEXT_SIZE];
-    if (!take_word(line, name))
-        return false;
-    const OptionRow *row = option_find(name);
-    command->number = row ? row - option_rows : -1;
-    if (value && !take_word(line, command->text))
-        return false;
-    if (!row)
-        memcpy(command->text, name, sizeof name);
-    else if (value && is_one_number(row) &&
-             option_read(row, command->text, &command->x))
-        command->text[0] = '\0';
-    return true;
-}
-
-/* The arguments behind the word. */
-static bool take_arguments(const char **line, CommandArguments arguments,
-                           Command *command)
-{
-    switch (arguments) {
-    case TAKES_NUMBER:
-        return take_number(line, &command->number);
-    case TAKES_BOTH:
-        return take_number(line, &command->number) && take_point(line, command);
-    case TAKES_POINT:
-        return take_point(line, command);
-    case TAKES_WORD:
-        return take_word(line, command->text);
-    case TAKES_OPTION:
-    case TAKES_VALUE:
-        return take_option(line, arguments == TAKES_VALUE, command);
-    default:
+    switch (letter) {
+    case 'n':
+        command->number = strtol(word, &end, 10);
+        return isdigit((unsigned char)word[0]) && errno == 0 && *end == '\0';
+    case 'x':
+    case 'y':
+        *(letter == 'x' ? &command->x : &command->y) = strtod(word, &end);
+        return end != word && *end == '\0' && isfinite(number);
+    case 'o':
+        row = option_find(word);
+        command->number = row ? row - option_rows : -1;
+        snprintf(command->text, sizeof command->text, "%s", row ? "" : word);
         return true;
+    case 'v':
+        if (command->number < 0)
+            return true;
+        row = &option_rows[command->number];
+        one = row->count <= 1 && row->times == 0 && row->kind != OPTION_TEXT &&
+              row->kind != OPTION_SWITCH && row->kind != OPTION_PAGE;
+        if (one && option_read(row, word, &command->x))
+            return true;
+        break;
+    default:
+        break;
     }
+    snprintf(command->text, sizeof command->text, "%s", word);
+    return true;
 }
 
 Status command_parse(const char *line, Command *command, char *message,
                      size_t size)
 {
-    static const char *const behind[] = {
-        [TAKES_NOTHING] = "nothing",
-        [TAKES_NUMBER] = "a whole number from 0",
-        [TAKES_POINT] = "X Y",
-        [TAKES_BOTH] = "N X Y, a whole and two finite numbers",
-        [TAKES_WORD] = "one word",
-        [TAKES_OPTION] = "the name of an option",
-        [TAKES_VALUE] = "the name of an option and its value",
-    };
-    char word[COMMAND_TEXT_SIZE] = "", rest[COMMAND_TEXT_SIZE];
-    int i = 1;
-    while (isspace((unsigned char)*line))
-        line++;
+    char word[COMMAND_TEXT_SIZE], next[COMMAND_TEXT_SIZE];
+    int kind = 1, used;
+    line += strspn(line, blanks);
     *command = (Command){.joins = *line == '&'};
     line += command->joins;
     take_word(&line, word);
-    while (i < COMMAND_KINDS &&
-           (!command_rows[i].word || strcmp(command_rows[i].word, word) != 0))
-        i++;
-    if (i < COMMAND_KINDS) {
-        const CommandArguments arguments = command_rows[i].arguments;
-        command->kind = (CommandKind)i;
-        if (take_arguments(&line, arguments, command) &&
-            !take_word(&line, rest))
-            return STATUS_OK;
-        snprintf(message, size, "'%s' has %s behind it", word,
-                 behind[arguments]);
+    while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
+                                    strcmp(command_rows[kind].word, word) != 0))
+        kind++;
+    if (kind == COMMAND_KINDS) {
+        used = snprintf(message, size,
+                        "there is no command '%.20s', they are:", word);
+        for (kind = 1; kind < COMMAND_KINDS && used < (int)size; kind++)
+            if (command_rows[kind].word)
+                used += snprintf(message + used, size - (size_t)used, " %s",
+                                 command_rows[kind].word);
         return STATUS_INVALID_INPUT;
     }
-    int used =
-        snprintf(message, size, "there is no command '%.20s', they are:", word);
-    for (i = 1; i < COMMAND_KINDS && used < (int)size; i++)
-        if (command_rows[i].word)
-            used += snprintf(message + used, size - (size_t)used, " %s",
-                             command_rows[i].word);
+    command->kind = (CommandKind)kind;
+    const char *takes = command_rows[kind].takes;
+    bool good = true;
+    for (const char *at = takes; at && *at; at++)
+        good = good && take_word(&line, next) && read_word(next, *at, command);
+    if (good && line[strspn(line, blanks)] == '\0')
+        return STATUS_OK;
+    used = snprintf(message, size, "behind '%s' stands%s", word,
+                    takes ? "" : " nothing");
+    for (const char *at = takes; at && *at && used < (int)size; at++)
+        used +=
+            snprintf(message + used, size - (size_t)used, "%s", words_of(*at));
     return STATUS_INVALID_INPUT;
 }
 
 void command_format(const Command *command, char *line, size_t size)
 {
     const CommandRow *row = &command_rows[command->kind];
-    CommandArguments arguments = row->arguments;
-    bool number = arguments == TAKES_NUMBER || arguments == TAKES_BOTH;
+    const OptionRow *option = NULL;
+    if (row->takes && row->takes[0] == 'o' && command->number >= 0)
+        option = &option_rows[command->number];
     size_t used = (size_t)snprintf(line, size, "%s%s",
                                    command->joins ? "& " : "", row->word);
-    if (number)
-        used +=
-            (size_t)snprintf(line + used, size - used, " %ld", command->number);
-    if (arguments == TAKES_POINT || arguments == TAKES_BOTH)
-        snprintf(line + used, size - used, " %.17g %.17g", command->x,
-                 command->y);
-    if (arguments >= TAKES_OPTION && command->number >= 0)
-        used += (size_t)snprintf(line + used, size - used, " %s",
-                                 option_rows[command->number].name);
-    if (arguments == TAKES_VALUE && command->number >= 0 && !command->text[0]) {
-        line[used++] = ' ';
-        option_write(&option_rows[command->number], command->x, line + used,
-                     size - used);
-    } else if (arguments == TAKES_WORD || arguments == TAKES_VALUE ||
-               (arguments == TAKES_OPTION && command->number < 0)) {
-        snprintf(line + used, size - used, " %s", command->text);
+    for (const char *at = row->takes; at && *at && used < size; at++) {
+        char word[COMMAND_TEXT_SIZE];
+        if (*at == 'n')
+            snprintf(word, sizeof word, "%ld", command->number);
+        else if (*at == 'x' || *at == 'y')
+            snprintf(word, sizeof word, "%.17g",
+                     *at == 'x' ? command->x : command->y);
+        else if (*at == 'o' && option)
+            snprintf(word, sizeof word, "%s", option->name);
+        else if (*at == 'v' && option && !command->text[0])
+            option_write(option, command->x, word, sizeof word);
+        else
+            snprintf(word, sizeof word, "%s", command->text);
+        used += (size_t)snprintf(line + used, size - used, " %s", word);
     }
 }
