@@ -475,7 +475,7 @@ static void work_off(void)
  * the step as a whole. */
 TEST(a_long_step_is_made_in_slices)
 {
-    const char *line = "--segments 90 --solver newton";
+    const char *line = "--segments 140 --solver newton";
     Simulation plain;
     simulation_from_line(line, NULL, NULL, &plain);
     CHECK_STATUS(simulation_step(&plain), STATUS_OK);
