@@ -17,7 +17,8 @@ run() {
 
 # ledger MASS GRAVITY LINE: total is the sum of what is stored; with what was
 # lost it is the start's total and the work done; kinetic energy and gravity's
-# are those of the states.  All to rounding, 1e-12 of the largest number.
+# are those of the states.  All to rounding, 1e-12 of the largest number or of
+# what all heights add up to.
 ledger() {
     m=$1 g=$2
     shift 2
@@ -31,12 +32,14 @@ ledger() {
             for (c = 1; c <= n; c++) at[column[c]] = c
             next }
         file == 1 { k[$1] += m / 2 * ($6 * $6 + $7 * $7)
-            p[$1] += m * g * $5; next }
+            p[$1] += m * g * $5; size += m * g * ($5 < 0 ? -$5 : $5)
+            next }
         { stored = $at["kinetic"] + $at["elastic"] + $at["gravity"] + \
               $at["contact"] + $at["hand"]
           gone = $at["plastic"] + $at["fracture"] + $at["damping"] + \
               $at["friction"] + $at["dissipated"]
-          if (FNR == 2) { first = $at["total"]; size = first < 0 ? -first : first }
+          if (FNR == 2) first = $at["total"]
+          if (first > size) size = first
           if (k[$1] > size) size = k[$1]
           bad("total", $at["total"] - stored)
           bad("what is gone", first + $at["work"] - $at["total"] - gone)
