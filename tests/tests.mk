@@ -28,8 +28,6 @@ $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(Q)$(COMPILE) -DFAST= -MMD -MP -c $< -o $@
 $(B)/tests/unit/test_widths: $(GRID_LOOPS:%=$(B)/narrow/%.o)
 
-# Its former name.
-$(B)/tests/unit/texts: $(B)/tests/unit/test_numbers ;
 $(B)/tests/unit/test_numbers: LIBS += $(call wrap,text_draw paper_paragraph \
   plot_create plot_on)
 

@@ -79,7 +79,7 @@ mkdir -p build/mutants/original build/mutants/taken
 cp -pR Makefile README.md include src tests build/mutants/original || exit 1
 cd build/mutants || exit 1
 cp original/tests/data/mutants.txt list
-grep -n ' @@ ' list | grep -F -e "$word" | grep -v '^[0-9]*:#' >chosen
+grep -an ' @@ ' list | grep -aF -e "$word" | grep -av '^[0-9]*:#' >chosen
 [ -s chosen ] || {
     echo "no fault contains '$word'"
     exit 1
