@@ -41,7 +41,7 @@ typedef struct State {
 
 /* What is told of a step when its iterations are long forgotten. */
 typedef struct Outcome {
-    int updates;   /* records of Newton, in all its substeps */
+    int updates;   /* Newton's, in all its substeps */
     Status status; /* the worst */
     double change; /* of E, J s^2 */
     double extent; /* m, the largest coordinate of run 0 */
@@ -72,7 +72,8 @@ typedef struct Branch {
     long count; /* entries; never 0 */
     long room;  /* for so many; behind the last is the one that is being made */
     long shown; /* the step that was shown when it was left */
-    long stride; /* every so manyth state is kept, and that of entry 0 */
+    long stride; /* every so manyth state is kept; that of entry 0 until memory
+                    is short, placed ones always */
     int panes;
     int source[OPTIONS_MAX_PANES]; /* the pane below that each goes on from */
     Entry *entry;                  /* [room][panes]; 0 behind the last */
@@ -98,7 +99,8 @@ typedef struct Machine {
     bool failed;            /* that one could not be made */
     double start;           /* J, total energy at step 0 */
     Rounds rounds;
-    bool known;      /* they are of the step it stands at, or failed after it */
+    bool known; /* rounds and records are of the step it stands at, or failed
+                   after it */
     Records records; /* all that Newton told of that step, for the log */
 } Machine;
 
@@ -140,10 +142,11 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
  *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_HANDLE,
  *            COMMAND_FLIP
  *   from,to  in panes from ... to - 1
- *   again    it counts from the step before on: the one that is shown is made
- *            once more by past_iterate
+ *   again    it counts from the step before on: the one that is shown, not
+ *            step 0, is made once more by past_iterate
  *   gesture  of the mouse: the same one changes its own branch's end; or 0
- *   message  [size] out, why not, after INVALID_INPUT */
+ *   message  [size] out, why not, after INVALID_INPUT
+ * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture, char *message, size_t size);
 

@@ -25,6 +25,7 @@ enum { ROUND_PARTS = 32, ROUND_VALUES = ROUND_PARTS * 3 / 2 + 1 };
 typedef struct Records {
     NewtonRecord *row; /* [count] */
     int count, room;
+    bool lost; /* there was no memory for more */
 } Records;
 
 /* Makes room for so many.  Returns false where memory is missing. */

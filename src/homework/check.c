@@ -58,8 +58,7 @@ static bool say(const char *format, ...)
     return true;
 }
 
-/* ---- comparing numbers ----------------------------------------------------
- */
+/* ---- comparing numbers -------------------------------------------- */
 
 /* Equal but for what another order of the sums changes. */
 static bool same(const double *a, const double *b, int n)
@@ -143,8 +142,7 @@ static bool wrong(Kind kind, const double *yours, const double *truth, int n)
                yours[worst], truth[worst]);
 }
 
-/* ---- small cases -----------------------------------------------------------
- */
+/* ---- small cases -------------------------------------------------- */
 
 /* A number from -1 to 1, the next one of always the same row. */
 static double draw_number(void)
@@ -207,8 +205,7 @@ static Solid with_mass(const Solid *from, double m)
     return to;
 }
 
-/* What a function adds to a Hessian of n rows, in full; false: it has said that
- * an entry lies outside, or in the wrong triangle. */
+/* A Hessian of n rows without entries. */
 static cholmod_triplet new_triplets(int n)
 {
     size_t most = 40 * (size_t)n;
@@ -220,6 +217,9 @@ static cholmod_triplet new_triplets(int n)
                              .x = allocate((int)most, sizeof(double)),
                              .stype = 1};
 }
+
+/* What a function has added to a Hessian, full [n^2] out; true: it has said
+ * that an entry lies outside, or in the lower triangle. */
 static bool outside(const cholmod_triplet *H, double *full)
 {
     int n = (int)H->nrow;
@@ -237,8 +237,7 @@ static bool outside(const cholmod_triplet *H, double *full)
     return false;
 }
 
-/* ---- inertia ----------------------------------------------------------------
- */
+/* ---- inertia ------------------------------------------------------ */
 static bool check_inertia_val(void)
 {
     Solid solid = draw_solid(2), light = with_mass(&solid, 1);
@@ -321,8 +320,7 @@ static bool check_inertia_hess(void)
     return outside(&H, full) || wrong(MATRIX, full, truth, n * n);
 }
 
-/* ---- projection
- * --------------------------------------------------------------- */
+/* ---- projection -------------------------------------------------------- */
 
 static double eigenvalues(double a[4][4], double q[4][4], double *l)
 {
@@ -377,8 +375,7 @@ static bool check_make_psd(void)
     return false;
 }
 
-/* ---- springs
- * ------------------------------------------------------------------- */
+/* ---- springs ----------------------------------------------------------- */
 static bool check_spring_val(void)
 {
     for (int n_seg = 0; n_seg < 3; n_seg++) {
@@ -521,8 +518,7 @@ static bool check_spring_hess(void)
     return false;
 }
 
-/* ---- steps
- * ---------------------------------------------------------------------- */
+/* ---- steps ------------------------------------------------------------- */
 
 /* Along three directions: Newton's, one far too long, and none. */
 static bool check_line_search(void)
@@ -603,8 +599,8 @@ static int make_step(Solid *solid, double h, double tol, enum Step mistake)
 {
     int n = solid->nodes, updates = 0;
     Vec2 *x = solid->x, *x_n = copy(x, n, sizeof *x);
-    Vec2 *x_tilde = copy(x, n, sizeof *x), *p = draw_points(n, 1), *x_new = p;
-    x_new = draw_points(n, 1);
+    Vec2 *x_tilde = copy(x, n, sizeof *x);
+    Vec2 *p = draw_points(n, 1), *x_new = draw_points(n, 1);
     for (int i = 0; i < n && mistake != NO_TILDE; i++)
         x_tilde[i] = add(x[i], mul(h, solid->v[i]));
     search_dir(solid, x, x_tilde, h, p);
@@ -644,6 +640,7 @@ static bool check_step_forward(void)
     for (int trial = 0; trial < 2; trial++) {
         Solid from = square(1, 2, 1000, 1e5);
         double h = trial ? 0.05 : 0.004, tol = trial ? 1e-4 : 1e-2;
+        shared->doing[0] = '\0';
         int n = from.nodes;
         for (int i = 0; i < n; i++) {
             from.x[i].x *= trial ? 0.4 : 1.4;
@@ -740,8 +737,7 @@ static bool check_run(void)
     return false;
 }
 
-/* ---- one after the other
- * ----------------------------------------------------------- */
+/* ---- one after the other ----------------------------------------------- */
 #define BIT(name) (1u << TASK_##name)
 static const struct Task {
     const char *name;

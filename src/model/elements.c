@@ -147,8 +147,9 @@ int elements_hessian(const Place *at, Filter filter, const int *slot,
     return projected;
 }
 
-/* How much a and b may change along alpha p, m: |sum w_k p_k| with
- * sum |w_k| <= 2, and |p_k| <= 1.5 of its larger coordinate. */
+/* How much a and b may change along alpha p, m, of kinds that ask for `way`:
+ * |sum w_k p_k| with sum |w_k| <= 2, and |p_k| <= 1.5 of its larger coordinate.
+ */
 static double longest_way(const Place *at, const double *p, double alpha)
 {
     double most = 0;

@@ -165,7 +165,8 @@ static void weigh(const SquareMesh *mesh, const int node[3],
     }
 }
 
-/* Two triangles of each cell; of the springs stay their sides, as lines. */
+/* Cuts each cell into two triangles.  Their sides stay as springs, which are
+ * only drawn; the other diagonal gets k = 0. */
 static void cut_cells(const SquareMesh *mesh, System *system, NeoHookean *data)
 {
     static const int corner[2][2][3] = {{{0, 1, 2}, {0, 2, 3}},
@@ -199,14 +200,14 @@ static Status set(System *system, const SquareMesh *mesh, const double *number)
         data->weight = (double(*)[2][3])(data + 1);
         data->node = (int(*)[3])(data->weight + triangles);
         cut_cells(mesh, system, data);
-        system->breaks = true;
+        system->breaks = true; /* some k are 0 */
         system_remove_term(system, &mass_spring_energy);
         status = system_add_term(system, &neo_hookean_energy, data);
     }
-    double E = number[1], nu = number[2];
+    double young = number[1], nu = number[2];
     if (!status) {
-        data->mu = E / (2 * (1 + nu));
-        data->lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+        data->mu = young / (2 * (1 + nu));
+        data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
     }
     return status;
 }

@@ -1,4 +1,3 @@
-
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"

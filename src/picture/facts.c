@@ -1,4 +1,6 @@
-
+/* facts.c - what is known of a frame, by name, and texts that are filled with
+ * it.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -165,6 +167,8 @@ void facts_of(const Show *show, int pane, Facts *facts)
     const Trace *trace = pane_trace(now, &space);
     bool whole = !now->trace || !now->trace->line || now->trace->given_up;
     facts->count = facts->run = 0;
+    for (int run = 0; run <= FACTS_RUNS; run++)
+        facts->colour[run] = COLOUR_TEXT;
     facts->each = NULL;
     add_settings(show, simulation, facts);
     add_end(simulation, facts);
@@ -205,7 +209,7 @@ static Colour colour_named(const Facts *facts, const char *name, size_t length)
                 {"ghost", COLOUR_GHOST},
                 {"velocity", COLOUR_VELOCITY},
                 {"force", COLOUR_FORCE}};
-    if (strncmp(name, "run", length) == 0)
+    if (length == 3 && strncmp(name, "run", 3) == 0)
         return facts->colour[facts->run];
     if (*name >= '0' && *name <= '0' + FACTS_RUNS)
         return facts->colour[*name - '0'];

@@ -33,7 +33,8 @@ struct Facts {
     Fact fact[FACTS_MOST];
 };
 
-/* A number, NaN: not known; words, NULL: not known; a switch; a point [2]. */
+/* A number, NaN: not known; words, NULL: not known; a switch; a point [2].  Of
+ * several facts with one name the first counts. */
 void fact(Facts *facts, const char *name, double value);
 void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
@@ -61,9 +62,9 @@ void text_say(const Show *show, const char *text, char *out, size_t size);
 void text_in_card(Paper *paper, Box inside, const Show *show, const char *text);
 
 /* Words in a row from the left edge of a box, on the next line where there is
- * no room, `gap` ems apart; without `draw` only their room is measured. at  [2]
- * pixels from the corner, where they go, in/out; at first 0, 0 Returns the
- * pixels that are used up to here, downwards. */
+ * no room, `gap` ems apart; without `draw` only their room is measured.
+ *   at  [2] in/out, pixels from the corner, where they go; at first 0, 0
+ * Returns the pixels that are used up to here, downwards. */
 int words_flow(Paper *paper, Box inside, int at[2], double size, double gap,
                const TextLine *line, bool draw);
 

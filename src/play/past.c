@@ -232,8 +232,8 @@ static Branch *push_branch(Past *past, bool fresh, long first, int panes,
 /* ---- states -------------------------------------------------------------- */
 
 /* Every second kept state of the branch with the finest ones goes; at last that
- * of its first entry, too, if there is a branch below.  The branch that is
- * shown comes last. */
+ * of its first entry, too, if there is a branch below.  Of equals the branch
+ * that is shown comes last. */
 static bool thin_states(Past *past)
 {
     Branch *finest = NULL;
@@ -256,8 +256,8 @@ static bool thin_states(Past *past)
 }
 
 /* The machine's state for the entry of the present branch where it stands, if
- * that one keeps it.  Memory that is not there makes the past coarser; it is no
- * failure but for the first one. */
+ * that one keeps it.  Memory that is not there makes the past coarser; it is a
+ * failure only for the first one and for a placed one. */
 static Status keep_state(Past *past, int pane)
 {
     const Machine *machine = &past->machine[pane];
@@ -319,6 +319,8 @@ static bool watch(void *user, const NewtonRecord *record)
     Records *records = &machine->records;
     if (records_fit(records, records->count + 1))
         records->row[records->count++] = *record;
+    else
+        records->lost = true;
     return true;
 }
 
@@ -331,6 +333,7 @@ static void free_simulation(Machine *machine)
     machine->iterating = machine->failed = machine->known = false;
     machine->substeps = 0;
     machine->records.count = 0;
+    machine->records.lost = false;
 }
 
 /* A simulation of the present run, at its step 0. */
@@ -407,7 +410,7 @@ static Status take_entry(Past *past, Machine *machine, int b, int pane,
     return status;
 }
 
-/* The machine to where it can make its way to this step from. */
+/* Loads a state from which the machine can make the steps up to this one. */
 static Status load(Past *past, int pane, long goal)
 {
     Machine *machine = &past->machine[pane];
@@ -593,6 +596,7 @@ static Status begin_step(Past *past, int pane)
         machine->outcome =
             (Outcome){.time = simulation_time(&machine->simulation)};
         machine->records.count = 0;
+        machine->records.lost = false;
         machine->failed = machine->known = false;
     }
     if (to->control ? to->substeps == 0 : has_failed(from)) {
@@ -645,7 +649,7 @@ static Status begin_making(Past *past)
     return STATUS_RUNNING;
 }
 
-/* All panes have come to the aim; not one, if all scenes are at their end. */
+/* All panes have come to the aim; none has, where every scene is at its end. */
 static Status end_work(Past *past)
 {
     Status worst = past->making ? past->worst : STATUS_OK;
@@ -832,8 +836,8 @@ static Status change_entry(Past *past, int pane, const Command *edit,
     Machine *machine = &past->machine[pane];
     int panes = past_panes(past);
     Entry *entry = entry_of(past, pane, past->step);
-    bool again = joins && (past->branch[past->now].count == 1 ||
-                           entry->control != entry[-panes].control);
+    bool changed_before = joins && (past->branch[past->now].count == 1 ||
+                                    entry->control != entry[-panes].control);
     const Control *control =
         edit ? changed(entry->control, edit) : control_keep(entry->control);
     if (!control)
@@ -851,7 +855,8 @@ static Status change_entry(Past *past, int pane, const Command *edit,
         bool flips = edit->kind == COMMAND_FLIP;
         bool pulls = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG ||
                      edit->kind == COMMAND_RELEASE;
-        entry->placed = entry->placed || drags || flips || (again && !pulls);
+        entry->placed =
+            entry->placed || drags || flips || (changed_before && !pulls);
         if (drags)
             exhibit_drag(&machine->simulation, (int)edit->number, edit->x,
                          edit->y);

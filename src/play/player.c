@@ -21,8 +21,7 @@ enum {
     BAR_LENGTH = 40     /* letters of the progress bar */
 };
 
-static const double BATCH_LIMIT = 0.05; /* s, steps of one frame */
-static const double EARLY = 0.002;      /* s, a frame may be: vsync waits */
+static const double EARLY = 0.002;      /* s, how early a frame may come */
 static const double MEASURE_TIME = 0.5; /* s, that a speed is taken over */
 
 /* ---- what is asked often ------------------------------------------------- */
@@ -213,8 +212,7 @@ static Status step_frame(Player *player)
     int count = player->window && player->speed > 0 ? 1 << player->speed : 1;
     double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status; i++) {
-        if (i > 0 &&
-            (player_ended(player) || clock_now() - begin > BATCH_LIMIT))
+        if (i > 0 && (player_ended(player) || clock_now() - begin > SLICE))
             break;
         if (player_stands(player) && !past->works)
             break;

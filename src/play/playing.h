@@ -4,6 +4,9 @@
 
 #include "play/player.h"
 
+/* s, of a frame in which steps are made; then inputs are looked at. */
+static const double SLICE = 0.05;
+
 /* ---- obey.c: commands, deeds, the journal -------------------------------- */
 
 Deed obey_pause, obey_next, obey_back, obey_step, obey_finer, obey_goto,

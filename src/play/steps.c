@@ -9,9 +9,6 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-/* s, of a frame in which steps are made; then inputs are looked at. */
-static const double SLICE = 0.05;
-
 /* ---- tables -------------------------------------------------------------- */
 
 /* What Newton told of the step that the machines have just made, or could not
@@ -23,6 +20,8 @@ static Status record_updates(Player *player, long step)
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
         const Machine *machine = &player->past.machine[p];
+        if (machine->records.lost)
+            status = STATUS_OUT_OF_MEMORY;
         for (int i = 0; i < machine->records.count && !status; i++) {
             NewtonRecord row = machine->records.row[i];
             if (recording->panes > 1)

@@ -42,20 +42,25 @@ Status start_table_read(const char *name, int nodes, int run, double *x,
             v[2 * own + axis] = row[2 + axis];
         }
     }
-    if (!file)
+    Status status = STATUS_INVALID_INPUT;
+    if (!file || ferror(file))
         snprintf(message, size, "--state '%s': %s", shown, strerror(errno));
     else if (!whole)
         snprintf(message, size,
                  "--state '%s': line %ld is not one that --states writes, "
                  "step,time,node,x,y,vx,vy",
                  shown, number);
-    else if (count == 0 || count % nodes != 0 || run >= count / nodes)
+    else if (count == 0 || count % nodes != 0)
         snprintf(message, size,
                  "--state '%s': its last step has %d nodes, the body %d", shown,
                  count, nodes);
+    else if (run >= count / nodes)
+        snprintf(message, size,
+                 "--state '%s': body %d of the scene is not in it", shown,
+                 run + 1);
     else
-        message = NULL;
+        status = STATUS_OK;
     if (file)
         fclose(file);
-    return message ? STATUS_INVALID_INPUT : STATUS_OK;
+    return status;
 }

@@ -194,8 +194,8 @@ TEST(large_squares_pass_what_they_say)
     const char *const lines[] = {
         "--segments 33 --stretch 1.4", "--segments 40 --minimum",
         "--segments 20 --stretch 0.5 --timestep 0.02 --solver multigrid",
-        "--segments 24 --pin top-corners --gravity 9.81 --integrator sdirk2 "
-        "--solver multigrid"};
+        ("--segments 24 --pin top-corners --gravity 9.81 --integrator sdirk2 "
+         "--solver multigrid")};
     for (int i = 0; i < 4; i++) {
         Tally tally = {0};
         char reason[512] = "";
