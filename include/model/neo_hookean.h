@@ -9,7 +9,8 @@
  *
  * A flat triangle, J = 0, has infinite energy: none ever turns over, whereas
  * springs do not know inside from outside.  Lame's numbers in plane strain:
- * mu = E/(2 (1 + nu)), lambda = E nu/((1 + nu) (1 - 2 nu)).
+ * mu = E/(2 (1 + nu)), lambda = E nu/((1 + nu) (1 - 2 nu)).  Below nu = 0
+ * lambda is negative, and W has no lower bound: such numbers are not taken.
  */
 #ifndef ELASTO_NEO_HOOKEAN_H
 #define ELASTO_NEO_HOOKEAN_H

@@ -89,7 +89,8 @@ typedef struct Branch {
 typedef struct Machine {
     Simulation simulation;
     const Control *control; /* that it uses */
-    long run;               /* that it was made for; 0: it is none */
+    long run;               /* that it was made for; 0: it is none; */
+    int first_pane;         /* and the pane of that run's beginning */
     long entry;             /* number of the one where it stands, */
     long step;              /* and its step; 0: its state has to be loaded */
     bool iterating;         /* a step of the simulation is begun */

@@ -9,31 +9,31 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM
 
-# A variable without a value holds an enormous number, so that it is noticed.
+# A variable without a value holds an enormous number, which mostly shows.
 pattern=-ftrivial-auto-var-init=pattern
 echo 'int main(void) { return 0; }' >"$work/try.c"
 ${CC:-cc} $pattern "$work/try.c" -o "$work/try" 2>/dev/null || pattern=
 
-# check FILE [NAME]: with NAME a line of the table.
+# check FILE OBJECT [NAME]: with NAME a line of the table.
 check() {
-    object=$work/$(echo "$1" | cksum | tr -d ' ')
+    object=$work/$2
     name=$(realpath "$1" 2>/dev/null)
     # shellcheck disable=SC2086
     if [ ! -f "$1" ]; then
         problem='there is no such file'
-    elif ${CC:-cc} -std=gnu11 -w -g1 -O0 $pattern -DHOMEWORK="\"$name\"" \
+    elif ${CC:-cc} -std=gnu11 -w -Werror=return-type -g1 -O0 $pattern -DHOMEWORK="\"$name\"" \
         -fsanitize=address,undefined -fno-sanitize-recover=all $DEP_CFLAGS \
         -c "$here/student.c" -o "$object.o" 2>"$object.log" &&
         ${CC:-cc} -fsanitize=address,undefined "$CHECK" "$object.o" \
             -o "$object" $LIBS 2>>"$object.log"; then
-        ASAN_OPTIONS=detect_leaks=0 "$object" ${2:+"$2"}
+        ASAN_OPTIONS=detect_leaks=0 "$object" ${3:+"$3"}
         return
     else
         problem="it does not compile: $(sed -n 's/^.*\.c:\([0-9]*\):.*error: /line \1: /p
             /undefined reference/p' "$object.log" | head -n 1 | tr '"' "'")"
     fi
-    if [ "${2:-}" ]; then
-        echo "\"$2\",0,\"$problem\""
+    if [ "${3:-}" ]; then
+        echo "\"$3\",0,\"$problem\""
     else
         echo "$1: $problem"
     fi
@@ -41,7 +41,7 @@ check() {
 }
 
 if [ $# = 1 ]; then
-    check "$1"
+    check "$1" homework
     exit
 fi
 echo file,right,first
@@ -51,7 +51,7 @@ while [ $part -lt "$jobs" ]; do
     (
         i=0
         for file in "$@"; do
-            [ $((i % jobs)) != $part ] || check "$file" "$file"
+            [ $((i % jobs)) != $part ] || check "$file" "$i" "$file"
             i=$((i + 1))
         done
     ) >"$work/part$part" &

@@ -408,8 +408,9 @@ Status obey_add_pane(Player *player, const Command *command)
     if (status)
         return status;
     status = past_set_panes(past, panes + 1, player->gesture, command);
-    if (!status)
-        status = player_work(player);
+    if (status)
+        return status;
+    status = player_work(player);
     if (!status)
         status = player_change(player, &change, panes, panes + 1, false);
     player->active = panes;

@@ -51,11 +51,18 @@ const Control *past_control(const Past *past, int pane)
     return entry_of(past, pane, past->step)->control;
 }
 
+/* The pane with which this one's run began; the branch where it did, out. */
+static int first_pane(const Past *past, int pane, const Branch **branch)
+{
+    for (*branch = &past->branch[past->now]; !(*branch)->fresh; --*branch)
+        pane = (*branch)->source[pane];
+    return pane;
+}
+
 const Control *past_start(const Past *past, int pane)
 {
-    const Branch *branch = &past->branch[past->now];
-    for (; !branch->fresh; branch--)
-        pane = branch->source[pane];
+    const Branch *branch;
+    pane = first_pane(past, pane, &branch);
     return branch->entry[pane].control;
 }
 
@@ -345,7 +352,9 @@ static Status make_simulation(Past *past, int pane, const Options *options)
         simulation_create(options, watch, machine, &machine->simulation);
     if (status)
         return status;
+    const Branch *branch;
     machine->run = past->branch[past->now].run;
+    machine->first_pane = first_pane(past, pane, &branch);
     if (machine->simulation.scene->needs & NEEDS_TIME)
         machine->start = simulation_energies(&machine->simulation, 0).total;
     return STATUS_OK;
@@ -423,7 +432,9 @@ static Status load(Past *past, int pane, long goal)
     if (!is_kept(past, past->now, pane, from))
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (machine->run != past->branch[past->now].run)
+    const Branch *branch;
+    if (machine->run != past->branch[past->now].run ||
+        machine->first_pane != first_pane(past, pane, &branch))
         status = make_simulation(past, pane, &past_start(past, pane)->options);
     if (!status)
         status = take_entry(past, machine, past->now, pane, from);

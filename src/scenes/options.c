@@ -114,7 +114,7 @@ const OptionRow option_rows[] = {
      NEEDS(BODY), LIST("material"), TERM(neo_hookean_energy)},
     {NUMBER(young, "E", "its stiffness, of triangles", "Pa", 1e5, 1e-30, 1e30),
      NEEDS(BODY), IDLE(no_triangles), LIST("E"), LIVE, ROW(12, 8, 0)},
-    {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, -0.9, 0.499),
+    {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, 0, 0.499),
      NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
     {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
      NEEDS(MESH), LIST("stretch"), ROW(3, 5, 0.05)},

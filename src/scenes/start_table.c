@@ -14,8 +14,7 @@ static bool read_row(const char *line, long *step, int *node, double row[4])
     int read = sscanf(line, "%ld,%*f,%d,%lf,%lf,%lf,%lf%n", step, node, &row[0],
                       &row[1], &row[2], &row[3], &end);
     double size = fabs(row[0]) + fabs(row[1]) + fabs(row[2]) + fabs(row[3]);
-    return read == 6 && end > 0 && (line[end] == '\n' || !line[end]) &&
-           isfinite(size);
+    return read == 6 && end > 0 && line[end] == '\n' && isfinite(size);
 }
 
 Status start_table_read(const char *name, int nodes, int run, double *x,

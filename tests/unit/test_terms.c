@@ -115,7 +115,7 @@ static void make_grid(const Row *row, Random *random, Case *c)
         c->system.k[s] = 2;
     }
     const double material[3] = {1, random_logarithmic(random, 0.1, 10),
-                                random_uniform(random, -0.5, 0.49)};
+                                random_uniform(random, 0, 0.49)};
     CHECK_STATUS(row->solid
                      ? neo_hookean_energy.set(&c->system, &mesh, material)
                      : cells_add(&c->system, &mesh, 5),
