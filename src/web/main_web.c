@@ -32,9 +32,6 @@ static Run runs[2];
 static Run *run = &runs[0]; /* the one that is shown, if `plays` */
 static bool plays;
 
-/* Without a window: s, before the page may draw again. */
-static const double SLICE = 0.05;
-
 /* Begins a command line, a word a line.  Returns PROGRAM_PLAYS, or the exit
  * code where nothing new is played. */
 EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
