@@ -66,6 +66,10 @@ void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
 void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
                           int side[3]);
 
+/* Whether triangle t is one of the two that a cell is cut into, by one or the
+ * other diagonal in turn: ac where column + row is even. */
+bool square_mesh_is_half(const SquareMesh *shape, int t);
+
 /* The corners of so many times so many cells of which c is the lower left one;
  * fewer at the edges.  node [4] out, anticlockwise.  Returns false where no
  * such patch begins at c: with all others they cover the square once. */

@@ -172,7 +172,7 @@ static void cut_cells(const SquareMesh *mesh, System *system, NeoHookean *data)
     static const int corner[2][2][3] = {{{0, 1, 2}, {0, 2, 3}},
                                         {{0, 1, 3}, {1, 2, 3}}};
     for (int c = 0; c < mesh->cells; c++) {
-        int node[4], spring[6], odd = (c / mesh->rows + c % mesh->rows) % 2;
+        int node[4], spring[6], odd = square_mesh_is_half(mesh, 4 * c);
         square_mesh_cell(mesh, c, node, spring);
         system->k[spring[odd ? 4 : 5]] = 0;
         for (int t = 0; t < 2; t++) {

@@ -68,6 +68,12 @@ void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
     side[2] = spring[before];
 }
 
+bool square_mesh_is_half(const SquareMesh *shape, int t)
+{
+    int c = t / 4;
+    return (c / shape->rows + c % shape->rows + t) % 2;
+}
+
 bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
 {
     int columns = shape->segments, rows = shape->rows;

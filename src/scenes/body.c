@@ -410,7 +410,8 @@ static Status check_obstacle(const Options *options, const double *x,
     return STATUS_INVALID_INPUT;
 }
 
-/* Cells keep their sides: none begins turned over. */
+/* Cells keep their sides, and of a solid its triangles: none begins turned
+ * over. */
 static Status check_cells(const Options *options, const double *x,
                           char *message, size_t size)
 {
@@ -418,6 +419,8 @@ static Status check_cells(const Options *options, const double *x,
     int node[3], side[3];
     bool kept = options->cells || options->material != 0;
     for (int t = 0; kept && t < 4 * shape.cells; t++) {
+        if (!options->cells && !square_mesh_is_half(&shape, t))
+            continue;
         square_mesh_triangle(&shape, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];

@@ -79,6 +79,16 @@ refused() {
     [ $? = 2 ] && [ "$(wc -l <error)" = 1 ] && grep -q -- "$2" error ||
         echo "$1: $(cat error)"
 }
+# A cell that is pressed in at a corner: both triangles of a solid are well, one
+# of the four that springs have is not.
+verdict solids_begin_where_their_triangles_are_well "$(
+    printf '%s\n' step,time,node,x,y,vx,vy 0,0,0,-0.5,-0.5,0,0 \
+        0,0,1,-0.5,0.5,0,0 0,0,2,0.5,-0.5,0,0 0,0,3,-0.1,-0.1,0,0 >pressed
+    run --segments 1 --steps 1 --state pressed --material neo-hookean
+    "$elasto" --headless --segments 1 --steps 1 --state pressed --cells on \
+        2>error && echo 'cells begin turned over'
+)"
+
 verdict other_tables_are_refused "$(
     refused '' "--state 'table': No such file"
     run --steps 2 --states table
