@@ -38,9 +38,10 @@ static Status make_folder(const char *name)
 }
 
 /* What the terms of all options may add to a ledger stands between these. */
-static const char *const first_energies[] = {"total",   "kinetic", "elastic",
-                                             "gravity", "contact", "hand"};
-static const char *const last_energies[] = {"friction", "work", "dissipated"};
+static const char *const first_energies[] = {
+    "total", "kinetic", "elastic", "gravity", "contact", "hand", NULL};
+static const char *const last_energies[] = {"friction", "work", "dissipated",
+                                            NULL};
 enum { ENERGY_COLUMNS = 32 };
 
 /* Adds a name that is not there yet; returns how many there are then. */
@@ -58,14 +59,14 @@ static int add_name(const char *name, const char **names, int count)
 static int list_energies(const char *names[ENERGY_COLUMNS])
 {
     int count = 0;
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; first_energies[i]; i++)
         count = add_name(first_energies[i], names, count);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->term) {
             count = add_name(row->term->energy, names, count);
             count = add_name(row->term->loss, names, count);
         }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; last_energies[i]; i++)
         count = add_name(last_energies[i], names, count);
     return count;
 }
