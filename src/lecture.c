@@ -499,13 +499,14 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
     }
     SDL_Event event; /* 40 ms a step: real time would be too fast */
     Uint32 end = SDL_GetTicks() + (step == 0 ? 1000 : 40);
-    while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end)) {
-        if (!SDL_WaitEventTimeout(&event, 10))
-            continue;
-        if (!handle(screen, solid, &event))
-            return false;
-        draw(screen, solid); /* it may have been uncovered or resized */
-    }
+    do {
+        while (SDL_PollEvent(&event)) {
+            if (!handle(screen, solid, &event))
+                return false;
+            draw(screen, solid); /* it may have been uncovered or resized */
+        }
+        SDL_Delay(5); /* SDL_WaitEvent may fail on X as the window closes */
+    } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
     if (screen->held >= 0) { /* a third of its way to the mouse */
         Vec2 way = sub(screen->mouse, solid->x[screen->held]);
         solid->v[screen->held] = mul(1 / (3 * h), way);

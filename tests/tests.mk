@@ -16,11 +16,12 @@ $(B)/tests/unit/test_%: $(B)/tests/unit/test_%.o $(B)/tests/unit/testing.o \
 # These need more than the demo has; make allocations fail; read what is drawn.
 wrap = $(1:%=-Wl,--wrap=%)
 $(B)/tests/unit/test_integrators: $(B)/bench/reference.o
-$(B)/tests/unit/test_stress $(B)/tests/unit/test_ends \
-  $(B)/tests/unit/test_multigrid $(B)/tests/unit/test_solvers: $(STRESS)
-$(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc) \
+$(B)/tests/unit/test_stress $(B)/tests/unit/test_multigrid \
+  $(B)/tests/unit/test_newton $(B)/tests/unit/test_numbers: $(STRESS)
+$(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
   -lsuitesparseconfig
-$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw plot_line plot_graph)
+$(B)/tests/unit/test_show $(B)/tests/unit/test_pages: \
+  LIBS += $(call wrap,text_draw)
 
 # Multigrid's loops once more, for one number at a time: before the archive.
 $(B)/narrow/%.o: src/solve/%.c $(B)/flags
@@ -50,13 +51,10 @@ SETTINGS = CC='$(CC)' DEP_CFLAGS='$(DEP_CFLAGS)' DEP_LIBS='$(DEP_LIBS)' BLAS_LIB
   SANITIZE='$(SANITIZE)' ELASTO=$(B)/elasto BENCH=$(B)/elasto-bench \
   LECTURE=$(B)/lecture
 
-# Ends by itself within ten minutes.
+# Ends by itself within half an hour.
 stress: build/stress build/elasto
 	./build/stress $(ARGS)
 	@$(SETTINGS) FAULTS=all sh tests/checks/check_faults.sh
-
-envelope: build/stress
-	./build/stress --envelope tests/data/envelope.csv
 
 same-bits: build/elasto
 	@$(SETTINGS) sh tests/checks/same_bits.sh

@@ -106,10 +106,7 @@ Gap contact_pair_gap(const Contact *contact, const double *x, int node,
                      int obstacle);
 
 /* Its elements, one for each pair, for friction: s is the gap, n and r are
- * those of Gap.  A block has the node and, where there is one, the free ball.
- */
+ * those of Gap. */
 extern const ElementKind contact_elements;
-int contact_blocks(const Place *at);
-int contact_nodes(const Place *at, int block, int node[3]);
 
 #endif

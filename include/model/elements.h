@@ -6,6 +6,7 @@
  *   node and wall       a = x_i
  *   node and free ball  a = x_i - x_ball
  *   triangle            a = x_j - x_i,  b = x_k - x_i
+ *   point and edge      a = x_p - x_0,  b = x_1 - x_0
  *
  * The source of a term says what W, its gradient and its Hessian are in (a, b);
  * the loops over the elements, the way to the nodes and the entries of the
@@ -26,6 +27,7 @@ typedef struct Element {
     const double (*weight)[3]; /* [vectors] of the nodes in a and in b */
     int block;                 /* it has the entries of this block */
     int from; /* whom it is from, a number of the term: contact's obstacle */
+    int more; /* > 0: get is asked for the same i again, and goes on there */
     double factor;  /* of gradient and Hessian: 1, or w where the term's
                        functions leave it out */
     double v[4];    /* m, a and b, for terms that want them */
@@ -53,6 +55,9 @@ void element_add(const Element *element, double factor, const double g[4],
 
 /* What a term says.  Elements are counted from 0. */
 struct ElementKind {
+    /* Looks for elements before they are counted: those at x, and with p [2n]
+     * those that come up until x + alpha p.  NULL: all are known. */
+    void (*look)(const Place *at, const double *p, double alpha);
     int (*count)(const Place *at);
 
     /* Element i at x.  Returns false where there is nothing, or W is 0 and
@@ -82,7 +87,26 @@ struct ElementKind {
     /* c >= 0 with w Hessian + c I positive semi-definite in a and b; NULL: 0.
      */
     double (*concave)(const Place *at, const Element *element);
+
+    /* Of what friction acts on: mu times the normal force, N.  It slides by
+     * t.(da, db), t [4] out, on what goes along at `carry`, m/s, out. */
+    double (*rub)(const Place *at, const Element *element, double t[4],
+                  double *carry);
 };
+
+/* From element to element: for (ElementWalk walk = elements_from(at, NULL, 0);
+ * elements_next(&walk);).  With p [2n] also those whose W begins until alpha p.
+ */
+typedef struct ElementWalk {
+    const Place *at;
+    const ElementKind *kind;
+    double way;
+    int i, count;
+    Element element;
+} ElementWalk;
+
+ElementWalk elements_from(const Place *at, const double *p, double alpha);
+bool elements_next(ElementWalk *walk);
 
 /* Functions of a TermKind with elements. */
 double elements_value(const Place *at);

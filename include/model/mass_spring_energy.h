@@ -7,9 +7,8 @@
 
 #include "model/system.h"
 
-/* The springs of the system as a term, and the same averaged (avf_energy.c);
- * they need no data. */
-extern const TermKind mass_spring_energy, avf_energy;
+/* The springs of the system as a term; they need no data. */
+extern const TermKind mass_spring_energy;
 
 /* The strain |d|^2/l2 - 1 of a spring between the nodes e[0] and e[1] in
  * positions x [2n] m; d [2] m out. */

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/mathematics.h"
+
 /* What is done with the negative eigenvalues of a block. */
 typedef enum Filter {
     FILTER_CLAMP,     /* replace them by 0: the slides' projection */
@@ -39,7 +41,7 @@ static inline double projected_eigenvalue(Filter filter, double value)
 static inline bool filter_2x2(Filter filter, double H[3])
 {
     double mean = 0.5 * (H[0] + H[2]);
-    double radius = hypot(0.5 * (H[0] - H[2]), H[1]);
+    double radius = math_hypot(0.5 * (H[0] - H[2]), H[1]);
     double low = mean - radius, high = mean + radius;
     if (low >= 0 || !filter_projects(filter))
         return false;

@@ -2,8 +2,10 @@
  * o|^2.
  *
  * Central field: c_i = m_i omega2 and o = 0; each node has the acceleration
- * -omega2 x.  Hand: one node, on a spring without rest length; moving the hand
- * changes P while x stays, and that is the work it does.
+ * -omega2 x.  Hand: one node, on a spring without rest length that is far
+ * stiffer than those of the square.  Its end o goes ahead of the node, step by
+ * step, towards the mouse: what it does in a step is its work, and between
+ * steps it stores nothing.
  */
 #ifndef ELASTO_PULL_ENERGY_H
 #define ELASTO_PULL_ENERGY_H
@@ -17,6 +19,10 @@ typedef struct Pull {
     int node;         /* that is pulled; -1: all are, by their masses */
     double k;         /* J/m^2; for all: omega2, 1/s^2 */
     double target[2]; /* m, o */
+    /* Of a hand: */
+    double mouse[2]; /* m, where it wants the node; */
+    double strength; /* J/m^2, how strongly it insists; */
+    double reach;    /* m, it goes ahead in a step, at most */
 } Pull;
 
 /* Adds a pull of one of these kinds, or changes the one that there is.
@@ -26,7 +32,19 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 /* The same with the field; takes it away where omega2 is 0, 1/s^2. */
 Status central_field_set(System *system, double omega2);
 
-/* The hand of a system, or NULL; its target and k may be changed. */
+/* The hand of a system, or NULL; its numbers may be changed. */
 Pull *hand_energy_of(const System *system);
+
+/* Before a step of h s from x, v [2] of its node with the mass m, kg: its k and
+ * target.  The node then goes a part of the way, half of it at most, and in
+ * short steps so much that the distance falls by e in 0.06 s.
+ *   free  [2] m/s^2, the node's acceleration without the hand, of an explicit
+ *         method, in which the force has to be that which leads there; NULL:
+ *         an implicit one, in which a stiff spring does */
+void hand_follow(Pull *hand, const double *x, const double *v, double m,
+                 double h, const double *free);
+
+/* J, the work it did in a step from x to y [2]. */
+double hand_work(const Pull *hand, const double *x, const double *y);
 
 #endif

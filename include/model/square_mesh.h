@@ -1,5 +1,6 @@
 /* square_mesh.h - the square of masses and springs (slide square_mesh.py), and
- * its shape: cells, their triangles, the outline, the sides.
+ * its shape: cells, their triangles, the outline, the sides.  There may be
+ * several alike: their nodes, springs and cells stand one body after another.
  *
  * (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
  * i*(rows+1)+j is column i, row j, counted from the lower left.  Springs, in
@@ -14,17 +15,22 @@
 
 #include "base/status.h"
 
-enum { SQUARE_MESH_MAX_SEGMENTS = 4096 };
+enum {
+    SQUARE_MESH_MAX_SEGMENTS = 4096,
+    SQUARE_MESH_MAX_BODIES = 16,
+    SQUARE_MESH_MAX_CELLS = SQUARE_MESH_MAX_SEGMENTS * SQUARE_MESH_MAX_SEGMENTS
+};
 
 typedef struct SquareMesh {
     int segments;   /* segments per side; of a beam: columns of cells */
     int rows;       /* of cells */
+    int bodies;     /* so many of them; what follows is of all together */
     double side;    /* m */
     double spacing; /* m, between neighbours: side/segments */
-    int nodes;      /* n = (segments+1) (rows+1) */
+    int nodes;      /* n = (segments+1) (rows+1), of each */
     int springs;    /* in a square 2 segments (segments+1) + 2 segments^2 */
     int cells;      /* segments rows; each has four triangles */
-    int outline;    /* nodes on it, 2 (segments + rows) */
+    int outline;    /* edges on it, 2 (segments + rows) */
     double *x;      /* [2n] m, rest positions: node i is x[2i], x[2i+1] */
     int *e;         /* [2 springs] nodes of each spring */
     int *order;     /* [n] place of node i in the elimination order, by nested
@@ -35,19 +41,25 @@ typedef struct SquareMesh {
 enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
 
 /* The numbers of a mesh alone, its arrays NULL: enough for all functions with
- * `shape`.  columns, rows >= 1 */
-SquareMesh square_mesh_shape(int columns, int rows, double side);
+ * `shape`.  columns, rows, bodies >= 1 */
+SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies);
 
 /* Builds the mesh.
  *   columns, rows  of cells, 1 ... SQUARE_MESH_MAX_SEGMENTS; equal: the square,
  *                  else a beam of square cells
  *   side           m, of all columns, finite and > 0
+ *   bodies         1 ... SQUARE_MESH_MAX_BODIES
  *   mesh           out; free it with square_mesh_free, also after a failure
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh);
+ * Returns OK, INVALID_INPUT, TOO_LARGE (more than SQUARE_MESH_MAX_CELLS),
+ * OUT_OF_MEMORY. */
+Status square_mesh_create(int columns, int rows, double side, int bodies,
+                          SquareMesh *mesh);
 
 /* Accepts NULL and a zeroed struct. */
 void square_mesh_free(SquareMesh *mesh);
+
+/* The body of node i, which becomes its number there. */
+int square_mesh_body(const SquareMesh *shape, int *i);
 
 /* Where node i is at rest, x [2] m, out; and the sides that it is on. */
 void square_mesh_place(const SquareMesh *shape, int i, double x[2]);
@@ -75,8 +87,8 @@ bool square_mesh_is_half(const SquareMesh *shape, int t);
  * such patch begins at c: with all others they cover the square once. */
 bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4]);
 
-/* Node k of the outline, 0 ... outline, anticlockwise from the lower left; the
- * last is the first again. */
-int square_mesh_outline(const SquareMesh *shape, int k);
+/* Both nodes of edge k of the outlines, 0 ... outline-1: anticlockwise from the
+ * lower left, one edge after another. */
+void square_mesh_outline(const SquareMesh *shape, int k, int node[2]);
 
 #endif

@@ -28,23 +28,27 @@ typedef struct Place {
     const double *x_n; /* [2n] m, start of the step */
     const double *u;   /* [2n] m, displacement from there; NULL: no step */
     const double *x;   /* [2n] m, x_n + u */
-    bool averaged;     /* the averaged twin is asked */
+    const double *x_too; /* where the Hessian is asked, too, if not NULL: blocks
+                            are summed before they are projected, and */
+    double w_too;        /* its factor; else 0 */
     const struct Damping *damping; /* of this step (damping.h); NULL: none */
     const double *k, *l2; /* [springs] of the springs in this step: those of the
                              system, or what damping makes of them */
 } Place;
 
-/* No term yet; w = 1, not averaged. */
+/* No term yet; w = 1. */
 Place place_at(const System *system, const double *x_n, const double *u,
                const double *x);
 
 /* Goes on to the next term with an energy, after NULL the first one, and
- * returns the functions that stand for it; after the last one NULL. */
+ * returns its functions; after the last one NULL. */
 const TermKind *next_energy(Place *at);
 
 /* A step's begin or end, h in s. */
-typedef void TermChange(Term *term, System *system, const double *x,
-                        const double *v, double h);
+typedef Status TermBegin(Term *term, System *system, const double *x,
+                         const double *v, double h);
+typedef void TermEnd(Term *term, System *system, const double *x,
+                     const double *v, double h);
 
 struct TermKind {
     /* In messages; NULL: no option brings it. */
@@ -76,20 +80,26 @@ struct TermKind {
      * which gives the functions down to concave, but along. */
     const ElementKind *element;
 
-    /* P(x), J, without w.  Where averaged: along the way from x_n, 0 for u = 0.
-     * NULL: the term has no energy, only begin, end or bounds, and none of the
-     * functions of one. */
+    /* P(x), J, without w.  NULL: the term has no energy, only begin, end or
+     * bounds, and none of the functions of one. */
     double (*value)(const Place *at);
 
     /* g += w grad P.  g [2n] in/out.  Explicit methods use it too, with w = -1
      * and at->x alone (u NULL). */
     void (*gradient)(const Place *at, double *g);
 
-    /* The entries of the Hessian, the same ones at every x: how many, and the
+    /* The entries of the Hessian, the same ones all step long but for grow: how
+     * many, and the
      * triplets in rows and columns of the matrix (term_add_block).  A force
      * that is the same everywhere has none: these and hessian are NULL. */
     long long (*entries)(const Place *at);
     void (*pattern)(const Place *at, Triplets *triplets);
+
+    /* Where x wants entries that the matrix lacks (bodies that come near each
+     * other inside a step): there are more from now on, and *grown is true; no
+     * others change their places in the pattern.  NULL: never.  Returns OK,
+     * OUT_OF_MEMORY. */
+    Status (*grow)(const Place *at, bool *grown);
 
     /* out[slot[t]] += w entry t of the Hessian at x; or, where q is given,
      * out += w Hessian q, without a matrix: out and q are then [2n].  Each
@@ -124,14 +134,10 @@ struct TermKind {
      * for good (plastic lengths, broken springs); it books what that cost in
      * system_lose.  Both say so (system_changed) where arrays of the system or
      * of a term have changed, or entries of the Hessian: factors and bounds
-     * that were made with them are then dropped. */
-    TermChange *begin, *end;
-
-    /* The same term averaged along the straight way from x_n to x_n + u, for
-     * the average vector field methods: its gradient is the integral of
-     * grad P(x_n + t u) over t = 0 ... 1.  Its entries of the Hessian are
-     * those of the term itself.  NULL: those methods refuse it. */
-    const TermKind *averaged;
+     * that were made with them are then dropped.  begin returns OK,
+     * OUT_OF_MEMORY. */
+    TermBegin *begin;
+    TermEnd *end;
 
     /* Raises (bound_raise) *stiffest to a bound of the curvature's size at
      * rest, J/m^2, and *force, J/m, to the size of a force that a vanishing
@@ -143,6 +149,11 @@ struct TermKind {
      * up everywhere. */
     void (*concave)(const Place *at, double *sum);
 
+    /* Frees what data points to; NULL: nothing. */
+    void (*free)(void *data);
+
+    bool averages;    /* a polynomial of degree 4 or less that reads only x:
+                         average vector field methods can have it */
     bool diagonal;    /* quadratic, and each node stands alone: c/2 |x - o|^2 */
     bool internal;    /* its forces add up to 0: the centre of mass is free */
     bool end_of_step; /* right only where x_(n+1) is the minimiser itself: in
@@ -151,7 +162,8 @@ struct TermKind {
 
 struct Term {
     const TermKind *kind;
-    void *data; /* the kind's own numbers and arrays, in one piece of malloc */
+    void *data; /* the kind's own numbers and arrays, in one piece of malloc;
+                   what is not in it, free frees */
 };
 
 /* Triplets of the 2x2 block of nodes i and j: xx xy yx yy, and on the diagonal

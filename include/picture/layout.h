@@ -24,15 +24,18 @@
 
 enum {
     LAYOUT_PANES = 6,
-    LAYOUT_CARDS = 8,
+    LAYOUT_CARDS = 12,
     LAYOUT_SETTINGS = 16,
-    LAYOUT_CHIPS = 16
+    LAYOUT_CHIPS = 16,
+    LAYOUT_CELLS = 32,
+    LAYOUT_ROWS = 128 /* of a list */
 };
 
 /* What is to be placed. */
 typedef struct LayoutWish {
     bool bare;     /* the stage alone */
     double letter; /* pixels that an em has at least; 0: 9 */
+    bool print;    /* stage and cards alone */
     int panes;     /* 1 ... LAYOUT_PANES pictures side by side */
     int cards;
     double least[LAYOUT_CARDS];  /* ems, the height a card needs */
@@ -47,6 +50,9 @@ typedef struct LayoutWish {
     int setting_letters[LAYOUT_SETTINGS];
     int chips;
     int chip_letters[LAYOUT_CHIPS];
+    int cells;      /* of the sheet; more than 0: it takes the place of all
+                       between strip and last line */
+    unsigned heads; /* bit c: a group begins with cell c, below a heading */
 } LayoutWish;
 
 /* A box without width is not there. */
@@ -61,6 +67,9 @@ typedef struct Layout {
     Box chip[LAYOUT_CHIPS]; /* without width: there is no room for it */
     int chips_left_out;     /* so many of them, all before the last one */
     Box bars;               /* inside time: where the bars of the steps are */
+    int cells;
+    Box cell[LAYOUT_CELLS]; /* a square, and below it a line for its name; above
+                               the first of a group a line for the heading */
 } Layout;
 
 typedef enum Zone {
@@ -72,12 +81,14 @@ typedef enum Zone {
     ZONE_PAGE,       /* help or code */
     ZONE_SETTING,    /* index: the setting */
     ZONE_TIME,
-    ZONE_CHIP /* index: the chip */
+    ZONE_CHIP, /* index: the chip */
+    ZONE_CELL  /* index: the cell of the sheet */
 } Zone;
 
 typedef struct Hit {
     Zone zone;
     int index;
+    double at[2]; /* pixels, where the mouse is */
 } Hit;
 
 /* Places everything; chips beyond the room are left out, but not the last one,

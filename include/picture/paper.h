@@ -13,16 +13,18 @@
 
 /* What is kept between frames. */
 typedef enum Keep {
-    KEEP_MAP, /* the contours of the landscape */
-    KEEP_SPY, /* the pattern of the Hessian and its factor */
+    KEEP_MAP,     /* the contours of the landscape */
+    KEEP_SPY,     /* the pattern of the Hessian and its factor */
+    KEEP_NATURAL, /* that of the Hessian as it is written */
     KEEP_COUNT
 } Keep;
 
 typedef struct Paper {
     Canvas canvas;
-    Text *text;  /* NULL: no font, nothing is written */
-    double em;   /* pixels */
-    double unit; /* pixels */
+    Text *text;   /* NULL: no font, nothing is written */
+    double em;    /* pixels */
+    double unit;  /* pixels */
+    double least; /* ems, no letter but scripts is smaller */
     Canvas kept[KEEP_COUNT];
     uint64_t key[KEEP_COUNT]; /* of what is kept; 0: nothing */
 } Paper;
@@ -49,9 +51,10 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
 /* The width it would have. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 
-/* In at most `lines` lines of the box's width, broken at blanks; the last one
- * ends with an ellipsis if there is more.  lines 0: nothing is drawn, as many
- * as it takes.  Returns the lines it took. */
+/* In at most `lines` lines of the box's width, each as high as what stands in
+ * it, broken at blanks outside of braces; the last one ends with an ellipsis if
+ * there is more.  lines 0: nothing is drawn, as many as it takes.  Returns the
+ * pixels it took, downwards. */
 int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
                     Box box, int lines, const char *markup);
 

@@ -24,6 +24,7 @@ typedef struct Card {
     bool half_on_page; /* the same, but only on a page of the lecture: its words
                           need the room */
     bool closed;       /* at the start */
+    bool lecture;      /* it is nowhere but on pages of the lecture */
     /* What is inside, below the title: a text, all lines that are known; or a
      * function draws it. */
     const char *words;
@@ -50,7 +51,7 @@ typedef struct Picture {
     /* The small card beside what the mouse is over; may be NULL. */
     void (*hover)(Plot *stage, const Show *show);
     /* What is kept of each state for plots; may be NULL. */
-    void (*sample)(const Simulation *simulation, History *history);
+    int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;
 
 /* The row of a scene. */

@@ -70,8 +70,6 @@ typedef struct Trace {
     int trials;    /* shown so far: first, first/2, ...; the last one is */
     bool accepted; /* taken, else it was refused like those before */
     const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
-    double rest; /* 1 ... 0: how much of the line's motion is still to come:
-                    arrows that grow, a trial that hops, a point that drops */
 } Trace;
 
 /* ---- panes -------------------------------------------------------------- */
@@ -91,13 +89,14 @@ typedef struct Pane {
 /* What the mouse is over, or holds. */
 typedef enum PickKind {
     PICK_NONE,
-    PICK_NODE,   /* index: the node */
-    PICK_SPRING, /* index: the spring */
-    PICK_EDGE,   /* index: 0 left, 1 right edge: sets the stretch */
-    PICK_PLACE,  /* any other point of a map or curve: a click starts there */
-    PICK_HANDLE, /* index: one of the scene's handles, which can be dragged */
-    PICK_SWITCH, /* index: one of its switches */
-    PICK_CELL    /* index: row ENVELOPE_COLUMNS + column of the envelope */
+    PICK_NODE,     /* index: the node */
+    PICK_SPRING,   /* index: the spring */
+    PICK_OBSTACLE, /* index: a ground of the options or, behind those, a ball */
+    PICK_EDGE,     /* index: 0 left, 1 right edge: sets the stretch */
+    PICK_PLACE,    /* any other point of a map or curve: a click starts there */
+    PICK_HANDLE,   /* index: one of the scene's handles, which can be dragged */
+    PICK_SWITCH,   /* index: one of its switches */
+    PICK_CELL      /* index: row ENVELOPE_COLUMNS + column of the envelope */
 } PickKind;
 
 typedef struct Pick {
@@ -158,6 +157,13 @@ typedef struct HelpRow {
     const char *key, *text;
 } HelpRow;
 
+/* A scene on the sheet of all of them. */
+typedef struct SheetCell {
+    const char *name, *sentence;
+    const char *group;            /* the heading above it, or NULL */
+    const Simulation *simulation; /* NULL: not made yet */
+} SheetCell;
+
 typedef struct Show {
     int panes; /* 1 ... LAYOUT_PANES */
     Pane pane[LAYOUT_PANES];
@@ -194,6 +200,11 @@ typedef struct Show {
     Page page;
     int help_rows;
     const HelpRow *help;
+    bool grey[LAYOUT_ROWS]; /* of these: it has no meaning now */
+
+    /* The sheet of all scenes, where it is open: cells > 0. */
+    int cells, chosen;
+    SheetCell cell[LAYOUT_CELLS];
 
     /* The stage. */
     Lens lens;
@@ -202,12 +213,15 @@ typedef struct Show {
     Hand hand;
     bool strain;   /* springs coloured by strain */
     bool bare;     /* the picture of the slide and nothing else */
+    bool print;    /* stage and cards alone, without those of words */
     double letter; /* pixels that an em has at least; 0: the usual ones */
 
     /* The lecture: the page that is shown, or NULL outside of it. */
     const LecturePage *lecture;
     char lecture_title[48]; /* of the card with its words */
     bool numbers;           /* of the nodes are shown, where they are few */
+    bool veiled;            /* its answer is not shown before a guess, */
+    unsigned veils;         /* nor is what is in these cards */
     HelpRow page_row[SHOW_PAGES]; /* the list of pages */
     char page_key[SHOW_PAGES][12];
 } Show;
@@ -233,6 +247,11 @@ void show_move(Show *show, const Layout *layout, int pane, double dx,
 /* The row of help or of the list of pages at this pixel; -1: none. */
 int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
+/* What the line of Algorithm 3 is for that the mouse is over, at this pixel of
+ * its card, in the markup of text.h; NULL: it is over none. */
+const char *show_listing_purpose(const Show *show, const Layout *layout,
+                                 double y);
+
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);
 
@@ -255,12 +274,19 @@ typedef enum LectureColumn {
 void show_lecture(LectureColumn column, const struct LecturePage *left,
                   Show *show);
 
+/* The number that texts know by this name (facts.h); NaN: it is not known. */
+double show_number(const Show *show, const char *name);
+
+/* All lines of a text (facts.h) that are known of the active pane, one below
+ * the other; out [size]. */
+void show_say(const Show *show, const char *text, char *out, size_t size);
+
 /* Fills topic, sentence, method and state in plain words, as far as they are
  * empty, from the active pane and its trace. */
 void show_describe(Show *show);
 
-/* Takes what the history of this scene's picture keeps of the state now; once
- * for each drawn state, in the order of time. */
-void show_sample(const Simulation *simulation, History *history);
+/* What the history of this scene's picture shows of the state now.  row out;
+ * returns how many. */
+int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES]);
 
 #endif

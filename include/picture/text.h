@@ -3,13 +3,19 @@
  * Fonts are opened and letters drawn once for each size; after that a letter
  * costs as much as its pixels.  Texts are UTF-8.  Marks such as U+0303 stand
  * over the middle of the letter before them.  In markup
- *     ^{...} and _{...}     are superscripts and subscripts,
- *     {x} {xt} {p} {alpha}  the slides' letters in their colours (xt: x with a
- *                           tilde), unless the text is in COLOUR_GREY;
- *     any other brace       is itself.
+ *     ^{...} _{...}            are superscripts and subscripts,
+ *     frac{a over b} sqrt{a}   a fraction, a root,
+ *     wide{a}                  a number in a room that does not change
+ *     matrix{a & b; c & d}     a matrix in brackets, row by row,
+ *     #p{...}                  what has the colour of this name (colour_map.h),
+ *     {x} {xt} {p} {alpha}     the slides' letters in theirs (xt: x with a
+ *                              tilde); in COLOUR_GREY all stay grey;
+ *     any other brace          is itself.
  */
 #ifndef ELASTO_TEXT_H
 #define ELASTO_TEXT_H
+
+#include <stddef.h>
 
 #include "picture/canvas.h"
 
@@ -36,14 +42,28 @@ typedef struct Text Text;
 Status text_create(Text **text);
 void text_free(Text *text);
 
-/* Pixels from the upper edge of a line to that of the next. */
+/* Pixels from the upper edge of a line of words to that of the next. */
 double text_line(double size);
+
+/* Pixels; above and below of the baseline, no less than a line of words. */
+typedef struct TextExtent {
+    double width, above, below;
+} TextExtent;
+TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
 /* Width in pixels. */
 int text_width(Text *text, const TextStyle *style, const char *markup);
 
-/* One line; y is its upper edge.  Returns the width. */
+/* One line; y is the upper edge of its words, beyond which fractions and
+ * matrices reach.  Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
+
+/* A colour by its name in texts, which has so many bytes: "warning", "p",
+ * "elastic", ...; that of all text for any other. */
+Colour colour_named(const char *name, size_t length);
+
+/* Whether this brace of a text belongs to the markup. */
+bool text_is_markup(const char *text, const char *brace);
 
 #endif

@@ -13,19 +13,25 @@
  * Branches are a stack.  Undo goes one down, to where that one was left; redo
  * one up; a change drops those above.
  *
+ * An entry's state is what its step left behind; then comes its control, which
+ * the next step is made with (simulation_use).  A branch begins with another
+ * control, and the state is that of the branch below: where several branches
+ * begin at one step only the last one's control counts.  A point that is
+ * dragged is another state, which its branch keeps.
+ *
  * To show a step, the machine of each pane takes the nearest state that is kept
  * of it or of a step before it, and makes the steps from there once more
- * (past_iterate).  Where several branches begin at one step their changes are
- * made one after the other, from the lowest up.
+ * (past_iterate).
  *
  * All panes have one time and one count of steps: a step is one of the pane
- * with the longest timestep, and as many of the others as fit into it.
+ * with the longest timestep, and as many of the others as fit into it.  A pane
+ * that cannot make its part ends, and the others go on.
  */
 #ifndef ELASTO_PAST_H
 #define ELASTO_PAST_H
 
-#include "play/rounds.h"
 #include "play/command.h"
+#include "play/rounds.h"
 #include "scenes/control.h"
 #include "scenes/state.h"
 
@@ -45,60 +51,57 @@ typedef struct Outcome {
     Status status; /* the worst */
     double change; /* of E, J s^2 */
     double extent; /* m, the largest coordinate of run 0 */
-    double time;   /* s, after it */
 } Outcome;
+
+/* What plots show of a step (show_sample). */
+typedef struct Sample {
+    double time; /* s */
+    int rows;
+    Energy row[];
+} Sample;
 
 /* One step of one pane: the state after it, and how the next one is made. */
 typedef struct Entry {
-    long number; /* no other entry ever had it */
-    const Control *control;
-    State *state; /* NULL: made again from an entry before */
-    bool placed;  /* its state is no step's alone: it cannot be made again */
-    int substeps; /* steps of its own in it: with a shorter h several; 0: it
-                     has ended before, or its scene is over */
+    const Control *control; /* from this step on; NULL: it is not made yet */
+    State *state;           /* before that control; NULL: made again */
+    Sample *sample;         /* with it; NULL: not known */
+    int substeps; /* steps of its own in it: with a shorter h several; 0: its
+                     scene is over; or the outcome says why it has ended, and
+                     the state is the last one that can be seen */
     Outcome outcome;
 } Entry;
 
-/* What plots keep of the steps that were drawn. */
-typedef struct Curves {
-    History history; /* of energies or radii */
-    long sampled;    /* step up to which these know of it; -1: none */
-} Curves;
-
 typedef struct Branch {
     bool fresh; /* starts from options; else goes on from the one below */
-    long run;   /* the number of its run: that of the fresh one below */
     long first; /* step of its entry 0 */
     long count; /* entries; never 0 */
     long room;  /* for so many; behind the last is the one that is being made */
+    int given;  /* entries whose controls came with it: 1, or 2 where it begins
+                   before the step that was changed */
     long shown; /* the step that was shown when it was left */
-    long stride; /* every so manyth state is kept; that of entry 0 until memory
-                    is short, placed ones always */
+    long stride; /* every so manyth state is kept, and that of entry 0: there is
+                    one in a fresh branch, or if something was dragged */
     int panes;
     int source[OPTIONS_MAX_PANES]; /* the pane below that each goes on from */
     Entry *entry;                  /* [room][panes]; 0 behind the last */
     int gesture;  /* of the mouse; 0: none.  Changes of the same one change this
                      branch's end */
     Command edit; /* what began it */
-    const Control *second[OPTIONS_MAX_PANES]; /* from its entry 1 on; NULL: */
-                                              /* as its entry 0 */
-    Curves *curves[OPTIONS_MAX_PANES];        /* NULL: it was left long ago */
 } Branch;
 
-/* A simulation that stands at an entry. */
+/* A simulation that stands at an entry of the present branch. */
 typedef struct Machine {
     Simulation simulation;
+    const Control *start;   /* of its run's step 0; NULL: there is none */
     const Control *control; /* that it uses */
-    long run;               /* that it was made for; 0: it is none; */
-    int first_pane;         /* and the pane of that run's beginning */
-    long entry;             /* number of the one where it stands, */
-    long step;              /* and its step; 0: its state has to be loaded */
-    bool iterating;         /* a step of the simulation is begun */
-    int substeps;           /* made of the step after it */
-    long before;            /* the simulation's steps before the last of them */
-    Outcome outcome;        /* of the step that is made, or the last one */
-    bool failed;            /* that one could not be made */
-    double start;           /* J, total energy at step 0 */
+    bool stands;            /* else its state has to be loaded */
+    long step;
+    bool iterating;  /* a step of the simulation is begun */
+    int substeps;    /* made of the step after it */
+    long before;     /* the simulation's steps before the last of them */
+    Outcome outcome; /* of the step that is made, or the last one */
+    bool failed;     /* that one could not be made */
+    double begin;    /* J, total energy at step 0 */
     Rounds rounds;
     bool known; /* rounds and records are of the step it stands at, or failed
                    after it */
@@ -109,7 +112,6 @@ typedef struct Past {
     Branch *branch;
     int branches, room; /* for so many */
     int now;            /* the present one; those above it were undone */
-    long numbers;       /* given to runs and entries */
     long step;          /* shown, in all panes */
     Machine machine[OPTIONS_MAX_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
@@ -129,6 +131,10 @@ typedef struct Past {
 void past_create(bool keeps, bool goes_on, Past *past);
 void past_free(Past *past);
 
+/* Whether a change makes the state at which it is given another one: a point is
+ * dragged elsewhere, a node that is pinned stops. */
+bool past_moves(const Command *edit);
+
 /* New runs from step 0, side by side.  A gesture that has begun the present
  * branch begins it anew.  Returns as simulation_create; what was there before
  * is shown then as soon as past_iterate has made it. */
@@ -137,11 +143,12 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
 
 /* Changes something from the step that is shown on; later steps that are known
  * stay in the branch below.
- *   edit     COMMAND_SET with a row of the options and its number x, which the
- *            caller has checked; COMMAND_PIN with a node, x = 1 to
- *            pin it and 0 to set it free; COMMAND_GRAB with a node and where
- *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_HANDLE,
- *            COMMAND_FLIP
+ *   edit     COMMAND_SET with a row of the options and its number x or its
+ *            text, which the caller has checked; COMMAND_PIN with a node, x = 1
+ *            to pin it and 0 to set it free; COMMAND_GRAB with a node and where
+ *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_PLACE,
+ *            COMMAND_OBSTACLE, which the caller has checked, too;
+ *            COMMAND_HANDLE, COMMAND_FLIP
  *   from,to  in panes from ... to - 1
  *   again    it counts from the step before on: the one that is shown, not
  *            step 0, is made once more by past_iterate
@@ -187,17 +194,16 @@ const Entry *past_entry(const Past *past, int pane, long step);
 const Control *past_control(const Past *past, int pane);
 const Control *past_start(const Past *past, int pane);
 
-/* The last step that a pane could make, if it has ended before the one that is
- * shown because a step of it failed; else -1. */
-long past_ended(const Past *past, int pane);
+/* The last step that a pane could make, if it has ended before this one because
+ * a step of it failed; else -1. */
+long past_ended(const Past *past, int pane, long step);
 
 /* The last step up to this one whose state can still be seen: at most
- * PAST_EXPLODED times as large as after step 1, or after step `from`, before
- * which none is looked for. */
-long past_last_seen(const Past *past, int pane, long step, long from);
+ * PAST_EXPLODED times as large as after step 1. */
+long past_last_seen(const Past *past, int pane, long step);
 
-/* What plots have kept of a pane; NULL: memory is missing. */
-Curves *past_curves(const Past *past, int pane);
+/* What plots show of a pane's steps.  history out */
+void past_history(const Past *past, int pane, History *history);
 
 /* s of one step; 1 in scenes without time. */
 double machine_pace(const Machine *machine);

@@ -54,7 +54,8 @@ typedef enum Column {
     COLUMN_CARDS = LECTURE_CARDS,
     COLUMN_CODE = LECTURE_CODE,
     COLUMN_PAGES = LECTURE_PAGES,
-    COLUMN_KEYS
+    COLUMN_KEYS,
+    COLUMN_OPTIONS
 } Column;
 
 typedef struct Mouse {
@@ -64,6 +65,8 @@ typedef struct Mouse {
     int index; /* of a node, a point, a number of the row; -1: the stretch */
     double from[2], last[2]; /* pixels, where the drag began and has come */
     bool moved;              /* it is more than a click */
+    double grip[2];          /* m, from the mouse to the point that it moves */
+    bool pins;               /* the node is pinned again when it is let go */
     bool turns;              /* the last input was the wheel's */
     int gesture;             /* the last key, click or turn of the wheel */
     Options options;         /* at its beginning */
@@ -74,16 +77,13 @@ typedef struct Side {
     int place;     /* MODE_WALK: in its rounds; -1: it shows the whole step */
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[64];
-    double *from;   /* [4n] m, where a glide begins, and where it is */
     char label[64]; /* what is different here */
-    bool over;      /* that it ended was told */
     bool retried;   /* it was tried to know its rounds */
 } Side;
 
 /* Of a step that is taken again: what it was. */
 typedef struct Retake {
     char had[160]; /* "no projection: E +206 in 12 updates" */
-    double extent; /* m, the largest coordinate on its way */
     Station at;    /* the place in it; round -1: none */
 } Retake;
 
@@ -124,11 +124,11 @@ typedef struct Player {
     char message[768]; /* why a command or the script makes no sense, or "" */
     char note[SHOW_TEXT]; /* what a command just did, or "" */
     bool warning;         /* and it is a bad thing */
+    bool explains;        /* the mouse has gone to something else since then */
 
     int speed;       /* s: 2^s steps a frame, or a frame 2^-s times as long */
     double due;      /* s, on the wall clock: the next step */
     double began;    /* s, work that is under way; 0: none is */
-    double glide;    /* s, the way to the next line; 0: it is over */
     double mark[2];  /* s, wall and simulated: speed is measured from here */
     double measured; /* simulated over real time; 0: unknown */
     bool changed;    /* the window must be drawn again */
@@ -137,11 +137,16 @@ typedef struct Player {
     /* What only the screen shows. */
     Lens lens;
     Column column;
+    struct Sheet *sheet;     /* of all scenes, sheet.c; NULL: it is closed */
     const LecturePage *left; /* the page that was last open, or NULL */
+    const LecturePage *told; /* the page whose answer is shown, or NULL */
+    bool asks;               /* pages wait for a guess before they tell */
+    int answers, right;      /* numbers that were guessed, and how well */
     bool strain, bare, blank;
     unsigned closed; /* cards that are not as the picture has them */
     int large;       /* the enlarged card, */
     int selected;    /* and the number that is lit; -1: none */
+    uint64_t added;  /* bit r: row r of the options is in the row of numbers */
     bool typing;     /* every key belongs into what is typed: */
     char typed[28];  /* for the selected number, or a page of the list */
     bool leaving;    /* Escape found nothing to close: once more ends it */

@@ -1,26 +1,38 @@
-/* recording.h - what a run leaves in files: frames, films, states, Newton's
- * log.
+/* recording.h - what a run leaves in files: frames, films, tables.
  *
  *   frames  FOLDER/frame_000000.png, ...: the number is that of the step
- *   states  CSV: step,time,node,x,y,vx,vy of every node at every step from 0;
- *           nodes of run 0 first, those of run 1 numbered on
- *   log     CSV: one row a Newton update, see newton.h; in scenes with a
- *           single unknown point also where the update began and ended; of
- *           several panes the last column says which, and their steps are
- *           those that they have together
- *   energies  CSV: the ledger (simulation.h) of every run at every step from 0;
- *           runs of all panes are counted from 0
- * Numbers have 17 digits: reading them gives the same double.
+ *   vtk     FOLDER/step_000000.vtp, ... (vtk.h) and their list, steps.pvd
+ * and tables (table.h), which begin at step 0:
+ *   states    step,time,node,x,y,vx,vy of every node at every step; nodes of
+ *             run 0 first, those of run 1 numbered on
+ *   log       a row a Newton update, see newton.h; in scenes with a single
+ *             unknown point also where the update began and ended
+ *   energies  the ledger (simulation.h) of every run at every step; runs of
+ *             all panes are counted from 0
+ *   springs   step,time,spring,i,j,whole,rest,strain,plastic,flowed: its nodes,
+ *             as in the states; 1 where it is not broken; rest length, m;
+ *             Green's strain |d|^2/rest^2 - 1; ep and kappa of plasticity.h
+ * Of several panes states, log and springs have a column that says which, from
+ * 1, and steps are those that they have together.
  */
 #ifndef ELASTO_RECORDING_H
 #define ELASTO_RECORDING_H
 
 #include "picture/canvas.h"
 #include "play/film.h"
-#include "play/output.h"
+#include "play/table.h"
 #include "scenes/simulation.h"
 
-enum { RECORDING_NAME_SIZE = 4096, RECORDING_TABLES = 3, RECORDING_TOLD = 320 };
+enum { RECORDING_NAME_SIZE = 4096, RECORDING_TOLD = 320 };
+
+typedef enum RecordingTable {
+    RECORDING_STATES,
+    RECORDING_LOG,
+    RECORDING_ENERGIES,
+    RECORDING_SPRINGS,
+    RECORDING_VTK, /* the list of its steps */
+    RECORDING_TABLES
+} RecordingTable;
 
 typedef struct Recording {
     const char *folder;             /* of the frames, or NULL: none */
@@ -29,16 +41,13 @@ typedef struct Recording {
     Film film;                      /* of the frames */
     long films;                     /* that ended with a frame; the last one: */
     char film_told[RECORDING_TOLD]; /* frames and name */
+    const char *vtk;                /* folder of steps, or NULL */
     bool points;                    /* the log tells of points */
-    int panes; /* of more than one the log tells which: 1 ... */
-    union {    /* not open: not written */
-        struct {
-            Output states, log, energies;
-        };
-        Output table[RECORDING_TABLES];
-    };
-    bool aside;        /* set: at the end tables stay NAME.part */
-    char message[512]; /* the first failure in one line; "" */
+    int panes;                      /* when it was opened */
+    Table table[RECORDING_TABLES];  /* not open: not written */
+    bool standard;                  /* one of them is standard output */
+    bool aside;                     /* set: at the end tables stay NAME.part */
+    char message[512];              /* the first failure in one line; "" */
 } Recording;
 
 /* Whether all files of the options can be written and read beside each other:
@@ -88,8 +97,9 @@ Status recording_close(Recording *recording);
 /* Closes all tables without a trace: for a run that did not begin. */
 void recording_discard(Recording *recording);
 
-/* One picture as a PNG file, whole or not at all (output.h).
+/* One picture as a PNG file, whole or not at all (output.h).  small: the file
+ * is worth more than the time it takes.
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status png_file_write(const char *name, const Canvas *canvas);
+Status png_file_write(const char *name, const Canvas *canvas, bool small);
 
 #endif

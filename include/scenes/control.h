@@ -27,6 +27,9 @@ Control *control_copy(const Control *from);
 /* Sets or frees a pin of a copy that nobody else uses. */
 void control_pin(Control *control, int node, bool pinned);
 
+/* A ground or, behind those, a ball of the options goes to (x, y), m. */
+void obstacle_move(Options *options, int number, double x, double y);
+
 /* One user more, one less; NULL is accepted. */
 const Control *control_keep(const Control *control);
 void control_drop(const Control *control);

@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 
+#include "model/square_mesh.h"
 #include "step/time_integrator.h"
 
 #define ELASTO_VERSION "1.0.0"
@@ -17,23 +18,30 @@ struct LecturePage;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
+/* Numbers of a body's start: centre, turn, velocity, stretch. */
+enum { BODY_NUMBERS = 7 };
+
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
 /* All numbers are doubles that are seen as an array, too: a slot is the place
  * of one in it.  Whole numbers, switches (0 or 1) and names (their place in the
  * row's list) are among them.  What each is, its unit and its range: see its
  * row in options.c. */
-enum { OPTIONS_NUMBERS = 128 }; /* room; the compiler says if it is too small */
+enum { OPTIONS_NUMBERS = 256 }; /* room; the compiler says if it is too small */
 
 typedef struct Options {
     union {
         struct {
             double segments, side, density, stiffness, stretch;
             double turn, at[2], velocity[2], gravity, start[2];
+            double state_step; /* of the table; -1: the last */
             double grounds, ground[OPTIONS_MAX_GROUNDS][4]; /* how many, and */
             double balls, ball[OPTIONS_MAX_BALLS][3];       /* which ones */
+            double bodies, body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
+            double ceiling[3]; /* its velocity 0: there is none */
             double barrier[2]; /* 0: side/100, 4 k */
             double friction, slip_speed, cells;
+            double self_contact, self_friction; /* -1: as friction */
             double material, young, poisson; /* 0: springs, 1: triangles */
             double yield, hardening, tear;   /* 0: never */
             double damping;
@@ -47,8 +55,8 @@ typedef struct Options {
             double steps;   /* -1: until closed, or 100 without a screen */
             double speed;   /* steps a frame; 0: the scene's */
             double size[2]; /* pixels; 0: the usual ones */
-            double paused, fullscreen, headless, quiet;
-            double help, version, list; /* print that and stop */
+            double paused, fullscreen, headless, quiet, big;
+            double help, version, list, notes; /* print that and stop */
         };
         double number[OPTIONS_NUMBERS];
     };
@@ -56,9 +64,9 @@ typedef struct Options {
     const struct LecturePage *page; /* of the lecture, or NULL */
     const char *pin;                /* which nodes never move, or NULL */
     const char *state;              /* the table it begins in, or NULL */
-    const char *frames, *states, *log, *energies, *film, *script,
-        *handout; /* or NULL */
-    int panes;    /* side by side, 1: no lists of values */
+    const char *frames, *states, *log, *energies, *springs, *vtk, *film,
+        *script, *handout; /* or NULL */
+    int panes;             /* side by side, 1: no lists of values */
 } Options;
 
 /* The slot of a number of Options: OPTION_SLOT(timestep). */
@@ -109,15 +117,19 @@ typedef struct OptionRow {
     OptionKind kind;
     int slot;         /* of its first number */
     size_t offset;    /* OPTION_TEXT: of its field in Options */
+    const char *ends; /* of a file: how its name may end, "": in any way; NULL:
+                         the text is none */
     int count;        /* numbers of one value; 0: one */
-    char between;     /* what stands between them; 0: a comma */
-    int times;        /* more than 0: it may be given so often; the values */
-    int counter;      /* stand behind one another, how many in this slot */
-    double standard;  /* the slides' number */
-    double low, high; /* from ... to, both included */
-    const char *unit; /* of the numbers, or "" */
-    Names names;      /* OPTION_NAME, OPTION_PAGE: as on the command line */
-    unsigned needs;   /* of enum SceneNeeds, one of them; 0: nothing */
+    unsigned fewer;   /* bit n: it may have only n numbers, */
+    const double *rest; /* [count] the others are these */
+    char between;       /* what stands between them; 0: a comma */
+    int times;          /* more than 0: it may be given so often; the values */
+    int counter;        /* stand behind one another, how many in this slot */
+    double standard;    /* the slides' number */
+    double low, high;   /* from ... to, both included */
+    const char *unit;   /* of the numbers, or "" */
+    Names names;        /* OPTION_NAME, OPTION_PAGE: as on the command line */
+    unsigned needs;     /* of enum SceneNeeds, one of them; 0: nothing */
     /* Why it has no meaning with these options; NULL: it has one. */
     const char *(*idle)(const Options *options);
     Effect effect;
@@ -141,7 +153,8 @@ const OptionRow *option_find(const char *name);
 bool option_read(const OptionRow *row, const char *text, double *value);
 
 /* A number of the row as text: with as many digits as option_read needs to read
- * the same number again, or in short, as the window has room for it.
+ * the same number again, or in short, as the window has room for it: of what is
+ * given several times the last one; "none": it was not given.
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_value(const OptionRow *row, const Options *options, char *text,

@@ -10,28 +10,39 @@
 #include "scenes/options.h"
 
 typedef struct LecturePage {
-    const char *name;  /* one word, for --lecture */
-    const char *topic; /* of the slide */
-    const char *text;  /* what it is about: one or two sentences */
-    const char *line;  /* scene and settings, as on the command line */
-    const char *cards; /* names of those that are open, with blanks between */
-    const char *look;  /* what to look at */
-    const char *touch; /* what to change, and how */
+    const char *name;    /* one word, for --lecture */
+    const char *topic;   /* of the slide */
+    const char *text;    /* what it is about: one or two sentences */
+    const char *formula; /* set large below it, one a line; or NULL */
+    const char *line;    /* scene and settings, as on the command line */
+    const char *cards;   /* names of those that are open, with blanks between */
+    const char *look;    /* what to look at */
+    const char *touch;   /* what to change, and how */
+    const char *ask;     /* what to guess before the rest is shown; or NULL */
+    const char *answer;  /* a fact (facts.h): the number that is guessed; or
+                            NULL: a place, or words */
+    const char *veils; /* cards that wait for the guess, with blanks between */
+    const char *star;  /* the card that is enlarged, or NULL */
+    const char *notes; /* what to say, for whoever presents it */
+    double minutes;    /* that it takes */
     const char *file;  /* where its code is: a file that listing.h knows */
     const char *function; /* and a function in it */
     const char *lit;      /* its lines with this text are those at work */
     const char *claim;    /* what a test holds */
     unsigned flips;       /* bit s: switch s of the scene is turned over */
     int picture;          /* the step that the handout shows */
-    bool plays;           /* runs at once instead of waiting */
     double speed;         /* steps a frame; 0: the scene's */
     bool numbers;         /* the nodes' are shown */
     const char *open;     /* commands when it opens, ';' between; or NULL */
     int lines;            /* or so many lines on from where the page opens */
     bool predict;         /* a click says where the next step leads */
+    bool forces;          /* that on each node is an arrow */
+    bool modes;           /* so is the fastest oscillation, or eigenvectors */
+    bool writes;          /* the spring is lit whose number is the step's */
 } LecturePage;
 
-/* The table; it ends with a NULL name. */
+/* Text, formulas, look and touch are texts of facts.h: live numbers stand in
+ * braces.  The table; it ends with a NULL name. */
 extern const LecturePage lecture_pages[];
 
 /* How many pages there are. */

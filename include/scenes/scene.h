@@ -70,7 +70,8 @@ typedef struct Scene {
                          only of methods that take energy out */
     const char *turn; /* what one step is; NULL: a step in time */
     bool explains; /* it is looked at step by step: a window waits at step 0 */
-    const char *pin; /* as --pin, or NULL */
+    const char *group; /* of scenes that begins with it; NULL: none does */
+    const char *pin;   /* as --pin, or NULL */
     /* What the command line has no words for: rows over columns, 0: a square;
      * k_c over k, 0: one half; whether pins are moved. */
     double aspect, cell_stiffness;

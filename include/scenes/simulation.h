@@ -13,7 +13,7 @@
 
 #include "scenes/small_scenes.h"
 
-enum { SIMULATION_MAX_RUNS = 3 };
+enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
 struct Simulation {
     const Scene *scene;
@@ -32,6 +32,7 @@ struct Simulation {
     double work[SIMULATION_MAX_RUNS]; /* J, done by the hand in each run */
     double grip[SIMULATION_MAX_RUNS]; /* a run's friction is that of the options
                                          times this; 0: 1 */
+    double lift[SIMULATION_MAX_RUNS]; /* m, its grounds are so much higher */
     bool done;               /* the scene came to its end: no more steps */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user;
@@ -135,6 +136,17 @@ Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
  * allowed. */
 Status simulation_change(Simulation *simulation, const Options *options);
 
+/* Whether the obstacles of other options leave room for the bodies as they are.
+ *   message  [size] out, one line where not */
+bool simulation_has_room(const Simulation *simulation, const Options *options,
+                         char *message, size_t size);
+
+/* Puts a node at (x, y), m, at rest; really: else it is only tried.  What this
+ * does to the energy is booked as work.  Returns OK; INVALID_INPUT: there is no
+ * such node, or a cell would be turned over there, or an obstacle is. */
+Status simulation_place(Simulation *simulation, int node, double x, double y,
+                        bool really);
+
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);
 
@@ -173,6 +185,11 @@ void simulation_predict(Simulation *simulation, double x, double y);
  *   turn    out, rad/s, of that rigid motion, anticlockwise */
 double simulation_deforming(const Simulation *simulation, double *centre,
                             double *turn);
+
+/* omega of the fastest small oscillation around the state of run 0, 1/s: M
+ * mode'' = -H mode with the Hessian of P as it is; NaN where there is none, or
+ * more nodes.  mode [2n] out, its length is 1. */
+double simulation_fastest(const Simulation *simulation, double *mode);
 
 /* Whether nothing from outside acts on the body: no gravity, no obstacles, no
  * pins and no hand. */

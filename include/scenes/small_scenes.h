@@ -204,6 +204,7 @@ typedef struct RacePoint {
                        NaN: the run failed */
     double seconds; /* run time */
     long updates;   /* Newton updates; 0 in explicit methods */
+    double kept;    /* of the energy at the start, at the end */
     bool stable;    /* its energy stays bounded when it runs on */
 } RacePoint;
 
@@ -222,6 +223,12 @@ Status step_race(Simulation *simulation);
 /* The quickest run so far that reaches the error, m, and stays stable, of
  * explicit or of implicit methods; NULL: there is none. */
 const RacePoint *race_quickest(const Race *race, double error, bool implicit);
+
+/* Of a method in the runs so far: the order of its error in h, by the last two
+ * whose errors are above those of tolerance and reference; and the longest time
+ * step with which it is stable, s; NaN: not known. */
+double race_order(const Race *race, int method);
+double race_stable(const Race *race, int method);
 
 /* The method of column i, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_method(int i);
@@ -265,7 +272,8 @@ typedef struct Exhibit {
     double began[4]; /* m, m/s: x and v from which one mass's exact path goes */
     double target[2]; /* m, x_tilde; of one unknown its x */
     unsigned parts;   /* that are switched on: enum LandscapePart; of one spring
-                         1: the energy with the square root too */
+                         1: the energy with the square root too; of the race
+                         1: over h instead of run time */
     Walk walk;
     Race race;
     EnvelopeMap map;

@@ -18,7 +18,7 @@ typedef struct IncrementalPotential {
     double weight;         /* w, s^2 */
     const double *x_n;     /* [2n] m, positions at the start of the step */
     const double *u_tilde; /* [2n] m, x_tilde - x_n */
-    bool averaged;         /* the averaged twins of all terms */
+    double *between; /* [4n] m, room: P is averaged over the step; or NULL */
 } IncrementalPotential;
 
 /* What travels together through a minimisation; arrays of [2n]. */
@@ -54,6 +54,10 @@ double incremental_potential_scale(const IncrementalPotential *E,
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot);
+
+/* Whether the Hessian at u, x wants entries that the pattern did not have: it
+ * has them when it is made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
+Status incremental_potential_grow(const Iterate *at, bool *grown);
 
 /* A = Hessian of E at u, x, filtered.  slot as above.
  * Returns how many blocks of terms the filter changed. */

@@ -63,7 +63,7 @@ typedef struct NewtonSettings {
     Filter filter;           /* what is done with negative eigenvalues */
     LineSearch search;       /* how the step length is found */
     bool minimum;            /* a saddle is no end: it is left */
-    bool averaged;           /* terms averaged over the step (avf) */
+    bool averaged;           /* P averaged over the step (avf) */
     int max_iterations;      /* at most; then ITERATION_LIMIT */
     NewtonObserver observer; /* or NULL */
     void *user;              /* passed to the observer */
@@ -78,7 +78,7 @@ typedef struct NewtonCounters {
     long solves;
     long projected;  /* blocks projected, summed over factorisations */
     long trials;     /* energies looked at by the line search */
-    long skipped;    /* tests passed by the gradient's size alone */
+    long skipped;    /* tests passed without a factor */
     long cycles;     /* of multigrid */
     long local;      /* its sweeps of tiles where folds run */
     long saddles;    /* left along negative curvature */
@@ -110,6 +110,7 @@ typedef struct SearchDirection {
 
 /* What guards the digits of a minimisation (rounding.c). */
 typedef struct Rounding {
+    unsigned known;  /* 1 + the system's version that the next three are of */
     double lightest; /* kg, the smallest mass */
     double stiffest; /* J/m^2, the largest curvature of a term */
     double force;    /* J/m, the largest of a spring without a length */

@@ -20,7 +20,7 @@ typedef struct IntegratorMethod {
     const char *label; /* as in the window */
     int order;         /* of accuracy */
     bool implicit;     /* needs Newton */
-    bool averaged;     /* needs the averaged twins of all terms */
+    bool averaged;     /* needs terms that can be averaged */
     bool at_end;       /* x_(n+1) is the minimiser itself: all terms will do */
     bool damps;        /* takes energy out of motion: it comes to rest */
     int memory;        /* arrays [2n] kept between steps */

@@ -42,7 +42,8 @@ Status bench_frames(Bench *bench)
         status = simulation_create(&options, NULL, NULL, &simulation);
         if (!status) {
             history_clear(&history);
-            show_sample(&simulation, &history);
+            Energy row[HISTORY_SERIES];
+            history_add(&history, 0, show_sample(&simulation, row), row);
             show_create(&simulation, &show);
             show.pane[0].history = &history;
             show_describe(&show);

@@ -14,20 +14,30 @@ pattern=-ftrivial-auto-var-init=pattern
 echo 'int main(void) { return 0; }' >"$work/try.c"
 ${CC:-cc} $pattern "$work/try.c" -o "$work/try" 2>/dev/null || pattern=
 
-# check FILE OBJECT [NAME]: with NAME a line of the table.
+# check FILE OBJECT [NAME]: with NAME a line of the table.  What the file itself
+# prints is not seen.
 check() {
     object=$work/$2
     name=$(realpath "$1" 2>/dev/null)
     # shellcheck disable=SC2086
     if [ ! -f "$1" ]; then
         problem='there is no such file'
-    elif ${CC:-cc} -std=gnu11 -w -Werror=return-type -g1 -O0 $pattern -DHOMEWORK="\"$name\"" \
+    elif LC_ALL=C ${CC:-cc} -std=gnu11 -Wuninitialized -Wmaybe-uninitialized \
+        -Werror=return-type -g1 -Og $pattern -DHOMEWORK="\"$name\"" \
         -fsanitize=address,undefined -fno-sanitize-recover=all $DEP_CFLAGS \
         -c "$here/student.c" -o "$object.o" 2>"$object.log" &&
         ${CC:-cc} -fsanitize=address,undefined "$CHECK" "$object.o" \
             -o "$object" $LIBS 2>>"$object.log"; then
-        ASAN_OPTIONS=detect_leaks=0 "$object" ${3:+"$3"}
-        return
+        note=$(awk -F "'" '/: In function / { name = $2 ": " }
+            / warning: .*uninit/ { n = split($1, at, ":")
+                print name "line " at[n - 3] ": " $2 \
+                    " may be used before it has a value"; exit }' "$object.log")
+        ASAN_OPTIONS=detect_leaks=0 "$object" "$note" ${3:+"$3"} \
+            3>"$object.said" >/dev/null
+        code=$?
+        cat "$object.said"
+        [ ! -s "$object.said" ] || return $code
+        problem='it ends before its functions are called'
     else
         problem="it does not compile: $(sed -n 's/^.*\.c:\([0-9]*\):.*error: /line \1: /p
             /undefined reference/p' "$object.log" | head -n 1 | tr '"' "'")"

@@ -2,17 +2,16 @@
 #   awk -f write.awk tasks.txt ../lecture.c
 
 BEGIN {
-    print "/* homework.c - the lecture's program with " \
-          "eleven functions to write, each marked\n" \
-          " * TASK.  It compiles as it is; `make check-homework`" \
-          " says how far you are. */"
+    print "/* homework.c - the lecture's program with eleven functions to" \
+          " write, each\n * marked TASK.  It compiles as it is; `make" \
+          " check-homework` tells how far you\n * are. */"
 }
 
 # tasks.txt: paragraphs of a name and what is to be done.
 NR == FNR && $0 == "" { name = ""; next }
 NR == FNR && name == "" { name = $0; next }
 NR == FNR {
-    task[name] = name in task ? task[name] "\n     * " $0 : $0
+    task[name] = task[name] "\n     * " $0
     next
 }
 
@@ -27,7 +26,7 @@ skipped && /^}/ { skipped = 0 }
 skipped { next }
 { print }
 /^{/ && name in task {
-    printf "    /* TASK %d: %s */\n", ++count, task[name]
+    printf "    /* TASK %d%s */\n", ++count, task[name]
     if (result == "double")
         print "    return 0;"
     skipped = 1

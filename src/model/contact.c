@@ -119,12 +119,12 @@ static bool get(const Place *at, int i, double way, Element *element)
 /* A node has its own block, and where there is a free ball shares it with the
  * ball; the ball itself shares it with a neighbour, so that all have as many
  * entries. */
-int contact_blocks(const Place *at)
+static int blocks(const Place *at)
 {
     return at->system->nodes;
 }
 
-int contact_nodes(const Place *at, int block, int node[3])
+static int nodes(const Place *at, int block, int node[3])
 {
     const Contact *contact = contact_of(at->system);
     node[0] = block;
@@ -220,16 +220,28 @@ static void bounds(const Place *at, double *stiffest, double *force)
     bound_raise(force, half_way);
 }
 
+static double rub(const Place *at, const Element *element, double t[4],
+                  double *carry)
+{
+    const Contact *contact = at->term->data;
+    const Obstacle *obstacle = &contact->obstacle[element->from];
+    t[0] = -element->n[1];
+    t[1] = element->n[0];
+    *carry = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
+    return obstacle->friction * contact_force(&contact->barrier, element->s);
+}
+
 const ElementKind contact_elements = {.count = count,
                                       .get = get,
-                                      .blocks = contact_blocks,
-                                      .nodes = contact_nodes,
+                                      .blocks = blocks,
+                                      .nodes = nodes,
                                       .value = contact_value,
                                       .gradient = gradient,
                                       .hessian = contact_hessian,
                                       .remainder = remainder_along,
                                       .reach = reach,
-                                      .concave = concave};
+                                      .concave = concave,
+                                      .rub = rub};
 
 const TermKind contact_energy = {
     .name = "contact",

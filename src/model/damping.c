@@ -19,8 +19,8 @@ static bool renew(double *old, double new)
 }
 
 /* The springs of the step from x_n.  A broken one stays broken. */
-static void begin(Term *term, System *system, const double *x_n,
-                  const double *v_n, double h)
+static Status begin(Term *term, System *system, const double *x_n,
+                    const double *v_n, double h)
 {
     Damping *data = term->data;
     double theta = data->eta / h;
@@ -36,6 +36,7 @@ static void begin(Term *term, System *system, const double *x_n,
     }
     if (changed)
         system_changed(system, false);
+    return STATUS_OK;
 }
 
 static void end(Term *term, System *system, const double *x, const double *v,

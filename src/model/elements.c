@@ -7,24 +7,29 @@ static const ElementKind *kind_of(const Place *at)
     return at->term->kind->element;
 }
 
-/* From element to element. */
-typedef struct Walk {
-    const Place *at;
-    const ElementKind *kind;
-    double way;
-    int i, count;
-    Element element;
-} Walk;
-
-static Walk walk_from(const Place *at, double way)
+/* How much a and b may change along alpha p, m, of kinds that ask for `way`:
+ * |sum w_k p_k| with sum |w_k| <= 2, and |p_k| <= 1.5 of its larger coordinate.
+ */
+static double longest_way(const Place *at, const double *p, double alpha)
 {
-    const ElementKind *kind = kind_of(at);
-    return (Walk){at, kind, way, -1, kind->count(at), {0}};
+    double most = 0;
+    for (int i = 0; i < 2 * at->system->nodes; i++)
+        most = fabs(p[i]) > most ? fabs(p[i]) : most;
+    return 3 * alpha * most;
 }
 
-static bool walk_on(Walk *walk)
+ElementWalk elements_from(const Place *at, const double *p, double alpha)
 {
-    while (++walk->i < walk->count)
+    const ElementKind *kind = kind_of(at);
+    double way = p ? longest_way(at, p, alpha) : 0;
+    if (kind->look)
+        kind->look(at, p, alpha);
+    return (ElementWalk){at, kind, way, -1, kind->count(at), {0}};
+}
+
+bool elements_next(ElementWalk *walk)
+{
+    while (walk->element.more > 0 || ++walk->i < walk->count)
         if (walk->kind->get(walk->at, walk->i, walk->way, &walk->element))
             return true;
     return false;
@@ -44,7 +49,7 @@ void element_add(const Element *element, double factor, const double g[4],
 double elements_value(const Place *at)
 {
     double sum = 0;
-    for (Walk walk = walk_from(at, 0); walk_on(&walk);)
+    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);)
         sum += walk.kind->value(at, &walk.element);
     return sum;
 }
@@ -52,7 +57,7 @@ double elements_value(const Place *at)
 void elements_gradient(const Place *at, double *g)
 {
     double own[4];
-    for (Walk walk = walk_from(at, 0); walk_on(&walk);) {
+    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
         walk.kind->gradient(at, &walk.element, own);
         element_add(&walk.element, walk.element.factor, own, g);
     }
@@ -136,7 +141,7 @@ int elements_hessian(const Place *at, Filter filter, const int *slot,
 {
     int projected = 0, entries = entries_of(nodes_of_a_block(at));
     double H[4][4];
-    for (Walk walk = walk_from(at, 0); walk_on(&walk);) {
+    for (ElementWalk walk = elements_from(at, NULL, 0); elements_next(&walk);) {
         const Element *element = &walk.element;
         projected += walk.kind->hessian(at, element, filter, H);
         if (q)
@@ -147,22 +152,11 @@ int elements_hessian(const Place *at, Filter filter, const int *slot,
     return projected;
 }
 
-/* How much a and b may change along alpha p, m, of kinds that ask for `way`:
- * |sum w_k p_k| with sum |w_k| <= 2, and |p_k| <= 1.5 of its larger coordinate.
- */
-static double longest_way(const Place *at, const double *p, double alpha)
-{
-    double most = 0;
-    for (int i = 0; i < 2 * at->system->nodes; i++)
-        most = fabs(p[i]) > most ? fabs(p[i]) : most;
-    return 3 * alpha * most;
-}
-
 double elements_remainder(const Place *at, const double *p, double alpha)
 {
     double sum = 0, P[4];
-    for (Walk walk = walk_from(at, longest_way(at, p, alpha));
-         walk_on(&walk);) {
+    for (ElementWalk walk = elements_from(at, p, alpha);
+         elements_next(&walk);) {
         element_vectors(&walk.element, p, P);
         sum += walk.kind->remainder(at, &walk.element, P, alpha);
     }
@@ -172,8 +166,8 @@ double elements_remainder(const Place *at, const double *p, double alpha)
 double elements_reach(const Place *at, const double *p)
 {
     double smallest = INFINITY, P[4];
-    Walk walk = walk_from(at, longest_way(at, p, 1));
-    while (walk.kind->reach && walk_on(&walk)) {
+    ElementWalk walk = elements_from(at, p, 1);
+    while (walk.kind->reach && elements_next(&walk)) {
         element_vectors(&walk.element, p, P);
         double alpha = walk.kind->reach(at, &walk.element, P);
         smallest = alpha <= 1 ? fmin(smallest, alpha) : smallest;
@@ -183,8 +177,8 @@ double elements_reach(const Place *at, const double *p)
 
 bool elements_allowed(const Place *at)
 {
-    Walk walk = walk_from(at, 0);
-    while (walk.kind->reach && walk_on(&walk))
+    ElementWalk walk = elements_from(at, NULL, 0);
+    while (walk.kind->reach && elements_next(&walk))
         if (!(walk.element.s > 0))
             return false;
     return true;
@@ -193,8 +187,8 @@ bool elements_allowed(const Place *at)
 /* |sum w_k x_k|^2 <= (sum |w_k|) sum |w_k| |x_k|^2 */
 void elements_concave(const Place *at, double *sum)
 {
-    Walk walk = walk_from(at, 0);
-    while (walk.kind->concave && walk_on(&walk)) {
+    ElementWalk walk = elements_from(at, NULL, 0);
+    while (walk.kind->concave && elements_next(&walk)) {
         const Element *element = &walk.element;
         double c = walk.kind->concave(at, element);
         for (int m = 0; m < element->vectors; m++) {

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/self_contact.h"
+
 /* f0, m. */
 static double friction_value(double y, double e)
 {
@@ -64,40 +66,64 @@ static double friction_remainder(double y, double t, double e)
 
 /* ---- the term ------------------------------------------------------------ */
 
-/* t.a, where a is made of displacements u [2n]. */
+/* t.(a, b), where these are made of displacements u or a direction. */
+static double along(const Element *row, const double vectors[4])
+{
+    double sum = 0;
+    for (int i = 0; i < 2 * row->vectors; i++)
+        sum += row->v[i] * vectors[i];
+    return sum;
+}
+
 static double slid(const Slide *slide, const double *u)
 {
-    const double *t = slide->row.n;
-    double a[4];
-    element_vectors(&slide->row, u, a);
-    return t[0] * a[0] + t[1] * a[1];
+    double vectors[4];
+    element_vectors(&slide->row, u, vectors);
+    return along(&slide->row, vectors) - slide->carry;
+}
+
+/* The term whose elements rub here; a place that asks it. */
+static Place place_of_source(const Place *at)
+{
+    const Friction *friction = at->term->data;
+    Place source = *at;
+    source.term = system_find_term(at->system, friction->source);
+    return source;
 }
 
 /* Normal forces and tangents at x_n. */
-static void begin(Term *term, System *system, const double *x_n,
-                  const double *v_n, double h)
+static Status begin(Term *term, System *system, const double *x_n,
+                    const double *v_n, double h)
 {
     Friction *friction = term->data;
-    const Contact *contact = contact_of(system);
     Place at = place_at(system, x_n, NULL, x_n);
-    Element row;
     (void)v_n;
-    at.term = system_find_term(system, &contact_energy);
+    at.term = term;
+    at = place_of_source(&at);
     friction->e = friction->slip_speed * h;
     friction->slides = 0;
-    for (int i = 0; i < contact_elements.count(&at); i++) {
-        if (!contact_elements.get(&at, i, 0, &row))
+    for (ElementWalk walk = elements_from(&at, NULL, 0);
+         elements_next(&walk);) {
+        Slide slide = {walk.element, 0};
+        slide.row.r =
+            walk.kind->rub(&at, &walk.element, slide.row.v, &slide.carry);
+        slide.row.factor = 1;
+        slide.row.more = 0;
+        slide.carry *= h;
+        if (!(slide.row.r > 0))
             continue;
-        const Obstacle *obstacle = &contact->obstacle[row.from];
-        if (!(obstacle->friction > 0))
-            continue;
-        const double t[2] = {-row.n[1], row.n[0]};
-        row.n[0] = t[0];
-        row.n[1] = t[1];
-        row.r = obstacle->friction * contact_force(&contact->barrier, row.s);
-        friction->slide[friction->slides++] =
-            (Slide){row, h * (t[0] * obstacle->v[0] + t[1] * obstacle->v[1])};
+        if (friction->slides == friction->room) {
+            int room = 2 * friction->room + 64;
+            friction = realloc(term->data,
+                               sizeof *friction + (size_t)room * sizeof slide);
+            if (!friction)
+                return STATUS_OUT_OF_MEMORY;
+            term->data = friction;
+            friction->room = room;
+        }
+        friction->slide[friction->slides++] = slide;
     }
+    return STATUS_OK;
 }
 
 /* What was rubbed off in this step. */
@@ -108,7 +134,9 @@ static void end(Term *term, System *system, const double *x, const double *v,
     (void)x;
     for (int i = 0; i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
-        double y = h * slid(slide, v) - slide->carry;
+        double vectors[4];
+        element_vectors(&slide->row, v, vectors);
+        double y = h * along(&slide->row, vectors) - slide->carry;
         system_lose(system, term->kind,
                     slide->row.r * friction_slope(y, friction->e) * y);
     }
@@ -132,8 +160,21 @@ static bool get(const Place *at, int i, double way, Element *element)
     if (!at->u)
         return false;
     *element = slide->row;
-    element->s = slid(slide, at->u) - slide->carry;
+    element->s = slid(slide, at->u);
     return true;
+}
+
+/* The blocks are those of the contact. */
+static int blocks(const Place *at)
+{
+    Place source = place_of_source(at);
+    return source.term->kind->element->blocks(&source);
+}
+
+static int nodes(const Place *at, int block, int node[3])
+{
+    Place source = place_of_source(at);
+    return source.term->kind->element->nodes(&source, block, node);
 }
 
 static double value(const Place *at, const Element *element)
@@ -145,44 +186,50 @@ static void gradient(const Place *at, const Element *element, double g[4])
 {
     double force =
         at->w * element->r * friction_slope(element->s, friction_of(at)->e);
-    g[0] = force * element->n[0];
-    g[1] = force * element->n[1];
+    for (int i = 0; i < 4; i++)
+        g[i] = force * element->v[i];
 }
 
 /* mu lambda f0'' t t^T, never negative */
 static bool hessian(const Place *at, const Element *element, Filter filter,
                     double H[4][4])
 {
-    const double *t = element->n;
     double bend =
         at->w * element->r * friction_curvature(element->s, friction_of(at)->e);
     (void)filter;
-    H[0][0] = bend * t[0] * t[0];
-    H[0][1] = H[1][0] = bend * t[0] * t[1];
-    H[1][1] = bend * t[1] * t[1];
+    for (int i = 0; i < 4; i++)
+        for (int k = i; k < 4; k++)
+            H[i][k] = H[k][i] = bend * element->v[i] * element->v[k];
     return false;
 }
 
 static double remainder_along(const Place *at, const Element *element,
                               const double P[4], double alpha)
 {
-    double t = element->n[0] * P[0] + element->n[1] * P[1];
-    return element->r *
-           friction_remainder(element->s, alpha * t, friction_of(at)->e);
+    return element->r * friction_remainder(element->s,
+                                           alpha * along(element, P),
+                                           friction_of(at)->e);
 }
 
 static const ElementKind slides = {.count = count,
                                    .get = get,
-                                   .blocks = contact_blocks,
-                                   .nodes = contact_nodes,
+                                   .blocks = blocks,
+                                   .nodes = nodes,
                                    .value = value,
                                    .gradient = gradient,
                                    .hessian = hessian,
                                    .remainder = remainder_along};
 
 const TermKind friction_energy = {
-    ELEMENTS(slides), .loss = "friction", .place = PLACE_FRICTION,
-    .begin = begin,   .end = end,         .end_of_step = true,
+    ELEMENTS(slides),        .name = "friction", .loss = "friction",
+    .place = PLACE_FRICTION, .begin = begin,     .end = end,
+    .end_of_step = true,
+};
+
+const TermKind self_friction_energy = {
+    ELEMENTS(slides),    .loss = "friction", .place = PLACE_FRICTION,
+    .begin = begin,      .end = end,         .internal = true,
+    .end_of_step = true,
 };
 
 double friction_work_of_obstacles(const System *system, const double *u)
@@ -191,21 +238,28 @@ double friction_work_of_obstacles(const System *system, const double *u)
     double sum = 0;
     for (int i = 0; friction && i < friction->slides; i++) {
         const Slide *slide = &friction->slide[i];
-        double y = slid(slide, u) - slide->carry;
+        double y = slid(slide, u);
         sum -= slide->row.r * friction_slope(y, friction->e) * slide->carry;
     }
     return sum;
 }
 
-Status friction_add(System *system, double slip_speed)
+Status friction_set(System *system, const TermKind *kind, bool wanted,
+                    double slip_speed)
 {
-    const Contact *contact = contact_of(system);
-    size_t room =
-        (size_t)system->nodes * (size_t)(contact ? contact->obstacles : 0);
-    Friction *friction = calloc(1, sizeof *friction + room * sizeof(Slide));
+    const TermKind *source =
+        kind == &friction_energy ? &contact_energy : &self_contact_energy;
+    if (!wanted)
+        system_remove_term(system, kind);
+    Friction *friction = system_data(system, kind);
+    if (friction)
+        friction->slip_speed = slip_speed;
+    if (!wanted || friction)
+        return STATUS_OK;
+    friction = calloc(1, sizeof *friction);
     if (!friction)
         return STATUS_OUT_OF_MEMORY;
     friction->slip_speed = slip_speed;
-    friction->slide = (Slide *)(friction + 1);
-    return system_add_term(system, &friction_energy, friction);
+    friction->source = source;
+    return system_add_term(system, kind, friction);
 }

@@ -25,6 +25,20 @@ static void gradient(const Place *at, double *g)
     }
 }
 
+/* That of a spring at both places. */
+static bool sum_hessian(const Place *at, int s, Filter filter, double H[3])
+{
+    const int *e = at->system->e + 2 * s;
+    double d[2], l2 = at->l2[s], k = at->k[s], too[3];
+    spring_strain(e, l2, at->x, d);
+    spring_hessian(d, l2, at->w * k, FILTER_NONE, H);
+    spring_strain(e, l2, at->x_too, d);
+    spring_hessian(d, l2, at->w_too * k, FILTER_NONE, too);
+    for (int c = 0; c < 3; c++)
+        H[c] += too[c];
+    return filter_2x2(filter, H) && k > 0;
+}
+
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
@@ -34,7 +48,9 @@ static int hessian(const Place *at, Filter filter, const int *slot,
         const int *e = system->e + 2 * s;
         double d[2], H[3];
         spring_strain(e, at->l2[s], at->x, d);
-        projected += spring_hessian(d, at->l2[s], at->w * at->k[s], filter, H);
+        projected += at->x_too ? sum_hessian(at, s, filter, H)
+                               : spring_hessian(d, at->l2[s], at->w * at->k[s],
+                                                filter, H);
         mass_spring_add(H, e, s, slot, q, out);
     }
     return projected;
@@ -106,7 +122,7 @@ const TermKind mass_spring_energy = {
     .pattern = mass_spring_pattern,
     .hessian = hessian,
     .along = along,
-    .averaged = &avf_energy,
+    .averages = true,
     .bounds = mass_spring_bounds,
     .concave = concave,
     .internal = true,

@@ -12,18 +12,14 @@ static double stiffness(const Place *at, double w, int i)
     return i / 2 == pull->node ? w * pull->k : 0;
 }
 
-/* c/2 |x - o|^2.  Averaged along the way from x_n the gradient is the one half
- * way, c (x_n + u/2 - o), and its potential c u.(x_n + u/4 - o). */
+/* c/2 |x - o|^2 */
 static double value(const Place *at)
 {
     const Pull *pull = at->term->data;
     double sum = 0;
     for (int i = 0; i < 2 * at->system->nodes; i++) {
-        double o = pull->target[i % 2], x = at->x[i] - o;
-        double size = at->averaged
-                          ? 2 * at->u[i] * (at->x_n[i] - o + 0.25 * at->u[i])
-                          : x * x;
-        sum += stiffness(at, 0.5, i) * size;
+        double x = at->x[i] - pull->target[i % 2];
+        sum += stiffness(at, 0.5, i) * (x * x);
     }
     return sum;
 }
@@ -31,10 +27,8 @@ static double value(const Place *at)
 static void gradient(const Place *at, double *g)
 {
     const Pull *pull = at->term->data;
-    for (int i = 0; i < 2 * at->system->nodes; i++) {
-        double x = at->averaged ? at->x_n[i] + 0.5 * at->u[i] : at->x[i];
-        g[i] += stiffness(at, at->w, i) * (x - pull->target[i % 2]);
-    }
+    for (int i = 0; i < 2 * at->system->nodes; i++)
+        g[i] += stiffness(at, at->w, i) * (at->x[i] - pull->target[i % 2]);
 }
 
 /* The diagonal. */
@@ -49,14 +43,13 @@ static void pattern(const Place *at, Triplets *triplets)
         term_add_diagonal(at->system, i / 2, triplets);
 }
 
-/* Averaged, what is linear in u counts half.  It is never negative. */
+/* It is never negative. */
 static int hessian(const Place *at, Filter filter, const int *slot,
                    const double *q, double *out)
 {
-    double part = at->averaged ? 0.5 * at->w : at->w;
     (void)filter;
     for (int i = 0; i < 2 * at->system->nodes; i++) {
-        double c = stiffness(at, part, i);
+        double c = stiffness(at, at->w + at->w_too, i);
         if (q)
             out[i] += c * q[i];
         else
@@ -67,9 +60,8 @@ static int hessian(const Place *at, Filter filter, const int *slot,
 
 static void along(const Place *at, const double *p, double q[3])
 {
-    double part = at->averaged ? 0.25 * at->w : 0.5 * at->w;
     for (int i = 0; i < 2 * at->system->nodes; i++)
-        q[0] += stiffness(at, part, i) * p[i] * p[i];
+        q[0] += stiffness(at, 0.5 * at->w, i) * p[i] * p[i];
 }
 
 static void bounds(const Place *at, double *stiffest, double *force)
@@ -79,16 +71,14 @@ static void bounds(const Place *at, double *stiffest, double *force)
         bound_raise(stiffest, fabs(stiffness(at, 1, i)));
 }
 
-/* What both kinds share; averaged, each is itself. */
+/* What both kinds share. */
 #define PULL                                                                   \
     .value = value, .gradient = gradient, .entries = entries,                  \
     .pattern = pattern, .hessian = hessian, .along = along, .bounds = bounds,  \
-    .diagonal = true
+    .averages = true, .diagonal = true
 
-const TermKind central_field = {PULL, .energy = "elastic",
-                                .averaged = &central_field};
-const TermKind hand_energy = {PULL, .energy = "hand", .place = PLACE_HAND,
-                              .averaged = &hand_energy};
+const TermKind central_field = {PULL, .energy = "elastic"};
+const TermKind hand_energy = {PULL, .place = PLACE_HAND};
 
 Status pull_set(System *system, const TermKind *kind, const Pull *pull)
 {
@@ -114,4 +104,33 @@ Status central_field_set(System *system, double omega2)
 Pull *hand_energy_of(const System *system)
 {
     return system_data(system, &hand_energy);
+}
+
+void hand_follow(Pull *hand, const double *x, const double *v, double m,
+                 double h, const double *free)
+{
+    static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
+    double d[2] = {hand->mouse[0] - x[0], hand->mouse[1] - x[1]};
+    double away = sqrt(d[0] * d[0] + d[1] * d[1]);
+    double slow = fmin(MOST, h / TIME), part = slow;
+    if (part * away > hand->reach)
+        part = hand->reach / away;
+    /* Where the node is at rest the force is that of k part = strength. */
+    hand->k = fmin(fmax(hand->strength / slow, INERTIA * m / (h * h)),
+                   LIMIT * hand->strength);
+    if (free)
+        hand->k = m / (h * h);
+    for (int i = 0; i < 2; i++)
+        hand->target[i] =
+            x[i] + part * d[i] - (free ? h * v[i] + h * h * free[i] : 0);
+}
+
+double hand_work(const Pull *hand, const double *x, const double *y)
+{
+    double sum = 0;
+    for (int i = 0; i < 2; i++) {
+        double before = x[i] - hand->target[i], now = y[i] - hand->target[i];
+        sum += 0.5 * hand->k * (before * before - now * now);
+    }
+    return sum;
 }

@@ -4,17 +4,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-SquareMesh square_mesh_shape(int columns, int rows, double side)
+SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies)
 {
+    int springs = columns * (rows + 1) + rows * (columns + 1);
     return (SquareMesh){.segments = columns,
                         .rows = rows,
+                        .bodies = bodies,
                         .side = side,
                         .spacing = side / columns,
-                        .nodes = (columns + 1) * (rows + 1),
-                        .springs = columns * (rows + 1) + rows * (columns + 1) +
-                                   2 * columns * rows,
-                        .cells = columns * rows,
-                        .outline = 2 * (columns + rows)};
+                        .nodes = bodies * (columns + 1) * (rows + 1),
+                        .springs = bodies * (springs + 2 * columns * rows),
+                        .cells = bodies * columns * rows,
+                        .outline = bodies * 2 * (columns + rows)};
+}
+
+/* The body that number i of so many in all is of; i becomes its number there.
+ */
+static int body_of(const SquareMesh *shape, int all, int *i)
+{
+    int each = all / shape->bodies, body = *i / each;
+    *i %= each;
+    return body;
 }
 
 /* The node of column i, row j: nodes are counted up each column. */
@@ -23,10 +33,16 @@ static int node_at(const SquareMesh *shape, int i, int j)
     return i * (shape->rows + 1) + j;
 }
 
+int square_mesh_body(const SquareMesh *shape, int *i)
+{
+    return body_of(shape, shape->nodes, i);
+}
+
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
 void square_mesh_place(const SquareMesh *shape, int i, double x[2])
 {
     int stride = node_at(shape, 1, 0);
+    square_mesh_body(shape, &i);
     double step = shape->spacing;
     double high =
         shape->rows == shape->segments ? shape->side : shape->rows * step;
@@ -36,6 +52,7 @@ void square_mesh_place(const SquareMesh *shape, int i, double x[2])
 
 int square_mesh_sides(const SquareMesh *shape, int i)
 {
+    square_mesh_body(shape, &i);
     int stride = node_at(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |
@@ -46,12 +63,14 @@ void square_mesh_cell(const SquareMesh *shape, int c, int node[4],
                       int spring[6])
 {
     int columns = shape->segments, rows = shape->rows;
-    int a = node_at(shape, c / rows, c % rows);
-    int upright = node_at(shape, columns, 0) + c;
-    int diagonals = node_at(shape, columns, 0) + (columns + 1) * rows + 2 * c;
+    square_mesh_patch(shape, c, 1, node);
+    int first = body_of(shape, shape->cells, &c);
+    first *= shape->springs / shape->bodies;
+    int a = first + c / rows * (rows + 1) + c % rows;
+    int upright = first + node_at(shape, columns, 0) + c;
+    int diagonals = upright + (columns + 1) * rows + c;
     const int springs[6] = {a,       upright + rows, a + 1,
                             upright, diagonals,      diagonals + 1};
-    square_mesh_patch(shape, c, 1, node);
     memcpy(spring, springs, sizeof springs);
 }
 
@@ -71,53 +90,69 @@ void square_mesh_triangle(const SquareMesh *shape, int t, int node[3],
 bool square_mesh_is_half(const SquareMesh *shape, int t)
 {
     int c = t / 4;
+    body_of(shape, shape->cells, &c);
     return (c / shape->rows + c % shape->rows + t) % 2;
 }
 
 bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
 {
     int columns = shape->segments, rows = shape->rows;
+    int first = body_of(shape, shape->cells, &c);
+    first *= shape->nodes / shape->bodies;
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
     int up = low + cells < rows ? low + cells : rows;
-    node[0] = node_at(shape, left, low);
-    node[1] = node_at(shape, right, low);
-    node[2] = node_at(shape, right, up);
-    node[3] = node_at(shape, left, up);
+    node[0] = first + node_at(shape, left, low);
+    node[1] = first + node_at(shape, right, low);
+    node[2] = first + node_at(shape, right, up);
+    node[3] = first + node_at(shape, left, up);
     return left % cells == 0 && low % cells == 0;
 }
 
-int square_mesh_outline(const SquareMesh *shape, int k)
+/* Node k of a body's outline. */
+static int outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
-    k %= shape->outline;
     if (k < columns)
         return node_at(shape, k, 0);
     if (k < columns + rows)
         return node_at(shape, columns, k - columns);
     if (k < 2 * columns + rows)
         return node_at(shape, 2 * columns + rows - k, rows);
-    return shape->outline - k;
+    return 2 * (columns + rows) - k;
+}
+
+void square_mesh_outline(const SquareMesh *shape, int k, int node[2])
+{
+    int first = body_of(shape, shape->outline, &k);
+    first *= shape->nodes / shape->bodies;
+    int next = (k + 1) % (shape->outline / shape->bodies);
+    node[0] = first + outline_node(shape, k);
+    node[1] = first + outline_node(shape, next);
 }
 
 /* Springs between each node (i, j) and (i + right, j + up); returns the place
  * of the next one. */
-static int *list_springs(const SquareMesh *mesh, int *e, int right, int up)
+static int *list_springs(const SquareMesh *mesh, int first, int *e, int right,
+                         int up)
 {
     for (int i = 0; i + right <= mesh->segments; i++)
         for (int j = 0; j + up <= mesh->rows; j++) {
-            *e++ = node_at(mesh, i, j);
-            *e++ = node_at(mesh, i + right, j + up);
+            *e++ = first + node_at(mesh, i, j);
+            *e++ = first + node_at(mesh, i + right, j + up);
         }
     return e;
 }
 
 /* In the order of the slide: horizontal, vertical, both diagonals of a cell. */
-static void square_mesh_springs(SquareMesh *mesh)
+static void square_mesh_springs(SquareMesh *mesh, int body)
 {
-    int spring[6], *e = list_springs(mesh, mesh->e, 1, 0);
-    e = list_springs(mesh, e, 0, 1);
-    for (int c = 0; c < mesh->cells; c++, e += 4) {
+    int cells = mesh->cells / mesh->bodies, first = body * cells;
+    int spring[6], nodes = mesh->nodes / mesh->bodies * body;
+    int *e = mesh->e + 2 * (mesh->springs / mesh->bodies * body);
+    e = list_springs(mesh, nodes, e, 1, 0);
+    e = list_springs(mesh, nodes, e, 0, 1);
+    for (int c = first; c < first + cells; c++, e += 4) {
         square_mesh_cell(mesh, c, e, spring); /* a b c d */
         const int diagonals[4] = {e[0], e[2], e[1], e[3]};
         memcpy(e, diagonals, sizeof diagonals);
@@ -136,7 +171,8 @@ enum { GRID_LEAF = 9 };
 /* Nested dissection (George 1973): numbers the nodes of a part from `next` on,
  * the two halves first, the line between them last; returns the next free
  * number.  The longer side is cut, so the line is the shorter one. */
-static int dissect_grid(const SquareMesh *mesh, GridPart part, int next)
+static int dissect_grid(const SquareMesh *mesh, int first, GridPart part,
+                        int next)
 {
     int wide = part.end[0] - part.begin[0], high = part.end[1] - part.begin[1];
     if (wide * high > GRID_LEAF) {
@@ -145,22 +181,26 @@ static int dissect_grid(const SquareMesh *mesh, GridPart part, int next)
         GridPart low = part, upper = part;
         low.end[side] = part.begin[side] = cut;
         upper.begin[side] = part.end[side] = cut + 1;
-        next = dissect_grid(mesh, low, next);
-        next = dissect_grid(mesh, upper, next);
+        next = dissect_grid(mesh, first, low, next);
+        next = dissect_grid(mesh, first, upper, next);
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            mesh->order[node_at(mesh, i, j)] = next++;
+            mesh->order[first + node_at(mesh, i, j)] = next++;
     return next;
 }
 
-Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh)
+Status square_mesh_create(int columns, int rows, double side, int bodies,
+                          SquareMesh *mesh)
 {
     *mesh = (SquareMesh){0};
     if (columns < 1 || columns > SQUARE_MESH_MAX_SEGMENTS || rows < 1 ||
-        rows > SQUARE_MESH_MAX_SEGMENTS || !isfinite(side) || !(side > 0))
+        rows > SQUARE_MESH_MAX_SEGMENTS || !isfinite(side) || !(side > 0) ||
+        bodies < 1 || bodies > SQUARE_MESH_MAX_BODIES)
         return STATUS_INVALID_INPUT;
-    *mesh = square_mesh_shape(columns, rows, side);
+    if ((double)columns * rows * bodies > SQUARE_MESH_MAX_CELLS)
+        return STATUS_TOO_LARGE;
+    *mesh = square_mesh_shape(columns, rows, side, bodies);
     size_t n = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     mesh->x = malloc(2 * n * sizeof *mesh->x);
     mesh->e = malloc(2 * springs * sizeof *mesh->e);
@@ -169,8 +209,12 @@ Status square_mesh_create(int columns, int rows, double side, SquareMesh *mesh)
         return STATUS_OUT_OF_MEMORY;
     for (int i = 0; i < mesh->nodes; i++)
         square_mesh_place(mesh, i, mesh->x + 2 * i);
-    square_mesh_springs(mesh);
-    dissect_grid(mesh, (GridPart){{0, 0}, {columns + 1, rows + 1}}, 0);
+    int each = mesh->nodes / bodies;
+    for (int body = 0; body < bodies; body++) {
+        square_mesh_springs(mesh, body);
+        dissect_grid(mesh, body * each,
+                     (GridPart){{0, 0}, {columns + 1, rows + 1}}, body * each);
+    }
     return STATUS_OK;
 }
 

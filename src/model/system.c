@@ -38,6 +38,13 @@ Status system_create_pins(System *system)
     return system->pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
+static void free_term(Term *term)
+{
+    if (term->kind->free)
+        term->kind->free(term->data);
+    free(term->data);
+}
+
 void system_free(System *system)
 {
     if (!system)
@@ -48,7 +55,7 @@ void system_free(System *system)
     free(system->pin_v);
     free(system->order);
     for (int t = 0; t < system->terms; t++)
-        free(system->term[t].data);
+        free_term(&system->term[t]);
     *system = (System){0};
 }
 
@@ -87,7 +94,7 @@ void system_remove_term(System *system, const TermKind *kind)
     Term *term = system_find_term(system, kind);
     if (!term)
         return;
-    free(term->data);
+    free_term(term);
     Term *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];
@@ -155,9 +162,7 @@ const TermKind *next_energy(Place *at)
     while (term < end && !term->kind->value)
         term++;
     at->term = term < end ? term : NULL;
-    if (!at->term)
-        return NULL;
-    return at->averaged ? at->term->kind->averaged : at->term->kind;
+    return at->term ? at->term->kind : NULL;
 }
 
 Status system_check(const System *system, const double *x)

@@ -291,9 +291,10 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 /* ---- surfaces ----------------------------------------------------------- */
 
 /* Narrows [*left, *right) to the pixels i of a row where a i + b >= 0. */
-static inline void narrow(double a, double b, int *left, int *right)
+static inline void narrow(double a, double per_a, double b, int *left,
+                          int *right)
 {
-    double i = -b / a; /* infinite or NaN where a is 0 */
+    double i = -b * per_a; /* infinite or NaN where a is 0 */
     if (a == 0 ? b < 0 : a > 0 ? i > *right : i < *left)
         *left = *right;
     else if (a > 0 && i > *left)
@@ -306,7 +307,7 @@ static inline void narrow(double a, double b, int *left, int *right)
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour)
 {
-    double edge[3][3]; /* a x + b y + c: pixels inside the edge */
+    double edge[3][4]; /* a x + b y + c, 1/a: pixels inside the edge */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     double reach = smooth ? 1 : 0;
     uint32_t full = opacity(colour);
@@ -319,10 +320,13 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
-        double n = (smooth ? math_hypot(dx, dy) : 1) * (turn > 0 ? 1 : -1);
-        edge[k][0] = -dy / n;
-        edge[k][1] = dx / n;
-        edge[k][2] = (dy * p[0] - dx * p[1]) / n;
+        double n = turn > 0 ? 1 : -1;
+        if (smooth)
+            n /= math_hypot(dx, dy);
+        edge[k][0] = -dy * n;
+        edge[k][1] = dx * n;
+        edge[k][2] = (dy * p[0] - dx * p[1]) * n;
+        edge[k][3] = 1 / edge[k][0];
     }
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = canvas_row(canvas, j);
@@ -330,7 +334,8 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         double first[3]; /* at the middle of pixel 0 */
         for (int k = 0; k < 3; k++) {
             first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
-            narrow(edge[k][0], first[k] + 0.5 * reach + 1e-9, &left, &right);
+            narrow(edge[k][0], edge[k][3], first[k] + 0.5 * reach + 1e-9, &left,
+                   &right);
         }
         if (!smooth)
             mix_span(row, left, right, colour, full);

@@ -1,11 +1,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/mathematics.h"
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "scenes/scene.h"
 
-static const double RADIUS_AXIS = 2;   /* m, upper end; curves may leave it */
 static const double STILL = 1000;      /* times as high as what is shown now */
 static const double LOG_FROM = 1e6;    /* times the energy at the beginning */
 static const double LEAST_LOG = 1e-12; /* the same: where that axis begins */
@@ -261,16 +261,22 @@ const Card card_energies = {
     .draw = draw_energies,
 };
 
-/* One curve a run, on an axis that does not move. */
+/* One curve a run, on an axis of powers of ten: what is multiplied by the same
+ * number in every step is a straight line. */
 static void draw_radius(Paper *paper, Box inside, const Show *show)
 {
     const Simulation *simulation = show->pane[show->active].simulation;
     Curve curve[HISTORY_SERIES];
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
+    double most = 1; /* powers of ten */
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = simulation->run[r].x;
+        most = fmax(most, ceil(fabs(log10(math_hypot(x[0], x[1])))));
+    }
     Plot plot = plot_create(
         paper, inside, (Axis){0, plot_round_up(last), false, false, "t in s"},
-        (Axis){0, RADIUS_AXIS, false, false, NULL});
+        (Axis){pow(10, -most), pow(10, most), true, false, NULL});
     draw_curves(&plot, find_curves(show, curve), curve);
 }
 

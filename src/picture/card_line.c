@@ -110,11 +110,8 @@ static void draw_curves(Paper *paper, Box inside, const Show *show,
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
     plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
     for (int t = 0; t < trace->trials; t++) {
-        double end = trace_alpha(trace, t + 1), at = end;
+        double at = trace_alpha(trace, t + 1);
         bool last = t == trace->trials - 1;
-        if (last &&
-            trace->line == LINE_SEARCH) /* it hops from the one before */
-            at += trace->rest * (t > 0 ? end : -end);
         draw_trial(&plot, at, exact_value(trace, at), last && trace->accepted);
     }
 }
@@ -140,7 +137,7 @@ static void draw_line(Paper *paper, Box inside, const Show *show)
 const Card card_line = {
     .name = "line",
     .title = "{one unknown}f({x} + {alpha} {p}) \u2212 f({x})\n"
-             "E({x} + {alpha} {p}) \u2212 E({x})   in J s\u00b2",
+             "E({x} + {alpha} {p}) \u2212 E({x}), J s\u00b2",
     .least = 8,
     .weight = 1.2,
     .half_on_page = true,

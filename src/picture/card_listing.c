@@ -1,17 +1,35 @@
 #include <math.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
 /* A line of a listing; its texts have facts. */
 typedef struct Row {
-    const char *of; /* the switch that tells which listing is shown */
+    const char *of; /* the switch that tells which listing is shown; inside of
+                       line 5 the one that lights it */
     Line line;      /* its place in the run */
     int indent;
     const char *off; /* the switch that strikes it through, or NULL */
     const char *markup;
     const char *value; /* at its right, where it has been reached; or NULL */
 } Row;
+
+/* What the lines of Algorithm 3 are for. */
+static const char *const purposes[LINE_COUNT] = {
+    [LINE_START] = "the search begins where the step does",
+    [LINE_DO] = "each round of the loop is an update of Newton's method",
+    [LINE_PROJECT] = "the Hessian of E; in each block negative eigenvalues "
+                     "become 0, so that {p} points downhill",
+    [LINE_SOLVE] = "a linear system: {p} leads to where E's quadratic model is "
+                   "least",
+    [LINE_SEARCH] = "{alpha} = 1, halved as long as E would rise",
+    [LINE_UPDATE] = "the iterate moves; E is smaller there",
+    [LINE_TEST] = "the largest |{p}_{x}| + |{p}_{y}| of a node, over h, is a "
+                  "speed: \u03b5 limits it",
+    [LINE_END] = "the iterate is the new state; what it moved by, over h, its "
+                 "velocity",
+};
 
 static const Row rows[] = {
     {"{Algorithm 3}", LINE_START, 0, NULL, "{x}^{i} \u2190 {x}^{n}", NULL},
@@ -76,10 +94,9 @@ enum { ROWS = sizeof rows / sizeof *rows };
 
 /* A line: number, text, value; lit or struck through. */
 static void draw_row(Paper *paper, Box box, Facts *facts, const Trace *trace,
-                     const Row *row, int number)
+                     const Row *row, bool lit, int number)
 {
     TextLine off, words, value;
-    bool lit = trace && trace->line == row->line;
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
     bool struck = row->off && text_line_of(facts, row->off, &off);
@@ -132,21 +149,120 @@ static double listing_needs(const Show *show, double wide)
     return 1.5 * find_rows(show, &facts, shown) + 2.6;
 }
 
+/* How high a line of so many is, pixels. */
+static int find_pitch(Box inside, double em, int count)
+{
+    int pitch = (int)lround(1.75 * em);
+    return pitch * count > inside.height ? inside.height / count : pitch;
+}
+
+const char *show_listing_purpose(const Show *show, const Layout *layout,
+                                 double y)
+{
+    Facts facts;
+    const Row *shown[ROWS];
+    const Picture *picture =
+        picture_of(show->pane[show->active].simulation->scene);
+    if (show->over.zone != ZONE_CARD ||
+        picture->cards[show->over.index] != &card_listing)
+        return NULL;
+    Box inside = cards_inside(layout->card[show->over.index], layout->em);
+    int count = find_rows(show, &facts, shown);
+    int pitch = find_pitch(inside, layout->em, count);
+    int row = pitch > 0 && y >= inside.y ? ((int)y - inside.y) / pitch : count;
+    bool known = row < count && strcmp(shown[row]->of, "{by gradient}") != 0;
+    return known ? purposes[shown[row]->line] : NULL;
+}
+
+static void draw_rows(Paper *paper, Box inside, const Show *show, Facts *facts,
+                      int count, const Row *const *shown, bool inside_line)
+{
+    TextLine line;
+    DescentTrace space;
+    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    int pitch = find_pitch(inside, paper->em, count);
+    for (int i = 0; i < count; i++) {
+        bool lit = inside_line
+                       ? text_line_of(facts, shown[i]->of, &line) != NULL
+                       : trace && trace->line == shown[i]->line;
+        draw_row(paper,
+                 (Box){inside.x, inside.y + i * pitch, inside.width, pitch},
+                 facts, trace, shown[i], lit, i + 1);
+    }
+}
+
 static void draw_listing(Paper *paper, Box inside, const Show *show)
 {
     Facts facts;
-    DescentTrace space;
     const Row *shown[ROWS];
     int count = find_rows(show, &facts, shown);
-    const Trace *trace = pane_trace(&show->pane[show->active], &space);
-    int pitch = paper_pixels(paper, 1.75);
-    if (pitch * count > inside.height)
-        pitch = inside.height / count;
-    for (int i = 0; i < count; i++)
-        draw_row(paper,
-                 (Box){inside.x, inside.y + i * pitch, inside.width, pitch},
-                 &facts, trace, shown[i], i + 1);
+    draw_rows(paper, inside, show, &facts, count, shown, false);
 }
+
+/* Line 5 from inside. */
+static void draw_search(Paper *paper, Box inside, const Show *show)
+{
+    static const Row search_rows[] = {
+        {"{line 4}", LINE_SEARCH, 0, NULL, "{alpha} \u2190 1", NULL},
+        {"{line 5}", LINE_SEARCH, 0, NULL,
+         "while E({x}^{i} + {alpha} {p}) > E({x}^{i})",
+         "{refused}E {+}{change} J s\u00b2: higher\n"
+         "{taken}E {+}{change} J s\u00b2"},
+        {"{line 5}{refused}", LINE_SEARCH, 1, NULL,
+         "{alpha} \u2190 {alpha} / 2", NULL},
+        {"{line 5}{taken}", LINE_SEARCH, 0, NULL, "return {alpha}",
+         "{taken}{alpha} = {length:/}"}};
+    enum { COUNT = sizeof search_rows / sizeof *search_rows };
+    const Row *shown[COUNT];
+    Facts facts;
+    facts_of(show, show->active, &facts);
+    for (int i = 0; i < COUNT; i++)
+        shown[i] = &search_rows[i];
+    draw_rows(paper, inside, show, &facts, COUNT, shown, true);
+}
+
+/* The newest updates, as many as there is room for. */
+static void draw_prints(Paper *paper, Box inside, const Show *show)
+{
+    DescentTrace space;
+    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    int pitch = paper_pixels(paper, 1.45), room = inside.height / pitch;
+    int count = trace ? trace->updates : 0,
+        first = count > room - 1 ? count - (room - 1) : 0;
+    if (count == 0) {
+        cards_hint(paper, inside, show, "N makes a step");
+        return;
+    }
+    for (int i = first; i < count && i - first < room; i++)
+        paper_write(paper, FACE_MONO, 0.9, COLOUR_TEXT, inside.x,
+                    inside.y + (i - first) * pitch, ALIGN_LEFT,
+                    "Iteration %d: residual = %s  step size = %s", i,
+                    number_with(trace->record[i].residual, 4).text,
+                    number_of(trace->record[i].alpha).text);
+    if (count - first < room && trace->residual <= trace->tolerance)
+        paper_write(paper, FACE_MONO, 0.9, COLOUR_FAINT, inside.x,
+                    inside.y + (count - first) * pitch, ALIGN_LEFT,
+                    "then residual \u2264 %s: the loop ends",
+                    number_of(trace->tolerance).text);
+}
+
+const Card card_search = {
+    .name = "search",
+    .title = "Algorithm 2: inside line 5",
+    .least = 9.6,
+    .weight = 0.1,
+    .lecture = true,
+    .draw = draw_search,
+};
+
+const Card card_prints = {
+    .name = "prints",
+    .title = "what the slides' program prints",
+    .least = 11,
+    .weight = 0.6,
+    .lecture = true,
+    .draw = draw_prints,
+};
 
 /* An algorithm with lines struck through goes by another name. */
 const Card card_listing = {

@@ -1,31 +1,37 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "scenes/pages.h"
 
-enum { WORDS = 3 };
-
-/* What a page says, one below the other: a head and a text each. */
+/* What a page says, one below the other: a head, and lines of a text. */
 typedef struct Words {
     const char *head;
-    const char *text;
+    const char *text; /* of facts.h, or NULL */
     Colour colour;
+    double size; /* times that of the others */
 } Words;
 
 static const double HEAD_ROOM = 3.2; /* ems of the letters, of a head */
 static const double TEST_ROOM = 4.4; /* of the head of a test */
 static const double GAP = 0.35;      /* lines, between two texts */
 static const double LETTERS = 1.2;   /* ems, on every page */
-static const double LETTER = 0.52;   /* ems of the letters, one on average */
-static const double SMALLEST = 0.9;  /* where the window is too small */
+static const double FORMULA = 1.25;  /* times that, a formula */
+static const double SMALLEST = 0.9;  /* ems, where the window is too small */
+static const double NARROW = 0.92;   /* a letter of a guessed one */
+static const double GUESSED_EM = 20; /* pixels */
 
-/* One text with its head in bold, or with `draw` false only measured.  Returns
- * where the next one begins. */
+/* One text with its head in bold; facts NULL: its lines as they are written,
+ * which are only measured.  Returns where the next one begins. */
 static int put_words(Paper *paper, Box inside, int y, double size, double head,
-                     const Words *words, bool draw)
+                     const Words *words, Facts *facts, bool draw)
 {
-    double line = text_line(size * paper->em);
+    double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
+    TextLine line;
     if (words->head) {
         int width = paper_pixels(paper, head * size);
         if (draw)
@@ -34,33 +40,50 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
         box.x += width;
         box.width -= width;
     }
-    int lines = 0, most = (int)((inside.y + inside.height - y) / line);
-    if (!draw)
-        lines =
-            paper_paragraph(paper, FACE_REGULAR, size, 0, box, 0, words->text);
-    else if (most > 0)
-        lines = paper_paragraph(paper, FACE_REGULAR, size, COLOUR_TEXT, box,
-                                most, words->text);
-    return y + (int)((lines + GAP) * line);
+    for (const char *at = words->text; at && *at;) {
+        int lines = (int)((inside.y + inside.height - box.y) / text_line(em));
+        size_t length = strcspn(at, "\n");
+        if (facts)
+            at = text_line_of(facts, at, &line);
+        else
+            snprintf(line.words, sizeof line.words, "%.*s", (int)length, at);
+        if (!facts)
+            at += length + (at[length] == '\n');
+        if (line.words[0] && (!draw || lines > 0))
+            box.y += paper_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
+                                     box, draw ? lines : 0, line.words);
+    }
+    return box.y + (box.y > y ? (int)(GAP * text_line(size * paper->em)) : 0);
 }
 
-static int put_page(Paper *paper, Box inside, double size,
-                    const LecturePage *page, bool draw)
+/* Returns how high it is, in pixels. */
+static int put_page(Paper *paper, Box inside, double size, const Show *show,
+                    Facts *facts, bool draw)
 {
-    const Words words[WORDS] = {{NULL, page->text, COLOUR_TEXT},
-                                {"Look", page->look, COLOUR_X},
-                                {"Try", page->touch, COLOUR_HAND}};
+    const LecturePage *page = show->lecture;
+    const char *how = page->answer    ? "Type a number, then Enter. N shows it."
+                      : page->predict ? "Click where you think. N shows it."
+                                      : "Say it, then press N or Space.";
+    bool asks = show->veiled; /* before a guess nothing that would tell */
+    const Words words[] = {
+        {NULL, page->text, COLOUR_TEXT, 1},
+        {NULL, page->formula, COLOUR_TEXT, FORMULA},
+        {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
+        {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
-    for (int i = 0; i < WORDS; i++)
-        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], draw);
-    return y - (int)(GAP * text_line(size * paper->em));
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        y = put_words(paper, inside, y, size, HEAD_ROOM, &words[i], facts,
+                      draw);
+    return y - (int)(GAP * text_line(size * paper->em)) - inside.y;
 }
 
-double page_letters(Paper *paper, Box inside, const LecturePage *page)
+double page_letters(Paper *paper, Box inside, const Show *show)
 {
     double size = LETTERS;
-    while (size > SMALLEST && put_page(paper, inside, size, page, false) >
-                                  inside.y + inside.height)
+    Facts facts;
+    facts_of(show, show->active, &facts);
+    while (size > SMALLEST &&
+           put_page(paper, inside, size, show, &facts, false) > inside.height)
         size -= 0.05;
     return size;
 }
@@ -68,50 +91,36 @@ double page_letters(Paper *paper, Box inside, const LecturePage *page)
 /* The same letters on every page; smaller ones where they do not fit. */
 static void draw_lecture(Paper *paper, Box inside, const Show *show)
 {
-    const LecturePage *page = show->lecture;
-    if (page)
-        put_page(paper, inside, page_letters(paper, inside, page), page, true);
+    Facts facts;
+    if (!show->lecture)
+        return;
+    facts_of(show, show->active, &facts);
+    put_page(paper, inside, page_letters(paper, inside, show), show, &facts,
+             true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const Show *show)
 {
     if (!show->lecture)
         return inside;
-    const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT};
-    int y = put_words(paper, inside, inside.y, 1, TEST_ROOM, &words, true);
+    const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
+    Facts facts;
+    facts_of(show, show->active, &facts);
+    int y =
+        put_words(paper, inside, inside.y, 1, TEST_ROOM, &words, &facts, true);
     return (Box){inside.x, y, inside.width, inside.y + inside.height - y};
 }
 
-/* How many lines a text takes, a little more rather than less. */
-static int guess_lines(const char *text, double wide)
-{
-    int lines = 1;
-    double used = 0;
-    while (*text) {
-        double word = LETTER; /* the blank after it */
-        for (; *text && *text != ' '; text++)
-            word += (*text & 0xc0) != 0x80 ? LETTER : 0;
-        text += *text == ' ';
-        if (used + word - LETTER > wide) {
-            lines++;
-            used = 0;
-        }
-        used += word;
-    }
-    return lines;
-}
-
-/* As much as its words take: ems. */
+/* As much as its words take, ems: guessed without fonts and from the names of
+ * facts, so that a number that grows moves nothing. */
 static double page_needs(const Show *show, double wide)
 {
-    const LecturePage *page = show->lecture;
-    double letters = wide / LETTERS, narrow = letters - HEAD_ROOM;
-    if (!page)
+    Paper guess = {.em = GUESSED_EM};
+    Box box = {0, 0, (int)(wide * GUESSED_EM / NARROW), 0};
+    if (!show->lecture)
         return card_page.least;
-    double lines = guess_lines(page->text, letters) +
-                   guess_lines(page->look, narrow) +
-                   guess_lines(page->touch, narrow) + (WORDS - 1) * GAP;
-    return text_line(lines * LETTERS) + 2.8; /* title and margin */
+    return put_page(&guess, box, LETTERS, show, NULL, false) / GUESSED_EM +
+           2.8; /* title and margin */
 }
 
 const Card card_page = {
@@ -120,5 +129,6 @@ const Card card_page = {
     .least = 12,
     .needs = page_needs,
     .weight = 0.3,
+    .lecture = true,
     .draw = draw_lecture,
 };

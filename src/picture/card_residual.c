@@ -88,6 +88,8 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
     if (below && h > 0)
         snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m",
                  number_of(h * tolerance).text);
+    if (paper_width(paper, FACE_BOLD, 0.85, words) > q[0] - p[0])
+        snprintf(words, sizeof words, "\u03b5");
     paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
                 p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);
 }
@@ -112,7 +114,6 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
                    (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
                    !counted;
     NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
-    bool drops = trace->rest > 0 && trace->line == LINE_TEST;
     extend_range(trace->record, trace->updates, &low, &high);
     extend_range(trace->record_before, trace->updates_before, &low, &high);
     if (pending)
@@ -124,8 +125,6 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
               false, NULL};
     Plot plot = plot_create(paper, inside, x, y);
-    if (drops) /* onto its place, from the upper edge */
-        now.residual *= pow(y.high / now.residual, trace->rest);
     draw_updates(&plot, trace->record_before, trace->updates_before, 1, 2.5,
                  COLOUR_BORDER);
     const Scene *scene = show->pane[show->active].simulation->scene;

@@ -9,25 +9,27 @@ enum { SPY_NODES = 4500 };
 /* What a block holds. */
 enum { NOTHING, FILL, ENTRY };
 
-/* Place of a node in the elimination order. */
-static int node_place(const System *system, int node)
+/* Place of a node in the elimination order, or its number. */
+static int node_place(const System *system, int node, bool natural)
 {
-    return system->order ? system->order[node] : node;
+    return system->order && !natural ? system->order[node] : node;
 }
 
 /* What is in row i of column j < i of the factor: [j n + i]; NULL: not enough
  * memory.  A column has what the matrix has there, and what each column has
- * whose first entry below the diagonal it is (George and Liu 1981). */
-static unsigned char *make_pattern(const System *system)
+ * whose first entry below the diagonal it is (George and Liu 1981).  In the
+ * natural order the matrix alone, of so many springs. */
+static unsigned char *make_pattern(const System *system, bool natural,
+                                   int springs)
 {
     size_t n = (size_t)system->nodes;
     unsigned char *block = calloc(n, n);
-    for (int s = 0; block && s < system->springs; s++) {
-        size_t i = (size_t)node_place(system, system->e[2 * s]);
-        size_t j = (size_t)node_place(system, system->e[2 * s + 1]);
+    for (int s = 0; block && s < springs; s++) {
+        size_t i = (size_t)node_place(system, system->e[2 * s], natural);
+        size_t j = (size_t)node_place(system, system->e[2 * s + 1], natural);
         block[i < j ? i * n + j : j * n + i] = ENTRY;
     }
-    for (size_t j = 0; block && j < n; j++) {
+    for (size_t j = 0; block && j < n && !natural; j++) {
         size_t parent = j + 1;
         while (parent < n && !block[j * n + parent])
             parent++;
@@ -69,15 +71,15 @@ static void draw_pattern(Canvas *canvas, int n, const unsigned char *block)
         draw_block(canvas, n, i, i, COLOUR_X);
 }
 
-/* The four blocks of the spring under the mouse. */
-static void light_spring(Paper *paper, const Show *show, Box square)
+/* The four blocks of a spring; < 0: of none. */
+static void light_spring(Paper *paper, const System *system, int spring,
+                         bool natural, Box square)
 {
-    const Pick *hover = &show->hover;
-    const System *system = &show->pane[show->active].simulation->system;
-    if (hover->kind != PICK_SPRING || hover->index >= system->springs)
+    if (spring < 0 || spring >= system->springs)
         return;
-    const int *e = system->e + 2 * hover->index;
-    const long place[2] = {node_place(system, e[0]), node_place(system, e[1])};
+    const int *e = system->e + 2 * spring;
+    const long place[2] = {node_place(system, e[0], natural),
+                           node_place(system, e[1], natural)};
     int n = system->nodes, least = paper_pixels(paper, 0.35);
     int size = square.width / n > least ? square.width / n : least;
     for (int k = 0; k < 4; k++) {
@@ -87,6 +89,32 @@ static void light_spring(Paper *paper, const Show *show, Box square)
                          COLOUR_WHITE);
         canvas_rectangle(&paper->canvas, x, y, size, size, COLOUR_PROJECT);
     }
+}
+
+/* Made once for a mesh and so many springs, then copied; the spring under the
+ * mouse is lit, or the newest one. */
+static void draw_matrix(Paper *paper, Box square, const Show *show,
+                        bool natural, int springs)
+{
+    const System *system = &show->pane[show->active].simulation->system;
+    const int facts[3] = {system->nodes, system->springs, springs};
+    uint64_t key = paper_key(natural, facts, sizeof facts);
+    bool drawn = false, over = show->hover.kind == PICK_SPRING;
+    Canvas *kept = paper_keep(paper, natural ? KEEP_NATURAL : KEEP_SPY, key,
+                              square.width, square.width, &drawn);
+    unsigned char *block =
+        !kept || drawn ? NULL : make_pattern(system, natural, springs);
+    if (block)
+        draw_pattern(kept, system->nodes, block);
+    free(block);
+    if (!kept)
+        return;
+    canvas_copy(&paper->canvas, kept, square.x, square.y);
+    light_spring(paper, system,
+                 over      ? show->hover.index
+                 : natural ? springs - 1
+                           : -1,
+                 natural, square);
 }
 
 /* What the colours mean, beside the square or below it. */
@@ -104,40 +132,46 @@ static void draw_words(Paper *paper, Box words, int side)
     if (words.width < 6 * line || room < 1)
         return;
     room = room < 4 ? room : 4;
-    int lines =
-        paper_paragraph(paper, FACE_REGULAR, 0.85, COLOUR_X, words, room,
-                        "blue: a 2 \u00d7 2 block of \u2207\u00b2E, "
-                        "in the order of elimination");
-    words.y += lines * paper_pixels(paper, 1.12) + line / 2;
+    words.y += paper_paragraph(paper, FACE_REGULAR, 0.85, COLOUR_X, words, room,
+                               "blue: a 2 \u00d7 2 block of \u2207\u00b2E, "
+                               "in the order of elimination") +
+               line / 2;
     paper_paragraph(paper, FACE_REGULAR, 0.85, 0xffb87a30u, words, room,
                     "below the diagonal: the factor L with its fill");
 }
 
-/* Made once for a mesh, then copied. */
 static void draw_spy(Paper *paper, Box inside, const Show *show)
 {
     const System *system = &show->pane[show->active].simulation->system;
     int side = inside.width < inside.height ? inside.width : inside.height;
     int line = paper_pixels(paper, 1.3);
-    bool drawn = false;
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
         cards_hint(paper, inside, show,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
         return;
     }
-    Box square = {inside.x, inside.y, side, side};
-    const int facts[2] = {system->nodes, system->springs};
-    uint64_t key = paper_key(0, facts, sizeof facts);
-    Canvas *kept = paper_keep(paper, KEEP_SPY, key, side, side, &drawn);
-    if (!kept)
-        return;
-    unsigned char *block = drawn ? NULL : make_pattern(system);
-    if (block)
-        draw_pattern(kept, system->nodes, block);
-    free(block);
-    canvas_copy(&paper->canvas, kept, square.x, square.y);
-    light_spring(paper, show, square);
+    draw_matrix(paper, (Box){inside.x, inside.y, side, side}, show, false,
+                system->springs);
     draw_words(paper, inside, side);
+}
+
+/* Beside each other: as the springs write it, one a step, and as a whole in the
+ * order of elimination. */
+static void draw_assembly(Paper *paper, Box inside, const Show *show)
+{
+    int line = paper_pixels(paper, 1.4), gap = line;
+    int side = (inside.width - gap) / 2;
+    if (side > inside.height - line)
+        side = inside.height - line;
+    int springs = lecture_spring(show->pane[show->active].simulation) + 1;
+    for (int k = 0; k < 2 && side > 4 * line; k++) {
+        int x = inside.x + k * (side + gap);
+        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
+                    ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
+        draw_matrix(paper, (Box){x, inside.y + line, side, side}, show, !k,
+                    k ? show->pane[show->active].simulation->system.springs
+                      : springs);
+    }
 }
 
 const Card card_spy = {
@@ -147,4 +181,13 @@ const Card card_spy = {
     .weight = 2,
     .closed = true,
     .draw = draw_spy,
+};
+
+const Card card_assembly = {
+    .name = "assembly",
+    .title = "the Hessian, spring by spring; and with its factor",
+    .least = 12,
+    .weight = 2,
+    .lecture = true,
+    .draw = draw_assembly,
 };

@@ -122,7 +122,7 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                 box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
                 title);
     canvas_clip(&paper->canvas, before);
-    for (int k = 0; k < 2; k++) { /* a plus, or a cross */
+    for (int k = 0; k < 2 && !show->print; k++) { /* a plus, or a cross */
         double right = closed && k ? 0 : arm;
         double down = closed ? arm - right : k ? -arm : arm;
         canvas_line(&paper->canvas, x - right, y - down, x + right, y + down,
@@ -176,7 +176,7 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
 {
     HelpGrid grid = help_grid(show, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
-    double key = (show->help == show->page_row ? 2.6 : 8) * size * em;
+    double key = (show->page.title ? 2.6 : 8) * size * em;
     double wide = inside.width / (double)grid.columns;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
@@ -188,8 +188,10 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
             continue;
         double fitting = fitting_size(paper, FACE_REGULAR, size, 0.6,
                                       wide - key - 0.5 * em, row->text);
-        paper_write(paper, FACE_REGULAR, fitting, COLOUR_TEXT, x + key,
-                    y + 0.6 * (size - fitting) * em, ALIGN_LEFT, "%s",
+        paper_write(paper, FACE_REGULAR, fitting,
+                    i < LAYOUT_ROWS && show->grey[i] ? COLOUR_GREY
+                                                     : COLOUR_TEXT,
+                    x + key, y + 0.6 * (size - fitting) * em, ALIGN_LEFT, "%s",
                     row->text);
     }
 }
@@ -209,7 +211,8 @@ static int fitting_letters(const char *text, int columns)
 /* Lines of code; what does not fit goes on below.  Those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
-    double size = 0.88, line = 1.24 * size * paper->em, y = inside.y;
+    double size = fmax(0.88, paper->least), line = 1.24 * size * paper->em;
+    double y = inside.y;
     int columns = (int)(inside.width / (0.603 * size * paper->em)) - 1;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true};
     for (int i = page->top; i < page->lines && columns > 10; i++) {
@@ -272,7 +275,9 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
-        if (card->words)
+        if (show->veils >> i & 1)
+            cards_hint(paper, inside, show, "after your guess");
+        else if (card->words)
             text_in_card(paper, inside, show, card->words);
         else
             card->draw(paper, inside, show);

@@ -11,6 +11,12 @@
  * switched off struck through. */
 extern const Card card_listing;
 
+/* Algorithm 2, as it is walked through inside line 5. */
+extern const Card card_search;
+
+/* What the slides' program prints of each update. */
+extern const Card card_prints;
+
 /* E(x + alpha p) - E(x), exact, with the quadratic model and the trials. */
 extern const Card card_line;
 
@@ -37,6 +43,11 @@ Axis energies_axis(const Show *show, double *joule, double *last);
 /* The pattern of the Hessian and of its factor. */
 extern const Card card_spy;
 
+/* The same while springs write it, one a step, and the newest of them, from 0.
+ */
+extern const Card card_assembly;
+int lecture_spring(const Simulation *simulation);
+
 /* What is inside the frame of a card, below its title; em in pixels. */
 Box cards_inside(Box card, double em);
 
@@ -51,6 +62,10 @@ void cards_hint(Paper *paper, Box inside, const Show *show, const char *text);
 
 /* All cards of the layout, or the page in their place. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);
+
+/* On a page: what has the colour of the term at the mouse, or of the line of
+ * Algorithm 3 that is walked, lights up in all that is drawn. */
+void glow_draw(Paper *paper, const Show *show);
 
 /* Strip, row, time line, last line. */
 void frame_draw(Paper *paper, const Layout *layout, const Show *show);

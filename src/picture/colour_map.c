@@ -1,6 +1,5 @@
 #include "picture/colour_map.h"
 
-#include <stddef.h>
 #include <string.h>
 
 /* Straight lines in RGB from the grey of rest to an end. */
@@ -34,10 +33,12 @@ typedef struct Named {
     Colour colour;
 } Named;
 
-static Colour find_colour(const Named *rows, const char *name, Colour otherwise)
+static Colour find_colour(const Named *rows, const char *name, size_t length,
+                          Colour otherwise)
 {
     for (; rows->name; rows++)
-        if (strcmp(rows->name, name) == 0)
+        if (strlen(rows->name) == length &&
+            strncmp(rows->name, name, length) == 0)
             return rows->colour;
     return otherwise;
 }
@@ -54,12 +55,10 @@ Colour colour_of_method(const char *name)
                                  {"sdirk2", 0xff5a4fa2u},
                                  {"avf", 0xff444444u},
                                  {NULL, 0}};
-    return find_colour(rows, name, COLOUR_X);
+    return find_colour(rows, name, strlen(name), COLOUR_X);
 }
 
-Colour colour_of_energy(const char *name)
-{
-    static const Named rows[] = {{"total", 0xff1c1c1cu},
+static const Named energies[] = {{"total", 0xff1c1c1cu},
                                  {"kinetic", 0xff3d9bd6u},
                                  {"elastic", 0xffb8860bu},
                                  {"gravity", 0xff6b8e23u},
@@ -72,5 +71,35 @@ Colour colour_of_energy(const char *name)
                                  {"dissipated", 0xff00a88fu},
                                  {"damping", 0xffd55e00u},
                                  {NULL, 0}};
-    return find_colour(rows, name, COLOUR_SHADED);
+
+Colour colour_of_energy(const char *name)
+{
+    return find_colour(energies, name, strlen(name), COLOUR_SHADED);
+}
+
+/* Letters of formulas, and behind them words about them. */
+enum { TERMS = 9 };
+static const Named words[] = {{"x", COLOUR_X},
+                              {"xt", COLOUR_X_TILDE},
+                              {"p", COLOUR_P},
+                              {"alpha", COLOUR_ALPHA},
+                              {"force", COLOUR_FORCE},
+                              {"velocity", COLOUR_VELOCITY},
+                              {"ghost", COLOUR_GHOST},
+                              {"project", COLOUR_PROJECT},
+                              {"warning", COLOUR_WARNING},
+                              {"faint", COLOUR_FAINT},
+                              {"grey", COLOUR_GREY},
+                              {"shaded", COLOUR_SHADED},
+                              {NULL, 0}};
+
+Colour colour_named(const char *name, size_t length)
+{
+    return find_colour(words, name, length,
+                       find_colour(energies, name, length, COLOUR_TEXT));
+}
+
+Colour colour_of_term(int term)
+{
+    return term < TERMS ? words[term].colour : energies[term - TERMS].colour;
 }

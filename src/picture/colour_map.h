@@ -4,7 +4,7 @@
 #ifndef ELASTO_COLOUR_MAP_H
 #define ELASTO_COLOUR_MAP_H
 
-#include "picture/canvas.h"
+#include "picture/text.h"
 
 /* Paper and words. */
 #define COLOUR_WHITE   0xffffffffu
@@ -16,6 +16,7 @@
 #define COLOUR_BORDER  0xffcfcfcfu /* of cards and chips */
 #define COLOUR_CHIP    0xfff6f6f6u
 #define COLOUR_LIT     0xfffff1cdu /* the line, the chip, the setting now */
+#define COLOUR_GLOW    0xffffe14du /* around the term at the mouse */
 #define COLOUR_PANEL   0xd8ffffffu /* under words on a picture */
 #define COLOUR_NOTE    0xfffffff4u /* under words at the mouse */
 #define COLOUR_WARNING 0xffd00000u
@@ -51,6 +52,10 @@ Colour colour_of_run(int run);
 
 /* An energy, by the name that the ledger gives it. */
 Colour colour_of_energy(const char *name);
+
+/* That of a letter or of an energy, the terms of formulas: 0, 1, ...; behind
+ * the last one 0. */
+Colour colour_of_term(int term);
 
 /* An integrator, by its name: the same colour alone and among others. */
 Colour colour_of_method(const char *name);

@@ -33,7 +33,7 @@ extern const Picture spring_picture, race_picture, envelope_picture;
 extern const Card card_page;
 
 /* The size of its letters in ems: the same for all pages that fit. */
-double page_letters(Paper *paper, Box inside, const LecturePage *page);
+double page_letters(Paper *paper, Box inside, const Show *show);
 
 /* What a test holds of the page, above its code.  Returns the box below it; the
  * same box outside of the lecture. */

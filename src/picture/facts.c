@@ -100,6 +100,7 @@ static void add_settings(const Show *show, const Simulation *simulation,
     fact_when(facts, "of a solid", solid_of(&simulation->system));
     fact_when(facts, "done", simulation->done);
     fact_when(facts, "paused", show->paused);
+    fact_when(facts, "told", !show->veiled);
 }
 
 /* "st", "nd", "rd", "th" */
@@ -126,6 +127,11 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     fact(facts, "tolerance", trace->tolerance);
     fact_when(facts, "walking", trace->line != LINE_NONE);
     fact_when(facts, "updated", trace->updates > 0);
+    double risen = 0; /* E, by the updates of this step so far */
+    for (int i = 0; i < trace->updates; i++)
+        risen += trace->record[i].change;
+    bool rose = risen > 0 && simulation->scene->needs & NEEDS_TIME;
+    fact(facts, "risen", rose ? risen : NAN);
     fact(facts, "nth", trace->iteration + 1);
     fact_words(facts, "th", ordinal(trace->iteration + 1));
     fact_words(facts, "way", trace->slope > 0 ? "uphill" : "downhill");
@@ -191,44 +197,14 @@ void facts_of(const Show *show, int pane, Facts *facts)
 
 /* ---- texts --------------------------------------------------------------- */
 
-/* "#warning" */
-static Colour colour_named(const Facts *facts, const char *name, size_t length)
+/* "#warning"; of a run, "#run" and "#1" */
+static Colour line_colour(const Facts *facts, const char *name, size_t length)
 {
-    static const struct {
-        const char *name;
-        Colour colour;
-    } rows[] = {{"faint", COLOUR_FAINT},
-                {"grey", COLOUR_GREY},
-                {"warning", COLOUR_WARNING},
-                {"shaded", COLOUR_SHADED},
-                {"x", COLOUR_X},
-                {"xt", COLOUR_X_TILDE},
-                {"p", COLOUR_P},
-                {"alpha", COLOUR_ALPHA},
-                {"project", COLOUR_PROJECT},
-                {"ghost", COLOUR_GHOST},
-                {"velocity", COLOUR_VELOCITY},
-                {"force", COLOUR_FORCE}};
     if (length == 3 && strncmp(name, "run", 3) == 0)
         return facts->colour[facts->run];
     if (*name >= '0' && *name <= '0' + FACTS_RUNS)
         return facts->colour[*name - '0'];
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strlen(rows[i].name) == length &&
-            strncmp(rows[i].name, name, length) == 0)
-            return rows[i].colour;
-    return COLOUR_TEXT;
-}
-
-/* Whether the brace at this place is markup: a letter of the slides, or it
- * stands behind ^ or _. */
-static bool is_markup(const char *text, const char *brace)
-{
-    static const char *const letters[] = {"{x}", "{xt}", "{p}", "{alpha}"};
-    for (int i = 0; i < 4; i++)
-        if (strncmp(brace, letters[i], strlen(letters[i])) == 0)
-            return true;
-    return brace > text && (brace[-1] == '^' || brace[-1] == '_');
+    return colour_named(name, length);
 }
 
 /* The fact of this name, up to its colon or brace. */
@@ -243,6 +219,14 @@ static const Fact *find_fact(const Facts *facts, const char *name)
             return one;
     }
     return NULL;
+}
+
+double show_number(const Show *show, const char *name)
+{
+    Facts facts;
+    facts_of(show, show->active, &facts);
+    const Fact *one = find_fact(&facts, name);
+    return one && !one->words ? one->value[0] : NAN;
 }
 
 /* 1/2, 1/4, ... where it is one of them. */
@@ -284,19 +268,19 @@ static bool fill_line(const Facts *facts, const char *text, size_t length,
     const char *from = text, *end = text + length;
     size_t used = 0;
     *line = (TextLine){COLOUR_TEXT, FACE_REGULAR, ""};
-    if (*from == '#') {
-        size_t name = strcspn(from, " *");
-        line->colour = colour_named(facts, from + 1, name - 1);
+    size_t name = strcspn(text, " *{");
+    if (*from == '#' && from[name] != '{') {
+        line->colour = line_colour(facts, from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
     while (from < end && used + 1 < sizeof line->words) {
-        if (*from != '{' || is_markup(text, from)) {
+        if (*from != '{' || text_is_markup(text, from)) {
             line->words[used++] = *from++;
             continue;
         }
         const Fact *one = find_fact(facts, from + 1);
-        size_t name = strcspn(from, ":}");
+        name = strcspn(from, ":}");
         if (!one)
             return false;
         put_fact(one, from[name] == ':' ? from + name + 1 : "",
@@ -343,24 +327,50 @@ void text_say(const Show *show, const char *text, char *out, size_t size)
     snprintf(out, size, "%s", line.words);
 }
 
+void show_say(const Show *show, const char *text, char *out, size_t size)
+{
+    Facts facts;
+    TextLine line;
+    size_t used = 0;
+    facts_of(show, show->active, &facts);
+    while ((text = text_line_of(&facts, text, &line)) && used + 1 < size)
+        used += (size_t)snprintf(out + used, size - used, "%s%s",
+                                 used ? "\n" : "", line.words);
+}
+
+/* The pixels that a line of this size takes, and in *above, if not NULL, those
+ * over its words. */
+static double line_height(Paper *paper, const TextLine *line, double size,
+                          double *above)
+{
+    const double air = 0.2, empty = 0.6; /* ems */
+    TextStyle style = {line->face, size * paper->em, line->colour, false};
+    TextExtent extent = text_extent(paper->text, &style, line->words);
+    TextExtent plain = text_extent(paper->text, &style, "");
+    if (above)
+        *above = extent.above - plain.above;
+    return line->words[0] ? extent.above + extent.below + air * style.size
+                          : empty * style.size;
+}
+
 void text_in_card(Paper *paper, Box inside, const Show *show, const char *text)
 {
-    const double pitch = 1.5, empty = 0.6; /* ems */
-    double height = 0, size = 1, y = inside.y;
+    double height = 0, size = 1, y = inside.y, above;
     Facts facts;
     TextLine line;
     facts_of(show, show->active, &facts);
     for (const char *at = text; (at = text_line_of(&facts, at, &line));) {
         int width = paper_width(paper, line.face, 1, line.words);
-        height += line.words[0] ? pitch : empty;
+        height += line_height(paper, &line, 1, NULL);
         if (width > inside.width)
             size = fmin(size, (double)inside.width / width);
     }
-    size = fmin(size, inside.height / (height * paper->em));
+    size = fmax(fmin(size, inside.height / height), paper->least);
     while ((text = text_line_of(&facts, text, &line))) {
-        paper_write(paper, line.face, size, line.colour, inside.x, y,
+        double used = line_height(paper, &line, size, &above);
+        paper_write(paper, line.face, size, line.colour, inside.x, y + above,
                     ALIGN_LEFT, "%s", line.words);
-        y += (line.words[0] ? pitch : empty) * size * paper->em;
+        y += used;
     }
 }
 

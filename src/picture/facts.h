@@ -3,9 +3,9 @@
  * A text is lines of markup with facts: "line 5: {alpha} = {length:/}".  A line
  * with a fact that is not known now is left out; so a fact without words is a
  * switch, and of several lines the first one that is known is often all that is
- * wanted.  Beside the slides' letters and what follows ^ or _ all braces are
- * facts; after a colon stands the number of digits, 3 if nothing does, a /
- * where 1/4 is to be read, a ' where a number with a sign needs parentheses.
+ * wanted.  Beside those of the markup (text.h) all braces are facts; after a
+ * colon stands the number of digits, 3 if nothing does, a / where 1/4 is to be
+ * read, a ' where a number with a sign needs parentheses.
  *
  * "#warning " in front of a line is its colour, "#warning* " is bold, too. What
  * stands after a line "@" is said for each run, 1, 2 and 3, with what is known
@@ -16,7 +16,7 @@
 
 #include "picture/picture.h"
 
-enum { FACTS_MOST = 96, FACTS_RUNS = 3, FACTS_TEXT = 200 };
+enum { FACTS_MOST = 160, FACTS_RUNS = 3, FACTS_TEXT = 512 };
 
 typedef struct Fact {
     const char *name;

@@ -2,6 +2,7 @@
  * (landscape), and the path of its minimiser over h (dial). */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -13,6 +14,7 @@
 /* J s^2; both valleys have their bottom below 1. */
 static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
+enum { MODEL_CORNERS = 90 };
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
 /* Units between two numbers of contours, and from the last one to its end. */
@@ -255,7 +257,18 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
 {
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
+    const double *x = descent->point;
+    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
     int last = descent->count - 1;
+    fact_point(facts, "place", x);
+    fact_point(facts, "x tilde", simulation->exhibit.target);
+    fact_point(facts, "g", E.g);
+    fact(facts, "E", E.value);
+    fact(facts, "bowl",
+         landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    fact(facts, "Hxx", E.H[0]);
+    fact(facts, "Hxy", E.H[1]);
+    fact(facts, "Hyy", E.H[2]);
     fact_words(facts, "part",
                parts == PART_BOTH      ? "E"
                : parts == PART_INERTIA ? "inertia"
@@ -263,6 +276,34 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "went uphill",
               descent->slope > 0 ||
                   (last >= 0 && descent->record[last].slope > 0));
+}
+
+/* Level lines of the quadratic model at the iterate, around x + p: where H is
+ * positive definite, p of the run, ellipses through the iterate and inside. */
+static void draw_model(const Plot *plot, const Simulation *simulation)
+{
+    static const double levels[] = {1, 0.6, 0.25};
+    const Descent *descent = &simulation->descent;
+    const double *x = descent->point, *p = descent->direction;
+    Local E = descent_at(simulation, FILTER_NONE, x[0], x[1]);
+    double low = E.H[0], lift = E.H[1] / E.H[0];
+    double rest = E.H[2] - lift * E.H[1]; /* H = L D L^T */
+    double q = p[0] + lift * p[1];
+    double height = low * q * q + rest * p[1] * p[1];
+    if (!(low > 0 && rest > 0))
+        return;
+    for (int k = 0; k < 3; k++) {
+        double from[2], radius = levels[k] * sqrt(height);
+        for (int i = 0; i <= MODEL_CORNERS; i++) {
+            double t = 6.283185307179586 * i / MODEL_CORNERS;
+            double v = radius * sin(t) / sqrt(rest);
+            double u = radius * cos(t) / sqrt(low) - lift * v;
+            const double to[2] = {x[0] + p[0] + u, x[1] + p[1] + v};
+            if (i > 0)
+                plot_line(plot, from, to, 1.6, COLOUR_P);
+            memcpy(from, to, sizeof from);
+        }
+    }
 }
 
 /* From the ground up. */
@@ -273,22 +314,39 @@ static void landscape_draw(Plot *stage, const Show *show)
     const double *p = descent->direction;
     Plot plot = draw_map(stage, show);
     draw_updates(&plot, descent);
+    bool raw = simulation->options.filter == FILTER_NONE;
+    if (show->lecture && raw && !show->veiled && !simulation->done)
+        draw_model(&plot, simulation);
     for (int i = 0; i < 2; i++)
         plot_keep_box(&plot, stage_switch_box(stage, i));
-    if (plot.text) {
+    if (plot.text)
         keep_places(&plot, simulation);
+    if (plot.text && !show->veiled)
         draw_other_direction(&plot, simulation);
-    }
-    if (simulation->exhibit.parts == PART_BOTH && (p[0] != 0 || p[1] != 0))
+    if (!show->veiled && simulation->exhibit.parts == PART_BOTH &&
+        (p[0] != 0 || p[1] != 0))
         plot_arrow(&plot, descent->point, p, 1, 2.2,
                    descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
 }
 
+static const Card card_landscape_numbers = {
+    .name = "numbers",
+    .title = "E at x in numbers",
+    .least = 11,
+    .weight = 0.6,
+    .lecture = true,
+    .words = "#x {x} = {place:4} m\n"
+             "#xt {xt} = {x tilde:4} m\n"
+             "inertia \u00bd m |{x} \u2212 {xt}|\u00b2 = {bowl:4} J s\u00b2\n"
+             "E = {E:4} J s\u00b2",
+};
+
 const Picture landscape_picture = {
     .name = "landscape",
-    .cards = (const Card *const[]){&card_page, &card_listing, &card_line,
-                                   &card_residual, NULL},
+    .cards =
+        (const Card *const[]){&card_page, &card_listing, &card_line,
+                              &card_residual, &card_landscape_numbers, NULL},
     .places = true,
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = landscape_draw,
@@ -296,7 +354,7 @@ const Picture landscape_picture = {
     .legend = "#faint contours: {part} in J s\u00b2\n"
               "#shaded shade: not convex\n"
               "#p direction p, downhill\n"
-              "#warning {went uphill}uphill",
+              "#warning {told}{went uphill}uphill",
 };
 
 /* ---- the dial ----------------------------------------------------------- */
@@ -317,13 +375,14 @@ static void dial_draw(Plot *stage, const Show *show)
     const Simulation *simulation = show->pane[stage->pane].simulation;
     const Walk *walk = &simulation->exhibit.walk;
     Plot plot = draw_map(stage, show);
-    draw_walk(&plot, walk);
+    if (!show->veiled)
+        draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!stage->text)
         return;
     plot_keep_disc(&plot, simulation->run[0].x, 9);
     name_target(&plot, simulation);
-    for (int i = WALK_POINTS - 1; i > 0; i -= 10) {
+    for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10) {
         char words[32];
         snprintf(words, sizeof words, "h = %g s",
                  round(walk->h[i] * 1e6) / 1e6);
@@ -367,6 +426,6 @@ const Picture dial_picture = {
     .draw = dial_draw,
     .facts = dial_facts,
     .legend = "#xt {xt}: inertia is lowest\n"
-              "#x minimiser of E for every h\n"
+              "#x {told}minimiser of E for every h\n"
               "for the h of now",
 };

@@ -15,6 +15,7 @@ static const double CHIP_PADDING = 1.8;    /* a chip has beside its letters */
 static const double CHIP_PADDING_LEAST = 1.2;
 static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
+static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
 static const double PAIR_LEAST = 28; /* a column for two cards in a row */
 
 /* Cards fold where the room is less than this part of what they need. */
@@ -85,7 +86,7 @@ static int place_row(Box room, int lines, int gap, int count, const int *width,
     return count;
 }
 
-/* The settings in a strip off the rest, in one line or two. */
+/* The settings in a strip off the rest, in one line or up to three. */
 static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = pixels(layout, GAP + 0.5);
@@ -96,10 +97,10 @@ static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
                 layout->width - pixels(layout, GAP) - left,
                 pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
-    layout->settings = place_row(room, 2, pixels(layout, SETTING_GAP),
+    layout->settings = place_row(room, 3, pixels(layout, SETTING_GAP),
                                  wish->settings, width, box);
-    bool two = box[layout->settings - 1].y > room.y;
-    layout->row = cut(rest, true, pixels(layout, two ? 2 * ROW - 0.4 : ROW));
+    int more = (box[layout->settings - 1].y - room.y) / room.height;
+    layout->row = cut(rest, true, pixels(layout, ROW + more * (ROW - 0.4)));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->row.y;
 }
@@ -130,12 +131,18 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height};
     double high = layout->height / layout->em;
-    if (wish->bare || high < 16)
+    if (wish->bare || wish->print || high < 16)
         return rest;
     bool roomy = high >= 40;
     layout->strip = cut(&rest, false, pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->last = cut(&rest, true, pixels(layout, roomy ? LAST : 2.5));
+    if (layout->last.width > 0 && wish->chips > 0)
+        place_chips(wish, layout, CHIP_PADDING);
+    if (layout->chips_left_out > 0) /* closer together */
+        place_chips(wish, layout, CHIP_PADDING_LEAST);
+    if (wish->cells > 0)
+        return rest;
     layout->time = cut(&rest, true, pixels(layout, roomy ? TIME : 2));
     if (roomy && wish->settings > 0)
         place_settings(wish, layout, &rest);
@@ -149,10 +156,6 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
     }
     if (layout->bars.width < 1)
         layout->bars.width = 1;
-    if (layout->last.width > 0 && wish->chips > 0)
-        place_chips(wish, layout, CHIP_PADDING);
-    if (layout->chips_left_out > 0) /* closer together */
-        place_chips(wish, layout, CHIP_PADDING_LEAST);
     return rest;
 }
 
@@ -251,16 +254,60 @@ static void place_panes(const LayoutWish *wish, Layout *layout)
     layout->panes = count;
 }
 
+/* The sheet's squares of this side, so many in a row; returns the height of all
+ * of them, pixels. */
+static int place_cells(const LayoutWish *wish, Layout *layout, int columns,
+                       int side)
+{
+    int gap = pixels(layout, GAP), name = pixels(layout, NAME), column = 0;
+    int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
+    for (int i = 0; i < wish->cells; i++) {
+        bool heads = wish->heads >> i & 1;
+        if (i > 0 && (heads || column == columns)) {
+            y += side + name;
+            column = 0;
+        }
+        y += heads ? pixels(layout, HEADING) : 0;
+        layout->cell[i] = (Box){layout->stage.x + left + column * (side + gap),
+                                layout->stage.y + y, side, side + name};
+        column++;
+    }
+    return y + side + name;
+}
+
+/* As many in a row as make them large. */
+static void place_sheet(const LayoutWish *wish, Layout *layout)
+{
+    int gap = pixels(layout, GAP), best = 0, wide = 1;
+    for (int columns = 1; columns <= wish->cells; columns++) {
+        int least = place_cells(wish, layout, columns, 0);
+        int rows = place_cells(wish, layout, columns, 1) - least;
+        int side = (layout->stage.width - gap) / columns - gap;
+        int high = (layout->stage.height - gap - least) / rows;
+        side = side < high ? side : high;
+        if (side > best) {
+            best = side;
+            wide = columns;
+        }
+    }
+    place_cells(wish, layout, wide, best);
+    layout->cells = wish->cells;
+}
+
 Layout layout_create(int width, int height, const LayoutWish *wish)
 {
     Layout layout = {.width = width, .height = height};
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
     layout.em = fmax(size, wish->letter > 0 ? wish->letter : EM_LEAST);
     layout.stage = place_zones(wish, &layout);
+    if (wish->cells > 0) {
+        place_sheet(wish, &layout);
+        return layout;
+    }
     double wide = width / layout.em, high = height / layout.em;
     bool low = wish->page && high < 50; /* a page needs all of the width */
-    if (!wish->bare && wide >= 60 && high >= 36 && !low &&
-        (wish->page || wish->cards > 0)) {
+    if (!wish->bare && wide >= 53 && (high >= 34 || wish->print) && !low &&
+        (wish->page || wish->hidden != (1u << wish->cards) - 1)) {
         int column = pixels(&layout, fmax(COLUMN_PART * wide, COLUMN_LEAST));
         layout.column = layout.stage;
         layout.column.width = column;
@@ -294,12 +341,12 @@ Hit layout_hit(const Layout *layout, double x, double y)
         {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
         {ZONE_TIME, &l->time, 1},       {ZONE_PAGE, &l->column, l->cards == 0},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
-        {ZONE_CHIP, l->chip, l->chips}};
-    Hit hit = {ZONE_NONE, 0};
+        {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
+    Hit hit = {ZONE_NONE, 0, {x, y}};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
         for (int i = 0; i < lists[k].count; i++)
             if (box_contains(lists[k].box[i], x, y))
-                hit = (Hit){lists[k].zone, i};
+                hit = (Hit){lists[k].zone, i, {x, y}};
     if (hit.zone == ZONE_CARD &&
         box_contains(layout_close_box(layout, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;

@@ -93,9 +93,12 @@ void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
     snprintf(show->lecture_title, sizeof show->lecture_title,
              "page %d of %d \u00b7 K: its code and test",
              (int)(page - lecture_pages) + 1, lecture_count());
-    show->hidden = 0;
+    show->hidden = show->veils = 0;
     for (int c = 0; picture->cards[c]; c++) {
         bool open = has_word(page->cards, picture->cards[c]->name);
+        if (show->veiled && page->veils &&
+            has_word(page->veils, picture->cards[c]->name))
+            show->veils |= 1u << c;
         show->hidden |= open ? 0 : 1u << c;
         if (open && picture->cards[c]->closed)
             show->closed &= ~(1u << c);

@@ -7,9 +7,11 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { MASS_CORNERS = 120, TRAIL = 256 };
+enum { MASS_CORNERS = 120, TRAIL = 256, MASS_GUESSES = 6 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
+static const double CIRCLE_REACH = 1.75;
+static const double CIRCLE_MOST = 20; /* and at most */
 static const double MASS_TURN = 6.283185307179586;
 
 static Colour circle_colour(const Simulation *simulation, int run)
@@ -51,22 +53,19 @@ static double mass_energy(const double *x, const double *v)
 }
 
 /* On the circle the radius of each run, else its energy; then its trail. */
-static void mass_sample(const Simulation *simulation, History *history)
+static int mass_sample(const Simulation *simulation, Energy *row)
 {
+    static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
-    double value[HISTORY_SERIES] = {0};
     int runs = simulation->runs;
-    history->series = 3 * runs;
     for (int r = 0; r < runs; r++) {
         const double *x = simulation->run[r].x, *v = simulation->run[r].v;
-        history->name[r] = simulation->run[r].method->label;
-        value[r] = circle ? hypot(x[0], x[1]) : mass_energy(x, v);
-        for (int k = 0; k < 2; k++) {
-            history->name[runs + 2 * r + k] = "";
-            value[runs + 2 * r + k] = x[k];
-        }
+        row[r] = (Energy){simulation->run[r].method->label,
+                          circle ? hypot(x[0], x[1]) : mass_energy(x, v)};
+        for (int k = 0; k < 2; k++)
+            row[runs + 2 * r + k] = (Energy){places[2 * r + k], x[k]};
     }
-    history_add(history, simulation_time(simulation), value);
+    return 3 * runs;
 }
 
 /* ---- the circle ---------------------------------------------------------- */
@@ -93,6 +92,18 @@ static void circle_draw(Plot *stage, const Show *show)
     draw_trails(stage, pane, false);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 7, circle_colour(simulation, r));
+}
+
+/* It grows with the runs, as far as a circle can be seen in it. */
+static void circle_bounds(const Show *show, int pane, double bounds[4])
+{
+    const Simulation *simulation = show->pane[pane].simulation;
+    double most = 0;
+    for (int r = 0; r < simulation->runs; r++) {
+        const double *x = simulation->run[r].x;
+        most = fmax(most, fmin(math_hypot(x[0], x[1]), CIRCLE_MOST));
+    }
+    bounds_around(CIRCLE_REACH, 1.1 * most, M_SQRT2, bounds);
 }
 
 /* The node of the nearest run. */
@@ -164,6 +175,13 @@ static void add_runs(const Simulation *simulation, Facts *facts)
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
         fact(facts, "radius", math_hypot(run->x[0], run->x[1]));
+        double turn = simulation->run[0].h * MASS_TURN; /* on the circle */
+        bool grows = strcmp(run->method->name, "forward-euler") == 0 &&
+                     simulation->scene->picture == PICTURE_CIRCLE;
+        facts->run = 0;
+        fact(facts, "doubling", grows ? 2 * log(2) / log1p(turn * turn) : NAN);
+        fact(facts, "growth", grows ? math_hypot(1, turn) : NAN);
+        facts->run = r + 1;
         for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
             if (strcmp(formulas[i].method, run->method->name) == 0) {
                 fact_words(facts, "first", formulas[i].first);
@@ -188,7 +206,7 @@ const Picture circle_picture = {
     .name = "circle",
     .cards =
         (const Card *const[]){&card_page, &card_radius, &card_methods, NULL},
-    .around = {-1.75, -1.75, 1.75, 1.75},
+    .bounds = circle_bounds,
     .draw = circle_draw,
     .facts = add_runs,
     .legend = "#grey exact: |{x}| = 1 m\n"
@@ -282,6 +300,54 @@ static void draw_mass_step(Plot *stage, const Simulation *simulation)
     }
 }
 
+/* Where the exact motion from here is after h: x cos h + v sin h. */
+static void exact_step(const MassStep *step, double h, double end[2])
+{
+    for (int i = 0; i < 2; i++)
+        end[i] = step->x[i] * cos(h) + step->v[i] * sin(h);
+}
+
+/* The exact end of the step; of backward Euler x' as it is found: x + h v, then
+ * with the force there, and so on; all points of symplectic Euler lie on an
+ * ellipse. */
+static void draw_mass_lesson(Plot *stage, const Simulation *simulation)
+{
+    MassStep step;
+    double h = simulation->run[0].h, end[2], from[2], guess[2];
+    if (!mass_next_step(simulation, 0, &step))
+        return;
+    exact_step(&step, h, end);
+    plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
+    if (stage->text)
+        plot_words(stage, 1, (const double(*)[2])end, 0.8, 1, FACE_REGULAR,
+                   COLOUR_FAINT, "exact");
+    memcpy(guess, step.x, sizeof guess);
+    bool implicit = simulation->run[0].method->implicit && h < 1;
+    for (int k = 0; k < MASS_GUESSES && implicit; k++) {
+        for (int i = 0; i < 2; i++) {
+            double force = k > 0 ? -h * guess[i] : 0;
+            from[i] = guess[i];
+            guess[i] = step.x[i] + h * (step.v[i] + force);
+        }
+        if (k > 0)
+            plot_line(stage, from, guess, 1.4, COLOUR_GREY);
+        plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
+    }
+    double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
+    if (step.by_old_v || implicit || simulation->run[0].method->implicit ||
+        !(h < 2))
+        return;
+    for (int i = 0; i <= MASS_CORNERS; i++) {
+        double t = MASS_TURN * i / MASS_CORNERS, now[2];
+        for (int k = 0; k < 2; k++)
+            now[k] = step.x[k] * cos(t) +
+                     (step.new_x[k] - turn * step.x[k]) / reach * sin(t);
+        if (i > 0)
+            plot_line(stage, from, now, 1.6, COLOUR_GREY);
+        memcpy(from, now, sizeof from);
+    }
+}
+
 /* All three: the way that each goes next. */
 static void draw_mass_ways(Plot *stage, const Simulation *simulation)
 {
@@ -295,7 +361,7 @@ static void draw_mass_ways(Plot *stage, const Simulation *simulation)
     }
 }
 
-/* While a guess is awaited the arrows would tell. */
+/* Before a guess, and until what it was about is shown, arrows would tell. */
 static bool mass_is_hidden(const Show *show, const Simulation *simulation)
 {
     const Prediction *guess = &simulation->prediction;
@@ -315,8 +381,14 @@ static void mass_draw(Plot *stage, const Show *show)
     draw_trails(stage, pane, true);
     if (simulation->runs > 1)
         draw_mass_ways(stage, simulation);
-    else if (!mass_is_hidden(show, simulation))
+    else if (show->veiled)
+        plot_arrow(stage, simulation->run[0].x, simulation->run[0].v, 1, 2.6,
+                   COLOUR_VELOCITY);
+    else if (!mass_is_hidden(show, simulation)) {
         draw_mass_step(stage, simulation);
+        if (show->lecture)
+            draw_mass_lesson(stage, simulation);
+    }
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, simulation->run[r].x, 8,
                   run_colour(simulation, r, COLOUR_X));
@@ -355,21 +427,32 @@ static void mass_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "x'", step.new_x);
     fact_point(facts, "v'", step.new_v);
     fact_point(facts, "carrying", step.by_old_v ? step.v : step.new_v);
+    fact(facts, "h limit",
+         strcmp(simulation->run[0].method->name, "symplectic-euler") == 0
+             ? 2
+             : NAN);
+    double exact[2], h = simulation->run[0].h;
+    exact_step(&step, h, exact);
+    fact(facts, "miss",
+         math_hypot(step.new_x[0] - exact[0], step.new_x[1] - exact[1]));
+    fact(facts, "half", 0.5 * h * h * math_hypot(step.x[0], step.x[1]));
 }
 
 static const Card card_mass_numbers = {
     .name = "numbers",
     .title = "the step with its numbers",
-    .least = 10.5,
+    .least = 12,
     .weight = 1.1,
     .words =
         "#faint {stages}{method} has more stages than arrows\n"
-        "v\u2032 = v + h a({at})\n"
-        "#velocity     = {v} + {h} {a} = {v'}\n"
-        "{x}\u2032 = {x} + h {by}\n"
-        "#x     = {place} + {h} {carrying} = {x'}\n"
+        "#velocity v\u2032 = v + h a({at}) = {v'}\n"
+        "    = {v} + {h} {a}\n"
+        "#x x\u2032 = x + h {by} = {x'}\n"
+        "    = {place} + {h} {carrying}\n"
         "{numbers}\n"
         "{numbers}energy {energy:4} J \u2192 {later:4} J  (\u00d7 {factor:4})\n"
+        "#faint off the exact end by {miss:4} m;  h\u00b2/2 |a(x)| = {half:4} "
+        "m\n"
         "@\n"
         "#run {many}{name}: energy {energy:4} J \u2192 {later:4} J  "
         "(\u00d7 {factor:4})",

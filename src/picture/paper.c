@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAPER_TEXT = 512, PAPER_EM = 14 };
+enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
 Status paper_create(int width, int height, Paper *paper)
 {
@@ -41,7 +41,8 @@ void paper_line(Paper *paper, const double a[2], const double b[2],
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
-    return (TextStyle){face, size * paper->em, colour, false};
+    return (TextStyle){face, fmax(size, paper->least) * paper->em, colour,
+                       false};
 }
 
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
@@ -62,19 +63,21 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
     return text_width(paper->text, &style, markup);
 }
 
-/* How many bytes of the text fit into this width, at a blank or at its end;
- * a word that is wider than all stands alone. */
-static size_t fitting_bytes(Paper *paper, Face face, double size, int width,
+/* How many bytes of the text fit into this width, at a blank outside of braces
+ * or at its end; a word that is wider than all stands alone. */
+static size_t fitting_bytes(Paper *paper, const TextStyle *style, int width,
                             const char *markup)
 {
     char part[PAPER_TEXT];
     size_t fits = 0, length = strlen(markup);
-    for (size_t end = 1; end <= length && end < sizeof part; end++) {
-        if (end < length && markup[end] != ' ')
+    int depth = 0;
+    for (size_t end = 0; end <= length && end < sizeof part; end++) {
+        depth += (markup[end] == '{') - (markup[end] == '}');
+        if (end == 0 || (end < length && (depth > 0 || markup[end] != ' ')))
             continue;
         memcpy(part, markup, end);
         part[end] = '\0';
-        if (fits > 0 && paper_width(paper, face, size, part) > width)
+        if (fits > 0 && text_width(paper->text, style, part) > width)
             break;
         fits = end;
     }
@@ -86,25 +89,24 @@ int paper_paragraph(Paper *paper, Face face, double size, Colour colour,
 {
     char part[PAPER_TEXT];
     TextStyle style = paper_style(paper, face, size, colour);
-    double y = box.y;
-    int line = 0;
-    while (*markup && (line < lines || lines == 0)) {
-        size_t count = fitting_bytes(paper, face, size, box.width, markup);
+    double y = box.y, above = text_extent(paper->text, &style, "").above;
+    for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
+        size_t count = fitting_bytes(paper, &style, box.width, markup);
         if (count == 0)
             break;
         memcpy(part, markup, count);
         part[count] = '\0';
         markup += count;
         markup += strspn(markup, " ");
-        line++;
         if (*markup && line == lines && count + 4 < sizeof part)
             strcat(part, "\u2026");
+        TextExtent extent = text_extent(paper->text, &style, part);
         if (lines > 0)
-            text_draw(paper->text, &paper->canvas, &style, box.x, y, ALIGN_LEFT,
-                      part);
-        y += text_line(style.size);
+            text_draw(paper->text, &paper->canvas, &style, box.x,
+                      y + extent.above - above, ALIGN_LEFT, part);
+        y += extent.above + extent.below;
     }
-    return line;
+    return (int)ceil(y - box.y);
 }
 
 Canvas *paper_keep(Paper *paper, Keep keep, uint64_t key, int width, int height,

@@ -114,13 +114,49 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
     canvas_clip(&paper->canvas, before);
 }
 
+/* A scene on the sheet: its bare picture, its name, over it the heading of the
+ * group that it begins. */
+static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
+{
+    Layout layout = {.em = paper->em, .panes = 1, .pane = {box}};
+    Box *inside = &layout.pane[0];
+    inside->height = box.width;
+    if (cell->group)
+        paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
+                    box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
+    canvas_card(&paper->canvas, *inside, 0.3 * paper->em, COLOUR_WHITE,
+                chosen ? COLOUR_VALUE : COLOUR_BORDER);
+    if (chosen)
+        canvas_card(&paper->canvas, box_inset(*inside, 1), 0.3 * paper->em,
+                    COLOUR_WHITE, COLOUR_VALUE);
+    *inside = box_inset(*inside, paper_pixels(paper, 0.3));
+    if (cell->simulation) {
+        Show show;
+        show_create(cell->simulation, &show);
+        show.bare = true;
+        show.strain = cell->simulation->scene->strain > 0;
+        draw_pane(paper, &layout, &show, 0);
+    }
+    paper_write(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
+                chosen ? COLOUR_VALUE : COLOUR_TEXT, box.x + 0.5 * box.width,
+                box.y + box.width + 0.15 * paper->em, ALIGN_CENTRE, "%s",
+                cell->name);
+}
+
 void show_draw(Paper *paper, const Show *show)
 {
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
     paper->em = layout.em;
     paper->unit = layout.em / 14;
+    paper->least = show->lecture ? 1 : 0;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
+    for (int i = 0; i < layout.cells; i++)
+        draw_cell(paper, layout.cell[i], &show->cell[i], i == show->chosen);
+    if (layout.cells > 0) {
+        frame_draw(paper, &layout, show);
+        return;
+    }
     for (int pane = 0; pane < layout.panes; pane++) {
         draw_pane(paper, &layout, show, pane);
         if (layout.panes > 1)
@@ -133,5 +169,6 @@ void show_draw(Paper *paper, const Show *show)
                          layout.column.width, layout.column.height,
                          COLOUR_WHITE);
     cards_draw(paper, &layout, show);
+    glow_draw(paper, show);
     frame_draw(paper, &layout, show);
 }

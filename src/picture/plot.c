@@ -368,7 +368,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
 }
 
 double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
-                   const double *d, double part, double most, Colour colour)
+                   const double *d, double most, Colour colour)
 {
     double scale = plot->camera.scale[0], factor = 1, longest = 0;
     double least = fmin(ARROW_LEAST * plot->em, 0.1 * most);
@@ -385,7 +385,7 @@ double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
         factor = pow(10, -ceil(log10(longest / most)));
     for (int i = 0; i < nodes; i += stride)
         if (math_hypot(d[2 * i], d[2 * i + 1]) * factor * scale > 1.5)
-            plot_arrow(plot, x + 2 * i, d + 2 * i, part * factor, 1.6, colour);
+            plot_arrow(plot, x + 2 * i, d + 2 * i, factor, 1.6, colour);
     return factor;
 }
 

@@ -101,12 +101,12 @@ void plot_pin(const Plot *plot, const double *at, double radius);
 void plot_arrow(const Plot *plot, const double *a, const double *d,
                 double factor, double width, Colour colour);
 
-/* Arrows of part times d [2n] at x [2n], every stride-th node.  A power of ten
+/* Arrows of d [2n] at x [2n], every stride-th node.  A power of ten
  * times as long as they are, so that the longest has at most `most` pixels, and
  * at least 1.5 ems or a tenth of `most`, where that is not so by itself;
  * returns that factor, 0 if there is nothing to draw. */
 double plot_arrows(const Plot *plot, int nodes, int stride, const double *x,
-                   const double *d, double part, double most, Colour colour);
+                   const double *d, double most, Colour colour);
 
 /* A square view around the middle, of at least so many metres, in which `most`
  * fits; it grows by this factor, so that it does not move all the time. */

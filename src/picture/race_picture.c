@@ -1,23 +1,42 @@
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 
+/* Across: run time, or h where that is switched on. */
+static double place_of(const Simulation *simulation, const RacePoint *point)
+{
+    return simulation->exhibit.parts ? point->h : point->seconds;
+}
+
+/* Powers of ten. */
+static void race_bounds(const Show *show, int pane, double bounds[4])
+{
+    bool over_h = show->pane[pane].simulation->exhibit.parts;
+    bounds[0] = over_h ? -4.1 : -6.3;
+    bounds[1] = -9.3;
+    bounds[2] = over_h ? -1.9 : 0.3;
+    bounds[3] = 1;
+}
+
 /* The points of a method joined, hollow where it explodes later; words keep
  * off the lines.  Returns the last one; NULL: there is none. */
-static const RacePoint *draw_method(Plot *plot, const Race *race, int method)
+static const RacePoint *draw_method(Plot *plot, const Simulation *simulation,
+                                    int method)
 {
+    const Race *race = &simulation->exhibit.race;
     Colour colour = colour_of_method(race_method(method)->name);
     const RacePoint *last = NULL;
     for (int i = method; i < race->count; i += RACE_METHODS) {
         const RacePoint *point = &race->point[i];
-        const double now[2] = {point->seconds, point->error};
+        const double now[2] = {place_of(simulation, point), point->error};
         if (!(point->error > 0))
             continue;
         if (last) {
-            const double before[2] = {last->seconds, last->error};
+            const double before[2] = {place_of(simulation, last), last->error};
             plot_line(plot, before, now, 2.2, colour);
             plot_keep_line(plot, before, now);
         }
@@ -33,17 +52,21 @@ static void race_draw(Plot *stage, const Show *show)
     const Simulation *simulation = show->pane[stage->pane].simulation;
     static const PlotRoom room = {4, 5, 1.6, 3.6};
     const RacePoint *last[RACE_METHODS];
-    Plot plot =
-        plot_on(stage, &room, (Axis){.log = true, .label = "run time in s"},
-                (Axis){.log = true, .label = "error in m"});
+    bool over_h = simulation->exhibit.parts;
+    Plot plot = plot_on(
+        stage, &room,
+        (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
+        (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)
-        last[i] = draw_method(&plot, &simulation->exhibit.race, i);
+        last[i] = draw_method(&plot, simulation, i);
     for (int i = 0; i < RACE_METHODS && stage->text; i++)
         if (last[i])
-            plot_words(
-                &plot, 1, &(const double[2]){last[i]->seconds, last[i]->error},
-                0.6, 0.95, FACE_BOLD, colour_of_method(race_method(i)->name),
-                race_method(i)->label);
+            plot_words(&plot, 1,
+                       &(const double[2]){place_of(simulation, last[i]),
+                                          last[i]->error},
+                       0.6, 0.95, FACE_BOLD,
+                       colour_of_method(race_method(i)->name),
+                       race_method(i)->label);
 }
 
 /* The quickest runs for three errors, explicit and implicit; run: 1, 2, 3. */
@@ -90,11 +113,68 @@ static const Card card_race_numbers = {
         "#grey     {no implicit}no implicit method {yet}",
 };
 
+/* A method a row: its order, the longest stable step, what is left of the
+ * energy and how long it took with the third step. */
+static void draw_table(Paper *paper, Box inside, const Show *show)
+{
+    static const char *const heads[] = {"", "order", "stable to", "energy",
+                                        "time"};
+    static const double columns[] = {0, 0.49, 0.68, 0.84, 1};
+    enum { COLUMNS = sizeof columns / sizeof *columns, THIRD = 2 };
+    const Race *race = &show->pane[show->active].simulation->exhibit.race;
+    double line = fmin(1.5 * paper->em, inside.height / (RACE_METHODS + 1.0));
+    double size = fmin(0.9, line / (1.35 * paper->em));
+    for (int row = 0; row <= RACE_METHODS; row++) {
+        int method = row - 1, at = THIRD * RACE_METHODS + method;
+        char cell[COLUMNS][64] = {""};
+        for (int c = 0; c < COLUMNS && row == 0; c++)
+            snprintf(cell[c], sizeof cell[c], "%s", heads[c]);
+        if (row > 0) {
+            const RacePoint *third = at < race->count ? &race->point[at] : NULL;
+            double order = race_order(race, method);
+            double stable = 1e3 * race_stable(race, method);
+            snprintf(cell[0], sizeof cell[0], "%s", race_method(method)->label);
+            if (isfinite(order))
+                snprintf(cell[1], sizeof cell[1], "%.1f", order);
+            if (race_method(method)->implicit)
+                snprintf(cell[2], sizeof cell[2], "any h");
+            else if (isfinite(stable))
+                snprintf(cell[2], sizeof cell[2], "%s ms",
+                         number_of(stable).text);
+            else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
+                snprintf(cell[2], sizeof cell[2], "none");
+            if (third && isfinite(third->error))
+                snprintf(cell[3], sizeof cell[3], "\u00d7 %s",
+                         number_with(third->kept, 3).text);
+            if (third)
+                snprintf(cell[4], sizeof cell[4], "%s ms",
+                         number_with(1e3 * third->seconds, 2).text);
+        }
+        for (int c = 0; c < COLUMNS; c++)
+            paper_write(
+                paper, row ? FACE_REGULAR : FACE_BOLD, size,
+                row && c == 0 ? colour_of_method(race_method(method)->name)
+                              : COLOUR_TEXT,
+                inside.x + columns[c] * inside.width, inside.y + row * line,
+                c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+    }
+}
+
+static const Card card_race_table = {
+    .name = "table",
+    .title = "six methods; energy and time with h = 2 ms",
+    .least = 12.5,
+    .weight = 0.6,
+    .lecture = true,
+    .draw = draw_table,
+};
+
 const Picture race_picture = {
     .name = "race",
-    .cards = (const Card *const[]){&card_page, &card_race_numbers, NULL},
+    .cards = (const Card *const[]){&card_page, &card_race_numbers,
+                                   &card_race_table, NULL},
     .stretched = true,
-    .around = {-6.3, -9.3, 0.3, 1}, /* powers of ten: s across, m */
+    .bounds = race_bounds,
     .draw = race_draw,
     .facts = race_facts,
 };

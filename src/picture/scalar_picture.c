@@ -135,8 +135,10 @@ static void curve_draw(Plot *stage, const Show *show)
     Update update = last_update(show->pane[stage->pane].simulation);
     Plot plot = plot_on(stage, &plot_room, (Axis){.label = "x"}, (Axis){0});
     plot_graph(&plot, value_at, &update, 2.4, COLOUR_X);
-    plot_graph(&plot, model_at, &update, 1.6, COLOUR_P);
-    draw_model_minimum(&plot, &update);
+    if (!show->veiled) {
+        plot_graph(&plot, model_at, &update, 1.6, COLOUR_P);
+        draw_model_minimum(&plot, &update);
+    }
     draw_iterates(&plot, &update);
 }
 
@@ -157,6 +159,8 @@ static void scalar_facts(const Simulation *simulation, Facts *facts)
     fact_when(facts, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         fact(facts, "shorter", update.alpha);
+    fact(facts, "digits", /* that are the same before and after */
+         tangent && p != 0 ? fmax(floor(-log10(fabs(p / next))), 0) : NAN);
     fact(facts, "slope", update.first);
     fact(facts, "curvature", update.second);
     fact(facts, "direction", p);
@@ -263,7 +267,7 @@ static void tangent_draw(Plot *stage, const Show *show)
                           tangent_plot(stage, simulation, 1)};
     plot_graph(&plot[0], slope_at, &update, 2.6, COLOUR_X);
     plot_graph(&plot[1], value_at, &update, 2.6, COLOUR_X);
-    if (update.made || !(guess->made && !guess->shown))
+    if (update.made || !(show->veiled || (guess->made && !guess->shown)))
         tangent_model(plot, &update);
     tangent_iterates(plot, simulation);
     if (!stage->text)
@@ -313,6 +317,7 @@ static const Card card_tangent_numbers = {
              "#x x^{{next number}} = {next:8},  {alpha} = {shorter:/}\n"
              "#x {no length}x^{{number}} + {p} = {next:8}\n"
              "E: {E:8} \u2192 {next E:8}\n"
+             "#alpha correct digits: {digits}, in which both agree\n"
              "#warning {highest}E\u2033 < 0: the parabola has a highest point",
 };
 

@@ -1,5 +1,6 @@
 #include "picture/show.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -12,11 +13,10 @@ void show_create(const Simulation *simulation, Show *show)
     *show = (Show){.panes = 1, .selected = -1, .large = -1};
     show->pane[0].simulation = simulation;
     show->lens = LENS_FITS;
-    for (int c = 0; picture->cards[c]; c++)
-        if (picture->cards[c]->closed)
-            show->closed |= 1u << c;
-    if (picture->cards[0] == &card_page)
-        show->hidden = 1; /* outside of the lecture */
+    for (int c = 0; picture->cards[c]; c++) {
+        show->closed |= (unsigned)picture->cards[c]->closed << c;
+        show->hidden |= (unsigned)picture->cards[c]->lecture << c;
+    }
 }
 
 /* Characters of UTF-8, markup and marks not counted apart. */
@@ -41,24 +41,54 @@ static void ask_cards(const Show *show, const Layout *layout, LayoutWish *wish)
                 cards_inside(layout->card[c], layout->em).width / layout->em);
 }
 
+/* Pixels that letters have at least: on a page a 55th of the height, in large
+ * type a 35th, on a page or not, where that leaves room for words beside the
+ * stage. */
+static double least_letter(const Show *show, int width, int height)
+{
+    bool big = show->pane[show->active].simulation->options.big;
+    double letter = big ? fmin(height / 35.0, width / 54.0)
+                        : fmin(height / 55.0, width / 64.0);
+    return show->lecture || big ? fmax(show->letter, letter) : show->letter;
+}
+
+/* The card that a page wants large stands on the stage, and the picture in the
+ * card's place, if both are there. */
+static void place_star(const Show *show, const Picture *picture, Layout *layout)
+{
+    const LecturePage *page = show->lecture;
+    int star = page && page->star ? picture_card(picture, page->star) : -1;
+    double bar = 3 * layout->em; /* more than a card that is closed has */
+    if (star < 0 || star >= layout->cards || layout->panes != 1 ||
+        layout->card[star].height < bar || layout->stage.height < bar)
+        return;
+    Box stage = box_inset(layout->pane[0], (int)(0.9 * layout->em));
+    layout->pane[0] = layout->card[star];
+    layout->card[star] = stage;
+}
+
 Layout show_layout(const Show *show, int width, int height)
 {
     const Picture *picture =
         picture_of(show->pane[show->active].simulation->scene);
     LayoutWish wish = {.bare = show->bare,
-                       .letter = show->letter,
+                       .letter = least_letter(show, width, height),
                        .panes = show->panes,
                        .closed = show->closed,
-                       .hidden = show->hidden,
+                       .hidden = show->hidden | show->print,
+                       .print = show->print,
                        .large = show->large,
                        .page = show->page.kind != PAGE_NONE,
                        .settings = show->settings,
-                       .chips = show->chips};
+                       .chips = show->chips,
+                       .cells = show->cells};
+    for (int i = 0; i < show->cells; i++)
+        wish.heads |= (unsigned)(show->cell[i].group != NULL) << i;
     for (; picture->cards[wish.cards]; wish.cards++) {
         const Card *card = picture->cards[wish.cards];
+        bool half = card->half || (card->half_on_page && show->lecture);
         wish.least[wish.cards] = card->least;
         wish.weight[wish.cards] = card->weight;
-        bool half = card->half || (card->half_on_page && show->lecture);
         wish.half |= (unsigned)half << wish.cards;
     }
     for (int i = 0; i < wish.settings; i++) {
@@ -69,10 +99,13 @@ Layout show_layout(const Show *show, int width, int height)
     }
     for (int i = 0; i < wish.chips; i++)
         wish.chip_letters[i] = count_letters(show->chip[i].key) +
-                               count_letters(show->chip[i].label) + 1;
+                               count_letters(show->chip[i].label) +
+                               (show->lecture ? 2 : 1);
     Layout layout = layout_create(width, height, &wish);
     ask_cards(show, &layout, &wish);
-    return layout_create(width, height, &wish);
+    layout = layout_create(width, height, &wish);
+    place_star(show, picture, &layout);
+    return layout;
 }
 
 /* The part of the world that fits the stage of a pane.  Returns its picture. */
@@ -146,9 +179,8 @@ const double *pane_x(const Pane *pane)
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-void show_sample(const Simulation *simulation, History *history)
+int show_sample(const Simulation *simulation, Energy row[HISTORY_SERIES])
 {
     const Picture *picture = picture_of(simulation->scene);
-    if (picture->sample)
-        picture->sample(simulation, history);
+    return picture->sample ? picture->sample(simulation, row) : 0;
 }

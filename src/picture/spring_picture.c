@@ -60,6 +60,32 @@ static void spring_coil(Plot *stage, const double *x, Colour colour)
     }
 }
 
+/* The Hessian of its energy over d with these curvatures: xx, xy, yy. */
+static void find_hessian(const double *d, double along, double across,
+                         double H[3])
+{
+    double length = math_hypot(d[0], d[1]);
+    double n[2] = {length > 0 ? d[0] / length : 1,
+                   length > 0 ? d[1] / length : 0};
+    H[0] = along * n[0] * n[0] + across * n[1] * n[1];
+    H[1] = (along - across) * n[0] * n[1];
+    H[2] = along * n[1] * n[1] + across * n[0] * n[0];
+}
+
+/* The eigenvectors of its block, longer the larger the eigenvalue, red where it
+ * is negative. */
+static void spring_eigenvectors(Plot *stage, const double *x,
+                                const SpringFacts *facts, double k)
+{
+    const double value[2] = {facts->along, facts->across};
+    for (int i = 0; i < 2 && facts->length > 0; i++) {
+        double n[2] = {x[i] / facts->length, x[1 - i] / facts->length};
+        n[0] = i ? -n[0] : n[0];
+        plot_arrow(stage, x, n, fabs(value[i]) / (4 * k), 3.2,
+                   value[i] < 0 ? COLOUR_WARNING : COLOUR_X);
+    }
+}
+
 /* Shorter than at rest: projection changes its block. */
 static void spring_draw(Plot *stage, const Show *show)
 {
@@ -67,16 +93,42 @@ static void spring_draw(Plot *stage, const Show *show)
     const double *x = simulation->run[0].x, origin[2] = {0, 0};
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts facts = facts_of_spring(simulation);
-    bool projects = facts.across < 0;
+    bool projects = facts.across < 0 && !show->veiled;
     spring_circle(stage, l, COLOUR_FAINT, "l");
     spring_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     spring_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
-    plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
+    if (show->lecture && show->lecture->modes && !show->veiled)
+        spring_eigenvectors(stage, x, &facts, simulation->system.k[0]);
+    else
+        plot_arrow(stage, x, facts.force, SPRING_ARROW, 3.2, COLOUR_FORCE);
     plot_disc(stage, x, 9, COLOUR_X);
 }
 
 /* ---- cards -------------------------------------------------------------- */
+
+/* "Hxx", ... of the Hessian, "Pxx", ... of the projected one, and, with a
+ * minus, of the other blocks of the matrix for both ends. */
+static void add_hessian(const Simulation *simulation, const SpringFacts *now,
+                        Facts *facts)
+{
+    static const char *const names[4][3] = {{"Hxx", "Hxy", "Hyy"},
+                                            {"-Hxx", "-Hxy", "-Hyy"},
+                                            {"Pxx", "Pxy", "Pyy"},
+                                            {"-Pxx", "-Pxy", "-Pyy"}};
+    bool turned = simulation->options.filter == FILTER_ABS;
+    double least = turned ? -1 : 0, H[3];
+    for (int i = 0; i < 4; i++) {
+        double along = now->along, across = now->across;
+        find_hessian(simulation->run[0].x,
+                     i < 2 ? along : fmax(along, least * along),
+                     i < 2 ? across : fmax(across, least * across), H);
+        for (int k = 0; k < 3; k++) {
+            bool none = fabs(H[k]) < 1e-12 * simulation->system.k[0];
+            fact(facts, names[i][k], none ? 0 : i % 2 ? -H[k] : H[k]);
+        }
+    }
+}
 
 static void add_facts(const Simulation *simulation, Facts *facts)
 {
@@ -92,6 +144,8 @@ static void add_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "force", now.force);
     fact(facts, "along", now.along);
     fact(facts, "across", now.across);
+    fact(facts, "negative", fmin(2 * fmin(now.along, now.across), 0));
+    add_hessian(simulation, &now, facts);
     fact_when(facts, "root", both);
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
@@ -199,9 +253,23 @@ static const Card card_spring_numbers = {
 static const Card card_eigenvalues = {
     .name = "eigenvalues",
     .title = "eigenvalues of its 4 \u00d7 4 block",
-    .least = 7,
+    .least = 9.5,
     .weight = 0.9,
     .draw = spring_draw_eigenvalues,
+};
+static const Card card_block = {
+    .name = "block",
+    .title = "its 4 \u00d7 4 block, before and after projection, J/m\u00b2",
+    .least = 12.4,
+    .weight = 0.9,
+    .words = "H = matrix{{Hxx:4} & {Hxy:4} & {-Hxx:4} & {-Hxy:4}; "
+             "{Hxy:4} & {Hyy:4} & {-Hxy:4} & {-Hyy:4}; "
+             "{-Hxx:4} & {-Hxy:4} & {Hxx:4} & {Hxy:4}; "
+             "{-Hxy:4} & {-Hyy:4} & {Hxy:4} & {Hyy:4}}\n"
+             "#project P = matrix{{Pxx:4} & {Pxy:4} & {-Pxx:4} & {-Pxy:4}; "
+             "{Pxy:4} & {Pyy:4} & {-Pxy:4} & {-Pyy:4}; "
+             "{-Pxx:4} & {-Pxy:4} & {Pxx:4} & {Pxy:4}; "
+             "{-Pxy:4} & {-Pyy:4} & {Pxy:4} & {Pyy:4}}",
 };
 static const Card card_profile = {
     .name = "profile",
@@ -211,8 +279,9 @@ static const Card card_profile = {
     .draw = spring_draw_profile,
 };
 
-static const Card *const spring_cards[] = {
-    &card_page, &card_spring_numbers, &card_eigenvalues, &card_profile, NULL};
+static const Card *const spring_cards[] = {&card_page,    &card_spring_numbers,
+                                           &card_block,   &card_eigenvalues,
+                                           &card_profile, NULL};
 
 const Picture spring_picture = {
     .name = "spring",

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/mathematics.h"
+#include "model/contact.h"
 #include "model/fracture.h"
 #include "model/neo_hookean.h"
 #include "model/friction.h"
@@ -38,13 +39,28 @@ static void pick_edge(const Show *show, const Simulation *simulation,
     int sides = square_mesh_sides(&simulation->mesh, e[0]) &
                 square_mesh_sides(&simulation->mesh, e[1]);
     if (!show->paused || simulation->steps > 0 ||
-        !(sides & (MESH_LEFT | MESH_RIGHT)))
+        simulation->options.bodies > 0 || !(sides & (MESH_LEFT | MESH_RIGHT)))
         return;
     pick->kind = PICK_EDGE;
     pick->index = sides & MESH_LEFT ? 0 : 1;
 }
 
-/* The nearest node, else the nearest spring, within reach of the mouse. */
+/* What the mouse is inside of, of the obstacles that the options have. */
+static void pick_obstacle(const Simulation *simulation, Pick *pick)
+{
+    const Contact *contact = contact_of(&simulation->system);
+    const Options *options = &simulation->options;
+    for (int k = 0; contact && k < options->grounds + options->balls; k++) {
+        const Obstacle *obstacle = &contact->obstacle[k];
+        if (contact_gap(obstacle, obstacle->o, pick->point, 0).d > 0)
+            continue;
+        pick->kind = PICK_OBSTACLE;
+        pick->index = k;
+    }
+}
+
+/* The nearest node, else the nearest spring, within reach of the mouse; else an
+ * obstacle. */
 Pick square_pick(const Show *show, const Plot *stage, double x, double y)
 {
     const Pane *pane = &show->pane[stage->pane];
@@ -75,6 +91,8 @@ Pick square_pick(const Show *show, const Plot *stage, double x, double y)
     }
     if (pick.kind == PICK_SPRING)
         pick_edge(show, pane->simulation, &pick);
+    if (pick.kind == PICK_NONE)
+        pick_obstacle(pane->simulation, &pick);
     return pick;
 }
 

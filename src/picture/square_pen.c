@@ -12,6 +12,7 @@ enum { GHOST_SPRINGS = 700 }; /* of more only the outline is drawn as a ghost */
 
 static const double FLOWN = 10; /* times its side, what explodes fills */
 static const double NODE = 0.1; /* of the distance of two nodes */
+static const double FACE = 4;   /* pixels, the smallest side of one */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
@@ -271,26 +272,18 @@ static Colour face_colour(const SpringPen *pen, const int node[4], double side,
     return shade(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
-/* Those that have folded over are drawn last. */
+/* Those that have folded over are drawn last, each cell of them. */
 void square_faces(const SpringPen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    int stride = (int)fmin(fmax(1 / pen->spacing, 1), mesh->cells);
-    int left = 1, node[4];
-    for (int folded = 0; folded < 2 && left > 0; folded++) {
-        left = 0;
-        for (int cell = 0; cell < mesh->cells; cell++) {
-            if (!square_mesh_patch(mesh, cell, stride, node))
-                continue;
-            if (is_folded(pen->x, node) != folded)
-                left++;
-            else
-                fill_face(pen, node,
-                          folded ? COLOUR_FOLDED
-                                 : face_colour(pen, node,
-                                               stride * mesh->spacing, cell));
-        }
-    }
+    int wide = (int)fmin(fmax(FACE / pen->spacing, 1), mesh->cells), node[4];
+    for (int cell = 0; cell < mesh->cells; cell++)
+        if (square_mesh_patch(mesh, cell, wide, node))
+            fill_face(pen, node,
+                      face_colour(pen, node, wide * mesh->spacing, cell));
+    for (int cell = 0; cell < mesh->cells; cell++)
+        if (square_mesh_patch(mesh, cell, 1, node) && is_folded(pen->x, node))
+            fill_face(pen, node, COLOUR_FOLDED);
     square_outline(pen, pen->x, false, COLOUR_X);
 }
 
@@ -316,8 +309,10 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
     const SquareMesh *mesh = &pen->simulation->mesh;
     double phase = 0;
     for (int k = 0; k < mesh->outline; k++) {
-        const double *a = x + 2 * (size_t)square_mesh_outline(mesh, k);
-        const double *b = x + 2 * (size_t)square_mesh_outline(mesh, k + 1);
+        int node[2];
+        square_mesh_outline(mesh, k, node);
+        const double *a = x + 2 * (size_t)node[0];
+        const double *b = x + 2 * (size_t)node[1];
         if (dashed)
             plot_dashes(pen->stage, a, b, 1.4, &phase, colour);
         else

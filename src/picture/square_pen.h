@@ -42,7 +42,7 @@ void square_fills(const Plot *stage, int n, const double *x, double low[2],
 void square_springs(const SpringPen *pen);
 
 /* The cells of a fine square as shaded faces, those that have folded over dark,
- * and its outline; of cells below a pixel, larger ones in their place. */
+ * and its outline; of cells below some pixels, larger ones in their place. */
 void square_faces(const SpringPen *pen);
 
 /* Cells whose springs are whole are filled lightly, if all are asked for; those

@@ -8,7 +8,9 @@
 #include "model/fracture.h"
 #include "picture/plot.h"
 #include "picture/square_pen.h"
+#include "base/mathematics.h"
 #include "scenes/scene.h"
+#include "scenes/pages.h"
 
 enum { ARROW_SPACING = 16 }; /* pixels between nodes that have arrows, least */
 enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
@@ -33,7 +35,7 @@ static bool is_free(const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     return options->grounds + options->balls == 0 && !simulation->scene->own &&
-           simulation->runs == 1;
+           options->ceiling[1] == 0 && simulation->runs == 1;
 }
 
 /* The square as it starts, or with the room that a squeezed one needs to spring
@@ -46,7 +48,8 @@ static void square_bounds(const Show *show, int pane, double bounds[4])
     const Simulation *simulation = shown->simulation;
     const double *x = pane_x(shown);
     int nodes = simulation->system.nodes;
-    double stretch = fabs(simulation->options.stretch);
+    const Options *options = &simulation->options;
+    double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     const double size[2] = {half * extent,
@@ -85,11 +88,10 @@ static void draw_direction(const SpringPen *pen)
 {
     const Box *box = &pen->stage->box;
     const Trace *trace = pen->pane->trace;
-    double grown = trace->line == LINE_SOLVE ? 1 - trace->rest : 1;
     double apart = ceil(ARROW_SPACING * pen->stage->paper->unit / pen->spacing);
-    double factor = plot_arrows(pen->stage, pen->system->nodes,
-                                (int)fmax(apart, 1), pen->x, trace->p, grown,
-                                0.5 * fmin(box->width, box->height), COLOUR_P);
+    double factor =
+        plot_arrows(pen->stage, pen->system->nodes, (int)fmax(apart, 1), pen->x,
+                    trace->p, 0.5 * fmin(box->width, box->height), COLOUR_P);
     if (factor == 0)
         return;
     plot_legend(pen->stage, COLOUR_P, "search direction p%s%s",
@@ -120,10 +122,15 @@ static void draw_hover(const SpringPen *pen)
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         plot_ring(pen->stage, pen->x + 2 * (size_t)hover->index,
                   pen->radius + 4, 2, COLOUR_TEXT);
-    if (hover->kind == PICK_SPRING && hover->index < system->springs)
-        plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * hover->index],
-                  pen->x + 2 * (size_t)system->e[2 * hover->index + 1], 4.5,
-                  COLOUR_TEXT);
+    const LecturePage *page = pen->show->lecture;
+    bool writes = page && page->writes;
+    int lit = hover->kind == PICK_SPRING ? hover->index
+              : writes                   ? lecture_spring(pen->simulation)
+                                         : -1;
+    if (lit >= 0 && lit < system->springs)
+        plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * lit],
+                  pen->x + 2 * (size_t)system->e[2 * lit + 1], 4.5,
+                  writes ? COLOUR_PROJECT : COLOUR_TEXT);
 }
 
 /* ---- all of it ---------------------------------------------------------- */
@@ -134,7 +141,8 @@ static int draw_ground(const SpringPen *pen)
 {
     const Pane *pane = pen->pane;
     const Trace *trace = pane->trace;
-    if (!has_frame(pen->simulation) && !pen->contact) {
+    if (!has_frame(pen->simulation) && !pen->contact &&
+        pen->simulation->options.bodies == 0) {
         square_outline(pen, pen->simulation->mesh.x, false, COLOUR_RULE);
         if (pen->stage->pane == 0)
             plot_legend(pen->stage, COLOUR_GREY, "rest shape");
@@ -244,6 +252,40 @@ static void draw_numbers(const SpringPen *pen)
     }
 }
 
+/* An arrow for each node, the longest one of half a cell. */
+static void draw_arrows(const SpringPen *pen, const double *d, Colour colour,
+                        const char *word)
+{
+    int nodes = pen->system->nodes;
+    double longest = 0;
+    for (int i = 0; i < nodes; i++)
+        longest = fmax(longest, math_hypot(d[2 * i], d[2 * i + 1]));
+    double factor = 0.5 * pen->simulation->mesh.spacing / longest;
+    for (int i = 0; i < nodes && longest > 0; i++)
+        plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i, factor, 2.6, colour);
+    plot_legend(pen->stage, colour, "%s", word);
+}
+
+/* The force on each node, or the fastest oscillation, where a page wants it. */
+static void draw_page_arrows(const SpringPen *pen)
+{
+    const LecturePage *page = pen->show->lecture;
+    const System *system = pen->system;
+    double arrow[2 * NUMBERED] = {0};
+    if (!page || system->nodes > NUMBERED)
+        return;
+    if (page->modes && system->nodes <= SIMULATION_MODE_NODES) {
+        simulation_fastest(pen->simulation, arrow);
+        draw_arrows(pen, arrow, COLOUR_VELOCITY, "the fastest oscillation");
+    }
+    if (!page->forces)
+        return;
+    system_acceleration(system, pen->x, arrow);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        arrow[i] *= system->m[i / 2];
+    draw_arrows(pen, arrow, COLOUR_FORCE, "force on each node");
+}
+
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 static void square_draw(Plot *stage, const Show *show)
@@ -277,33 +319,122 @@ static void square_draw(Plot *stage, const Show *show)
     for (int r = runs - 1; r >= 0; r--)
         square_contact_forces(&pen[r], most);
     draw_signs(pen);
+    draw_page_arrows(pen);
     draw_warnings(pen, folded);
-    if (show->numbers && system->nodes <= NUMBERED)
+    if (show->numbers && !show->veiled && system->nodes <= NUMBERED)
         draw_numbers(pen);
     if (pen->range > 0)
         draw_colour_bar(pen);
 }
 
+/* ---- its numbers --------------------------------------------------------- */
+
+int lecture_spring(const Simulation *simulation)
+{
+    return (int)(simulation->steps % simulation->system.springs);
+}
+
+/* What pages say of the mesh, the Hessian and one row of M a = f. */
+static void square_facts(const Simulation *simulation, Facts *facts)
+{
+    const System *system = &simulation->system;
+    const SquareMesh *mesh = &simulation->mesh;
+    const Options *options = &simulation->options;
+    const LecturePage *page = options->page;
+    double mode[2 * SIMULATION_MODE_NODES], mass = 0;
+    int n = (int)options->segments, nodes = system->nodes, shorter = 0;
+    const double *x = simulation->run[0].x;
+    if (!page)
+        return;
+    for (int i = 0; i < nodes; i++)
+        mass += system->m[i];
+    for (int s = 0; s < system->springs; s++) {
+        const double *a = x + 2 * system->e[2 * s];
+        const double *b = x + 2 * system->e[2 * s + 1];
+        double d[2] = {a[0] - b[0], a[1] - b[1]};
+        shorter += d[0] * d[0] + d[1] * d[1] < (1 - 1e-9) * system->l2[s];
+    }
+    fact(facts, "masses", nodes);
+    fact(facts, "mass", mass);
+    fact(facts, "node mass", system->m[0]);
+    fact(facts, "middle", (nodes - 1) / 2);
+    fact(facts, "places", 4 * (nodes + 2.0 * system->springs));
+    fact(facts, "short", shorter);
+    fact(facts, "segments", n);
+    fact(facts, "side", mesh->side);
+    fact(facts, "rho", options->density);
+    fact(facts, "k", options->stiffness);
+    fact(facts, "stretch", options->stretch);
+    fact(facts, "h", options->timestep);
+    fact(facts, "epsilon", options->tolerance);
+    const int *e = system->e + 2 * lecture_spring(simulation);
+    fact(facts, "newest", lecture_spring(simulation));
+    fact(facts, "from", e[0]);
+    fact(facts, "to", e[1]);
+    if (page->modes) {
+        double omega = simulation_fastest(simulation, mode);
+        fact(facts, "fastest", omega);
+        fact(facts, "h limit", 2 / omega);
+    }
+    if (page->forces && nodes <= NUMBERED) {
+        double a[2 * NUMBERED] = {0};
+        system_acceleration(system, x, a);
+        fact_point(facts, "a", a + 2 * (nodes - 1));
+        fact_point(facts, "f",
+                   (double[2]){system->m[nodes - 1] * a[2 * nodes - 2],
+                               system->m[nodes - 1] * a[2 * nodes - 1]});
+        fact(facts, "last", nodes - 1);
+    }
+}
+
+/* M a = f, a row of it; and what simulator.py begins with. */
+static const Card card_equation = {
+    .name = "numbers",
+    .title = "M a = f, the row of node {last}",
+    .least = 8,
+    .weight = 0.4,
+    .lecture = true,
+    .words = "each node: {mass} kg / {masses} = {node mass} kg\n"
+             "a = {a:4} m/s\u00b2\n"
+             "#force f = m a = {f:4} N = \u2212\u2207P(x) there",
+};
+
+static const Card card_parameters = {
+    .name = "parameters",
+    .title = "the numbers of simulator.py",
+    .least = 14.6,
+    .weight = 0.4,
+    .lecture = true,
+    .words = "side_len = {side} m\n"
+             "rho = {rho} kg/m\u00b2\n"
+             "k = {k} J/m\u00b2\n"
+             "initial_stretch = {stretch}\n"
+             "n_seg = {segments}\n"
+             "h = {h} s\n"
+             "tol = {epsilon} m/s\n"
+             "m = rho side_len\u00b2 / (n_seg + 1)\u00b2 = {node mass} kg",
+};
+
 /* All energies of the first run, J; cards leave out those that are 0. */
-static void square_sample(const Simulation *simulation, History *history)
+static int square_sample(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_energies(simulation, 0);
-    double value[HISTORY_SERIES] = {0};
-    for (int i = 0; i < energies.rows; i++)
-        value[history_series(history, energies.row[i].name)] =
-            energies.row[i].value;
-    history_add(history, simulation_time(simulation), value);
+    int rows = energies.rows < HISTORY_SERIES ? energies.rows : HISTORY_SERIES;
+    memcpy(row, energies.row, (size_t)rows * sizeof *row);
+    return rows;
 }
 
 static const Card *const square_cards[] = {
-    &card_page,     &card_listing, &card_line, &card_residual,
-    &card_energies, &card_spy,     NULL};
+    &card_page,     &card_listing, &card_line,     &card_residual,
+    &card_energies, &card_spy,     &card_equation, &card_parameters,
+    &card_search,   &card_prints,  &card_assembly, NULL};
 
 const Picture square_picture = {
     .name = "square",
     .cards = square_cards,
     .bounds = square_bounds,
     .draw = square_draw,
+    .facts = square_facts,
     .scale = true,
     .pick = square_pick,
     .hover = square_note,

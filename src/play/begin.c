@@ -1,8 +1,12 @@
 /* begin.c - from step 0: again, from another start, another scene, a page of
  * the lecture, a cell of the map; and what the mouse does on some of them.
  */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "picture/show.h"
 
 #include "play/playing.h"
 #include "scenes/pages.h"
@@ -11,7 +15,7 @@
 
 bool player_explains(const Options *options)
 {
-    return options->page ? !options->page->plays : options->scene->explains;
+    return options->page || options->scene->explains;
 }
 
 Status player_own_options(Player *player, const char *scene,
@@ -50,6 +54,7 @@ Status obey_scene(Player *player, const Command *command)
         status = player_begin(player, options, count, command);
     if (status)
         return status;
+    player_close_sheet(player);
     bool explains = options->scene->explains && !player->given[0].script;
     player->mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
     if (player->column != COLUMN_KEYS)
@@ -90,6 +95,7 @@ Status player_open_page(Player *player)
     const LecturePage *page = player_settings(player)->page;
     const char *rest = page && page->open ? page->open : "";
     Status status = STATUS_OK;
+    player->told = page; /* nobody has asked for these steps */
     while (*rest && !status) {
         char line[COMMAND_TEXT_SIZE];
         Command command;
@@ -101,7 +107,37 @@ Status player_open_page(Player *player)
         if (!status)
             status = player_obey(player, &command);
     }
+    player->told = NULL;
     return status;
+}
+
+bool player_veils(const Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    return page && page->ask && player->told != page && player->asks;
+}
+
+/* Two of a hundred are near enough for what was calculated on paper. */
+Status player_check_answer(Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    char *text = player->typed, *end;
+    double guess, over = 1, truth = show_number(&player->show, page->answer);
+    for (char *at = text; *at; at++)
+        *at = *at == ',' ? '.' : *at;
+    guess = strtod(text, &end);
+    if (end > text && *end == '/')
+        over = strtod(end + 1, &end);
+    if (end == text || *end || !isfinite(guess / over))
+        return player_refuse(player, "a number is wanted: 0.25 or 1/4");
+    bool right = fabs(guess / over - truth) <= 0.02 * fabs(truth);
+    player->told = page;
+    player->answers++;
+    player->right += right;
+    player_note(player, "%s: %s, it is %.4g (%d of %d right so far)", text,
+                right ? "right" : "no", truth, player->right, player->answers);
+    player_deselect(player);
+    return STATUS_OK;
 }
 
 /* The page that is asked for: by its name; the next one or the one before; the
@@ -145,11 +181,13 @@ Status obey_page(Player *player, const Command *command)
     player->speed = player_first_speed(&options);
     player_reset_speed(player);
     player->left = page;
+    player->told = NULL;
     player->column = COLUMN_CARDS;
     player->fine = 0;
+    player_close_sheet(player);
     if (status || player->given[0].script)
         return status;
-    player->mode = page->plays ? MODE_RUN : MODE_PAUSE;
+    player->mode = MODE_PAUSE;
     return player_open_page(player);
 }
 

@@ -15,8 +15,6 @@ Status player_change(Player *player, const Command *change, int from, int to,
 {
     Past *past = &player->past;
     long step = past->step;
-    bool places =
-        change->kind == COMMAND_HANDLE || change->kind == COMMAND_FLIP;
     player->changed = true;
     if (player->mode >= MODE_HELD || player->mode == MODE_DRIFT)
         player->mode = MODE_RUN; /* something may move again */
@@ -25,10 +23,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
     if (status)
         return status;
     player->still = player->rigid = 0;
-    status = player_fork(player, step - (again || places));
-    if (!again)
-        player_sample(player);
-    return status;
+    return player_fork(player, step - (again || past_moves(change)));
 }
 
 /* In all panes; the picture of the present step is another one. */
@@ -83,13 +78,6 @@ static void tell_outcome(const OptionRow *row, const Options *options,
              outcome->status ? status_text(outcome->status) : "");
 }
 
-/* The largest coordinate in the whole step, m. */
-static double extent_of(const Machine *machine)
-{
-    return fmax(machine->outcome.extent,
-                machine->known ? rounds_extent(&machine->rounds) : 0);
-}
-
 /* Keeps the positions of the active pane as a ghost. */
 static void keep_ghost(Player *player, const OptionRow *row)
 {
@@ -118,7 +106,7 @@ static Status retake_step(Player *player, const Command *change, int from,
     long step = past->step + failed;
     if (step < 1)
         return player_change(player, change, from, to, false);
-    *retake = (Retake){.extent = extent_of(machine), .at = {.round = -1}};
+    *retake = (Retake){.at = {.round = -1}};
     if (place >= 0 && player->fine > 0)
         retake->at = machine->rounds.place[place];
     tell_outcome(row, player_settings(player),
@@ -140,60 +128,18 @@ static Status retake_step(Player *player, const Command *change, int from,
     return STATUS_OK;
 }
 
-/* Whether two outcomes of the step are such that no one picture can show both;
- * of the projection or the line search, near the beginning. */
-static bool are_unlike(const Player *player)
-{
-    enum { TIMES = 5, SOON = 64 };
-    const Past *past = &player->past;
-    const Branch *branch = &past->branch[past->now];
-    const Simulation *simulation = player_simulation(player);
-    double was = player->retake.extent, is = extent_of(player_machine(player));
-    if (branch->panes > 1 || !branch->second[0] || past->step >= SOON ||
-        branch->edit.kind != COMMAND_SET ||
-        option_rows[branch->edit.number].effect != EFFECT_AGAIN ||
-        !(simulation->scene->needs & NEEDS_MESH) ||
-        !simulation_is_handled(simulation))
-        return false;
-    return !(is <= TIMES * was) || !(was <= TIMES * is);
-}
-
-/* The step as it was in a second pane. */
-static Status put_beside(Player *player)
-{
-    Past *past = &player->past;
-    const Command beside = {.kind = COMMAND_ADD_PANE};
-    const Command edit = past->branch[past->now].edit;
-    long step = past->step, fork;
-    past_undo(past, -1, &fork);
-    player_next_gesture(player);
-    Status status = past_set_panes(past, 2, player->gesture, &beside);
-    if (!status)
-        status = past_edit(past, &edit, 0, 1, true, player->gesture,
-                           player->message, sizeof player->message);
-    if (!status)
-        status = player_fork(player, step - 1);
-    player_leave_step(player);
-    past_aim(past, step, true);
-    player->then = THEN_TELL;
-    return status;
-}
-
-Status player_tell_retake(Player *player)
+void player_tell_retake(Player *player)
 {
     const Past *past = &player->past;
     const Station *at = &player->retake.at;
     const Machine *machine = player_machine(player);
     char has[120];
-    if (are_unlike(player))
-        return put_beside(player);
     if (at->round >= 0 && machine->known && machine->rounds.places > 2)
         player_stand_at(player, player->active,
                         rounds_find(&machine->rounds, at->round, at->line));
     tell_outcome(&option_rows[past->branch[past->now].edit.number],
                  player_settings(player), &machine->outcome, has, sizeof has);
     player_note(player, "%s; %s", player->retake.had, has);
-    return STATUS_OK;
 }
 
 /* ---- numbers and methods ------------------------------------------------- */
@@ -202,6 +148,71 @@ Status player_tell_retake(Player *player)
 static const OptionRow *row_of(const Command *command)
 {
     return command->number < 0 ? NULL : &option_rows[command->number];
+}
+
+int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST])
+{
+    const Options options = player_numbers(player);
+    int own = options_row(&options, found), count = own;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        bool there = !(player->added >> (row - option_rows) & 1) ||
+                     !(row->needs & options.scene->needs);
+        for (int i = 0; i < own; i++)
+            there = there || found[i] == row;
+        if (!there)
+            found[count++] = row;
+    }
+    return count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
+}
+
+int player_all_numbers(const Player *player,
+                       const OptionRow *found[OPTIONS_MOST])
+{
+    int count = 0;
+    for (const OptionRow *row = option_rows; row->name; row++)
+        if ((row->needs & player_settings(player)->scene->needs) &&
+            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT)
+            found[count++] = row;
+    return count;
+}
+
+const char *player_idle(const Player *player, const OptionRow *row)
+{
+    const Simulation *simulation = player_simulation(player);
+    bool minimises = simulation->run[0].newton || simulation->scene->step;
+    bool asks_newton = row->slot == OPTION_SLOT(filter) ||
+                       row->slot == OPTION_SLOT(line_search) ||
+                       row->slot == OPTION_SLOT(tolerance) ||
+                       row->slot == OPTION_SLOT(solver);
+    if (asks_newton && !minimises)
+        return "explicit methods minimise nothing";
+    return row->idle ? row->idle(player_settings(player)) : NULL;
+}
+
+/* The row of numbers has this one, too, and it is lit. */
+Status obey_add(Player *player, const Command *command)
+{
+    const OptionRow *row = row_of(command);
+    const char *idle;
+    if (!row || !(row->needs & player_settings(player)->scene->needs) ||
+        row->kind == OPTION_TEXT || row->kind == OPTION_SWITCH)
+        return player_refuse(player, "this scene has no such number");
+    idle = player_idle(player, row);
+    if (idle) {
+        snprintf(player->message, sizeof player->message, "%s: %s", row->name,
+                 idle);
+        return STATUS_INVALID_INPUT;
+    }
+    player->added |= (uint64_t)1 << (row - option_rows);
+    player->column = COLUMN_CARDS;
+    player_deselect(player);
+    player->numbers = player_row(player, player->number);
+    for (int i = 0; i < player->numbers; i++)
+        if (player->number[i] == row)
+            player->selected = i;
+    player_note(player, "%s: %s; type %s and Enter", row->name, row->help,
+                row->value);
+    return STATUS_OK;
 }
 
 /* The value of a command into these options. */
@@ -240,6 +251,17 @@ static Status restart_with(Player *player, const Options *options,
     return STATUS_OK;
 }
 
+/* Whether nodes were placed at this step: no step has led here that could be
+ * taken again. */
+static bool is_placed(const Past *past)
+{
+    const Branch *branch = past->branch + past->now;
+    while (!branch->fresh && branch->first == past->step &&
+           branch->edit.kind != COMMAND_PLACE)
+        branch--;
+    return branch->first == past->step && branch->edit.kind == COMMAND_PLACE;
+}
+
 /* An option while the run goes on, or from the start where it cannot change any
  * more: in the active pane where they are compared by it, else in all. */
 Status obey_set(Player *player, const Command *command)
@@ -258,6 +280,8 @@ Status obey_set(Player *player, const Command *command)
         return player_refuse(player, "no line search here");
     if (row->slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
         return player_refuse(player, "nothing to project here");
+    if (row->idle && row->idle(player_settings(player)))
+        return player_refuse(player, row->idle(player_settings(player)));
     bool one = player_compares(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
@@ -266,13 +290,19 @@ Status obey_set(Player *player, const Command *command)
     Status status = STATUS_OK;
     for (int p = from; p < to && !status; p++)
         status = put_value(player, command, &options[p]);
+    for (int p = from; p < to && !status && row->times; p++)
+        if (!simulation_has_room(&player->past.machine[p].simulation,
+                                 &options[p], player->message,
+                                 sizeof player->message))
+            status = STATUS_INVALID_INPUT;
     if (status)
         return status;
     Command change = *command;
     change.x = options[player->active].number[row->slot];
     bool again =
-        row->effect == EFFECT_AGAIN ||
-        (player->fine > 0 && player_place(player, player->active) >= 0);
+        !is_placed(&player->past) &&
+        (row->effect == EFFECT_AGAIN ||
+         (player->fine > 0 && player_place(player, player->active) >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
         status = restart_with(player, options, command);
     else if (again && change.x != old)
@@ -288,12 +318,14 @@ Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
     const Options now = player_numbers(player);
-    int count = options_row(&now, number);
+    int count = player_row(player, number);
     if (count == 0)
         return player_refuse(player, "there is no number to change here");
     if (player->selected < 0 || player->selected >= count)
         player->selected = 0;
     const OptionRow *row = number[player->selected];
+    if (row->count > 1)
+        return player_refuse(player, "several numbers: type them");
     return player_ask_set(
         player, row,
         option_paced(row, &now, command->kind == COMMAND_RAISE ? 1 : -1));
@@ -319,7 +351,7 @@ Status obey_select(Player *player, const Command *command)
 {
     (void)command;
     const OptionRow *number[OPTIONS_MOST];
-    int count = options_row(player_settings(player), number);
+    int count = player_row(player, number);
     int next = player->selected + 1;
     player_deselect(player);
     player->selected = next < count ? next : -1;
@@ -474,6 +506,50 @@ Status obey_grab(Player *player, const Command *command)
         player_note(player, "paused: the hand pulls as soon as time goes on "
                             "(Space, N)");
     return status;
+}
+
+/* A node is put somewhere: an experiment of one's own. */
+Status obey_place(Player *player, const Command *command)
+{
+    if (!simulation_is_handled(player_simulation(player)))
+        return player_refuse(player, "nothing to be placed here");
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        Simulation *simulation = &player->past.machine[p].simulation;
+        if (command->number < simulation->system.nodes &&
+            simulation_place(simulation, (int)command->number, command->x,
+                             command->y, false))
+            return player_refuse(player, "no room for it there: an obstacle, "
+                                         "or a cell that would turn over");
+    }
+    return change_all(player, command);
+}
+
+/* A ground or a ball goes as far as the bodies leave room. */
+Status obey_obstacle(Player *player, const Command *command)
+{
+    const Options *now = player_settings(player);
+    int number = (int)fmin((double)command->number, 1e6);
+    int ball = number - (int)now->grounds;
+    Command change = *command;
+    if (ball < now->balls) {
+        const double *from =
+            ball < 0 ? now->ground[number] + 2 : now->ball[ball];
+        for (double part = 1; part > 0; part = part > 0.01 ? part / 2 : 0) {
+            Options moved = *now;
+            change.x = from[0] + part * (command->x - from[0]);
+            change.y = from[1] + part * (command->y - from[1]);
+            obstacle_move(&moved, number, change.x, change.y);
+            bool room = true;
+            for (int p = 0; p < past_panes(&player->past); p++)
+                room = room && simulation_has_room(
+                                   &player->past.machine[p].simulation, &moved,
+                                   player->message, sizeof player->message);
+            if (room)
+                return change_all(player, &change);
+        }
+        return STATUS_INVALID_INPUT;
+    }
+    return change_all(player, &change); /* which says that there is none */
 }
 
 /* It pulls, or lets go. */

@@ -64,12 +64,13 @@ static HelpRow *fill_scenes(HelpRow *row)
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
-        {"drag", "pulls the square by a node"},
+        {"drag", "pulls the square by a node; paused: places it"},
+        {"", "a pin, a ground, a ball: moves it"},
         {"drag an edge", "of the paused square: stretch"},
         {"right click", "pins a node, or frees it"},
         {"wheel", "zooms, or changes a number"},
         {"middle drag", "moves the picture"},
-        {"double click", "fits it; on a number: default"},
+        {"double click", "a ball; on a number: default"},
         {"digits", "open a lit number; Enter, Esc"},
     };
     enum { MOUSE = sizeof mouse / sizeof *mouse };
@@ -128,12 +129,19 @@ static void fill_settings(Player *player)
 {
     Show *show = &player->show;
     const Options shown = player_numbers(player), *options = &shown;
-    player->numbers = options_row(options, player->number);
+    const OptionRow *all[OPTIONS_MOST];
+    int lit = player->selected;
+    const OptionRow *was =
+        lit >= 0 && lit < player->numbers ? player->number[lit] : NULL;
+    player->numbers = player_row(player, player->number);
+    for (int i = 0; was && i < player->numbers; i++)
+        if (player->number[i] == was)
+            player->selected = i;
     for (int i = 0; i < player->numbers; i++) {
         const OptionRow *row = player->number[i];
         Setting *setting = &show->setting[show->settings++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
-        setting->name = row->label;
+        setting->name = row->label ? row->label : row->name;
         setting->letters = row->letters;
         value_text(row, options, player_simulation(player), setting->value,
                    SHOW_VALUE);
@@ -141,13 +149,41 @@ static void fill_settings(Player *player)
         option_value(row, &past_start(&player->past, player->active)->options,
                      start, sizeof start);
         setting->changed = strcmp(now, start) != 0;
-        setting->off = strcmp(now, "none") == 0;
+        setting->off = strcmp(now, "none") == 0 || player_idle(player, row);
     }
+    if (player_all_numbers(player, all) > player->numbers)
+        show->setting[show->settings++] =
+            (Setting){"", "+ more", 0, false, false};
     show->selected = player->selected;
     if (player->typing && player->selected >= 0 &&
         player->selected < player->numbers)
         snprintf(show->setting[player->selected].value, SHOW_VALUE, "%s_",
                  player->typed);
+}
+
+/* All numbers of the scene, what they are, and why some have no meaning now. */
+static void fill_options(Player *player)
+{
+    static char keys[OPTIONS_MOST][4], texts[OPTIONS_MOST][SHOW_TEXT];
+    static HelpRow rows[OPTIONS_MOST];
+    const OptionRow *all[OPTIONS_MOST];
+    const Options options = player_numbers(player);
+    Show *show = &player->show;
+    show->help = rows;
+    show->help_rows = player_all_numbers(player, all);
+    for (int i = 0; i < show->help_rows; i++) {
+        char value[SHOW_VALUE];
+        const char *idle = player_idle(player, all[i]);
+        value_text(all[i], &options, player_simulation(player), value,
+                   sizeof value);
+        snprintf(keys[i], sizeof keys[i], "%d", i + 1);
+        snprintf(texts[i], SHOW_TEXT, "%s %s%s%s", all[i]->name, value,
+                 idle || all[i]->help[0] ? ": " : "",
+                 idle ? idle : all[i]->help);
+        rows[i] = (HelpRow){keys[i], texts[i]};
+        show->grey[i] = idle != NULL;
+    }
+    show->page = (Page){.kind = PAGE_HELP, .title = "Numbers of this scene"};
 }
 
 /* Who makes the steps, and why. */
@@ -180,6 +216,17 @@ static void explain_number(const Player *player, Show *show)
     int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
     const char *option =
         i >= 0 && i < player->numbers ? player->number[i]->name : "";
+    const OptionRow *row =
+        i >= 0 && i < player->numbers ? player->number[i] : NULL;
+    const char *idle = row ? player_idle(player, row) : NULL;
+    if (row && (idle || row->help[0]))
+        snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
+                 idle ? idle : row->help);
+    const IntegratorMethod *method = simulation->run[0].method;
+    if (strcmp(option, "integrator") == 0 && simulation->runs == 1)
+        snprintf(show->sentence, SHOW_TEXT, "%s: %s, order %d%s", method->label,
+                 method->implicit ? "implicit" : "explicit", method->order,
+                 method->damps ? ", takes energy out of motion" : "");
     if (strcmp(option, "solver") == 0)
         solver_words(simulation, show->sentence);
     if (strcmp(option, "tolerance") == 0 &&
@@ -188,6 +235,34 @@ static void explain_number(const Player *player, Show *show)
                  "\u03b5 is a velocity: the test lets \u2016{p}\u2016_{\u221e} "
                  "\u2264 h \u03b5 = %.3g m pass in each step",
                  options->timestep * options->tolerance);
+}
+
+/* What a sentence can say of a chip, a step of the time line, a line of the
+ * listing under the mouse. */
+static void explain_over(const Player *player, Show *show)
+{
+    const Paper *paper = player->view ? view_paper(player->view) : NULL;
+    if (!paper || player->sheet)
+        return;
+    Layout layout =
+        show_layout(show, paper->canvas.width, paper->canvas.height);
+    const char *purpose = show_listing_purpose(show, &layout, player->mouse.y);
+    long step = show_step_at(show, &layout, player->mouse.x);
+    const Entry *entry = past_entry(&player->past, player->active, step);
+    if (show->over.zone == ZONE_CHIP && show->over.index < show->chips)
+        snprintf(show->sentence, SHOW_TEXT, "%s: %s",
+                 show->chip[show->over.index].key,
+                 command_row(player->chip[show->over.index])->does);
+    else if (show->over.zone == ZONE_TIME && show->bars > 0 && entry &&
+             step > 0)
+        snprintf(show->sentence, SHOW_TEXT,
+                 "step %ld: %d update%s%s%s; a click leads there", step,
+                 entry->outcome.updates, entry->outcome.updates == 1 ? "" : "s",
+                 entry->outcome.status ? ", " : "",
+                 entry->outcome.status ? status_text(entry->outcome.status)
+                                       : "");
+    else if (purpose)
+        snprintf(show->sentence, SHOW_TEXT, "%s", purpose);
 }
 
 /* The chip of a command: its first key, and what that does now: word number
@@ -214,12 +289,19 @@ static void add_chip(Player *player, CommandKind kind, int word, bool lit)
 /* The keys that matter now. */
 static void fill_chips(Player *player)
 {
+    static char back[KEY_TEXT];
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_settings(player);
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool newton = simulation->run[0].newton && time;
     bool ended = simulation->done || player->mode > MODE_END;
     bool stands = player_stands(player);
+    if (player->sheet) {
+        add_chip(player, COMMAND_PAGE_ON, 0, false);
+        add_chip(player, COMMAND_PAGES, 0, false);
+        add_chip(player, COMMAND_SHEET, 1, false);
+        return;
+    }
     add_chip(player, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
     add_chip(player, COMMAND_NEXT, newton ? player->fine : time ? 0 : 3, false);
     add_chip(player, COMMAND_BACK, 0, false);
@@ -227,6 +309,11 @@ static void fill_chips(Player *player)
         add_chip(player, COMMAND_PAGE_ON, 0, ended && options->page[1].name);
         add_chip(player, COMMAND_CODE, 0, player->column == COLUMN_CODE);
         add_chip(player, COMMAND_PAGES, 0, player->column == COLUMN_PAGES);
+    } else if (player->left) {
+        add_chip(player, COMMAND_PAGE_BACK, 0, true);
+        snprintf(back, sizeof back, "back to page %d",
+                 (int)(player->left - lecture_pages) + 1);
+        player->show.chip[player->show.chips - 1].label = back;
     }
     add_chip(player, COMMAND_RESTART, 0, ended);
     if (newton)
@@ -238,57 +325,26 @@ static void fill_chips(Player *player)
                  options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
         add_chip(player, COMMAND_METHOD, 0, false);
+    add_chip(player, COMMAND_SHEET, 0, false);
     add_chip(player, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
 }
 
 /* ---- the picture --------------------------------------------------------- */
 
-/* From one line of Algorithm 3 to the next the square of a window glides,
- * arrows grow and points drop, for a quarter of a second: the part that is
- * still to go, 1 ... 0. */
-static double glide_rest(Player *player)
-{
-    static const double TIME = 0.25; /* s */
-    double part = (clock_now() - player->glide) / TIME;
-    if (player->glide > 0 && part < 1)
-        return 1 - part * part * (3 - 2 * part);
-    player->glide = 0;
-    return 0;
-}
-
-/* On the way from where it was drawn last; nothing where memory is missing. */
-static void glide(Side *side, double rest, Pane *pane)
-{
-    size_t size = 2 * (size_t)pane->simulation->system.nodes;
-    const double *to = pane_x(pane);
-    double *from = realloc(side->from, 2 * size * sizeof *from);
-    if (!from)
-        return;
-    side->from = from;
-    if (rest == 0)
-        memcpy(from, to, size * sizeof *from);
-    for (size_t i = 0; i < size && rest > 0; i++)
-        from[size + i] = to[i] + rest * (from[i] - to[i]);
-    if (rest > 0)
-        pane->x = from + size;
-}
-
 /* One picture on the stage. */
-static void fill_pane(Player *player, int p, double rest, Trace *trace)
+static void fill_pane(Player *player, int p, Trace *trace)
 {
     const Machine *machine = &player->past.machine[p];
     const Simulation *simulation = &machine->simulation;
+    static History histories[OPTIONS_MAX_PANES];
     const Side *side = &player->side[p];
     Pane *pane = &player->show.pane[p];
-    const Curves *curves = past_curves(&player->past, p);
+    past_history(&player->past, p, &histories[p]);
     *pane = (Pane){.simulation = simulation,
-                   .history = curves ? &curves->history : NULL,
+                   .history = &histories[p],
                    .ghost = side->ghost,
-                   .ghost_label = side->ghost_label};
-    if (past_ended(&player->past, p) >= 0)
-        pane->trouble = STATUS_NOT_FINITE;
-    else
-        pane->trouble = machine->outcome.status;
+                   .ghost_label = side->ghost_label,
+                   .trouble = machine->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = side->label;
     bool newton =
@@ -297,10 +353,7 @@ static void fill_pane(Player *player, int p, double rest, Trace *trace)
         pane->x =
             rounds_trace(&machine->rounds, player_place(player, p), trace);
         pane->trace = trace;
-        trace->rest = rest;
     }
-    if (player->window)
-        glide(&player->side[p], rest, pane);
 }
 
 /* The hand, where it pulls. */
@@ -350,7 +403,7 @@ void player_label_panes(Player *player)
         const Options *options = &past_control(past, p)->options;
         char *label = player->side[p].label;
         size_t used = 0, size = sizeof player->side[p].label;
-        long last = past_ended(past, p);
+        long last = past_ended(past, p, past->step);
         label[0] = '\0';
         for (const OptionRow *row = option_rows; row->name; row++) {
             char value[SHOW_VALUE];
@@ -395,6 +448,18 @@ static void fill_time(Player *player)
              "   real time \u00d7 %.2g", speed);
 }
 
+/* A long step says so, and how to stop it. */
+static void fill_computing(Player *player)
+{
+    Show *show = &player->show;
+    if (!player->past.making || clock_now() - player->began <= LONG_WORK)
+        return;
+    snprintf(show->sentence, SHOW_TEXT,
+             "a long step: Esc stops it, at the last whole one");
+    snprintf(show->state, SHOW_VALUE, "computing, update %d",
+             player_machine(player)->outcome.updates);
+}
+
 void player_fill(Player *player)
 {
     static Trace traces[OPTIONS_MAX_PANES];
@@ -406,20 +471,19 @@ void player_fill(Player *player)
     Show *show = &player->show;
     Pick hover = show->hover;
     Hit over = show->over;
+    int chosen = show->chosen;
     show_create(player_simulation(player), show);
     show->panes = past_panes(&player->past);
     show->active = player->active;
-    double rest = glide_rest(player);
     player_label_panes(player);
     for (int i = 0; i < past_panes(&player->past); i++)
-        fill_pane(player, i, rest, &traces[i]);
+        fill_pane(player, i, &traces[i]);
     show->hover = hover;
     show->over = over;
+    show->chosen = chosen;
     show->paused = player_stands(player);
     snprintf(show->state, SHOW_VALUE, "%s", state[player->mode]);
-    if (player->past.making && clock_now() - player->began > LONG_WORK)
-        snprintf(show->state, SHOW_VALUE, "computing, update %d",
-                 player_machine(player)->outcome.updates);
+    fill_computing(player);
     fill_settings(player);
     fill_chips(player);
     fill_hand(player);
@@ -437,9 +501,16 @@ void player_fill(Player *player)
     show->letter = player->view ? view_letter(player->view) : 0;
     if (player->column == COLUMN_KEYS)
         fill_help(show);
+    if (player->column == COLUMN_OPTIONS)
+        fill_options(player);
     explain_number(player, show);
-    show_lecture(player->column == COLUMN_KEYS ? LECTURE_CARDS
+    explain_over(player, show);
+    if (player->explains && show->sentence[0] && !player->typing)
+        show->message[0] = '\0';
+    show->veiled = player_veils(player);
+    show_lecture(player->column >= COLUMN_KEYS ? LECTURE_CARDS
                                                : (LectureColumn)player->column,
                  player->left, show);
+    player_fill_sheet(player);
     show_describe(show);
 }

@@ -1,6 +1,6 @@
-/* handout.c - the lecture as one HTML file, to be printed: words and a picture
- * of every page, which is what the window shows of it.  Everything stands in
- * the file itself: it has no scripts and asks no network.
+/* handout.c - the lecture as one HTML file, to be printed, two pages a sheet:
+ * words, formulas, a picture drawn for print, a question with room to write.
+ * Everything stands in the file itself: it has no scripts and asks no network.
  */
 #include <errno.h>
 #include <limits.h>
@@ -9,53 +9,174 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "picture/picture.h"
 #include "play/playing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
-enum { PICTURE_WIDTH = 1120, PICTURE_HEIGHT = 700 }; /* pixels */
+enum {
+    PICTURE_WIDTH = 1900, /* pixels, of 190 mm */
+    PICTURE_HEIGHT = 720,
+    PICTURE_EM = 25,
+    INKS = 5, /* steps between white and a colour's darkest */
+    WORDS = 1024
+};
 
 static const char handout_head[] =
     "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
     "<meta name=\"viewport\" content=\"width=device-width\">\n"
     "<title>Reliable simulation of elastodynamics: handout</title>\n"
     "<style>\n"
-    "body { font: 17px/1.5 \"DejaVu Sans\", Verdana, sans-serif; color: "
+    "@page { size: A4; margin: 8mm 10mm; }\n"
+    "body { font: 9.5pt/1.35 \"DejaVu Sans\", Verdana, sans-serif; color: "
     "#1c1c1c;\n"
-    "  max-width: 1120px; margin: 2em auto; padding: 0 1em; }\n"
-    "h1 { font-size: 1.7em; } h2 { margin: 2.2em 0 .3em; }\n"
-    "img { width: 100%; height: auto; border: 1px solid #cfcfcf; }\n"
-    "nav { columns: 2; font-size: .9em; } nav a { display: block; }\n"
-    "a { color: #0044b0; text-decoration: none; }\n"
-    "b { color: #0000ff; }\n"
-    ".small { font-size: .85em; color: #6a6a6a; }\n"
-    "@media print { section { break-inside: avoid; } }\n"
+    "  max-width: 190mm; margin: 0 auto; }\n"
+    "h1 { font-size: 14pt; margin: 0; } h1 + p { margin: 1mm 0 2mm; }\n"
+    "h2 { font-size: 12pt; margin: 0 0 1mm; }\n"
+    "section { display: flex; flex-direction: column; height: 132mm;\n"
+    "  overflow: hidden; border-top: .3mm solid #9c9c9c; padding-top: 1.5mm;\n"
+    "  box-sizing: border-box; break-inside: avoid; }\n"
+    "section:nth-of-type(2n) { break-after: page; }\n"
+    "section p { margin: 0 0 1mm; }\n"
+    ".say { display: flex; gap: 6mm; align-items: center; }\n"
+    ".say p { flex: 1; }\n"
+    ".say div { font-size: 11pt; white-space: nowrap; }\n"
+    "img { width: 190mm; height: 72mm; flex-shrink: 1; min-height: 50mm;\n"
+    "  object-fit: contain; margin: 1mm 0; }\n"
+    ".room { flex: 1 0 20mm; display: flex; flex-direction: column;\n"
+    "  justify-content: space-evenly; }\n"
+    "hr { border: 0; border-top: .2mm solid #9c9c9c; width: 100%; margin: 0; }"
+    "\n"
+    ".small { font-size: 8pt; color: #444; line-height: 1.25; }\n"
+    "a { color: inherit; text-decoration: none; } code { font-size: 7pt; }\n"
+    "sup, sub { font-size: .7em; line-height: 0; }\n"
+    ".frac { display: inline-flex; flex-direction: column; text-align: center;"
+    "\n  vertical-align: middle; padding: 0 .15em; }\n"
+    ".frac span:first-child { border-bottom: .25mm solid; }\n"
+    ".root { border-top: .25mm solid; }\n"
+    "table { display: inline-table; vertical-align: middle; margin: .3mm;\n"
+    "  position: relative; border-collapse: collapse; }\n"
+    "table::before, table::after { content: \"\"; position: absolute; top: 0;\n"
+    "  bottom: 0; width: .25em; border: .3mm solid; }\n"
+    "table::before { left: 0; border-right: 0; }\n"
+    "table::after { right: 0; border-left: 0; }\n"
+    "td { padding: 0 .4em; text-align: right; }\n"
     "</style>\n</head>\n<body>\n"
     "<h1>Reliable simulation of elastodynamics</h1>\n"
-    "<p>Every page is a scene of the program elasto; what stands below a "
-    "picture opens\nit there, to be touched. What a page claims is held by a "
+    "<p class=\"small\">Every picture is a scene of the program elasto, which "
+    "the line below it opens, to be touched. What a page says is held by a "
     "test.</p>\n";
 
 /* ---- text --------------------------------------------------------------- */
 
-/* With what HTML takes for its own written out. */
-static void write_escaped(FILE *file, const char *text)
+/* What opens a part of a formula, and what it is in HTML up to its end. */
+typedef struct Mark {
+    const char *opens, *html, *closes;
+    const char *part, *between; /* and between its parts */
+    const char *part_of_row;
+} Mark;
+
+static const Mark marks[] = {
+    {"^{", "<sup>", "</sup>", NULL, NULL, NULL},
+    {"_{", "<sub>", "</sub>", NULL, NULL, NULL},
+    {"frac{", "<span class=\"frac\"><span>", "</span></span>", " over ",
+     "</span><span>", NULL},
+    {"sqrt{", "\u221a<span class=\"root\">", "</span>", NULL, NULL, NULL},
+    {"matrix{", "<table><tr><td>", "</td></tr></table>", "; ",
+     "</td></tr><tr><td>", "& "},
+};
+static const Mark coloured = {"#", "", "</span>", NULL, NULL, NULL};
+
+static bool begins(const char *text, const char *with)
 {
-    for (; *text; text++)
-        if (*text == '&')
-            fputs("&amp;", file);
-        else if (*text == '<')
-            fputs("&lt;", file);
-        else
-            fputc(*text, file);
+    return with && strncmp(text, with, strlen(with)) == 0;
 }
 
-/* <p>, a head in bold if there is one, and the text. */
-static void write_paragraph(FILE *file, const char *head, const char *text)
+/* The mark that opens here, or NULL. */
+static const Mark *find_mark(const char *text)
 {
-    fprintf(file, *head ? "<p><b>%s</b> " : "<p>%s", head);
-    write_escaped(file, text);
-    fputs("</p>\n", file);
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        if (begins(text, marks[i].opens))
+            return &marks[i];
+    size_t name = strspn(text + 1, "abcdefghijklmnopqrstuvwxyz");
+    return *text == '#' && text[1 + name] == '{' ? &coloured : NULL;
+}
+
+/* A word in its colour begins: #name{; returns where it goes on. */
+static const char *open_colour(FILE *file, const char *name)
+{
+    size_t length = strcspn(name, "{}");
+    fprintf(file, "<span style=\"color:#%06x\">",
+            colour_named(name, length) & 0xffffffu);
+    return name + length + 1;
+}
+
+/* Markup (text.h) as HTML; & and < are written out. */
+static void write_text(FILE *file, const char *text)
+{
+    static const char *const letters[][2] = {
+        {"{x}", "x"}, {"{xt}", "x\u0303"}, {"{p}", "p"}, {"{alpha}", "\u03b1"}};
+    const Mark *open[16] = {NULL};
+    int depth = 0;
+    while (*text) {
+        const Mark *mark = find_mark(text), *in = open[depth];
+        size_t letter = 0;
+        while (letter < 4 && !begins(text, letters[letter][0]))
+            letter++;
+        if (mark && depth < 15) {
+            open[++depth] = mark;
+            text += strlen(mark->opens);
+            if (mark == &coloured)
+                text = open_colour(file, text);
+            fputs(mark->html, file);
+        } else if (letter < 4) {
+            text = open_colour(file, text + 1);
+            fprintf(file, "%s</span>", letters[letter][1]);
+        } else if (in && *text == '}') {
+            fputs(open[depth--]->closes, file);
+            text++;
+        } else if (in && begins(text, in->part)) {
+            text += strlen(in->part);
+            fputs(in->between, file);
+        } else if (in && begins(text, in->part_of_row)) {
+            text += strlen(in->part_of_row);
+            fputs("</td><td>", file);
+        } else {
+            const char *escaped = *text == '&'   ? "&amp;"
+                                  : *text == '<' ? "&lt;"
+                                                 : NULL;
+            if (escaped)
+                fputs(escaped, file);
+            else
+                fputc(*text, file);
+            text++;
+        }
+    }
+    while (depth > 0)
+        fputs(open[depth--]->closes, file);
+}
+
+/* <p> or another element, a head in bold, and what is known of the text now,
+ * line by line; nothing where nothing is. */
+static void write_said(FILE *file, const Show *show, const char *element,
+                       const char *head, const char *text)
+{
+    char words[WORDS] = "";
+    if (text)
+        show_say(show, text, words, sizeof words);
+    if (!words[0])
+        return;
+    fprintf(file, *head ? "<%s><b>%s</b> " : "<%s>", element, head);
+    for (char *line = words; line;) {
+        char *next = strchr(line, '\n');
+        if (next)
+            *next++ = '\0';
+        write_text(file, line);
+        if (next)
+            fputs("<br>", file);
+        line = next;
+    }
+    fprintf(file, "</%.*s>\n", (int)strcspn(element, " "), element);
 }
 
 /* ---- pictures ----------------------------------------------------------- */
@@ -85,39 +206,48 @@ static Status write_base64(FILE *file, const char *name)
 }
 
 /* Goes to what the page's picture shows: what it opens with, and so many lines
- * more, or a step. */
+ * or steps more. */
 static Status go_to_picture(Player *player, const LecturePage *page)
 {
     const Command next = {.kind = COMMAND_NEXT};
-    if (!page->open)
+    if (!page->open && !page->lines)
         return player_run(player);
     Status status = player_open_page(player);
     for (int i = 0; i < page->lines && !status; i++)
         status = player_obey(player, &next);
-    return status;
+    return status || page->lines ? status : player_run(player);
 }
 
+/* Stage and cards alone, in few shades, so that the file is small. */
 static Status draw_picture(Player *player, const char *name)
 {
     Paper *paper = view_paper(player->view);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    player_paint(player, paper);
-    return png_file_write(name, &paper->canvas);
+    player_fill(player);
+    player->show.print = true;
+    player->show.letter = PICTURE_EM;
+    show_draw(paper, &player->show);
+    Canvas *canvas = &paper->canvas;
+    for (size_t i = 0; i < (size_t)canvas->width * canvas->height; i++) {
+        Colour shade = 0xff000000u;
+        for (int shift = 0; shift < 24; shift += 8) {
+            Colour value = canvas->pixels[i] >> shift & 255;
+            shade |= (value * INKS + 127) / 255 * (255 / INKS) << shift;
+        }
+        canvas->pixels[i] = shade;
+    }
+    return png_file_write(name, canvas, true);
 }
 
 /* Plays the page without a screen.  name in, of the file with its picture */
-static Status play_page(const LecturePage *page,
-                        const volatile sig_atomic_t *stop, Player *player,
-                        const char *name, char *message, size_t size)
+static Status play_page(Options *options, const volatile sig_atomic_t *stop,
+                        Player *player, const char *name)
 {
-    Options options;
-    Status status = lecture_options(page, &options, message, size);
-    if (status)
-        return status;
-    options.headless = options.quiet = true;
-    options.steps = page->picture;
-    status = player_create(&options, 1, "elasto", stop, player);
+    const LecturePage *page = options->page;
+    options->headless = options->quiet = true;
+    options->steps = page->picture;
+    Status status = player_create(options, 1, "elasto", stop, player);
     if (!status)
         status =
             view_create_surface(PICTURE_WIDTH, PICTURE_HEIGHT, &player->view);
@@ -127,47 +257,36 @@ static Status play_page(const LecturePage *page,
         status = STATUS_OK; /* the end of the run is what the page shows */
     if (!status)
         status = *stop ? STATUS_INTERRUPTED : draw_picture(player, name);
-    player_free(player);
     return status;
 }
 
-static Status write_page(FILE *file, int number,
-                         const volatile sig_atomic_t *stop, Player *player,
-                         const char *name, char *message, size_t size)
+/* ---- pages -------------------------------------------------------------- */
+
+/* The page that the player shows. */
+static Status write_page(FILE *file, const LecturePage *page, const Show *show,
+                         const char *name)
 {
-    const LecturePage *page = &lecture_pages[number - 1];
-    fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name, number);
-    write_escaped(file, page->topic);
-    fputs("</h2>\n", file);
-    write_paragraph(file, "", page->text);
-    Status status = play_page(page, stop, player, name, message, size);
-    if (status)
-        return status;
-    fputs("<img alt=\"", file);
-    write_escaped(file, page->topic);
+    fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name,
+            (int)(page - lecture_pages) + 1);
+    write_text(file, page->topic);
+    fputs("</h2>\n<div class=\"say\">", file);
+    write_said(file, show, "p", "", page->text);
+    write_said(file, show, "div", "", page->formula);
+    fputs("</div>\n<img alt=\"", file);
+    write_text(file, page->topic);
     fputs("\" src=\"data:image/png;base64,\n", file);
-    status = write_base64(file, name);
+    Status status = write_base64(file, name);
+    fputs("\n\">\n", file);
+    write_said(file, show, "p class=\"small\"", "Look:", page->look);
+    write_said(file, show, "p class=\"small\"", "Try:", page->touch);
     fprintf(file,
-            "\n\">\n<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
-            "live</a>; <code>elasto --lecture %s</code> or "
-            "<code>elasto %s</code></p>\n",
+            "<p class=\"small\"><a href=\"elasto.html#--lecture+%s\">"
+            "live: elasto.html#--lecture+%s</a> or <code>elasto %s</code></p>"
+            "\n",
             page->name, page->name, page->line);
-    write_paragraph(file, "Look:", page->look);
-    write_paragraph(file, "Try:", page->touch);
-    write_paragraph(file, "Tested:", page->claim);
-    fputs("</section>\n", file);
+    write_said(file, show, "p", "Question:", page->ask);
+    fputs("<div class=\"room\"><hr><hr><hr></div>\n</section>\n", file);
     return status;
-}
-
-static void write_contents(FILE *file)
-{
-    fputs("<nav>\n", file);
-    for (int i = 0; lecture_pages[i].name; i++) {
-        fprintf(file, "<a href=\"#%s\">%d. ", lecture_pages[i].name, i + 1);
-        write_escaped(file, lecture_pages[i].topic);
-        fputs("</a>\n", file);
-    }
-    fputs("</nav>\n", file);
 }
 
 /* Pictures are made beside the handout and go when they stand in it. */
@@ -182,11 +301,18 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
     if (status)
         return status;
     fputs(handout_head, output.file);
-    write_contents(output.file);
-    for (int i = 1; i <= lecture_count() && !status; i++) {
-        status = write_page(output.file, i, stop, player, name, message, size);
+    for (const LecturePage *page = lecture_pages; page->name && !status;
+         page++) {
+        Options of_page;
+        status = lecture_options(page, &of_page, message, size);
+        if (status)
+            break; /* which a test rules out */
+        status = play_page(&of_page, stop, player, name);
+        if (!status)
+            status = write_page(output.file, page, &player->show, name);
         if (!status)
             status = output_check(&output);
+        player_free(player);
     }
     int reason = errno;
     unlink(name);

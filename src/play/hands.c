@@ -5,6 +5,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathematics.h"
@@ -61,14 +62,26 @@ static Status ask_at(Player *player, CommandKind kind, long number,
 
 /* ---- the keyboard -------------------------------------------------------- */
 
+/* Whether a list is open whose lines have numbers. */
+static bool lists(const Player *player)
+{
+    return player->column == COLUMN_PAGES || player->column == COLUMN_OPTIONS ||
+           player->sheet;
+}
+
 /* Who listens to the keys. */
 static Keyboard keyboard_now(const Player *player)
 {
     bool number = player->selected >= 0 && player->selected < player->numbers;
-    bool list = player->column == COLUMN_PAGES;
-    if (player->typing && (number || list))
+    bool list = lists(player);
+    bool asks = player_veils(player) && player_settings(player)->page->answer;
+    if (player->typing && (number || list || asks))
         return AT_FIELD;
-    return number ? AT_NUMBER : list ? AT_LIST : AT_RUN;
+    return player->sheet ? AT_SHEET
+           : number      ? AT_NUMBER
+           : list        ? AT_LIST
+           : asks        ? AT_QUESTION
+                         : AT_RUN;
 }
 
 void player_deselect(Player *player)
@@ -96,6 +109,7 @@ static void key_letter(const char *key, char *letter, size_t size)
 Status obey_type(Player *player, const Command *command)
 {
     char *typed = player->typed, letter[8];
+    bool list = lists(player);
     if (!player->typing)
         typed[0] = '\0';
     player->typing = true;
@@ -117,33 +131,61 @@ Status obey_type(Player *player, const Command *command)
     if (player->selected >= 0)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
     else
-        player_note(player, "page %s_: Enter opens it, Esc leaves it", typed);
+        player_note(player, "%s %s_: Enter %s it, Esc leaves it",
+                    !list                              ? "your answer"
+                    : player->column == COLUMN_OPTIONS ? "number"
+                                                       : "page",
+                    typed, list ? "opens" : "checks");
     return STATUS_OK;
 }
 
-/* The page is opened, or the number is set; what cannot be read leaves the
- * field as it is. */
+/* A line of the list of pages or of numbers, as it was typed or hit. */
+static Status open_line(Player *player, const char *line)
+{
+    const OptionRow *all[OPTIONS_MOST];
+    Command command = {.kind = COMMAND_PAGE, .joins = true};
+    snprintf(command.text, sizeof command.text, "%s", line);
+    if (player->column == COLUMN_OPTIONS && !player->sheet) {
+        char *end;
+        long number = strtol(line, &end, 10);
+        int count = player_all_numbers(player, all);
+        if (*end || number < 1 || number > count)
+            return player_refuse(player, "there is no such number in the list");
+        command.kind = COMMAND_ADD;
+        command.number = all[number - 1] - option_rows;
+    }
+    return player_obey(player, &command);
+}
+
+/* The page is opened, the answer is checked, or the number is set; what cannot
+ * be read leaves the field as it is. */
 Status obey_enter(Player *player, const Command *command)
 {
     (void)command;
-    const bool page = player->selected < 0;
-    const OptionRow *row = page ? NULL : player->number[player->selected];
-    Command made = {.kind = page ? COMMAND_PAGE : COMMAND_SET, .joins = true};
+    if (player->selected < 0 && !lists(player))
+        return player_check_answer(player);
+    Command made = {.kind = COMMAND_SET, .joins = true};
     char read[COMMAND_TEXT_SIZE] = "", note[sizeof player->note], unit[16];
     char typed[sizeof player->typed];
+    Status status;
     memcpy(typed, player->typed, sizeof typed);
-    memcpy(made.text, typed, sizeof typed);
-    if (row) {
-        made.number = row - option_rows;
-        if (option_read(row, typed, &made.x))
-            made.text[0] = '\0';
-        option_write(row, made.x, read, sizeof read);
+    if (player->selected < 0) {
+        status = open_line(player, typed);
+        player->typing = player->typing && status;
+        return status;
     }
-    Status status = player_obey(player, &made);
+    const OptionRow *row = player->number[player->selected];
+    made.number = row - option_rows;
+    bool one = row->count <= 1 && option_read(row, typed, &made.x);
+    if (one)
+        option_write(row, made.x, read, sizeof read);
+    else
+        memcpy(made.text, typed, sizeof typed);
+    status = player_obey(player, &made);
     if (status)
         return status;
     player_deselect(player);
-    if (!row || strcmp(typed, read) == 0)
+    if (!one || strcmp(typed, read) == 0)
         return STATUS_OK;
     memcpy(note, player->note, sizeof note);
     option_unit(row, unit, sizeof unit);
@@ -168,6 +210,8 @@ static Status pace(Player *player, int index, int paces)
         return STATUS_OK;
     const OptionRow *row = player->number[index];
     Options options = player_numbers(player);
+    if (row->count > 1)
+        return player_refuse(player, "several numbers: type them");
     return player_ask_set(player, row, option_paced(row, &options, paces));
 }
 
@@ -179,6 +223,8 @@ static Status drag_number(Player *player)
         return STATUS_OK;
     const OptionRow *row = player->number[mouse->index];
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
+    if (row->count > 1)
+        return pace(player, mouse->index, 1);
     if (row->kind == OPTION_NAME) {
         double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
         if (fabs(names) < 1)
@@ -238,12 +284,23 @@ static int near_node(const Player *player, const Under *under)
 static Status take(Player *player, const Under *under)
 {
     Mouse *mouse = &player->mouse;
-    const LecturePage *page = player_settings(player)->page;
-    bool stretches;
+    const Options *options = player_settings(player);
+    const LecturePage *page = options->page;
+    const double *point;
+    bool stretches, paused = player->mode == MODE_PAUSE;
+    int ball;
     mouse->index = under->pick.index;
     switch (under->pick.kind) {
     case PICK_NODE:
-        mouse->drag = COMMAND_GRAB;
+        mouse->drag = paused ? COMMAND_PLACE : COMMAND_GRAB;
+        return STATUS_OK;
+    case PICK_OBSTACLE:
+        mouse->drag = COMMAND_OBSTACLE;
+        ball = mouse->index - (int)options->grounds;
+        point =
+            ball < 0 ? options->ground[mouse->index] + 2 : options->ball[ball];
+        mouse->grip[0] = point[0] - under->at[0];
+        mouse->grip[1] = point[1] - under->at[1];
         return STATUS_OK;
     case PICK_EDGE:
         stretches = player->mode == MODE_PAUSE || player->mode == MODE_WALK;
@@ -264,7 +321,9 @@ static Status take(Player *player, const Under *under)
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
         mouse->index = near_node(player, under);
-        mouse->drag = mouse->index >= 0 ? COMMAND_GRAB : COMMAND_PAN;
+        mouse->drag = mouse->index < 0 ? COMMAND_PAN
+                      : paused         ? COMMAND_PLACE
+                                       : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
@@ -282,6 +341,38 @@ static Status pin(Player *player, const Under *under)
     return ask(player, COMMAND_PIN, node < 0 ? 0 : node);
 }
 
+/* The hand takes the node; of a pin it makes a free one first. */
+static Status grab(Player *player)
+{
+    Mouse *mouse = &player->mouse;
+    mouse->pins = simulation_is_pinned(player_simulation(player), mouse->index);
+    Status status =
+        mouse->pins ? ask(player, COMMAND_PIN, mouse->index) : STATUS_OK;
+    return status ? status : ask(player, COMMAND_GRAB, mouse->index);
+}
+
+/* A ball where nothing is, as large as there is room for, but no larger than an
+ * eighth of the square. */
+static Status put_ball(Player *player, const double at[2])
+{
+    const Simulation *simulation = player_simulation(player);
+    Command command = {.kind = COMMAND_SET,
+                       .number = option_find("ball") - option_rows,
+                       .joins = true};
+    double radius = simulation->options.side / 8;
+    for (int i = 0; i < simulation->system.nodes; i++) {
+        const double *x = simulation->run[0].x + 2 * (size_t)i;
+        double away = math_hypot(x[0] - at[0], x[1] - at[1]);
+        radius = fmin(radius, 0.8 * away);
+    }
+    snprintf(command.text, sizeof command.text, "%.4g,%.4g,%.3g", at[0], at[1],
+             radius);
+    Status status = player_obey(player, &command);
+    if (!status)
+        player_note(player, "a ball; drag moves it, Ctrl+Z takes it away");
+    return status;
+}
+
 /* What is held follows the mouse. */
 static Status follow(Player *player)
 {
@@ -295,8 +386,13 @@ static Status follow(Player *player)
     switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
     case COMMAND_GRAB:
         if (!player->holds)
-            status = ask(player, COMMAND_GRAB, mouse->index);
+            status = grab(player);
         return status ? status : ask_at(player, COMMAND_DRAG, 0, under.at);
+    case COMMAND_OBSTACLE:
+        under.at[0] += mouse->grip[0];
+        under.at[1] += mouse->grip[1];
+        return ask_at(player, mouse->drag, mouse->index, under.at);
+    case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
         return ask_at(player, mouse->drag, mouse->index, under.at);
@@ -329,9 +425,13 @@ static Status hover(Player *player)
         under.hit.zone == show->over.zone &&
         under.hit.index == show->over.index && pick.kind == show->hover.kind &&
         pick.index == show->hover.index && pick.pane == show->hover.pane;
-    bool idle = pick.kind == PICK_NONE && under.hit.zone != ZONE_TIME;
+    bool idle = pick.kind == PICK_NONE && under.hit.zone != ZONE_TIME &&
+                !show->lecture; /* where terms light up */
+    if (under.hit.zone == ZONE_CELL)
+        show->chosen = under.hit.index;
     show->over = under.hit;
     show->hover = pick;
+    player->explains = player->explains || !same;
     if (!same || !idle)
         player->changed = true;
     return pick.kind == PICK_CELL && !same
@@ -339,23 +439,23 @@ static Status hover(Player *player)
                : STATUS_OK;
 }
 
-/* The row of the list of pages that was hit. */
+/* The line of the list that was hit. */
 static Status page_clicked(Player *player, const Under *under)
 {
-    Command command = {.kind = COMMAND_PAGE, .joins = true};
+    char line[16];
     int row = show_help_row(&player->show, &under->layout, player->mouse.x,
                             player->mouse.y);
-    if (player->column != COLUMN_PAGES || row < 0)
+    if (keyboard_now(player) != AT_LIST || row < 0)
         return STATUS_OK;
-    snprintf(command.text, sizeof command.text, "%d", row + 1);
-    return player_obey(player, &command);
+    snprintf(line, sizeof line, "%d", row + 1);
+    return open_line(player, line);
 }
 
 static Status number_pressed(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->mouse;
-    if (index >= player->numbers)
-        return STATUS_OK;
+    if (index >= player->numbers) /* the plus behind them */
+        return ask(player, COMMAND_OPTIONS, 0);
     player->selected = index;
     player->changed = true;
     if (clicks == 2)
@@ -372,6 +472,7 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     int index = under->hit.index;
     bool ground =
         under->pick.kind == PICK_NONE || under->pick.kind == PICK_SPRING;
+    bool body = player_simulation(player)->scene->needs & NEEDS_BODY;
     Status status = STATUS_OK;
     player_deselect(player);
     switch (under->hit.zone) {
@@ -388,19 +489,25 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         return number_pressed(player, index, clicks);
     case ZONE_PAGE:
         return page_clicked(player, under);
+    case ZONE_CELL:
+        return player_open_cell(player, index);
     case ZONE_STRIP:
-        player_note(player, player_settings(player)->page
-                                ? "Page Down and Page Up turn the pages, G "
-                                  "lists them, 1 ... 9 open scenes"
-                                : "1 ... 9 open other scenes, ? lists them; "
-                                  "Page Down begins the lecture");
+        player_note(player,
+                    player_settings(player)->page
+                        ? "Page Down and Page Up turn the pages, Shift+G "
+                          "lists them; G shows all scenes"
+                        : "G shows all scenes; Page Down begins the "
+                          "lecture");
         return STATUS_OK;
     case ZONE_STAGE:
         if (under->pane != player->active)
             status = ask(player, COMMAND_PANE, under->pane);
-        return status                  ? status
-               : clicks == 2 && ground ? ask(player, COMMAND_FIT, 0)
-                                       : take(player, under);
+        if (status || clicks < 2 || !ground)
+            return status ? status : take(player, under);
+        return body && near_node(player, under) < 0 &&
+                       under->pick.kind == PICK_NONE
+                   ? put_ball(player, under->at)
+                   : ask(player, COMMAND_FIT, 0);
     default:
         return STATUS_OK;
     }
@@ -432,8 +539,11 @@ static Status released(Player *player)
     mouse->drag = COMMAND_NONE;
     if (drag == COMMAND_GOTO)
         player->changed = true; /* now the cards know the step */
-    if (drag == COMMAND_GRAB && player->holds)
-        return ask(player, COMMAND_RELEASE, 0);
+    if (drag == COMMAND_GRAB && player->holds) {
+        Status status = ask(player, COMMAND_RELEASE, 0);
+        return !status && mouse->pins ? ask(player, COMMAND_PIN, mouse->index)
+                                      : status;
+    }
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         mouse->index < player->numbers &&
         player->number[mouse->index]->kind == OPTION_NAME)
@@ -483,6 +593,12 @@ Status player_input(Player *player, const Input *input)
     Mouse *mouse = &player->mouse;
     Command command;
     bool wheel = input->kind == INPUT_WHEEL;
+    Status status = STATUS_OK;
+    player->gesture = mouse->gesture;
+    if (input->kind == INPUT_PRESS && mouse->drag != COMMAND_NONE)
+        status = released(player); /* by another button */
+    if (status)
+        return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&
                mouse->drag == COMMAND_NONE;
     if (input->kind == INPUT_PRESS || key || (wheel && !mouse->turns))
@@ -501,7 +617,7 @@ Status player_input(Player *player, const Input *input)
         return ask(player, COMMAND_REDRAW, 0);
     case INPUT_LEAVE:
         player->show.hover = (Pick){.kind = PICK_NONE};
-        player->show.over = (Hit){ZONE_NONE, 0};
+        player->show.over = (Hit){.zone = ZONE_NONE};
         player->changed = true;
         return STATUS_OK;
     case INPUT_NONE:

@@ -35,7 +35,7 @@ void player_note(Player *player, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(player->note, sizeof player->note, format, arguments);
     va_end(arguments);
-    player->warning = false;
+    player->warning = player->explains = false;
     player->changed = true;
 }
 
@@ -45,11 +45,9 @@ void player_note(Player *player, const char *format, ...)
  * command says so, or drags what was grabbed. */
 static void begin_gesture(Player *player, const Command *command)
 {
-    if (command->joins)
-        return;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
         player->gesture = player->held;
-    else
+    else if (!command->joins)
         player_next_gesture(player);
     if (command->kind == COMMAND_GRAB)
         player->held = player->gesture;
@@ -87,7 +85,8 @@ static void join_lines(Player *player, size_t at)
     if (line[-1].step != line->step || line[-1].command.kind != kind ||
         line[-1].command.number != line->command.number ||
         (kind != COMMAND_START && kind != COMMAND_HANDLE &&
-         kind != COMMAND_SET))
+         kind != COMMAND_PLACE && kind != COMMAND_OBSTACLE &&
+         (kind != COMMAND_SET || line->command.text[0])))
         return;
     line->command.joins = line[-1].command.joins;
     line[-1] = *line;
@@ -99,7 +98,8 @@ static void join_lines(Player *player, size_t at)
 /* Whether the message of before may stay. */
 static bool keeps_note(const Player *player, CommandKind kind)
 {
-    if (kind == COMMAND_SET && player->mouse.drag != COMMAND_NONE)
+    if ((kind == COMMAND_SET || kind == COMMAND_PLACE) &&
+        player->mouse.drag != COMMAND_NONE)
         return true;
     return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
            kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
@@ -148,12 +148,19 @@ Status player_obey(Player *player, const Command *asked)
     player->changed = true;
     player->message[0] = '\0';
     player->leaving = player->leaving && command.kind == COMMAND_ESCAPE;
-    if (command.kind != COMMAND_REDRAW)
-        player->glide = 0;
     if (!keeps_note(player, command.kind))
         player->note[0] = '\0';
     if (past->works && command.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
+    if (player_veils(player) &&
+        (command.kind == COMMAND_NEXT || command.kind == COMMAND_PLAY)) {
+        player->told = player_settings(player)->page;
+        if (player->told->answer) { /* first the answer, then the step */
+            player_note(player, "it is %.4g",
+                        show_number(&player->show, player->told->answer));
+            return STATUS_OK;
+        }
+    }
     if (past->works && !(flags & SCREEN)) {
         past_drop(past);
         player->then = THEN_NOTHING;

@@ -8,28 +8,29 @@
 
 #include "scenes/scene.h"
 
-/* ---- entries ------------------------------------------------------------- */
+/* ---- reading ------------------------------------------------------------- */
+
+static Branch *present(const Past *past)
+{
+    return &past->branch[past->now];
+}
 
 int past_panes(const Past *past)
 {
-    return past->branches > 0 ? past->branch[past->now].panes : 0;
+    return past->branches > 0 ? present(past)->panes : 0;
 }
 
 long past_newest(const Past *past)
 {
-    const Branch *branch = &past->branch[past->now];
-    return branch->first + branch->count - 1;
+    return present(past)->first + present(past)->count - 1;
 }
 
-/* The entry of a step as branch b sees it: its own, or one below; behind the
+/* The entry of a step as this branch sees it: its own, or one below; behind the
  * last, the one that is being made. */
-static Entry *entry_in(const Past *past, int b, int pane, long step)
+static Entry *entry_in(const Branch *branch, int pane, long step)
 {
-    const Branch *branch = &past->branch[b];
-    while (step < branch->first && !branch->fresh) {
+    for (; step < branch->first && !branch->fresh; branch--)
         pane = branch->source[pane];
-        branch = &past->branch[--b];
-    }
     long i = step - branch->first;
     return i < 0 || i >= branch->room
                ? NULL
@@ -38,7 +39,7 @@ static Entry *entry_in(const Past *past, int b, int pane, long step)
 
 static Entry *entry_of(const Past *past, int pane, long step)
 {
-    return entry_in(past, past->now, pane, step);
+    return entry_in(present(past), pane, step);
 }
 
 const Entry *past_entry(const Past *past, int pane, long step)
@@ -51,18 +52,11 @@ const Control *past_control(const Past *past, int pane)
     return entry_of(past, pane, past->step)->control;
 }
 
-/* The pane with which this one's run began; the branch where it did, out. */
-static int first_pane(const Past *past, int pane, const Branch **branch)
-{
-    for (*branch = &past->branch[past->now]; !(*branch)->fresh; --*branch)
-        pane = (*branch)->source[pane];
-    return pane;
-}
-
 const Control *past_start(const Past *past, int pane)
 {
-    const Branch *branch;
-    pane = first_pane(past, pane, &branch);
+    const Branch *branch = present(past);
+    for (; !branch->fresh; branch--)
+        pane = branch->source[pane];
     return branch->entry[pane].control;
 }
 
@@ -73,25 +67,54 @@ static bool has_failed(const Entry *entry)
     return entry->substeps == 0 && status && !status_is_unconverged(status);
 }
 
-long past_ended(const Past *past, int pane)
+long past_ended(const Past *past, int pane, long step)
 {
-    long last = past->step;
+    long last = step;
     while (last > 0 && has_failed(past_entry(past, pane, last)))
         last--;
-    return last < past->step ? last : -1;
+    return last < step ? last : -1;
 }
 
-long past_last_seen(const Past *past, int pane, long step, long from)
+long past_last_seen(const Past *past, int pane, long step)
 {
-    const Entry *first = past_entry(past, pane, from > 0 ? from : 1);
+    const Entry *first = past_entry(past, pane, 1);
     if (!first)
         return step;
     double most = PAST_EXPLODED * fmax(first->outcome.extent, 1e-300);
-    while (step > from &&
-           !(past_entry(past, pane, step)->outcome.extent <= most))
+    while (step > 0 && !(past_entry(past, pane, step)->outcome.extent <= most))
         step--;
     return step;
 }
+
+/* Every so manyth step has a place in a history, and the newest. */
+static long history_stride(const Past *past)
+{
+    long stride = 1;
+    while (past_newest(past) / stride > HISTORY_POINTS - 2)
+        stride *= 2;
+    return stride;
+}
+
+void past_history(const Past *past, int pane, History *history)
+{
+    long last = past_newest(past), stride = history_stride(past);
+    long ended = past_ended(past, pane, last);
+    if (ended >= 0)
+        last = past_last_seen(past, pane, ended);
+    history_clear(history);
+    for (long step = 0; step < last + stride; step += stride) {
+        const Entry *entry = entry_of(past, pane, step < last ? step : last);
+        const Sample *sample = entry ? entry->sample : NULL;
+        /* An explosion's energies would flatten those of others. */
+        if (sample && ended >= 0 && history->count > 0 &&
+            sample->row[0].value > PAST_EXPLODED * fabs(history->value[0][0]))
+            return;
+        if (sample)
+            history_add(history, sample->time, sample->rows, sample->row);
+    }
+}
+
+/* ---- entries and branches ------------------------------------------------ */
 
 static void drop_state(Past *past, Entry *entry)
 {
@@ -101,10 +124,17 @@ static void drop_state(Past *past, Entry *entry)
     entry->state = NULL;
 }
 
+static void drop_sample(Entry *entry)
+{
+    free(entry->sample);
+    entry->sample = NULL;
+}
+
 static void drop_entry(Past *past, Entry *entry)
 {
     control_drop(entry->control);
     drop_state(past, entry);
+    drop_sample(entry);
     *entry = (Entry){0};
 }
 
@@ -134,35 +164,6 @@ static Status make_room(Past *past, Branch *branch)
     return STATUS_OK;
 }
 
-/* ---- branches ------------------------------------------------------------ */
-
-/* A copy of these, or empty ones; NULL: no memory. */
-static Curves *copy_curves(const Curves *from)
-{
-    Curves *curves = malloc(sizeof *curves);
-    if (curves && from)
-        *curves = *from;
-    if (!curves || from)
-        return curves;
-    history_clear(&curves->history);
-    curves->sampled = -1;
-    return curves;
-}
-
-/* Curves forget what came after this step. */
-static void cut_curves(Curves *curves, long step, double time)
-{
-    if (!curves || curves->sampled <= step)
-        return;
-    history_cut(&curves->history, time);
-    curves->sampled = step;
-}
-
-Curves *past_curves(const Past *past, int pane)
-{
-    return past->branch[past->now].curves[pane];
-}
-
 /* Branches from this one on go. */
 static void drop_branches(Past *past, int from)
 {
@@ -170,36 +171,112 @@ static void drop_branches(Past *past, int from)
         Branch *branch = &past->branch[--past->branches];
         for (long i = 0; i < branch->room * branch->panes; i++)
             drop_entry(past, &branch->entry[i]);
-        for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-            control_drop(branch->second[p]);
-            free(branch->curves[p]);
-        }
         free(branch->entry);
     }
 }
 
-/* Entry 0 of a pane of the topmost branch, and the curves up to it, as the
- * branch below has them. */
-static void copy_entry(Past *past, Branch *branch, int pane)
+/* ---- states -------------------------------------------------------------- */
+
+/* Every second kept state of the branch with the finest ones goes.  Of equals
+ * the branch that is shown comes last. */
+static bool thin_states(Past *past)
 {
-    int below = branch[-1].panes, b = past->branches - 1;
-    int source = pane < below ? pane : below - 1;
-    const Entry *from = entry_in(past, b, source, branch->first);
+    Branch *finest = NULL;
+    for (int b = 0; b < past->branches; b++) {
+        Branch *branch = &past->branch[b];
+        bool finer = !finest || branch->stride < finest->stride ||
+                     (branch->stride == finest->stride && b != past->now);
+        if (branch->stride <= branch->count && finer)
+            finest = branch;
+    }
+    if (!finest)
+        return false;
+    finest->stride *= 2;
+    for (long i = 0; i < finest->room * finest->panes; i++)
+        if (i / finest->panes % finest->stride)
+            drop_state(past, &finest->entry[i]);
+    return true;
+}
+
+/* Where the state of a step is kept. */
+typedef struct Kept {
+    Entry *entry;
+    bool due;          /* it is one of those that stay */
+    bool dragged;      /* its branch begins with it, as it is */
+    const Control *by; /* that it was made with */
+} Kept;
+
+/* In the branch that has made the step, or in which something was dragged. */
+static Kept kept_of(const Past *past, int pane, long step)
+{
+    const Branch *branch = present(past);
+    while (!branch->fresh &&
+           (step < branch->first ||
+            (step == branch->first && !branch->entry[pane].state))) {
+        pane = branch->source[pane];
+        branch--;
+    }
+    long i = step - branch->first;
+    Entry *entry = &branch->entry[i * branch->panes + pane];
+    return (Kept){entry, i % branch->stride == 0, i == 0,
+                  i > 0 ? entry[-branch->panes].control : entry->control};
+}
+
+/* The machine's state into an entry, before which others give way. */
+static Status keep_state(Past *past, int pane, Entry *entry)
+{
+    const Simulation *simulation = &past->machine[pane].simulation;
+    size_t size = state_bytes(simulation);
+    drop_state(past, entry);
+    while (past->bytes + size > past->limit && thin_states(past))
+        continue;
+    entry->state = malloc(sizeof *entry->state + size);
+    if (!entry->state)
+        return STATUS_OUT_OF_MEMORY;
+    entry->state->size = size;
+    past->bytes += size;
+    state_save(simulation, entry->state->bytes);
+    return STATUS_OK;
+}
+
+/* Where a machine stands, its state is kept for changes, due or not; it leaves
+ * that step. */
+static void leave_step(Past *past, int pane)
+{
+    Machine *machine = &past->machine[pane];
+    if (!machine->stands)
+        return;
+    Kept kept = kept_of(past, pane, machine->step);
+    if (!kept.due)
+        drop_state(past, kept.entry);
+    machine->stands = false;
+}
+
+static void leave_all(Past *past)
+{
+    for (int p = 0; p < past_panes(past); p++)
+        leave_step(past, p);
+}
+
+/* The first entries of a pane, as the branch below has them. */
+static void copy_entries(Branch *branch, int pane)
+{
+    int below = branch[-1].panes, source = pane < below ? pane : below - 1;
+    for (int i = 0; i < branch->given; i++) {
+        const Entry *from = entry_in(branch - 1, source, branch->first + i);
+        Entry *to = &branch->entry[i * branch->panes + pane];
+        to->control = control_keep(from->control);
+        to->substeps = i == 0 ? from->substeps : 0;
+        if (i == 0)
+            to->outcome = from->outcome;
+    }
     branch->source[pane] = source;
-    branch->entry[pane] = (Entry){.number = ++past->numbers,
-                                  .control = control_keep(from->control),
-                                  .substeps = from->substeps,
-                                  .outcome = from->outcome};
-    branch->curves[pane] = copy_curves(branch[-1].curves[source]);
-    cut_curves(branch->curves[pane], branch->first, from->outcome.time);
 }
 
 /* A branch on top of the present one, in the place of those that were undone,
  * with one entry.  NULL: no memory. */
-static Branch *push_branch(Past *past, bool fresh, long first, int panes,
-                           const Command *edit, int gesture)
+static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
-    enum { LONG_AGO = 16 }; /* branches, whose curves are forgotten */
     drop_branches(past, past->now + 1);
     if (past->branches == past->room) {
         int room = past->room ? 2 * past->room : 16;
@@ -210,86 +287,23 @@ static Branch *push_branch(Past *past, bool fresh, long first, int panes,
         past->room = room;
     }
     Branch *branch = &past->branch[past->branches];
-    *branch = (Branch){.fresh = fresh,
-                       .first = first,
-                       .stride = 1,
-                       .panes = panes,
-                       .gesture = gesture,
-                       .edit = *edit};
+    *branch = wanted;
+    branch->stride = 1;
+    branch->edit = *edit;
     if (make_room(past, branch))
         return NULL;
     branch->count = 1;
-    branch->run = fresh ? ++past->numbers : branch[-1].run;
-    for (int p = 0; p < panes; p++)
-        if (fresh)
-            branch->curves[p] = copy_curves(NULL);
-        else
-            copy_entry(past, branch, p);
+    for (int p = 0; p < past_panes(past); p++) /* others may go on */
+        if (branch->fresh || p >= branch->panes ||
+            past->machine[p].step > branch->first)
+            leave_step(past, p);
+    for (int p = 0; p < branch->panes && !branch->fresh; p++)
+        copy_entries(branch, p);
     if (past->branches > 0)
         branch[-1].shown = past->step;
-    for (int p = 0; past->branches >= LONG_AGO && p < OPTIONS_MAX_PANES; p++) {
-        free(branch[-LONG_AGO].curves[p]);
-        branch[-LONG_AGO].curves[p] = NULL;
-    }
     past->now = past->branches++;
-    past->step = past->aim = first;
+    past->step = past->aim = branch->first;
     return branch;
-}
-
-/* ---- states -------------------------------------------------------------- */
-
-/* Every second kept state of the branch with the finest ones goes; at last that
- * of its first entry, too, if there is a branch below.  Of equals the branch
- * that is shown comes last. */
-static bool thin_states(Past *past)
-{
-    Branch *finest = NULL;
-    for (int b = 0; b < past->branches; b++) {
-        Branch *branch = &past->branch[b];
-        bool finer = !finest || branch->stride < finest->stride ||
-                     (branch->stride == finest->stride && b != past->now);
-        if (branch->stride <= branch->count + !branch->fresh && finer)
-            finest = branch;
-    }
-    if (!finest)
-        return false;
-    finest->stride *= 2;
-    bool all = !finest->fresh && finest->stride > finest->count;
-    for (long i = 0; i < finest->room * finest->panes; i++)
-        if ((all || i / finest->panes % finest->stride) &&
-            !finest->entry[i].placed)
-            drop_state(past, &finest->entry[i]);
-    return true;
-}
-
-/* The machine's state for the entry of the present branch where it stands, if
- * that one keeps it.  Memory that is not there makes the past coarser; it is a
- * failure only for the first one and for a placed one. */
-static Status keep_state(Past *past, int pane)
-{
-    const Machine *machine = &past->machine[pane];
-    const Branch *branch = &past->branch[past->now];
-    Entry *entry = entry_of(past, pane, machine->step);
-    long i = machine->step - branch->first;
-    size_t size = past->keeps ? state_bytes(&machine->simulation) : 0;
-    drop_state(past, entry);
-    if (size == 0)
-        return STATUS_OK;
-    while (past->bytes + size > past->limit && thin_states(past))
-        continue;
-    bool due = i % branch->stride == 0 &&
-               (branch->fresh || i > 0 || branch->stride <= branch->count);
-    if (!due && !entry->placed)
-        return STATUS_OK;
-    entry->state = malloc(sizeof *entry->state + size);
-    if (!entry->state)
-        return (i > 0 || !branch->fresh) && !entry->placed
-                   ? STATUS_OK
-                   : STATUS_OUT_OF_MEMORY;
-    entry->state->size = size;
-    past->bytes += size;
-    state_save(&machine->simulation, entry->state->bytes);
-    return STATUS_OK;
 }
 
 /* ---- machines ------------------------------------------------------------ */
@@ -331,33 +345,34 @@ static bool watch(void *user, const NewtonRecord *record)
     return true;
 }
 
-static void free_simulation(Machine *machine)
+/* Nothing is told of any step. */
+static void forget_step(Machine *machine)
 {
-    simulation_free(&machine->simulation);
-    control_drop(machine->control);
-    machine->control = NULL;
-    machine->run = machine->entry = 0;
-    machine->iterating = machine->failed = machine->known = false;
+    machine->known = machine->failed = false;
     machine->substeps = 0;
     machine->records.count = 0;
     machine->records.lost = false;
 }
 
-/* A simulation of the present run, at its step 0. */
-static Status make_simulation(Past *past, int pane, const Options *options)
+static void free_simulation(Machine *machine)
 {
-    Machine *machine = &past->machine[pane];
+    simulation_free(&machine->simulation);
+    control_drop(machine->control);
+    control_drop(machine->start);
+    machine->control = machine->start = NULL;
+    machine->stands = machine->iterating = false;
+    forget_step(machine);
+}
+
+/* A simulation at its step 0. */
+static Status make_simulation(Machine *machine, const Options *options)
+{
     free_simulation(machine);
     Status status =
         simulation_create(options, watch, machine, &machine->simulation);
-    if (status)
-        return status;
-    const Branch *branch;
-    machine->run = past->branch[past->now].run;
-    machine->first_pane = first_pane(past, pane, &branch);
-    if (machine->simulation.scene->needs & NEEDS_TIME)
-        machine->start = simulation_energies(&machine->simulation, 0).total;
-    return STATUS_OK;
+    if (!status && (machine->simulation.scene->needs & NEEDS_TIME))
+        machine->begin = simulation_energies(&machine->simulation, 0).total;
+    return status;
 }
 
 static Status use_control(Machine *machine, const Control *control)
@@ -373,96 +388,104 @@ static Status use_control(Machine *machine, const Control *control)
     return status;
 }
 
-/* The machine stands at this step of the present branch. */
-static void stand(Past *past, int pane, long step)
+/* What plots show; NULL: nothing, or no memory. */
+static Sample *take_sample(const Simulation *simulation)
+{
+    Energy row[HISTORY_SERIES];
+    int rows = show_sample(simulation, row);
+    Sample *sample = malloc(sizeof *sample + (size_t)rows * sizeof *row);
+    if (!sample)
+        return NULL;
+    sample->time = simulation_time(simulation);
+    sample->rows = rows;
+    memcpy(sample->row, row, (size_t)rows * sizeof *row);
+    return sample;
+}
+
+/* The machine has the state of this step, and takes its control. */
+static Status land(Past *past, int pane, long step)
 {
     Machine *machine = &past->machine[pane];
+    Entry *entry = entry_of(past, pane, step);
+    Status status = use_control(machine, entry->control);
     machine->step = step;
-    machine->entry = entry_of(past, pane, step)->number;
-}
-
-static bool stands(const Past *past, int pane)
-{
-    const Machine *machine = &past->machine[pane];
-    const Entry *entry = entry_of(past, pane, machine->step);
-    return machine->entry && entry && entry->number == machine->entry;
-}
-
-/* Whether this entry's state is kept as branch b sees it, or leads from a kept
- * one below by the changes with which branches begin. */
-static bool is_kept(const Past *past, int b, int pane, long step)
-{
-    const Branch *branch = &past->branch[b];
-    const Entry *entry = entry_in(past, b, pane, step);
-    return entry &&
-           (entry->state || (step <= branch->first && !branch->fresh &&
-                             is_kept(past, b - 1, branch->source[pane], step)));
-}
-
-/* The machine takes the state that this entry keeps, as branch b sees it; else
- * that of the branch below, if it begins here, or its own of this step; and the
- * entry's control.  So several changes at one step are made one after the
- * other. */
-static Status take_entry(Past *past, Machine *machine, int b, int pane,
-                         long step)
-{
-    const Branch *branch = &past->branch[b];
-    const Entry *entry = entry_in(past, b, pane, step);
-    bool begins = step <= branch->first && !branch->fresh;
-    Status status = STATUS_OK;
-    if (begins && !entry->state)
-        status = take_entry(past, machine, b - 1, branch->source[pane], step);
-    if (!status)
-        status = use_control(machine, entry->control);
-    if (!status && entry->state)
-        state_restore(entry->state->bytes, &machine->simulation);
+    machine->stands = !status;
+    if (!status && past->keeps && !entry->sample)
+        entry->sample = take_sample(&machine->simulation);
     return status;
 }
 
-/* Loads a state from which the machine can make the steps up to this one. */
+/* The machine has a state that is kept. */
+static Status take_state(Machine *machine, Kept kept)
+{
+    Status status = use_control(machine, kept.by);
+    if (!status)
+        state_restore(kept.entry->state->bytes, &machine->simulation);
+    return status;
+}
+
+/* The machine stands at a step from which it can make those up to this one.
+ * (Of runs that keep no states it stands there already, or at step 0.) */
 static Status load(Past *past, int pane, long goal)
 {
     Machine *machine = &past->machine[pane];
+    const Control *start = past_start(past, pane);
     long from = goal;
-    while (from > 0 && !is_kept(past, past->now, pane, from))
+    while (past->keeps && from > 0 && !kept_of(past, pane, from).entry->state)
         from--;
-    bool near = machine->step >= from || machine->step >= goal - 1;
-    if (near && machine->step <= goal && stands(past, pane))
-        return STATUS_OK;
-    if (!is_kept(past, past->now, pane, from))
+    bool near = machine->stands && machine->step <= goal &&
+                (machine->step >= from || machine->step >= goal - 1);
+    if (near &&
+        machine->control == entry_of(past, pane, machine->step)->control)
+        return land(past, pane, machine->step);
+    Kept kept = kept_of(past, pane, from);
+    if (!kept.entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    const Branch *branch;
-    if (machine->run != past->branch[past->now].run ||
-        machine->first_pane != first_pane(past, pane, &branch))
-        status = make_simulation(past, pane, &past_start(past, pane)->options);
+    if (!machine->stands || machine->step != from) {
+        leave_step(past, pane);
+        forget_step(machine);
+        machine->outcome = entry_of(past, pane, from)->outcome;
+    }
+    if (machine->start != start) {
+        status = make_simulation(machine, &start->options);
+        machine->start = status ? NULL : control_keep(start);
+    }
     if (!status)
-        status = take_entry(past, machine, past->now, pane, from);
-    if (status)
-        return status;
-    machine->known = machine->failed = false;
-    machine->outcome = entry_of(past, pane, from)->outcome;
-    machine->substeps = 0;
-    stand(past, pane, from);
-    return STATUS_OK;
+        status = take_state(machine, kept);
+    return status ? status : land(past, pane, from);
 }
 
 /* ---- steps --------------------------------------------------------------- */
 
+/* The step that was being made is not there; a control that came with the
+ * branch stays. */
+static void unmake(Past *past, int pane)
+{
+    const Branch *branch = present(past);
+    Entry *entry = entry_of(past, pane, branch->first + branch->count);
+    const Control *given = NULL;
+    if (branch->count < branch->given)
+        given = control_keep(entry->control);
+    drop_entry(past, entry);
+    entry->control = given;
+}
+
 /* Work that is under way ends; the last whole step stays, but machines that
- * have left it stand at none. */
+ * have left it stand nowhere. */
 static void stop_work(Past *past)
 {
     if (!past->works)
         return;
     for (int p = 0; p < past_panes(past); p++) {
         Machine *machine = &past->machine[p];
-        if (machine->iterating || machine->substeps > 0)
-            machine->entry = 0;
+        if (machine->iterating || machine->substeps > 0 ||
+            machine->step > past_newest(past))
+            machine->stands = false;
         machine->iterating = false;
         machine->substeps = 0;
         if (past->making)
-            drop_entry(past, entry_of(past, p, past->aim));
+            unmake(past, p);
     }
     past->making = past->works = false;
 }
@@ -473,38 +496,27 @@ static bool lacks(Status status)
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
 }
 
-/* The pane that failed beside others goes back to its last state that can be
- * seen; from there on it stands still. */
-static Status end_pane(Past *past, int pane, Status status)
+static Status arrive(Past *past, int pane);
+static Status work_on(Past *past, int pane);
+
+/* The pane that fails beside others takes its last state that can be seen, and
+ * stands still from there on. */
+static Status end_pane(Past *past, int pane, Status why)
 {
     Machine *machine = &past->machine[pane];
-    long first = past->branch[past->now].first;
-    long last = past_last_seen(past, pane, machine->step, first);
-    const Entry *good = past_entry(past, pane, last);
-    for (long step = last + 1; step <= past->aim; step++) {
-        Entry *entry = entry_of(past, pane, step);
-        int updates = entry->outcome.updates;
-        drop_entry(past, entry);
-        *entry = (Entry){.number = ++past->numbers,
-                         .control = control_keep(good->control),
-                         .outcome = good->outcome};
-        entry->outcome.updates = updates;
-        entry->outcome.status = status;
-    }
-    machine->entry = 0;
+    long step = machine->step, last = past_last_seen(past, pane, step);
+    leave_step(past, pane);
+    Status status = load(past, pane, last);
+    while (machine->step < last && (!status || status == STATUS_RUNNING))
+        status = work_on(past, pane);
+    if (status && status != STATUS_RUNNING)
+        return status;
+    machine->step = step;
     machine->substeps = 0;
+    machine->outcome = past_entry(past, pane, last)->outcome;
+    machine->outcome.status = past->worst = why;
     past->made = true;
-    past->worst = status;
-    Curves *curves = past_curves(past, pane);
-    cut_curves(curves, last, good->outcome.time);
-    /* What an explosion has made of the energies would flatten those of
-     * others. */
-    History *history = curves ? &curves->history : NULL;
-    while (history && history->count > 1 &&
-           history->value[0][history->count - 1] >
-               PAST_EXPLODED * fabs(history->value[0][0]))
-        history_cut(history, history->time[history->count - 2]);
-    return load(past, pane, past_newest(past));
+    return arrive(past, pane);
 }
 
 /* A step could not be made. */
@@ -514,15 +526,15 @@ static Status fail(Past *past, int pane, Status status)
     if (past->making && past->goes_on && past_panes(past) > 1 &&
         !lacks(status)) {
         status = end_pane(past, pane, status);
-        return status ? fail(past, pane, status) : STATUS_RUNNING;
+        if (status == STATUS_RUNNING)
+            return status;
     }
     stop_work(past);
-    if (!lacks(status) && machine->run) {
+    if (!lacks(status) && machine->start) {
         machine->failed = machine->known = true;
         machine->outcome.status = status;
     }
-    if (past->keeps) /* some of its runs may have made the step */
-        machine->entry = 0;
+    machine->stands = false; /* some of its runs may have made the step */
     past->aim = past->step;
     return status;
 }
@@ -531,28 +543,28 @@ static Status fail(Past *past, int pane, Status status)
 static Status arrive(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
-    const Branch *branch = &past->branch[past->now];
-    const Entry *from = entry_of(past, pane, machine->step);
-    Entry *to = entry_of(past, pane, machine->step + 1);
-    bool known = to->control != NULL;
+    long step = machine->step + 1;
+    Entry *from = entry_of(past, pane, step - 1);
+    Entry *to = entry_of(past, pane, step);
     Status status = STATUS_OK;
-    if (!known) {
-        bool second = machine->step == branch->first && branch->second[pane];
-        to->control =
-            control_keep(second ? branch->second[pane] : from->control);
-        to->number = ++past->numbers;
+    if (step > past_newest(past)) {
+        if ((step - 1) % history_stride(past))
+            drop_sample(from);
+        if (!to->control)
+            to->control = control_keep(from->control);
         to->substeps = machine->substeps;
         to->outcome = machine->outcome;
     }
     past->made = past->made || machine->substeps > 0;
     machine->substeps = 0;
-    stand(past, pane, machine->step + 1);
-    if (known && to->control != machine->control)
-        status = take_entry(past, machine, past->now, pane, machine->step);
-    if (!known)
-        status = use_control(machine, to->control);
-    if (!known && !status)
-        status = keep_state(past, pane);
+    leave_step(past, pane);
+    Kept kept = kept_of(past, pane, step);
+    if (kept.dragged)
+        status = take_state(machine, kept);
+    else if (past->keeps && !kept.entry->state)
+        keep_state(past, pane, kept.entry);
+    if (!status)
+        status = land(past, pane, step);
     return status ? fail(past, pane, status) : STATUS_RUNNING;
 }
 
@@ -562,7 +574,6 @@ static void sum_up(Machine *machine, Status status)
     const Simulation *simulation = &machine->simulation;
     Outcome *outcome = &machine->outcome;
     outcome->status = status ? status : outcome->status;
-    outcome->time = simulation_time(simulation);
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
         outcome->extent = fmax(outcome->extent, fabs(simulation->run[0].x[i]));
@@ -576,7 +587,6 @@ static Status go_on(Past *past, int pane, Status status)
 {
     Machine *machine = &past->machine[pane];
     const Simulation *simulation = &machine->simulation;
-    const Entry *to = entry_of(past, pane, machine->step + 1);
     if (status == STATUS_RUNNING)
         return status;
     machine->iterating = false;
@@ -591,9 +601,10 @@ static Status go_on(Past *past, int pane, Status status)
     if (past->making && status)
         past->worst = status;
     double middle = simulation_time(simulation) + 0.5 * machine_pace(machine);
-    bool more = to->control ? machine->substeps < to->substeps
-                            : moved && middle < past->target &&
-                                  (simulation->scene->needs & NEEDS_TIME);
+    const Entry *to = past_entry(past, pane, machine->step + 1);
+    bool more = to ? machine->substeps < to->substeps
+                   : moved && middle < past->target &&
+                         (simulation->scene->needs & NEEDS_TIME);
     return more ? STATUS_RUNNING : arrive(past, pane);
 }
 
@@ -601,20 +612,18 @@ static Status go_on(Past *past, int pane, Status status)
 static Status begin_step(Past *past, int pane)
 {
     Machine *machine = &past->machine[pane];
-    const Entry *from = entry_of(past, pane, machine->step);
-    const Entry *to = entry_of(past, pane, machine->step + 1);
+    const Entry *from = past_entry(past, pane, machine->step);
+    const Entry *to = past_entry(past, pane, machine->step + 1);
     if (machine->substeps == 0) {
-        machine->outcome =
-            (Outcome){.time = simulation_time(&machine->simulation)};
-        machine->records.count = 0;
-        machine->records.lost = false;
-        machine->failed = machine->known = false;
+        machine->outcome = (Outcome){0};
+        forget_step(machine);
     }
-    if (to->control ? to->substeps == 0 : has_failed(from)) {
-        machine->outcome = to->control ? to->outcome : from->outcome;
-        machine->outcome.updates = 0;
+    if (has_failed(from)) {
+        machine->outcome = from->outcome;
         return arrive(past, pane);
     }
+    if (to && has_failed(to))
+        return end_pane(past, pane, to->outcome.status);
     if (past->keeps)
         rounds_begin(&machine->rounds, &machine->simulation);
     machine->before = machine->simulation.steps;
@@ -631,30 +640,31 @@ static Status iterate(Past *past, int pane)
     return go_on(past, pane, simulation_iterate(&machine->simulation));
 }
 
-/* ---- work ---------------------------------------------------------------- */
-
-/* Where the pane with the longest timestep will be, s. */
-static double next_time(const Past *past)
+/* The next iteration of this pane. */
+static Status work_on(Past *past, int pane)
 {
-    double pace = -1, time = 0;
-    for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        if (has_failed(entry_of(past, p, machine->step)) ||
-            machine_pace(machine) <= pace)
-            continue;
-        pace = machine_pace(machine);
-        time = simulation_time(&machine->simulation);
-    }
-    return time + pace;
+    return past->machine[pane].iterating ? iterate(past, pane)
+                                         : begin_step(past, pane);
 }
 
-/* All panes are at the newest step; another one begins. */
+/* ---- work ---------------------------------------------------------------- */
+
+/* All panes are at the newest step; another one begins, up to where that with
+ * the longest timestep will be. */
 static Status begin_making(Past *past)
 {
-    past->target = next_time(past);
+    double longest = -1;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        double pace = machine_pace(machine);
+        if (pace <= longest || has_failed(past_entry(past, p, machine->step)))
+            continue;
+        longest = pace;
+        past->target = simulation_time(&machine->simulation) + pace;
+    }
     past->made = false;
     past->worst = STATUS_OK;
-    if (make_room(past, &past->branch[past->now]))
+    if (make_room(past, present(past)))
         return fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->making = true;
     return STATUS_RUNNING;
@@ -664,15 +674,14 @@ static Status begin_making(Past *past)
 static Status end_work(Past *past)
 {
     Status worst = past->making ? past->worst : STATUS_OK;
-    long newest = past_newest(past);
     if (past->making && past->made) {
-        past->branch[past->now].count++;
+        present(past)->count++;
     } else if (past->making) {
+        past->aim = past_newest(past);
         for (int p = 0; p < past_panes(past); p++) {
-            drop_entry(past, entry_of(past, p, past->aim));
-            stand(past, p, newest);
+            unmake(past, p);
+            past->machine[p].step = past->aim;
         }
-        past->aim = newest;
     }
     past->making = past->works = false;
     past->step = past->aim;
@@ -695,10 +704,8 @@ Status past_iterate(Past *past)
     long newest = past_newest(past);
     long goal = past->making || past->aim < newest ? past->aim : newest;
     for (pane = 0; pane < panes; pane++)
-        if (past->machine[pane].iterating)
-            return iterate(past, pane);
-        else if (past->machine[pane].step < goal)
-            return begin_step(past, pane);
+        if (past->machine[pane].iterating || past->machine[pane].step < goal)
+            return work_on(past, pane);
     return goal < past->aim ? begin_making(past) : end_work(past);
 }
 
@@ -712,10 +719,9 @@ void past_aim(Past *past, long step, bool again)
     if (!again || past->aim == 0 || past->aim > newest)
         return;
     past->from = past->aim > 2 ? past->aim - 2 : 0;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_panes(past); p++)
         rounds_clear(&past->machine[p].rounds);
-        past->machine[p].entry = 0;
-    }
+    leave_all(past);
 }
 
 void past_drop(Past *past)
@@ -741,42 +747,45 @@ static Status settle(Past *past)
 static void pop_branch(Past *past)
 {
     past->works = false;
+    leave_all(past);
     past->now--;
     drop_branches(past, past->now + 1);
     if (past->now >= 0)
-        past->step = past->branch[past->now].shown;
+        past->step = present(past)->shown;
 }
 
 /* A simulation at step 0, and its entry. */
 static Status begin_pane(Past *past, int pane, const Options *options)
 {
     Machine *machine = &past->machine[pane];
-    Entry *entry = &past->branch[past->now].entry[pane];
-    Status status = make_simulation(past, pane, options);
+    Entry *entry = &present(past)->entry[pane];
+    Status status = make_simulation(machine, options);
     Control *control = status ? NULL : control_of(&machine->simulation);
     if (!control)
         return status ? status : STATUS_OUT_OF_MEMORY;
     control->options = *options;
-    *entry =
-        (Entry){.number = ++past->numbers, .control = control, .substeps = 1};
+    *entry = (Entry){.control = control, .substeps = 1};
+    machine->start = control_keep(control);
     machine->control = control_keep(control);
     machine->outcome = (Outcome){.status = machine->simulation.status};
     rounds_clear(&machine->rounds);
     machine->rounds.step = 0;
-    stand(past, pane, 0);
-    return keep_state(past, pane);
+    if (past->keeps)
+        status = keep_state(past, pane, entry);
+    return status ? status : land(past, pane, 0);
 }
 
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
+    const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
     Options own[OPTIONS_MAX_PANES];
     memcpy(own, options, (size_t)panes * sizeof *own); /* their branch may go */
     stop_work(past);
-    const Branch *now = past->now > 0 ? &past->branch[past->now] : NULL;
-    if (now && gesture && now->gesture == gesture && now->fresh)
+    if (past->now > 0 && gesture && present(past)->gesture == gesture &&
+        present(past)->fresh)
         pop_branch(past);
-    if (!push_branch(past, true, 0, panes, edit, gesture))
+    if (!push_branch(past, wanted, edit))
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     for (int p = 0; p < panes && !status; p++)
@@ -789,24 +798,38 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     return status;
 }
 
+/* Whether it changes the state, not the control. */
+static bool drags(const Command *edit)
+{
+    return edit->kind == COMMAND_HANDLE || edit->kind == COMMAND_FLIP ||
+           edit->kind == COMMAND_PLACE;
+}
+
+bool past_moves(const Command *edit)
+{
+    return drags(edit) || edit->kind == COMMAND_PIN;
+}
+
 /* Whether a change makes sense here; message [size] out: why not. */
 static Status check_edit(const Simulation *simulation, const Command *edit,
                          char *message, size_t size)
 {
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
-    const char *what = "node";
-    long limit = LONG_MAX;
+    CommandKind kind = edit->kind;
+    const Options *options = &simulation->options;
+    const char *what = kind == COMMAND_HANDLE     ? "point to drag"
+                       : kind == COMMAND_FLIP     ? "switch"
+                       : kind == COMMAND_OBSTACLE ? "ground or ball"
+                                                  : "node";
+    long limit =
+        kind == COMMAND_HANDLE     ? exhibit_handles(simulation, at)
+        : kind == COMMAND_FLIP     ? exhibit_switches(simulation, part)
+        : kind == COMMAND_OBSTACLE ? (long)(options->grounds + options->balls)
+        : kind == COMMAND_PIN || kind == COMMAND_GRAB || kind == COMMAND_PLACE
+            ? simulation->system.nodes
+            : LONG_MAX;
     message[0] = '\0';
-    if (edit->kind == COMMAND_HANDLE) {
-        what = "point to drag";
-        limit = exhibit_handles(simulation, at);
-    } else if (edit->kind == COMMAND_FLIP) {
-        what = "switch";
-        limit = exhibit_switches(simulation, part);
-    } else if (edit->kind == COMMAND_PIN || edit->kind == COMMAND_GRAB) {
-        limit = simulation->system.nodes;
-    }
     if (edit->number >= 0 && edit->number < limit)
         return STATUS_OK;
     if (limit > 0)
@@ -820,11 +843,17 @@ static Status check_edit(const Simulation *simulation, const Command *edit,
 /* The control after a change, for one user more.  NULL: no memory. */
 static const Control *changed(const Control *from, const Command *edit)
 {
+    char message[256];
     Control *control = control_copy(from);
     if (!control)
         return NULL;
-    if (edit->kind == COMMAND_SET)
+    if (edit->kind == COMMAND_SET && edit->text[0])
+        options_set(&control->options, option_rows[edit->number].name,
+                    edit->text, message, sizeof message);
+    else if (edit->kind == COMMAND_SET)
         control->options.number[option_rows[edit->number].slot] = edit->x;
+    if (edit->kind == COMMAND_OBSTACLE)
+        obstacle_move(&control->options, (int)edit->number, edit->x, edit->y);
     if (edit->kind == COMMAND_PIN)
         control_pin(control, (int)edit->number, edit->x != 0);
     if (edit->kind == COMMAND_GRAB)
@@ -838,95 +867,68 @@ static const Control *changed(const Control *from, const Command *edit)
     return control;
 }
 
-/* A change of the newest entry, where the machine of its pane stands; NULL: of
- * other panes' alone.
- *   joins  it is not the first of this branch */
+/* A change of an entry of the topmost branch; its sample is another one. */
 static Status change_entry(Past *past, int pane, const Command *edit,
-                           bool joins)
+                           Entry *entry)
 {
-    Machine *machine = &past->machine[pane];
-    int panes = past_panes(past);
-    Entry *entry = entry_of(past, pane, past->step);
-    bool changed_before = joins && (past->branch[past->now].count == 1 ||
-                                    entry->control != entry[-panes].control);
-    const Control *control =
-        edit ? changed(entry->control, edit) : control_keep(entry->control);
-    if (!control)
-        return STATUS_OUT_OF_MEMORY;
-    control_drop(entry->control);
-    entry->control = control;
-    entry->substeps += entry->substeps == 0; /* it may go on again */
-    stand(past, pane, past->step);
-    Status status = use_control(machine, control);
-    if (edit) /* the state that it was is no longer drawn */
-        cut_curves(past_curves(past, pane), past->step - 1,
-                   nextafter(entry->outcome.time, -INFINITY));
-    if (edit && !status) {
-        bool drags = edit->kind == COMMAND_HANDLE;
-        bool flips = edit->kind == COMMAND_FLIP;
-        bool pulls = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_DRAG ||
-                     edit->kind == COMMAND_RELEASE;
-        entry->placed =
-            entry->placed || drags || flips || (changed_before && !pulls);
-        if (drags)
-            exhibit_drag(&machine->simulation, (int)edit->number, edit->x,
-                         edit->y);
-        if (flips)
-            exhibit_flip(&machine->simulation, (int)edit->number);
+    Simulation *simulation = &past->machine[pane].simulation;
+    drop_sample(entry);
+    if (present(past)->count == 1 && has_failed(entry))
+        entry->substeps = 1; /* it may go on again */
+    if (!drags(edit)) {
+        const Control *control = changed(entry->control, edit);
+        if (!control)
+            return STATUS_OUT_OF_MEMORY;
+        control_drop(entry->control);
+        entry->control = control;
+        return STATUS_OK;
     }
-    return status ? status : keep_state(past, pane);
-}
-
-/* Entry 0 of a new branch, and what the entry behind it is to have: both as
- * they were, with a change or without. */
-static Status change_both(Past *past, int pane, const Command *edit)
-{
-    Branch *branch = &past->branch[past->now];
-    Entry *entry = &branch->entry[pane];
-    const Control *old = entry->control;
-    const Control *later =
-        entry_in(past, past->now - 1, branch->source[pane], branch->first + 1)
-            ->control;
-    branch->second[pane] = edit ? changed(later, edit) : control_keep(later);
-    entry->control = edit ? changed(old, edit) : control_keep(old);
-    bool lacking = !entry->control || !branch->second[pane];
-    if (!entry->control)
-        entry->control = control_keep(old);
-    control_drop(old);
-    return lacking ? STATUS_OUT_OF_MEMORY : STATUS_OK;
+    if (edit->kind == COMMAND_HANDLE)
+        exhibit_drag(simulation, (int)edit->number, edit->x, edit->y);
+    else if (edit->kind == COMMAND_PLACE)
+        simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
+    else
+        exhibit_flip(simulation, (int)edit->number);
+    Status status = keep_state(past, pane, entry);
+    return status ? status : land(past, pane, past->step);
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture, char *message, size_t size)
 {
-    int panes = past_panes(past);
-    const Branch *now = &past->branch[past->now];
     Status status = settle(past);
     for (int p = from; p < to && !status; p++)
         status = check_edit(&past->machine[p].simulation, edit, message, size);
     if (status)
         return status;
-    bool joins = gesture && now->gesture == gesture && !again &&
-                 past->step == past_newest(past);
+    Branch *branch = present(past);
+    bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
+                 !again && past->step == past_newest(past) &&
+                 drags(edit) == drags(&branch->edit) &&
+                 (!drags(edit) || branch->count == 1);
+    const Branch wanted = {.first = past->step - again,
+                           .given = 1 + again,
+                           .panes = branch->panes,
+                           .gesture = gesture};
     if (joins) /* those that were undone went on from what it was */
         drop_branches(past, past->now + 1);
-    else if (!push_branch(past, false, past->step - again, panes, edit,
-                          gesture))
+    else
+        branch = push_branch(past, wanted, edit);
+    if (!branch)
         return STATUS_OUT_OF_MEMORY;
-    for (int p = 0; p < panes && !status; p++) {
-        const Command *own = p >= from && p < to ? edit : NULL;
-        if (again)
-            status = change_both(past, p, own);
-        else if (own || !joins)
-            status = change_entry(past, p, own, joins);
-    }
-    return status;
+    for (long i = branch->count - 1; i < branch->count + again; i++)
+        for (int p = from; p < to && !status; p++)
+            status = change_entry(past, p, edit,
+                                  &branch->entry[i * branch->panes + p]);
+    return status || again ? status : settle(past);
 }
 
 Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
 {
     Status status = settle(past);
-    if (!status && !push_branch(past, false, past->step, panes, edit, gesture))
+    const Branch wanted = {
+        .first = past->step, .given = 1, .panes = panes, .gesture = gesture};
+    if (!status && !push_branch(past, wanted, edit))
         status = STATUS_OUT_OF_MEMORY;
     if (!status)
         past_aim(past, past->step, false);
@@ -934,36 +936,34 @@ Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
 }
 
 /* Whether the branch above it is of the same gesture. */
-static bool is_continued(const Past *past, int b)
+static bool is_continued(const Branch *branch)
 {
-    int gesture = past->branch[b].gesture;
-    return gesture && gesture == past->branch[b + 1].gesture;
+    return branch->gesture && branch->gesture == branch[1].gesture;
 }
 
 const Command *past_undo(Past *past, int way, long *fork)
 {
     int from = past->now, to = from + way;
+    int last = way < 0 ? 0 : past->branches - 1;
     if (to < 0 || to >= past->branches)
         return NULL;
-    while (way < 0 && to > 0 && is_continued(past, to))
-        to--;
-    while (way > 0 && to + 1 < past->branches && is_continued(past, to))
-        to++;
+    while (to != last && is_continued(&past->branch[to]))
+        to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     *fork = LONG_MAX;
     for (int b = low + 1; b <= high; b++) {
-        long first = past->branch[b].fresh ? -1 : past->branch[b].first;
-        *fork = first < *fork ? first : *fork;
+        const Branch *branch = &past->branch[b];
+        long same = branch->first - past_moves(&branch->edit);
+        if (branch->fresh)
+            same = -1;
+        *fork = same < *fork ? same : *fork;
     }
     stop_work(past);
-    past->branch[from].shown = past->step;
+    leave_all(past);
+    present(past)->shown = past->step;
     past->now = to;
-    Branch *branch = &past->branch[to];
-    for (int p = 0; p < branch->panes; p++)
-        if (!branch->curves[p])
-            branch->curves[p] = copy_curves(NULL);
-    past->step = branch->shown;
-    past_aim(past, branch->shown, false);
+    past->step = present(past)->shown;
+    past_aim(past, past->step, false);
     return &past->branch[high].edit;
 }
 

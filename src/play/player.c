@@ -62,7 +62,8 @@ double player_time(const Player *player)
 {
     const Past *past = &player->past;
     int pane = player->active;
-    for (int p = 0; p < past_panes(past) && past_ended(past, pane) >= 0; p++)
+    for (int p = 0;
+         p < past_panes(past) && past_ended(past, pane, past->step) >= 0; p++)
         pane = p;
     return simulation_time(&past->machine[pane].simulation);
 }
@@ -132,7 +133,6 @@ Status player_draw(Player *player)
     bool fresh = player->sampled != player->past.step;
     bool filmed = film_runs(&player->recording.film);
     player->sampled = player->past.step;
-    player_sample(player);
     player_paint(player, paper);
     Status status = view_show(player->view);
     int shown = player->speed < 0 ? 1 << -player->speed : 1; /* in a film */
@@ -255,8 +255,9 @@ Status player_frame(Player *player)
     bool due = !player->window || now >= player->due - EARLY;
     bool first = player->sampled < 0 && player->view;
     bool works = player->past.works;
-    bool goes =
-        !player_stands(player) && due && !first && !player_ended(player);
+    bool lives = player->sheet && player->window;
+    bool goes = !lives && !player_stands(player) && due && !first &&
+                !player_ended(player);
     if (!status && (works || goes)) {
         if (!works)
             player->due = fmax(player->due + period, now);
@@ -264,7 +265,11 @@ Status player_frame(Player *player)
         if (player->window)
             measure_speed(player);
     }
-    if (!status && !player->quit && (player->changed || player->glide > 0))
+    if (lives && due) {
+        player->due = now + 1.0 / FRAME_RATE;
+        player_live(player);
+    }
+    if (!status && !player->quit && player->changed)
         status = player_draw(player);
     return status;
 }
@@ -275,9 +280,8 @@ int player_wait(const Player *player)
     if (!player->window || player->past.works ||
         (stands && !script_is_over(&player->script)))
         return 0;
-    double wait = player->glide > 0 ? 1e3 / FRAME_RATE
-                  : stands          ? IDLE_WAIT
-                                    : 1e3 * (player->due - clock_now());
+    double wait = stands && !player->sheet ? IDLE_WAIT
+                                           : 1e3 * (player->due - clock_now());
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
 
@@ -366,6 +370,7 @@ Status player_create(const Options *options, int count, const char *line,
         status = open_view(player);
     if (status)
         return status;
+    player->asks = player->window && !options->script;
     player->attended = player->window || options->script || options->page;
     if (options->paused || (player->window && !options->script &&
                             options->steps < 0 && player_explains(options)))
@@ -379,6 +384,10 @@ Status player_create(const Options *options, int count, const char *line,
         status = script_add(&player->journal, 0, &pause);
     if (!status && options->page && player->window && !options->script)
         status = player_open_page(player);
+    else if (!status && player->window && !options->script &&
+             simulation_is_handled(player_simulation(player)))
+        player_note(player, "pull at a node with the mouse; G: all scenes; "
+                            "Page Down: the guided tour");
     player->begun = !status;
     return status;
 }
@@ -403,9 +412,9 @@ void player_free(Player *player)
     past_free(&player->past);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
-        free(player->side[p].from);
-        player->side[p].ghost = player->side[p].from = NULL;
+        player->side[p].ghost = NULL;
     }
+    player_close_sheet(player);
     script_free(&player->script);
     script_free(&player->journal);
 }

@@ -12,13 +12,14 @@ static const double SLICE = 0.05;
 Deed obey_pause, obey_next, obey_back, obey_step, obey_finer, obey_goto,
     obey_undo; /* walk.c */
 Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
-    obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab, obey_drag,
-    obey_handle; /* change.c */
+    obey_add, obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab,
+    obey_drag, obey_place, obey_obstacle, obey_handle; /* change.c */
 Deed obey_scene, obey_start, obey_restart, obey_page, obey_predict,
     obey_cell; /* begin.c */
 Deed obey_speed, obey_shown, obey_full, obey_column, obey_escape, obey_camera,
     obey_card, obey_shot, obey_film, obey_hash, obey_quit; /* screen.c */
 Deed obey_type, obey_enter, obey_close;                    /* hands.c */
+Deed obey_sheet, obey_choose, obey_open;                   /* sheet.c */
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);
@@ -46,7 +47,7 @@ const Options *player_settings(const Player *player);
 Options player_numbers(const Player *player);
 
 /* s: that of the pane whose numbers are shown, or where it has ended that of
- * one that goes on. */
+ * another one. */
 double player_time(const Player *player);
 
 bool player_stands(const Player *player); /* no step is made by itself */
@@ -79,9 +80,6 @@ Status player_fork(Player *player, long step);
  * is dragged, only if it is short. */
 void player_know_step(Player *player);
 
-/* What curves and trails keep of states not seen before. */
-void player_sample(Player *player);
-
 /* What tables still lack of the past that is shown. */
 Status player_write_rest(Player *player);
 
@@ -95,7 +93,7 @@ void player_judge(Player *player);
 /* ---- walk.c -------------------------------------------------------------- */
 
 /* What was wished for the step that is shown now. */
-Status player_wish(Player *player, Then then);
+void player_wish(Player *player, Then then);
 
 /* The place in the step that a pane shows; -1: none, it shows all of it.
  * player_stand_at: from now on this one. */
@@ -112,9 +110,17 @@ Status player_change(Player *player, const Command *change, int from, int to,
 /* Whether the panes have different values of this option. */
 bool player_compares(const Player *player, const OptionRow *row);
 
-/* Tells what a step did before it was taken again and does now; unlike outcomes
- * are put beside each other. */
-Status player_tell_retake(Player *player);
+/* The numbers of the row: those of the table, and those that were added; all
+ * that the scene has.  found [OPTIONS_MOST] out; return how many. */
+int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST]);
+int player_all_numbers(const Player *player,
+                       const OptionRow *found[OPTIONS_MOST]);
+
+/* Why a number has no meaning now; NULL: it has one. */
+const char *player_idle(const Player *player, const OptionRow *row);
+
+/* Tells what a step did before it was taken again and does now. */
+void player_tell_retake(Player *player);
 
 /* ---- begin.c ------------------------------------------------------------- */
 
@@ -130,6 +136,12 @@ Status player_load_cell(Player *player, long cell);
 /* Whether the window begins with a pause. */
 bool player_explains(const Options *options);
 
+/* Whether the page in the window waits for a guess; and holds the number that
+ * was typed against the page's answer, which is shown from now on.  Returns
+ * INVALID_INPUT where it is none. */
+bool player_veils(const Player *player);
+Status player_check_answer(Player *player);
+
 /* ---- screen.c ------------------------------------------------------------ */
 
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a
@@ -140,6 +152,16 @@ int player_first_speed(const Options *options);
 void player_reset_speed(Player *player);
 
 void player_set_title(Player *player);
+
+/* ---- sheet.c ------------------------------------------------------------- */
+
+/* The scenes on the sheet go on for a slice of time, where it is open. */
+void player_live(Player *player);
+
+/* What is drawn of it; the scene of a cell that was hit; it is closed. */
+void player_fill_sheet(Player *player);
+Status player_open_cell(Player *player, int cell);
+void player_close_sheet(Player *player);
 
 /* ---- hands.c ------------------------------------------------------------- */
 

@@ -23,7 +23,7 @@ static uint8_t *canvas_to_rgb(const Canvas *canvas)
 }
 
 /* libpng's simplified writer; it leaves errno of a failed write alone. */
-Status png_file_write(const char *name, const Canvas *canvas)
+Status png_file_write(const char *name, const Canvas *canvas, bool small)
 {
     Output output;
     uint8_t *bytes = canvas_to_rgb(canvas);
@@ -38,7 +38,7 @@ Status png_file_write(const char *name, const Canvas *canvas)
                        .width = (png_uint_32)canvas->width,
                        .height = (png_uint_32)canvas->height,
                        .format = PNG_FORMAT_RGB,
-                       .flags = PNG_IMAGE_FLAG_FAST};
+                       .flags = small ? 0 : PNG_IMAGE_FLAG_FAST};
     errno = 0;
     bool whole =
         png_image_write_to_stdio(&image, output.file, 0, bytes, 0, NULL);

@@ -32,7 +32,22 @@ static int check_output(const char *what)
     return EXIT_FAILED;
 }
 
-/* --help, --version, --list. */
+/* What a presenter says, page by page, and when it begins, min. */
+static void print_notes(void)
+{
+    double begins = 0;
+    for (int i = 0; lecture_pages[i].name; i++) {
+        const LecturePage *page = &lecture_pages[i];
+        printf("%2d  %s\n    from minute %g, %g min\n    %s\n", i + 1,
+               page->topic, begins, page->minutes, page->notes);
+        if (page->ask)
+            printf("    Ask: %s\n", page->ask);
+        begins += page->minutes;
+    }
+    printf("%g min in all\n", begins);
+}
+
+/* --help, --version, --list, --notes. */
 static int print_information(const Options *options)
 {
     errno = 0;
@@ -40,6 +55,8 @@ static int print_information(const Options *options)
         fputs(options_help(), stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
+    else if (options->notes)
+        print_notes();
     else if (options->page)
         for (int i = 0; lecture_pages[i].name; i++)
             printf("%2d %-12s %s\n", i + 1, lecture_pages[i].name,
@@ -49,6 +66,7 @@ static int print_information(const Options *options)
             printf("%-12s %s\n", scene->name, scene->sentence);
     return check_output(options->help      ? "the help"
                         : options->version ? "the version"
+                        : options->notes   ? "the notes"
                                            : "the list");
 }
 
@@ -125,11 +143,6 @@ static bool fits_in_memory(const Options *options, char *message, size_t size)
 
 int program_end(Player *player, Status status)
 {
-    const Options *options = &player->given[0];
-    bool standard =
-        (options->states && output_is_standard(options->states)) ||
-        (options->log && output_is_standard(options->log)) ||
-        (options->energies && output_is_standard(options->energies));
     if (!player->begun)
         recording_discard(&player->recording);
     long steps = player->past.machine[0].simulation.steps;
@@ -142,8 +155,8 @@ int program_end(Player *player, Status status)
         return status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     }
     errno = 0;
-    if (!options->quiet)
-        summary_print(standard ? stderr : stdout, player);
+    if (!player->given[0].quiet)
+        summary_print(player->recording.standard ? stderr : stdout, player);
     int code = check_output("the summary");
     if (code == EXIT_FINE && player->refused)
         return EXIT_MISUSED;
@@ -197,7 +210,7 @@ static bool read_line(int argc, char **argv, Options *options, char *message,
     for (int i = 0; i < options[0].panes; i++)
         if (options_parse(argc, argv, i, &options[i], message, size))
             return false;
-    if (options->help || options->version || options->list)
+    if (options->help || options->version || options->list || options->notes)
         return true;
     if (recording_check(options, message, size))
         return false;
@@ -213,11 +226,16 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
     char message[512], line[1024];
     *player = (Player){0};
+    if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
+        strcmp(argv[2], "commands") == 0) {
+        commands_help(stdout);
+        return check_output("the help");
+    }
     if (!read_line(argc, argv, options, message, sizeof message)) {
         tell("%s", message);
         return EXIT_MISUSED;
     }
-    if (options->help || options->version || options->list)
+    if (options->help || options->version || options->list || options->notes)
         return print_information(options);
     if (options->handout) {
         int code = make_handout(options, stop, player);

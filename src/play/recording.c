@@ -3,10 +3,12 @@
 #include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "model/mass_spring_energy.h"
+#include "model/plasticity.h"
+#include "play/vtk.h"
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
 
@@ -37,71 +39,152 @@ static Status make_folder(const char *name)
     return STATUS_FILE_FAILED;
 }
 
-/* What the terms of all options may add to a ledger stands between these. */
-static const char *const first_energies[] = {
-    "total", "kinetic", "elastic", "gravity", "contact", "hand", NULL};
-static const char *const last_energies[] = {"friction", "work", "dissipated",
-                                            NULL};
-enum { ENERGY_COLUMNS = 32 };
+/* ---- kinds of tables ----------------------------------------------------- */
 
-/* Adds a name that is not there yet; returns how many there are then. */
-static int add_name(const char *name, const char **names, int count)
+/* A run at a step: what the rows of a table are about. */
+typedef struct Moment {
+    const Simulation *simulation;
+    const TimeIntegrator *run;
+    double step, time;
+    int number;               /* of the run in its simulation */
+    int pane;                 /* from 1 */
+    int runs, nodes, springs; /* before it, in panes before it, too */
+} Moment;
+
+static void add_states(Table *table, const Moment *at)
 {
-    for (int i = 0; i < count; i++)
-        if (!name || strcmp(names[i], name) == 0)
-            return count;
-    if (count < ENERGY_COLUMNS)
-        names[count++] = name;
-    return count;
+    for (int i = 0; i < at->run->system->nodes && !table_check(table); i++) {
+        const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
+        const double row[] = {at->step, at->time, at->nodes + i, x[0],
+                              x[1],     v[0],     v[1],          at->pane};
+        table_add(table, row);
+    }
 }
 
-/* The columns of energies, whatever the scene has; returns how many. */
-static int list_energies(const char *names[ENERGY_COLUMNS])
+static void add_springs(Table *table, const Moment *at)
 {
-    int count = 0;
-    for (int i = 0; first_energies[i]; i++)
-        count = add_name(first_energies[i], names, count);
+    const System *system = at->run->system;
+    const Plasticity *plasticity = plasticity_of(system);
+    double d[2];
+    for (int s = 0; s < system->springs && !table_check(table); s++) {
+        const int *e = system->e + 2 * s;
+        double strain = spring_strain(e, system->l2[s], at->run->x, d);
+        double ep = plasticity ? plasticity->ep[s] : 0;
+        double kappa = plasticity ? plasticity->kappa[s] : 0;
+        bool whole = !spring_is_broken(system, s);
+        const double row[] = {at->step,
+                              at->time,
+                              at->springs + s,
+                              at->nodes + e[0],
+                              at->nodes + e[1],
+                              whole,
+                              sqrt(system->l2[s]),
+                              strain,
+                              ep,
+                              kappa,
+                              at->pane};
+        table_add(table, row);
+    }
+}
+
+/* A column for what no other one has the name of. */
+static void add_name(const char *name, Table *table)
+{
+    bool found = !name;
+    for (int c = 0; c < table->columns && !found; c++)
+        found = strcmp(table->column[c].name, name) == 0;
+    if (!found)
+        table_columns(table, name);
+}
+
+/* The ledger, whatever the scene has. */
+static void list_energies(Table *table)
+{
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->term) {
-            count = add_name(row->term->energy, names, count);
-            count = add_name(row->term->loss, names, count);
+            add_name(row->term->energy, table);
+            add_name(row->term->loss, table);
         }
-    for (int i = 0; last_energies[i]; i++)
-        count = add_name(last_energies[i], names, count);
-    return count;
+    table_columns(table, "work,dissipated,run:place");
 }
 
-/* Whether all of a table so far was written. */
-static Status check_table(Recording *recording, const Output *output)
+/* 0 where the run has no such row. */
+static void add_energies(Table *table, const Moment *at)
 {
-    return note(recording, output_check(output), output->name, NULL);
+    const Energies energies = simulation_energies(at->simulation, at->number);
+    double row[TABLE_COLUMNS] = {at->step, at->time};
+    for (int c = 2; c < table->columns; c++)
+        for (int r = 0; r < energies.rows; r++)
+            if (strcmp(energies.row[r].name, table->column[c].name) == 0)
+                row[c] = energies.row[r].value;
+    row[table->columns - 1] = at->runs;
+    table_add(table, row);
 }
 
-/* The lines above the columns. */
-static Status write_headers(Recording *recording)
+/* ParaView's list has a line a step. */
+static void add_step(Table *table, const Moment *at)
 {
-    const char *names[ENERGY_COLUMNS];
-    FILE *states = recording->states.file, *log = recording->log.file;
-    FILE *energies = recording->energies.file;
-    Status status = STATUS_OK;
-    if (states)
-        fputs("step,time,node,x,y,vx,vy\n", states);
-    if (log)
-        fprintf(log,
-                "step,iteration,residual,alpha,trials,slope,change,projected,"
-                "factorised,shift,status,seconds%s,solver,kind%s\n",
-                recording->points ? ",from_x,from_y,to_x,to_y" : "",
-                recording->panes > 1 ? ",pane" : "");
-    if (energies)
-        fputs("step,time", energies);
-    for (int i = 0, count = list_energies(names); energies && i < count; i++)
-        fprintf(energies, ",%s", names[i]);
-    if (energies)
-        fputs(",run\n", energies);
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
-        status = check_table(recording, &recording->table[t]);
-    return status;
+    const double row[] = {at->step, at->time};
+    if (at->runs == 0)
+        table_add(table, row);
 }
+
+/* The log's texts; what is known of a residual. */
+static const char *log_text(const char *column, int place)
+{
+    static const char *const kinds[] = {"value", "estimate", "bound"};
+    return strcmp(column, "status") == 0   ? status_name((Status)place)
+           : strcmp(column, "solver") == 0 ? solver_name(place)
+                                           : kinds[place];
+}
+
+/* In the order of enum RecordingTable. */
+static const struct {
+    size_t file; /* its name in the options; of steps, their folder's */
+    const char *columns, *pane;
+    void (*add)(Table *table, const Moment *at); /* NULL: the log */
+} kinds[RECORDING_TABLES] = {
+    {offsetof(Options, states), "step:whole,time,node:place,x,y,vx,vy",
+     "pane:place", add_states},
+    {offsetof(Options, log),
+     "step:whole,iteration:whole,residual,alpha,trials:whole,slope,change,"
+     "projected:whole,factorised:whole,shift,status:text,seconds",
+     "pane:whole", NULL},
+    {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", "",
+     add_energies},
+    {offsetof(Options, springs),
+     "step:whole,time,spring:place,i:place,j:place,whole:whole,rest,strain,"
+     "plastic,flowed",
+     "pane:place", add_springs},
+    {offsetof(Options, vtk), "step:whole,time", "", add_step},
+};
+
+/* What somebody called it, or NULL. */
+static const char *given_name(const Options *options, size_t field)
+{
+    return *(const char *const *)((const char *)options + field);
+}
+
+/* The columns of all tables in the scene of the options. */
+static void set_columns(const Options *options, Recording *recording)
+{
+    recording->points = !(options->scene->needs & NEEDS_TIME);
+    for (int t = 0; t < RECORDING_TABLES; t++) {
+        Table *table = &recording->table[t];
+        table->columns = 0;
+        table->text = log_text;
+        table_columns(table, kinds[t].columns);
+        if (t == RECORDING_LOG && recording->points)
+            table_columns(table, "from_x,from_y,to_x,to_y");
+        if (t == RECORDING_LOG)
+            table_columns(table, "solver:text,kind:text");
+        if (t == RECORDING_ENERGIES)
+            list_energies(table);
+        table_columns(table, recording->panes > 1 ? kinds[t].pane : "");
+    }
+}
+
+/* ---- films, and all together --------------------------------------------- */
 
 Status recording_film(Recording *recording, const char *name)
 {
@@ -128,27 +211,38 @@ Status recording_end_film(Recording *recording)
     return note(recording, status, name, film->reason);
 }
 
-/* Folder, film, tables. */
+/* Opens a table, if there is one; `list` is that of a folder's steps. */
+static Status open_table(const Options *options, Recording *recording, int t)
+{
+    const char *name = given_name(options, kinds[t].file);
+    char list[RECORDING_NAME_SIZE];
+    if (!name)
+        return STATUS_OK;
+    if (t == RECORDING_VTK) {
+        snprintf(list, sizeof list, "%s/steps.pvd", name);
+        name = list;
+    }
+    recording->standard = recording->standard || output_is_standard(name);
+    return note(recording, table_open(name, &recording->table[t]), name, NULL);
+}
+
+/* Folders, film, tables. */
 Status recording_open(const Options *options, int panes, Recording *recording)
 {
-    const char *names[RECORDING_TABLES] = {options->states, options->log,
-                                           options->energies};
-    *recording = (Recording){
-        .folder = options->frames, .last_frame = -1, .panes = panes};
-    recording->points = !(options->scene->needs & NEEDS_TIME);
+    *recording = (Recording){.folder = options->frames,
+                             .vtk = options->vtk,
+                             .last_frame = -1,
+                             .panes = panes};
+    const char *folder[] = {recording->folder, recording->vtk};
     Status status = STATUS_OK;
-    if (recording->folder)
-        status = note(recording, make_folder(recording->folder),
-                      recording->folder, NULL);
+    for (int i = 0; i < 2 && !status; i++)
+        if (folder[i])
+            status = note(recording, make_folder(folder[i]), folder[i], NULL);
     if (!status && options->film)
         status = recording_film(recording, options->film);
+    set_columns(options, recording);
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
-        if (names[t])
-            status =
-                note(recording, output_open(names[t], &recording->table[t]),
-                     names[t], NULL);
-    if (!status)
-        status = write_headers(recording);
+        status = open_table(options, recording, t);
     if (status)
         recording_discard(recording); /* what stood there before stays */
     return status;
@@ -177,44 +271,28 @@ static bool are_same(const char *one, const char *other)
 /* One name, then every two. */
 Status recording_check(const Options *options, char *message, size_t size)
 {
-    static const char table[] = ".csv, .txt, .dat, .log";
-    const struct {
-        const char *option, *name, *ends; /* NULL: any */
-    } file[] = {
-        {"states", options->states, table},
-        {"log", options->log, table},
-        {"energies", options->energies, table},
-        {"film", options->film, NULL},
-        {"frames", options->frames, NULL},
-        {"script", options->script, NULL},
-        {"state", options->state, NULL},
-        {"handout", options->handout, ".html, .htm"},
-    };
-    enum { FILES = sizeof file / sizeof *file };
     char shown[64], other[64];
-    for (int i = 0; i < FILES; i++) {
-        if (!file[i].name)
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        const char *name = row->ends ? given_name(options, row->offset) : NULL;
+        if (!name)
             continue;
-        one_line(file[i].name, shown, sizeof shown);
-        if (file[i].ends && !is_called(file[i].name, file[i].ends)) {
+        one_line(name, shown, sizeof shown);
+        if (row->ends[0] && !is_called(name, row->ends)) {
             snprintf(message, size,
-                     "--%s '%s': it is %s, whose name ends in %s or has no "
-                     "ending",
-                     file[i].option, shown,
-                     file[i].ends == table ? "a table in CSV"
-                                           : "a page in HTML",
-                     file[i].ends);
+                     "--%s '%s': its name ends in %s, or has no ending",
+                     row->name, shown, row->ends);
             return STATUS_INVALID_INPUT;
         }
-        for (int k = 0; k < FILES; k++) {
-            if (k == i || !file[k].name ||
-                !are_same(file[i].name, file[k].name))
+        for (const OptionRow *with = option_rows; with->name; with++) {
+            const char *its =
+                with->ends ? given_name(options, with->offset) : NULL;
+            if (with == row || !its || !are_same(name, its))
                 continue;
-            one_line(file[k].name, other, sizeof other);
+            one_line(its, other, sizeof other);
             snprintf(message, size,
                      "--%s '%s' and --%s '%s' are one file: each needs a name "
                      "of its own",
-                     file[i].option, shown, file[k].option, other);
+                     row->name, shown, with->name, other);
             return STATUS_INVALID_INPUT;
         }
     }
@@ -230,7 +308,7 @@ static Status write_frame(Recording *recording, const Canvas *canvas, long step)
     errno = ENAMETOOLONG;
     Status status = STATUS_FILE_FAILED;
     if (length > 0 && (size_t)length < sizeof name)
-        status = png_file_write(name, canvas);
+        status = png_file_write(name, canvas, false);
     if (!status && recording->last_frame != step)
         recording->frames++;
     recording->last_frame = step;
@@ -250,35 +328,25 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     return status;
 }
 
-/* The rows of one run; its nodes are numbered from `first`. */
-static void write_run(FILE *file, const Simulation *simulation,
-                      const TimeIntegrator *run, long step, int first)
+/* FOLDER/step_000012.vtp */
+static Status write_vtk(Recording *recording,
+                        const Simulation *const *simulation, int count,
+                        long step)
 {
-    double time = simulation_time(simulation);
-    for (int i = 0; i < simulation->system.nodes && !ferror(file); i++) {
-        const double *x = run->x + 2 * (size_t)i, *v = run->v + 2 * (size_t)i;
-        fprintf(file, "%ld,%.17g,%d,%.17g,%.17g,%.17g,%.17g\n", step, time,
-                first + i, x[0], x[1], v[0], v[1]);
-    }
+    char name[RECORDING_NAME_SIZE], file[VTK_NAME_SIZE];
+    vtk_name(step, file);
+    snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
+    return note(recording, vtk_write(name, simulation, count), name, NULL);
 }
 
-/* The ledger of one run; 0 where it has no such row. */
-static void write_ledger(Recording *recording, const Simulation *simulation,
-                         int run, long step, int number)
+/* Whether all tables so far were written. */
+static Status check_tables(Recording *recording)
 {
-    const char *names[ENERGY_COLUMNS];
-    const Energies energies = simulation_energies(simulation, run);
-    FILE *file = recording->energies.file;
-    int count = list_energies(names);
-    fprintf(file, "%ld,%.17g", step, simulation_time(simulation));
-    for (int i = 0; i < count; i++) {
-        double value = 0;
-        for (int r = 0; r < energies.rows; r++)
-            if (strcmp(energies.row[r].name, names[i]) == 0)
-                value = energies.row[r].value;
-        fprintf(file, ",%.17g", value);
-    }
-    fprintf(file, ",%d\n", number);
+    Status status = STATUS_OK;
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+        status = note(recording, table_check(&recording->table[t]),
+                      recording->table[t].output.name, NULL);
+    return status;
 }
 
 /* Run by run. */
@@ -286,67 +354,68 @@ Status recording_states(Recording *recording,
                         const Simulation *const *simulation, int count,
                         long step)
 {
-    int first = 0, number = 0;
-    Output *states = &recording->states, *energies = &recording->energies;
-    errno = 0;
-    for (int i = 0; i < count; i++)
+    Moment at = {.step = (double)step};
+    Status status = STATUS_OK;
+    if (recording->vtk)
+        status = write_vtk(recording, simulation, count, step);
+    errno = status ? errno : 0;
+    for (int i = 0; i < count && !status; i++)
         for (int r = 0; r < simulation[i]->runs; r++) {
-            if (states->file)
-                write_run(states->file, simulation[i], &simulation[i]->run[r],
-                          step, first);
-            if (energies->file)
-                write_ledger(recording, simulation[i], r, step, number++);
-            first += simulation[i]->system.nodes;
+            at.simulation = simulation[i];
+            at.run = &simulation[i]->run[r];
+            at.time = simulation_time(simulation[i]);
+            at.number = r;
+            at.pane = i + 1;
+            for (int t = 0; t < RECORDING_TABLES; t++)
+                if (kinds[t].add && table_is_open(&recording->table[t]))
+                    kinds[t].add(&recording->table[t], &at);
+            at.runs++;
+            at.nodes += at.run->system->nodes;
+            at.springs += at.run->system->springs;
         }
-    Status status = check_table(recording, states);
-    return status ? status : check_table(recording, energies);
+    return status ? status : check_tables(recording);
 }
 
-/* What is known of a residual. */
-static const char *const kinds[] = {"value", "estimate", "bound"};
-
-/* The numbers of the record, in the order of the header. */
+/* The numbers of the record, in the order of the columns. */
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
-    Output *log = &recording->log;
-    if (!log->file)
+    Table *log = &recording->table[RECORDING_LOG];
+    const double head[] = {
+        (double)record->step, record->iteration, record->residual,
+        record->alpha,        record->trials,    record->slope,
+        record->change,       record->projected, record->factorised,
+        record->shift,        record->status,    record->seconds};
+    const double points[] = {record->from[0], record->from[1], record->to[0],
+                             record->to[1]};
+    const double tail[] = {record->solver, record->kind, pane};
+    double row[TABLE_COLUMNS], *at = row;
+    if (!table_is_open(log))
         return STATUS_OK;
-    char iteration[16] = "";
-    if (record->iteration >= 0)
-        snprintf(iteration, sizeof iteration, "%d", record->iteration);
+    memcpy(at, head, sizeof head);
+    at += sizeof head / sizeof *head;
+    memcpy(at, points, sizeof points);
+    at += recording->points ? 4 : 0;
+    memcpy(at, tail, sizeof tail);
     errno = 0;
-    fprintf(log->file, "%ld,%s,%.17g,%.17g,%d,%.17g,%.17g,%d,%d,%.17g,%s,%.17g",
-            record->step, iteration, record->residual, record->alpha,
-            record->trials, record->slope, record->change, record->projected,
-            record->factorised, record->shift, status_name(record->status),
-            record->seconds);
-    if (recording->points)
-        fprintf(log->file, ",%.17g,%.17g,%.17g,%.17g", record->from[0],
-                record->from[1], record->to[0], record->to[1]);
-    fprintf(log->file, ",%s,%s", solver_name(record->solver),
-            kinds[record->kind]);
-    if (recording->panes > 1)
-        fprintf(log->file, ",%d", pane);
-    putc('\n', log->file);
-    return check_table(recording, log);
+    table_add(log, row);
+    return check_tables(recording);
 }
 
-/* Empty tables with headers. */
 Status recording_restart(Recording *recording, const Options *options)
 {
-    recording->points = !(options->scene->needs & NEEDS_TIME);
+    set_columns(options, recording);
     recording->last_frame = -1;
-    Status status = recording_cut(recording, -1);
-    return status ? status : write_headers(recording);
+    return recording_cut(recording, -1);
 }
 
 Status recording_cut(Recording *recording, long step)
 {
     Status status = STATUS_OK;
     for (int t = 0; t < RECORDING_TABLES && !status; t++) {
-        Output *output = &recording->table[t];
-        status = note(recording, output_cut(output, step), output->name, NULL);
+        Table *table = &recording->table[t];
+        status =
+            note(recording, table_cut(table, step), table->output.name, NULL);
     }
     return status;
 }
@@ -354,19 +423,9 @@ Status recording_cut(Recording *recording, long step)
 bool recording_has_tables(const Recording *recording)
 {
     for (int t = 0; t < RECORDING_TABLES; t++)
-        if (recording->table[t].file)
+        if (table_is_open(&recording->table[t]))
             return true;
     return false;
-}
-
-/* Closes one table. */
-static Status close_table(Recording *recording, Output *output)
-{
-    char name[RECORDING_NAME_SIZE];
-    snprintf(name, sizeof name, "%s", output->name ? output->name : "");
-    if (recording->aside)
-        output_discard(output, true);
-    return note(recording, output_close(output), name, NULL);
 }
 
 /* Film and all tables, also if one of them fails; the first failure counts. */
@@ -374,7 +433,12 @@ Status recording_close(Recording *recording)
 {
     Status first = recording_end_film(recording);
     for (int t = 0; t < RECORDING_TABLES; t++) {
-        Status status = close_table(recording, &recording->table[t]);
+        Table *table = &recording->table[t];
+        char name[RECORDING_NAME_SIZE] = "";
+        if (table->output.name)
+            snprintf(name, sizeof name, "%s", table->output.name);
+        Status status =
+            note(recording, table_close(table, recording->aside), name, NULL);
         first = first ? first : status;
     }
     return first;
@@ -384,5 +448,5 @@ void recording_discard(Recording *recording)
 {
     film_discard(&recording->film);
     for (int t = 0; t < RECORDING_TABLES; t++)
-        output_discard(&recording->table[t], false);
+        table_discard(&recording->table[t]);
 }

@@ -70,10 +70,12 @@ static void tell_tolerance(Player *player)
 /* Why cells may stay folded, too. */
 static void tell_rest(Player *player)
 {
+    const Past *past = &player->past;
     int folded = 0;
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        Pane pane = {.simulation = &player->past.machine[p].simulation};
-        folded += pane_folded(&pane);
+    for (int p = 0; p < past_panes(past); p++) {
+        Pane pane = {.simulation = &past->machine[p].simulation};
+        if (past_ended(past, p, past->step) < 0)
+            folded += pane_folded(&pane);
     }
     player_note(player,
                 folded ? "at rest, with folded cells: springs alone do "
@@ -96,7 +98,7 @@ void player_judge(Player *player)
         return;
     for (int p = 0; p < past_panes(past); p++) {
         const Machine *machine = &past->machine[p];
-        if (past_ended(past, p) >= 0)
+        if (past_ended(past, p, past->step) >= 0)
             continue;
         going++;
         ended = ended && (machine->simulation.done || machine->failed);

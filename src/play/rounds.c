@@ -80,43 +80,30 @@ static bool make_room(Rounds *rounds)
     return records_fit(&rounds->made, count);
 }
 
-/* Copies x and p, if there is memory for them. */
-static void keep_arrays(Rounds *rounds, Round *round, const double *x,
-                        const double *p)
-{
-    size_t size = (size_t)rounds->size, bytes = 2 * size * sizeof *x;
-    if (rounds->bytes + bytes > ROUNDS_BYTES)
-        return;
-    round->x = malloc(bytes);
-    if (!round->x)
-        return;
-    round->p = round->x + size;
-    rounds->bytes += bytes;
-    memcpy(round->x, x, bytes / 2);
-    memcpy(round->p, p, bytes / 2);
-}
+/* ---- what is kept -------------------------------------------------------- */
 
-/* E along p of the round that is due, from the place where `at` is; nothing
- * where memory is missing. */
+/* E along p of the round that is due, from the place where `at` is; where it is
+ * rough and memory is missing, nothing of the round. */
 static void keep_line(Rounds *rounds, const Iterate *at)
 {
     Round *round = &rounds->round[rounds->made.count];
-    round->first = incremental_potential_reach(at);
-    double pace = round->first / ROUND_PARTS;
+    size_t bytes = ROUND_VALUES * sizeof *round->value;
     Along along = incremental_potential_along(at);
+    round->first = incremental_potential_reach(at);
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
     if (along.rough == 0 || !round->x)
         return;
     free(round->value);
-    round->value = malloc(ROUND_VALUES * sizeof *round->value);
+    round->value = malloc(bytes);
     if (!round->value) {
         free_round(round);
         return;
     }
-    rounds->bytes += ROUND_VALUES * sizeof *round->value;
+    rounds->bytes += bytes;
     for (int i = 0; i < ROUND_VALUES; i++)
-        round->value[i] = along_difference(&along, i * pace);
+        round->value[i] =
+            along_difference(&along, i * round->first / ROUND_PARTS);
 }
 
 /* The polynomial, or the kept values, joined by straight lines. */
@@ -128,11 +115,9 @@ static double kept_difference(const void *function, double alpha)
     double place = alpha / round->first * ROUND_PARTS;
     if (!(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
-    int i = (int)place;
-    double part = place - i;
-    return part == 0 ? round->value[i]
-                     : round->value[i] +
-                           part * (round->value[i + 1] - round->value[i]);
+    const double *value = round->value + (int)place;
+    double part = place - (int)place;
+    return part == 0 ? value[0] : value[0] + part * (value[1] - value[0]);
 }
 
 /* The direction of multigrid is the way that it went from x, and E along it. */
@@ -141,29 +126,39 @@ static void keep_way(Rounds *rounds, const Newton *newton)
     const IncrementalPotential *E = &newton->at.E;
     Round *round = &rounds->round[rounds->made.count];
     double *u = calloc(2 * (size_t)rounds->size, sizeof *u);
-    for (int i = 0; u && round->x && i < rounds->size; i++) {
-        u[i] = round->x[i] - E->x_n[i];
-        round->p[i] = newton->at.u[i] - u[i];
-    }
     if (u && round->x) {
         double *g = u + rounds->size;
         Iterate at = {.E = *E, .u = u, .x = round->x, .g = g, .p = round->p};
+        for (int i = 0; i < rounds->size; i++) {
+            u[i] = round->x[i] - E->x_n[i];
+            round->p[i] = newton->at.u[i] - u[i];
+        }
         incremental_potential_gradient(E, u, round->x, g);
         keep_line(rounds, &at);
     }
     free(u);
 }
 
-/* The round that is due: where the solver is now.  Where a bound decided the
- * test, no direction was computed, and p is still that of the round before. */
-static void keep_next(Rounds *rounds, const Newton *newton)
+/* The round that is due: where the solver is now, if there is memory.  Where a
+ * bound decided the test, no direction was computed, and p is still that of the
+ * round before. */
+static void keep_round(Rounds *rounds, const Newton *newton)
 {
-    int i = rounds->made.count;
-    free_round(&rounds->round[i]);
-    rounds->made.row[i] = newton->record;
-    rounds->made.row[i].residual = newton->residual;
-    rounds->made.row[i].kind = newton->kind;
-    keep_arrays(rounds, &rounds->round[i], newton->at.x, newton->at.p);
+    Round *round = &rounds->round[rounds->made.count];
+    NewtonRecord *record = &rounds->made.row[rounds->made.count];
+    size_t size = (size_t)rounds->size, bytes = 2 * size * sizeof *round->x;
+    free_round(round);
+    *record = newton->record;
+    record->residual = newton->residual;
+    record->kind = newton->kind;
+    if (rounds->bytes + bytes <= ROUNDS_BYTES)
+        round->x = malloc(bytes);
+    if (round->x) {
+        round->p = round->x + size;
+        rounds->bytes += bytes;
+        memcpy(round->x, newton->at.x, bytes / 2);
+        memcpy(round->p, newton->at.p, bytes / 2);
+    }
     keep_line(rounds, &newton->at);
 }
 
@@ -171,7 +166,7 @@ void rounds_look(Rounds *rounds, const Newton *newton)
 {
     if (newton->record.iteration >= 0 || !make_room(rounds))
         return;
-    keep_next(rounds, newton);
+    keep_round(rounds, newton);
     if (rounds->x_tilde) /* of the first stage of a method with several */
         return;
     rounds->x_tilde = malloc((size_t)rounds->size * sizeof(double));
@@ -183,37 +178,33 @@ void rounds_add(Rounds *rounds, const Newton *newton,
                 const NewtonRecord *record)
 {
     int i = rounds->made.count;
-    bool at_rest = record->iteration < 0 && i == 0;
-    if (at_rest || record->status == STATUS_OK)
+    bool first = record->iteration < 0, passes = record->status == STATUS_OK;
+    if (passes || (first && i == 0))
         rounds->passed =
             newton->working == SOLVER_MULTIGRID || !newton->record.factorised;
-    if (!make_room(rounds))
+    if (!make_room(rounds) || (first && (i > 0 || !passes)))
         return;
-    if (at_rest && record->status == STATUS_OK) {
-        keep_next(rounds, newton);
-        rounds->ended = true;
-    }
-    if (record->iteration < 0)
-        return;
-    NewtonRecord *made = &rounds->made.row[i];
-    if (record->solver == SOLVER_MULTIGRID)
-        keep_way(rounds, newton);
-    double slope = made->slope;
-    *made = *record;
-    if (record->solver == SOLVER_MULTIGRID) {
-        /* It goes no line that p alone gives; what it made is shown as one. */
+    if (!first) {
+        NewtonRecord *made = &rounds->made.row[i];
+        bool multigrid = record->solver == SOLVER_MULTIGRID;
+        if (multigrid)
+            keep_way(rounds, newton);
+        double slope = multigrid ? made->slope : record->slope;
+        *made = *record;
         made->slope = slope;
-        if (record->alpha != 0)
-            made->alpha = made->trials = 1;
+        if (multigrid && made->alpha != 0)  /* it goes no line that p alone */
+            made->alpha = made->trials = 1; /* gives; it is shown as one */
+        rounds->made.count++;
     }
-    rounds->made.count++;
-    rounds->ended = record->alpha != 0 && (record->status == STATUS_RUNNING ||
-                                           record->status == STATUS_OK);
+    rounds->ended = first || (record->alpha != 0 &&
+                              (passes || record->status == STATUS_RUNNING));
     if (rounds->ended)
-        keep_next(rounds, newton);
+        keep_round(rounds, newton);
     else
         free_round(&rounds->round[i + 1]);
 }
+
+/* ---- the listing --------------------------------------------------------- */
 
 /* One more place. */
 static void add_place(Rounds *rounds, int round, Line line, int trials)
@@ -221,25 +212,27 @@ static void add_place(Rounds *rounds, int round, Line line, int trials)
     rounds->place[rounds->places++] = (Station){round, line, trials};
 }
 
-/* The lines of a round that has a record. */
+/* The lines of a round; the last one may have the test alone. */
 static void add_round(Rounds *rounds, const Options *options, int i)
 {
     const NewtonRecord *record = &rounds->made.row[i];
-    bool searches = options->line_search != LINE_SEARCH_NONE;
-    int trials =
-        searches && record->trials < TRIALS_WALKED ? record->trials : 1;
+    bool made = i < rounds->made.count, solves = made || !rounds->passed;
+    bool searches = made && options->line_search != LINE_SEARCH_NONE;
+    bool fails = made && record->alpha == 0;
+    int trials = made ? record->trials : 0;
     add_place(rounds, i, LINE_DO, 0);
-    if (options->filter != FILTER_NONE)
+    if (solves && options->filter != FILTER_NONE)
         add_place(rounds, i, LINE_PROJECT, 0);
-    add_place(rounds, i, LINE_SOLVE, 0);
-    for (int t = 1; t < trials; t++)
+    if (solves)
+        add_place(rounds, i, LINE_SOLVE, 0);
+    for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
         add_place(rounds, i, LINE_SEARCH, t);
-    if (searches || record->alpha == 0)
-        add_place(rounds, i, LINE_SEARCH, record->trials);
-    if (record->alpha == 0)
-        return;
-    add_place(rounds, i, LINE_UPDATE, record->trials);
-    add_place(rounds, i, LINE_TEST, record->trials);
+    if (searches || fails)
+        add_place(rounds, i, LINE_SEARCH, trials);
+    if (made && !fails)
+        add_place(rounds, i, LINE_UPDATE, trials);
+    if (!fails)
+        add_place(rounds, i, LINE_TEST, trials);
 }
 
 void rounds_end(Rounds *rounds, const Options *options)
@@ -253,32 +246,21 @@ void rounds_end(Rounds *rounds, const Options *options)
         return;
     rounds->place = place;
     add_place(rounds, 0, LINE_START, 0);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count + rounds->ended; i++)
         add_round(rounds, options, i);
-    if (rounds->ended) {
-        add_place(rounds, count, LINE_DO, 0);
-        if (options->filter != FILTER_NONE && !rounds->passed)
-            add_place(rounds, count, LINE_PROJECT, 0);
-        if (!rounds->passed)
-            add_place(rounds, count, LINE_SOLVE, 0);
-        add_place(rounds, count, LINE_TEST, 0);
-    }
     add_place(rounds, count, LINE_END, 0);
-}
-
-/* Whether an update ends here. */
-static bool is_milestone(const Rounds *rounds, int place)
-{
-    Line line = rounds->place[place].line;
-    return line == LINE_START || line == LINE_TEST || line == LINE_END;
 }
 
 int rounds_walk(const Rounds *rounds, int fine, int place, int way)
 {
-    place += way;
-    while (fine < 2 && place >= 0 && place < rounds->places &&
-           !is_milestone(rounds, place))
+    Line line;
+    do {
         place += way;
+        if (place < 0 || place >= rounds->places)
+            return place;
+        line = rounds->place[place].line;
+    } while (fine < 2 && line != LINE_START && line != LINE_TEST &&
+             line != LINE_END);
     return place;
 }
 
@@ -350,51 +332,43 @@ static void trace_round(const Rounds *rounds, const Station *at, Trace *trace)
 const double *rounds_trace(const Rounds *rounds, int place, Trace *trace)
 {
     int count = rounds->made.count;
-    const NewtonRecord *row = rounds->made.row;
+    const NewtonRecord *row = rounds->made.row, *last = row + count - 1;
     bool over = place < 0 || place >= rounds->places;
-    const Station *at = over ? NULL : &rounds->place[place];
-    const Station last = {count - 1, LINE_END,
-                          count ? row[count - 1].trials : 0};
     bool given_up = !rounds->ended && count > 0;
-    *trace = (Trace){.h = rounds->h,
+    const Station at =
+        over ? (Station){count, LINE_END, 0} : rounds->place[place];
+    bool end = at.line == LINE_END, made = at.round < count;
+    Station told = at;
+    if (end && count > 0 && (over || given_up)) /* what has led there */
+        told = (Station){count - 1, LINE_END, last->trials};
+    *trace = (Trace){.line = over ? LINE_NONE : at.line,
+                     .h = rounds->h,
                      .tolerance = rounds->tolerance,
-                     .updates = count,
+                     .iteration = over ? count - 1 : at.round,
+                     .updates = over ? count : at.round,
                      .record = row,
                      .updates_before = rounds->before.count,
                      .record_before = rounds->before.row,
                      .projected = -1,
                      .x_tilde = rounds->x_tilde};
-    if (over) { /* its last update, and the test that ended it */
-        if (count > 0)
-            trace_round(rounds, &last, trace);
-        trace->iteration = count - 1;
-        trace->passed = rounds->passed;
-        trace->given_up = given_up;
-        if (rounds->ended) {
-            trace->residual = row[count].residual;
-            trace->kind = row[count].kind;
-        }
-        return NULL;
-    }
-    trace->line = at->line;
-    trace->iteration = trace->updates = at->round;
     if (rounds->room == 0)
         return NULL;
-    const Round *round = &rounds->round[at->round];
-    bool end = at->line == LINE_END;
-    if (at->line == LINE_START)
-        return round->x;
-    if (end && given_up) /* as the last round left it */
-        trace_round(rounds, &last, trace);
-    else if (!end || rounds->ended)
-        trace_round(rounds, at, trace);
+    if (at.line != LINE_START &&
+        (told.round < count || (rounds->ended && !over)))
+        trace_round(rounds, &told, trace);
+    if (over)
+        trace->passed = rounds->passed;
+    if (over && rounds->ended) { /* the test that ended it */
+        trace->residual = row[count].residual;
+        trace->kind = row[count].kind;
+    }
     trace->given_up =
-        given_up &&
-        (end || (at->round == count - 1 && at->line == LINE_SEARCH &&
-                 at->trials == last.trials && row[count - 1].alpha == 0));
-    bool moved =
-        at->round < count && (at->line == LINE_UPDATE || at->line == LINE_TEST);
-    if (moved && (at->round + 1 < count || rounds->ended))
-        return round[1].x;
-    return moved || end ? NULL : round->x;
+        given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
+                             at.trials == last->trials && last->alpha == 0));
+    const Round *round = &rounds->round[at.round];
+    if (end)
+        return NULL;
+    if (!made || (at.line != LINE_UPDATE && at.line != LINE_TEST))
+        return round->x;
+    return at.round + 1 < count || rounds->ended ? round[1].x : NULL;
 }

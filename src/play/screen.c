@@ -70,13 +70,16 @@ Status obey_full(Player *player, const Command *command)
 /* The list of keys or of pages, or a page's code, or the cards again. */
 Status obey_column(Player *player, const Command *command)
 {
-    Column column = command->kind == COMMAND_KEYS    ? COLUMN_KEYS
-                    : command->kind == COMMAND_PAGES ? COLUMN_PAGES
-                                                     : COLUMN_CODE;
+    Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
+                    : command->kind == COMMAND_PAGES   ? COLUMN_PAGES
+                    : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
+                                                       : COLUMN_CODE;
     if (column == COLUMN_CODE && !player_settings(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
     player->column = player->column == column ? COLUMN_CARDS : column;
+    player_close_sheet(player);
+    player_deselect(player);
     return STATUS_OK;
 }
 
@@ -86,14 +89,16 @@ Status obey_escape(Player *player, const Command *command)
     (void)command;
     bool asked = player->leaving;
     player->leaving = false;
-    if (player->column == COLUMN_KEYS)
+    if (player->blank)
+        player->blank = false;
+    else if (player->sheet)
+        player_close_sheet(player);
+    else if (player->column == COLUMN_KEYS)
         player->column = COLUMN_CARDS;
     else if (player->selected >= 0)
         player_deselect(player);
     else if (player->column)
         player->column = COLUMN_CARDS;
-    else if (player->blank)
-        player->blank = false;
     else if (player->view && view_is_full(player->view))
         view_set_full(player->view, false);
     else if (asked)
@@ -190,7 +195,7 @@ Status obey_shot(Player *player, const Command *command)
     if (!status) {
         player_know_step(player);
         player_paint(player, paper);
-        status = png_file_write(name, &paper->canvas);
+        status = png_file_write(name, &paper->canvas, false);
     }
     paper_free(&own);
     if (status)

@@ -160,19 +160,6 @@ Status player_fork(Player *player, long step)
 
 /* ---- what happens as a step is shown ------------------------------------- */
 
-void player_sample(Player *player)
-{
-    Past *past = &player->past;
-    for (int p = 0; p < past_panes(past); p++) {
-        Curves *curves = past_curves(past, p);
-        if (!curves || curves->sampled >= past->step || past->works)
-            continue;
-        curves->sampled = past->step;
-        if (past_ended(past, p) < 0)
-            show_sample(&past->machine[p].simulation, &curves->history);
-    }
-}
-
 void player_know_step(Player *player)
 {
     enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
@@ -203,7 +190,9 @@ void player_know_step(Player *player)
 static Status show_last_good(Player *player)
 {
     Past *past = &player->past;
-    long failed = past->step + 1, step = past_last_seen(past, 0, past->step, 0);
+    long failed = past->step + 1, step = past->step;
+    for (int p = 0; p < past_panes(past); p++)
+        step = past_last_seen(past, p, step);
     if (step == past->step)
         return STATUS_OK;
     Status status = player_show(player, step, false, THEN_NOTHING);
@@ -218,17 +207,16 @@ static Status show_last_good(Player *player)
 /* Of several side by side: those whose step could not be made have ended. */
 static void tell_ended(Player *player)
 {
-    for (int p = 0; p < past_panes(&player->past); p++) {
-        Side *side = &player->side[p];
-        long last = past_ended(&player->past, p);
-        if (last >= 0 && !side->over) {
-            player_note(player,
-                        "pane %d ended at step %ld, beyond all numbers: its "
-                        "last state below ten times the size is shown",
-                        p + 1, last);
-            player->warning = true;
-        }
-        side->over = last >= 0;
+    const Past *past = &player->past;
+    for (int p = 0; p < past_panes(past); p++) {
+        long last = past_ended(past, p, past->step);
+        if (last != past->step - 1)
+            continue;
+        player_note(player,
+                    "pane %d ended at step %ld, beyond all numbers: its last "
+                    "state below ten times the size is shown",
+                    p + 1, last);
+        player->warning = true;
     }
 }
 
@@ -249,19 +237,18 @@ static Status show_failure(Player *player, Status status, Then then)
 /* The work has come to its end. */
 static Status step_shown(Player *player, Status status, long before)
 {
-    Past *past = &player->past;
     Then then = player->then;
     bool failed = status && !status_is_unconverged(status);
     player->then = THEN_NOTHING;
     player->changed = true;
-    if (past_panes(past) > 1)
-        tell_ended(player);
-    if (failed && (past_panes(past) == 1 || past->step == before))
+    if (failed && player->past.step == before)
         return show_failure(player, status, then);
-    if (past->step != before && player->attended)
-        player_sample(player);
+    if (player->past.step > before)
+        tell_ended(player);
     status = record_step(player);
-    return status ? status : player_wish(player, then);
+    if (!status)
+        player_wish(player, then);
+    return status;
 }
 
 Status player_work(Player *player)
@@ -310,6 +297,7 @@ static Status let_go(Player *player)
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
     player_next_gesture(player);
+    player->noted = 0; /* no line joins what none has told */
     player->sampled = -1;
     return player_change(player, &release, 0, panes, false);
 }

@@ -76,7 +76,7 @@ static void print_energies(FILE *file, const Player *player, int pane)
 {
     const Machine *machine = &player->past.machine[pane];
     const Simulation *simulation = &machine->simulation;
-    const double energy[] = {machine->start,
+    const double energy[] = {machine->begin,
                              simulation_energies(simulation, 0).total};
     bool several = simulation->runs > 1;
     for (int i = 0; i < 2; i++) {

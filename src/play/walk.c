@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "play/playing.h"
 #include "scenes/scene.h"
 
@@ -65,7 +64,6 @@ static void enter_rounds(Player *player, Then then)
 static bool walk(Player *player, int way)
 {
     bool moved = false;
-    player->glide = player->window ? clock_now() : 0;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Rounds *rounds = &machine_of(player, p)->rounds;
         int last = rounds->places - 1, place = player_place(player, p);
@@ -78,22 +76,14 @@ static bool walk(Player *player, int way)
     return moved;
 }
 
-Status player_wish(Player *player, Then then)
+void player_wish(Player *player, Then then)
 {
-    char note[sizeof player->note];
-    Status status = STATUS_OK;
     if (then == THEN_JUDGE)
         player_judge(player);
     if (then == THEN_ENTER || then == THEN_LEAVE || then == THEN_PEAK)
         enter_rounds(player, then);
-    if (then != THEN_TELL)
-        return status;
-    status = player_tell_retake(player);
-    memcpy(note, player->note, sizeof note);
-    if (past_panes(&player->past) > 1 && player_stands(player))
-        enter_rounds(player, THEN_PEAK);
-    memcpy(player->note, note, sizeof note);
-    return status;
+    if (then == THEN_TELL)
+        player_tell_retake(player);
 }
 
 /* ---- commands ------------------------------------------------------------ */
@@ -216,6 +206,7 @@ Status obey_undo(Player *player, const Command *command)
     command_format(&edit, line, sizeof line);
     player->mode = MODE_PAUSE;
     player->holds = false;
+    player->mouse.gesture = ++player->gestures; /* if a drag goes on */
     player->still = player->rigid = 0;
     player->then = THEN_NOTHING;
     Status status = player_fork(player, fork);

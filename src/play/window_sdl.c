@@ -55,14 +55,21 @@ static int server_is_gone(void *display)
     return 0;
 }
 
+/* A function of the Xlib that SDL has loaded; NULL: there is none. */
+static void *xlib_function(const char *name)
+{
+    void *xlib = event_descriptor() >= 0
+                     ? dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD)
+                     : NULL;
+    return xlib ? dlsym(xlib, name) : NULL;
+}
+
 static void guard_server(void)
 {
     typedef int Handler(void *display);
     Handler *(*set_handler)(Handler *) = NULL;
     guarded = event_descriptor();
-    void *xlib =
-        guarded >= 0 ? dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD) : NULL;
-    void *symbol = xlib ? dlsym(xlib, "XSetIOErrorHandler") : NULL;
+    void *symbol = xlib_function("XSetIOErrorHandler");
     memcpy(&set_handler, &symbol, sizeof symbol);
     if (set_handler && when_lost)
         set_handler(server_is_gone);
@@ -166,6 +173,24 @@ static void create_renderer(void)
         renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
 }
 
+/* Where no window manager does it, the window would stay as small as it was and
+ * show a part of the picture. */
+static void fill_screen(void)
+{
+#if defined SDL_VIDEO_DRIVER_X11
+    int (*resize)(Display *, Window, int, int, unsigned, unsigned) = NULL;
+    void *symbol = xlib_function("XMoveResizeWindow");
+    SDL_SysWMinfo info;
+    SDL_Rect area;
+    SDL_VERSION(&info.version);
+    memcpy(&resize, &symbol, sizeof symbol);
+    if (resize && SDL_GetWindowWMInfo(window, &info) &&
+        SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window), &area) == 0)
+        resize(info.info.x11.display, info.info.x11.window, area.x, area.y,
+               (unsigned)area.w, (unsigned)area.h);
+#endif
+}
+
 bool window_open(const char *title, const int size[2], bool full)
 {
     int fitting[2];
@@ -184,6 +209,8 @@ bool window_open(const char *title, const int size[2], bool full)
     }
     if (window)
         create_renderer();
+    if (renderer && full)
+        fill_screen();
     guard_server();
     opens = 0;
     if (renderer)
@@ -222,12 +249,19 @@ void window_set_title(const char *title)
 
 void window_set_full(bool full)
 {
-    if (full)
+    static int place[2];
+    if (full) {
         SDL_GetWindowSize(window, &before[0], &before[1]);
+        SDL_GetWindowPosition(window, &place[0], &place[1]);
+    }
     SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
-    /* Where no window manager does it, SDL keeps the size of the screen. */
-    if (!full && before[0] > 0)
+    if (full)
+        fill_screen();
+    /* And SDL would keep the size of the screen. */
+    if (!full && before[0] > 0) {
         SDL_SetWindowSize(window, before[0], before[1]);
+        SDL_SetWindowPosition(window, place[0], place[1]);
+    }
 }
 
 bool window_is_full(void)

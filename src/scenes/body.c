@@ -11,13 +11,14 @@
 #include "model/fracture.h"
 #include "model/friction.h"
 #include "model/plasticity.h"
+#include "model/self_contact.h"
 #include "scenes/start_table.h"
 #include "base/mathematics.h"
 
 /* ---- pins --------------------------------------------------------------- */
 
-/* A node is meant that is on this side and, where `or` is not 0, on one of
- * those. */
+/* A node is meant that is on this side, 0: anywhere, and, where `or` is not 0,
+ * on one of those. */
 static const struct PinWord {
     const char *word;
     int side, or ;
@@ -27,24 +28,38 @@ static const struct PinWord {
     {"bottom", MESH_BOTTOM, 0},
     {"left", MESH_LEFT, 0},
     {"right", MESH_RIGHT, 0},
+    {"all", 0, 0},
 };
 
-/* Pins what one item names; false: it is neither a word nor a node. */
+/* A number of digits alone, or -1. */
+static long read_digits(const char *text)
+{
+    size_t digits = strspn(text, "0123456789");
+    return digits > 0 && digits < 10 && !text[digits] ? atol(text) : -1;
+}
+
+/* Pins what one item names, a node or a word, of one body where ":2" follows;
+ * false: it is none of that. */
 static bool pin_item(const char *item, const SquareMesh *shape,
                      unsigned char *pinned)
 {
     const int words = sizeof pin_words / sizeof *pin_words;
     const struct PinWord *word = pin_words;
-    while (word < pin_words + words && strcmp(word->word, item) != 0)
+    char name[32];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(item, ":"), item);
+    const char *colon = strchr(item, ':');
+    while (word < pin_words + words && strcmp(word->word, name) != 0)
         word++;
     bool is_word = word < pin_words + words;
-    size_t digits = strspn(item, "0123456789");
-    long number = digits > 0 && digits < 10 ? atol(item) : -1;
-    if (!is_word && (item[digits] || number < 0 || number >= shape->nodes))
+    long number = read_digits(name), body = colon ? read_digits(colon + 1) : 0;
+    if (is_word ? colon && (body < 1 || body > shape->bodies)
+                : colon || number < 0 || number >= shape->nodes)
         return false;
     for (int node = 0; pinned && node < shape->nodes; node++) {
-        int sides = is_word ? square_mesh_sides(shape, node) : 0;
-        if (is_word ? (sides & word->side) && (!word->or || (sides & word->or))
+        int own = node, sides = square_mesh_sides(shape, node);
+        bool here = !colon || square_mesh_body(shape, &own) == body - 1;
+        if (is_word ? here && (sides & word->side) == word->side &&
+                          (!word->or || (sides & word->or))
                     : node == number)
             pinned[node] = 1;
     }
@@ -77,7 +92,7 @@ SquareMesh body_shape(const Options *options)
     double rows =
         aspect > 0 ? round(options->segments * aspect) : options->segments;
     return square_mesh_shape((int)options->segments, (int)fmax(rows, 1),
-                             options->side);
+                             options->side, (int)fmax(options->bodies, 1));
 }
 
 /* The order of elimination, with the nodes that are not in the mesh last. */
@@ -106,13 +121,14 @@ static Status create_system(const Options *options, int more, SquareMesh *mesh,
                             System *system)
 {
     const SquareMesh shape = body_shape(options);
-    Status status =
-        square_mesh_create(shape.segments, shape.rows, shape.side, mesh);
+    Status status = square_mesh_create(shape.segments, shape.rows, shape.side,
+                                       shape.bodies, mesh);
     if (!status)
         status = system_create(mesh->nodes + more, mesh->springs, system);
     if (status)
         return status;
-    double m = options->density * mesh->side * mesh->side / mesh->nodes;
+    int nodes = mesh->nodes / mesh->bodies;
+    double m = options->density * mesh->side * mesh->side / nodes;
     if (mesh->rows != mesh->segments)
         m *= (double)mesh->rows / mesh->segments;
     for (int i = 0; i < system->nodes; i++)
@@ -125,7 +141,7 @@ static Status create_system(const Options *options, int more, SquareMesh *mesh,
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
     }
-    if (mesh->rows == mesh->segments && more == 0)
+    if (mesh->rows == mesh->segments && more == 0 && mesh->bodies == 1)
         system->segments = mesh->segments;
     system->gravity[1] = -options->gravity;
     status = take_order(mesh, system);
@@ -135,19 +151,53 @@ static Status create_system(const Options *options, int more, SquareMesh *mesh,
     return status ? status : pins_read(options->pin, mesh, system->pinned);
 }
 
-/* Stretched, turned, moved; 0 degrees leave every bit. */
-static void place_node(const Options *options, const double rest[2],
-                       double x[2])
+/* Where a body begins, as --body has it. */
+static void body_start(const Options *options, int body,
+                       double start[BODY_NUMBERS])
 {
-    double angle = options->turn * DEGREE;
-    double c = cos(angle), s = sin(angle);
-    double x0 = options->stretch * rest[0], x1 = rest[1];
-    x[0] = c * x0 - s * x1 + options->at[0];
-    x[1] = s * x0 + c * x1 + options->at[1];
+    const double *at = options->at, *v = options->velocity;
+    const double only[BODY_NUMBERS] = {
+        at[0], at[1], options->turn, v[0], v[1], options->stretch, 1};
+    memcpy(start, options->bodies > 0 ? options->body[body] : only,
+           sizeof only);
 }
 
-_Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS < CONTACT_MAX_OBSTACLES,
-               "there is room for the scene's own");
+/* Stretched, turned, moved; 0 degrees leave every bit. */
+static void place_node(const double start[BODY_NUMBERS], const double rest[2],
+                       double x[2])
+{
+    double angle = start[2] * DEGREE;
+    double c = cos(angle), s = sin(angle);
+    double x0 = start[5] * rest[0], x1 = start[6] * rest[1];
+    x[0] = c * x0 - s * x1 + start[0];
+    x[1] = s * x0 + c * x1 + start[1];
+}
+
+_Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
+                   CONTACT_MAX_OBSTACLES,
+               "there is room for the ceiling and the scene's own");
+
+/* It makes whole steps until it is where it stops, or below. */
+static Obstacle ceiling_of(const Options *options)
+{
+    const double *ceiling = options->ceiling;
+    double step = options->timestep * -ceiling[1];
+    double steps = ceil((ceiling[0] - ceiling[2]) / step - 1e-9);
+    return (Obstacle){
+        .kind = OBSTACLE_WALL,
+        .n = {0, -1},
+        .o = {0, ceiling[0]},
+        .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
+}
+
+/* Of all obstacles but the ceiling. */
+static void set_friction(const Options *options, int count, Obstacle *list)
+{
+    int ceiling = (int)(options->grounds + options->balls);
+    for (int i = 0; i < count; i++)
+        list[i].friction =
+            i == ceiling && options->ceiling[1] != 0 ? 0 : options->friction;
+}
 
 /* The obstacles of the options, normals made units, and after them the scene's
  * own; returns how many. */
@@ -168,12 +218,13 @@ static int list_obstacles(const Options *options,
         list[count++] = (Obstacle){
             .kind = OBSTACLE_BALL, .o = {ball[0], ball[1]}, .radius = ball[2]};
     }
+    if (options->ceiling[1] != 0)
+        list[count++] = ceiling_of(options);
     if (options->scene->own)
         list[count++] = options->scene->own(options);
-    for (int i = 0; i < count; i++) {
-        list[i].friction = options->friction;
+    for (int i = 0; i < count; i++)
         list[i].node = -1;
-    }
+    set_friction(options, count, list);
     return count;
 }
 
@@ -190,30 +241,56 @@ static Barrier barrier_of(const Options *options)
     return (Barrier){d_hat, 0.5 * area * d_hat * kappa};
 }
 
-/* Contact and friction.  Where obstacles are is a matter of the start. */
+/* Contact and friction.  A ceiling and the scene's own obstacle, the last ones,
+ * are where they have come to, all others are where the options have them. */
 static Status set_obstacles(const Options *options, const SquareMesh *mesh,
                             System *system)
 {
     const Barrier barrier = barrier_of(options);
     Contact *contact = contact_of(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
-    int count = contact ? 0 : list_obstacles(options, list);
+    int fixed = (int)(options->grounds + options->balls);
+    int count = list_obstacles(options, list);
+    int had = contact ? contact->obstacles : 0;
     Status status = STATUS_OK;
-    if (count > 0 && system->nodes > mesh->nodes)
+    for (int k = 1; k <= count - fixed && k <= had; k++)
+        list[count - k] = contact->obstacle[had - k];
+    if (had == 0 && count > 0 && system->nodes > mesh->nodes)
         list[count - 1].node = mesh->nodes;
-    if (count > 0)
-        status = contact_add(system, &barrier, count, list);
-    contact = contact_of(system);
-    if (status || !contact)
-        return status;
-    contact->barrier = barrier;
-    for (int k = 0; k < contact->obstacles; k++)
-        contact->obstacle[k].friction = options->friction;
-    if (options->friction == 0)
+    set_friction(options, count, list);
+    if (count != had) {
         system_remove_term(system, &friction_energy);
-    else if (!system_find_term(system, &friction_energy))
-        return friction_add(system, options->slip_speed);
-    return STATUS_OK;
+        system_remove_term(system, &contact_energy);
+    }
+    if (count != had && count > 0)
+        status = contact_add(system, &barrier, count, list);
+    if (status || count == 0)
+        return status;
+    contact = contact_of(system);
+    contact->barrier = barrier;
+    memcpy(contact->obstacle, list, (size_t)count * sizeof *list);
+    return friction_set(system, &friction_energy, options->friction > 0,
+                        options->slip_speed);
+}
+
+/* Contact between bodies, and its friction.  An edge must be longer than the
+ * barrier is wide, or it repels its neighbours at rest: a quarter of it is the
+ * most. */
+static Status set_self_contact(const Options *options, const SquareMesh *mesh,
+                               System *system)
+{
+    Barrier barrier = barrier_of(options);
+    double mu = options->self_friction;
+    double width = fmin(barrier.d_hat, 0.25 * mesh->spacing);
+    barrier.c *= width / barrier.d_hat;
+    barrier.d_hat = width;
+    mu = mu < 0 ? options->friction : mu;
+    if (!options->self_contact)
+        return STATUS_OK;
+    Status status = self_contact_set(system, mesh, &barrier, mu);
+    return status ? status
+                  : friction_set(system, &self_friction_energy, mu > 0,
+                                 options->slip_speed);
 }
 
 /* Adds the terms that the options ask for, and gives those that are there
@@ -225,6 +302,8 @@ static Status set_terms(const Options *options, const SquareMesh *mesh,
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
     Cells *cells = system_data(system, &cell_energy);
     Status status = set_obstacles(options, mesh, system);
+    if (!status)
+        status = set_self_contact(options, mesh, system);
     if (!status && options->yield > 0 && !plasticity_of(system))
         status = plasticity_set(system, options->yield, options->hardening);
     if (cells)
@@ -254,13 +333,17 @@ static Status place_body(const Options *options, const SquareMesh *shape,
 {
     int more = has_ball(options->scene, options);
     if (options->state)
-        return start_table_read(options->state, shape->nodes + more, run, x, v,
-                                message, size);
+        return start_table_read(
+            options->state, options->state_step, shape->nodes + more, run,
+            options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1, x,
+            v, message, size);
     for (int i = 0; i < shape->nodes; i++) {
-        double rest[2];
+        double rest[2], start[BODY_NUMBERS];
+        int node = i;
         square_mesh_place(shape, i, rest);
-        place_node(options, rest, x + 2 * i);
-        memcpy(v + 2 * i, options->velocity, sizeof rest);
+        body_start(options, square_mesh_body(shape, &node), start);
+        place_node(start, rest, x + 2 * i);
+        memcpy(v + 2 * i, start + 3, sizeof rest);
     }
     if (more) {
         memcpy(x + 2 * shape->nodes, options->scene->own(options).o,
@@ -299,12 +382,23 @@ Status body_create(Simulation *simulation, int run, const Options *options,
     return status ? status : start_run(simulation, run, options, mesh, system);
 }
 
+/* What the options say of one run. */
+static Options options_of_run(const Simulation *simulation, int run,
+                              const Options *options)
+{
+    Options own = *options;
+    if (simulation->grip[run] > 0)
+        own.friction *= simulation->grip[run];
+    for (int i = 0; i < own.grounds; i++)
+        own.ground[i][3] += simulation->lift[run];
+    return own;
+}
+
 Status body_follow(Simulation *simulation, int run)
 {
     System *system = simulation->run[run].system;
-    Options options = simulation->options;
-    if (simulation->grip[run] > 0)
-        options.friction *= simulation->grip[run];
+    Options options = options_of_run(simulation, run, &simulation->options);
+    system->gravity[1] = -options.gravity;
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_broken(system, s))
             system->k[s] = options.stiffness;
@@ -343,7 +437,10 @@ static void name_obstacle(const Options *options, int i, char *text,
 {
     int ball = i - (int)options->grounds;
     const double *value = ball < 0 ? options->ground[i] : options->ball[ball];
-    if (ball >= options->balls)
+    if (ball == options->balls && options->ceiling[1] != 0)
+        snprintf(text, size, "--ceiling %g,%g,%g", options->ceiling[0],
+                 options->ceiling[1], options->ceiling[2]);
+    else if (ball >= options->balls)
         snprintf(text, size, "%s", options->scene->own_name);
     else if (ball >= 0)
         snprintf(text, size, "--ball %g,%g,%g", value[0], value[1], value[2]);
@@ -410,6 +507,22 @@ static Status check_obstacle(const Options *options, const double *x,
     return STATUS_INVALID_INPUT;
 }
 
+bool simulation_has_room(const Simulation *simulation, const Options *options,
+                         char *message, size_t size)
+{
+    for (int run = 0; run < simulation->runs; run++) {
+        const Options own = options_of_run(simulation, run, options);
+        const System *system = simulation->run[run].system;
+        Obstacle list[CONTACT_MAX_OBSTACLES];
+        int count = list_obstacles(&own, list);
+        for (int k = 0; k < own.grounds + own.balls; k++)
+            if (check_obstacle(&own, simulation->run[run].x, system->pinned,
+                               list, count, k, message, size))
+                return false;
+    }
+    return true;
+}
+
 /* Cells keep their sides, and of a solid its triangles: none begins turned
  * over. */
 static Status check_cells(const Options *options, const double *x,
@@ -432,10 +545,77 @@ static Status check_cells(const Options *options, const double *x,
         snprintf(message, size,
                  "%s: cell %d begins turned over (%.3g of its area); it must "
                  "not%s",
-                 options->state ? "--state" : "--stretch", t / 4, part,
-                 options->cells ? ", or --cells off" : "");
+                 options->state        ? "--state"
+                 : options->bodies > 0 ? "--body"
+                                       : "--stretch",
+                 t / 4, part, options->cells ? ", or --cells off" : "");
         return STATUS_INVALID_INPUT;
     }
+    return STATUS_OK;
+}
+
+/* Which side of the line from a to b, with its distance times |b - a|. */
+static double side_of(const double *a, const double *b, const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+/* Whether two edges have a point in common. */
+static bool edges_cross(const double *x, const int one[2], const int other[2])
+{
+    const double *a = x + 2 * one[0], *b = x + 2 * one[1];
+    const double *c = x + 2 * other[0], *d = x + 2 * other[1];
+    for (int k = 0; k < 2; k++) /* along one line, or far */
+        if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
+            fmax(c[k], d[k]) < fmin(a[k], b[k]))
+            return false;
+    return side_of(a, b, c) * side_of(a, b, d) <= 0 &&
+           side_of(c, d, a) * side_of(c, d, b) <= 0;
+}
+
+/* Whether a line to the right from a body's first node passes an edge of
+ * another body: inside, it passes an odd number of them. */
+static bool is_passed(const double *x, int node, const int edge[2])
+{
+    const double *p = x + 2 * node;
+    const double *a = x + 2 * edge[0], *b = x + 2 * edge[1];
+    return (a[1] > p[1]) != (b[1] > p[1]) &&
+           (side_of(a, b, p) > 0) == (b[1] > a[1]);
+}
+
+/* No outline begins across another or itself, and none inside another. */
+static Status check_overlap(const Options *options, const double *x,
+                            char *message, size_t size)
+{
+    const SquareMesh shape = body_shape(options);
+    int edge[2], other[2], each = shape.nodes / shape.bodies;
+    int bodies = shape.bodies, inside[SQUARE_MESH_MAX_BODIES] = {0};
+    for (int k = 0; k < shape.outline && options->self_contact; k++) {
+        square_mesh_outline(&shape, k, edge);
+        for (int body = 0; body < bodies; body++)
+            if (body != edge[0] / each && is_passed(x, body * each, edge))
+                inside[body] ^= 1 << edge[0] / each;
+        for (int l = 0; l < k; l++) {
+            square_mesh_outline(&shape, l, other);
+            bool neighbours = other[1] == edge[0] || other[0] == edge[1];
+            if (neighbours || !edges_cross(x, edge, other))
+                continue;
+            snprintf(message, size,
+                     "%s: at the start the edge of nodes %d, %d would cross "
+                     "that of nodes %d, %d; move one, or --self-contact off",
+                     options->bodies > 0 ? "--body" : "--self-contact",
+                     other[0], other[1], edge[0], edge[1]);
+            return STATUS_INVALID_INPUT;
+        }
+    }
+    for (int body = 0; body < bodies; body++)
+        if (inside[body]) {
+            snprintf(message, size,
+                     "--body: number %d would begin inside another; move one, "
+                     "or --self-contact off",
+                     body + 1);
+            return STATUS_INVALID_INPUT;
+        }
     return STATUS_OK;
 }
 
@@ -444,8 +624,14 @@ Status body_check(const Options *options, char *message, size_t size)
     Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
     int count = list_obstacles(options, list);
+    const double *ceiling = options->ceiling;
+    if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2]))) {
+        snprintf(message, size, "--ceiling: V is %g; it must be below 0",
+                 ceiling[1]);
+        return STATUS_INVALID_INPUT;
+    }
     if (count == 0 && !options->cells && !options->state &&
-        options->material == 0)
+        options->material == 0 && !options->self_contact)
         return STATUS_OK;
     unsigned char *pinned = calloc((size_t)shape.nodes, 1);
     double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);
@@ -455,6 +641,8 @@ Status body_check(const Options *options, char *message, size_t size)
                             message, size);
     if (!status)
         status = check_cells(options, x, message, size);
+    if (!status)
+        status = check_overlap(options, x, message, size);
     if (!status && options->pin)
         status = pins_read(options->pin, &shape, pinned);
     for (int i = 0; i < count && !status; i++)

@@ -13,9 +13,10 @@
 SquareMesh body_shape(const Options *options);
 
 /* The words that --pin knows besides node numbers. */
-#define PINS_WORDS "top-corners, top, bottom, left, right"
+#define PINS_WORDS "top-corners, top, bottom, left, right, all"
 
-/* Reads node numbers and words, separated by commas.
+/* Reads node numbers and words, separated by commas; "top:2" is the second
+ * body's.
  *   pinned  [nodes] in/out: 1 for each that is named; NULL: the text is only
  *           checked
  * Returns OK or INVALID_INPUT. */

@@ -16,6 +16,7 @@ Status create_slope(Simulation *simulation)
         SquareMesh mesh = {0};
         double up = 1.3 * options.side / 0.5 * (1 - run);
         simulation->grip[run] = part[run];
+        simulation->lift[run] = up;
         options.friction *= part[run];
         options.at[1] += up;
         for (int i = 0; i < options.grounds; i++)

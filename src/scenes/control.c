@@ -55,6 +55,14 @@ void control_pin(Control *control, int node, bool pinned)
     control->pins += pinned - had;
 }
 
+void obstacle_move(Options *options, int number, double x, double y)
+{
+    int ball = number - (int)options->grounds;
+    double *at = ball < 0 ? options->ground[number] + 2 : options->ball[ball];
+    at[0] = x;
+    at[1] = y;
+}
+
 const Control *control_keep(const Control *control)
 {
     if (control)
@@ -78,7 +86,7 @@ static Status use_hand(Simulation *simulation, const Control *control)
         return STATUS_OK;
     }
     if (hand && hand->node == control->hand &&
-        hand->target[0] == control->at[0] && hand->target[1] == control->at[1])
+        hand->mouse[0] == control->at[0] && hand->mouse[1] == control->at[1])
         return STATUS_OK;
     return simulation_grab(simulation, control->hand, control->at[0],
                            control->at[1]);

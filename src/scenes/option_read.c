@@ -179,15 +179,23 @@ static double number_meant(const OptionRow *row, const char *text)
     return NAN;
 }
 
-/* As many numbers as the row has, each in its range; a single one may have a
- * decimal comma.  number [count] out.  Returns whether they can be read. */
+/* As many numbers as the row has, or fewer if it allows that, each in its
+ * range; a single one may have a decimal comma.  number [count] out.  Returns
+ * whether they can be read. */
 static bool read_numbers(const OptionRow *row, int count, const char *text,
                          double *number)
 {
-    char copy[128], *at = copy, between = row->between ? row->between : ',';
+    char copy[256], *at = copy, between = row->between ? row->between : ',';
+    int given = 1;
     if (strlen(text) >= sizeof copy)
         return false;
     strcpy(copy, text);
+    for (const char *next = text; (next = strchr(next, between)); next++)
+        given++;
+    if (given < count && row->fewer >> given & 1) {
+        memcpy(number, row->rest, (size_t)count * sizeof *number);
+        count = given;
+    }
     for (int i = 0; i < count; i++) {
         char *next = strchr(at, i + 1 < count ? between : '\0');
         if (!next)
@@ -240,7 +248,7 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
 static Status apply_numbers(const Line *line, const OptionRow *row,
                             const char *text)
 {
-    enum { NUMBERS_MOST = 4 };
+    enum { NUMBERS_MOST = 8 };
     Options *options = line->options;
     double number[NUMBERS_MOST] = {0}, *given = &options->number[row->counter];
     int most = row->count ? row->count : 1, used = 0;
@@ -425,11 +433,12 @@ static Status check_words(Line *line)
             return refuse(line, "--%s: '%s' and '%s': one at a time, please",
                           row->name, typed(word->text).text,
                           typed(last->text).text);
-        if (row && row != handout && given(line, handout))
+        if (row != handout && given(line, handout))
             return refuse(line,
                           "--handout: the program writes the file and ends, "
-                          "--%s says nothing there",
-                          row->name);
+                          "%s%s says nothing there",
+                          row ? "--" : "",
+                          row ? row->name : typed(word->text).text);
         if (!row ? find_scene(line, word->text)
                  : row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
@@ -526,6 +535,8 @@ static Status check_body(Line *line)
                       "--pin: '%s' is no list of node numbers from 0 to %d, "
                       "or of: " PINS_WORDS,
                       typed(options->pin).text, shape.nodes - 1);
+    if (options->bodies > 1 && !given(line, option_find("self-contact")))
+        options->self_contact = 1;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
         if (row && row->idle && row->idle(options))
@@ -541,7 +552,7 @@ static Status check_body(Line *line)
                       "--material: the scene '%s' is about springs; triangles "
                       "do not flow or tear, and are not damped",
                       options->scene->name);
-    if ((options->cells || options->material != 0) &&
+    if ((options->cells || options->material != 0 || options->self_contact) &&
         !given(line, option_find("filter")))
         options->filter = FILTER_ON_DEMAND;
     return body_check(options, line->message, line->size);

@@ -17,8 +17,10 @@
 #include "model/contact.h"
 #include "model/damping.h"
 #include "model/fracture.h"
+#include "model/friction.h"
 #include "model/plasticity.h"
 #include "model/neo_hookean.h"
+#include "model/self_contact.h"
 #include "model/square_mesh.h"
 #include "scenes/pages.h"
 #include "scenes/body.h"
@@ -38,10 +40,37 @@ const char *solver_name(int solver)
 
 static const char *nothing_to_touch(const Options *options)
 {
-    return options->grounds + options->balls > 0
+    return options->grounds + options->balls > 0 || options->ceiling[1] != 0
                ? NULL
                : "there is nothing to touch; --ground or --ball put it there";
 }
+
+static const char *nothing_meets(const Options *options)
+{
+    return options->self_contact != 0 ? NULL : nothing_to_touch(options);
+}
+
+static const char *no_self_contact(const Options *options)
+{
+    return options->self_contact != 0
+               ? NULL
+               : "bodies do not see each other; --self-contact on";
+}
+
+static const char *bodies_say_it(const Options *options)
+{
+    return options->bodies > 0 ? "each --body says its own" : NULL;
+}
+
+static const char *has_its_own(const Options *options)
+{
+    return options->scene->create == create_square
+               ? NULL
+               : "the scene has bodies of its own";
+}
+
+/* Of a body: no turn, no velocity, no stretch. */
+static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
 static const char *no_springs(const Options *options)
 {
@@ -53,6 +82,11 @@ static const char *no_triangles(const Options *options)
 {
     return options->material != 0 ? NULL
                                   : "springs have none; --material neo-hookean";
+}
+
+static const char *no_state(const Options *options)
+{
+    return options->state ? NULL : "of which table? --state says it";
 }
 
 static const char *nothing_flows(const Options *options)
@@ -87,14 +121,17 @@ static const char *nothing_flows(const Options *options)
 
 /* What it may go on with: what the scene must have, how often it may be given,
  * a list of values (with what the window calls it); and in the row of numbers:
- * where, its longest value, what a pace adds. */
+ * where, its longest value, what a pace adds; how a file may be called. */
 #define NEEDS(what)           .needs = NEEDS_##what
 #define TIMES(n, field)       .times = n, .counter = OPTION_SLOT(field)
+#define FEWER(bits, others)   .fewer = bits, .rest = others
 #define LIST(text)            .label = text
 #define LIVE                  .effect = EFFECT_LIVE
 #define AGAIN                 .effect = EFFECT_AGAIN
 #define TERM(kind)            .term = &(kind)
 #define IDLE(why)             .idle = why
+#define FILE_OF(endings)      .ends = endings
+#define TABLE                 FILE_OF(".csv, .txt, .dat, .log, .npz")
 #define ROW(n, longest, adds) .place = n, .letters = longest, .pace = adds
 
 /* No range lets a product of two numbers become infinite, or lose digits. */
@@ -117,21 +154,31 @@ const OptionRow option_rows[] = {
     {NUMBER(poisson, "NU", "how far it keeps its area", "", 0.4, 0, 0.499),
      NEEDS(BODY), IDLE(no_triangles), LIST("\u03bd"), LIVE, ROW(13, 8, 0.02)},
     {NUMBER(stretch, "S", "horizontal, at the start", "", 1.4, -1e200, 1e200),
-     NEEDS(MESH), LIST("stretch"), ROW(3, 5, 0.05)},
+     NEEDS(MESH), LIST("stretch"), IDLE(bodies_say_it), ROW(3, 5, 0.05)},
     {NUMBER(turn, "DEG", "the square, anticlockwise", "degrees", 0, -1e6, 1e6),
-     NEEDS(BODY), LIST("turned by")},
+     NEEDS(BODY), LIST("turned by"), IDLE(bodies_say_it)},
     {NUMBERS(at, 2, "X,Y", "where its centre begins", "m", -1e30, 1e30),
-     NEEDS(BODY)},
+     NEEDS(BODY), IDLE(bodies_say_it)},
     {NUMBERS(velocity, 2, "VX,VY", "of every node at the start", "m/s", -1e30,
              1e30),
-     NEEDS(BODY)},
+     NEEDS(BODY), IDLE(bodies_say_it)},
+    {NUMBERS(body, BODY_NUMBERS, "X,Y[,DEG[,VX,VY[,SX,SY]]]",
+             "a square: centre, turn, velocity, stretch; up to 16", "", -1e9,
+             1e9),
+     NEEDS(BODY), TIMES(SQUARE_MESH_MAX_BODIES, bodies),
+     FEWER(1 << 2 | 1 << 3 | 1 << 5, body_rest), IDLE(has_its_own)},
     {NUMBER(gravity, "G", "how strongly it pulls", "m/s^2 downwards", 0, 0,
             1e30),
-     NEEDS(BODY), LIST("gravity")},
-    {TEXT(pin, "WHAT", "nodes that stay: numbers I,J,... or " PINS_WORDS),
+     NEEDS(BODY), LIST("gravity"), LIVE},
+    {TEXT(pin, "WHAT",
+          "nodes that stay: numbers I,J,... or " PINS_WORDS
+          "; top:2 of body 2"),
      NEEDS(BODY)},
     {TEXT(state, "FILE", "begins at the last step of what --states wrote"),
-     NEEDS(BODY)},
+     NEEDS(BODY), FILE_OF("")},
+    {RANGE(WHOLE, "state-step", state_step, "N", "or at this one of its steps",
+           "", -1, 0, 1e15),
+     NEEDS(BODY), IDLE(no_state)},
     {NUMBERS(start, 2, "X,Y",
              "where overshoot (X is enough), landscape, ... begin", "m", -1e300,
              1e300),
@@ -140,19 +187,31 @@ const OptionRow option_rows[] = {
     {SECTION("what it meets, and what becomes of it:")},
     {NUMBERS(ground, 4, "NX,NY,OX,OY",
              "half plane through O with normal N; up to 8", "", -1e9, 1e9),
-     NEEDS(BODY), TIMES(OPTIONS_MAX_GROUNDS, grounds), TERM(contact_energy)},
+     NEEDS(BODY), TIMES(OPTIONS_MAX_GROUNDS, grounds), TERM(contact_energy),
+     LIVE},
     {NUMBERS(ball, 3, "X,Y,R", "round obstacle that stays; up to 8", "m", -1e9,
              1e9),
-     NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls), TERM(contact_energy)},
+     NEEDS(BODY), TIMES(OPTIONS_MAX_BALLS, balls), TERM(contact_energy), LIVE},
+    {NUMBERS(ceiling, 3, "Y,V,STOP",
+             "comes down with V < 0 (m/s) until Y <= STOP; no friction", "",
+             -1e9, 1e9),
+     NEEDS(BODY), TERM(contact_energy)},
     {NUMBERS(barrier, 2, "DHAT,KAPPA",
              "width (m) and stiffness (J/m^3) of contact", "", 1e-12, 1e18),
-     NEEDS(BODY), IDLE(nothing_to_touch)},
+     NEEDS(BODY), IDLE(nothing_meets), LIVE},
     {NUMBER(friction, "MU", "coefficient of all obstacles", "", 0, 0, 1e3),
-     NEEDS(BODY), IDLE(nothing_to_touch), LIST("\u03bc"), LIVE,
-     ROW(6, 7, 0.01)},
+     NEEDS(BODY), IDLE(nothing_meets), LIST("\u03bc"), LIVE,
+     TERM(friction_energy), ROW(6, 7, 0.01)},
     {RANGE(NUMBER, "slip-speed", slip_speed, "EPSV",
            "friction's full force begins there", "m/s", 1e-3, 1e-12, 1e6),
-     NEEDS(BODY), IDLE(nothing_to_touch), LIST("slip speed")},
+     NEEDS(BODY), IDLE(nothing_meets), LIST("slip speed"), LIVE},
+    {NAME("self-contact", self_contact, "on|off",
+          "of bodies with each other and themselves", 0, cells),
+     NEEDS(BODY), TERM(self_contact_energy)},
+    {RANGE(NUMBER, "self-friction", self_friction, "MU",
+           "between bodies, where it is not that of --friction", "", -1, 0,
+           1e3),
+     NEEDS(BODY), IDLE(no_self_contact)},
     {NAME("cells", cells, "on|off", "cells that cannot turn over", 0, cells),
      NEEDS(BODY), IDLE(no_springs), LIST("cells"), TERM(cell_energy)},
     {NUMBER(yield, "Y", "strain beyond which springs flow", "", 0, 1e-9, 1e9),
@@ -192,20 +251,30 @@ const OptionRow option_rows[] = {
      .count = 2, .between = 'x'},
     {SWITCH(fullscreen, "F11 or Esc leaves it")},
     {SWITCH(headless, "no window even where there is a screen")},
-    {TEXT(frames, "DIR", "a PNG of every drawn step")},
-    {TEXT(states, "FILE", "CSV of every step; \"-\": standard output")},
-    {TEXT(log, "FILE", "CSV, a row per Newton iteration")},
-    {TEXT(energies, "FILE", "CSV of the ledger at every step, J")},
-    {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif")},
-    {TEXT(script, "FILE", "commands, each line: STEP COMMAND")},
+    {TEXT(frames, "DIR", "a PNG of every drawn step"), FILE_OF("")},
+    {TEXT(states, "FILE", "CSV or .npz of every step; \"-\": standard output"),
+     TABLE},
+    {TEXT(log, "FILE", "the same, a row per Newton iteration"), TABLE},
+    {TEXT(energies, "FILE", "the same of the ledger at every step, J"), TABLE},
+    {TEXT(springs, "FILE", "the same of the springs at every step"),
+     NEEDS(MESH), TABLE},
+    {TEXT(vtk, "DIR", "every step for ParaView, and their list"), NEEDS(MESH),
+     FILE_OF("")},
+    {TEXT(film, "FILE", "of all drawn steps: .mp4, .webm, .apng, .gif"),
+     FILE_OF("")},
+    {TEXT(script, "FILE", "commands, each line: STEP COMMAND"), FILE_OF("")},
     {VALUE(PAGE, "lecture", "[PAGE]", "page by page; Page Down is the next one",
            ""),
      .names = {lecture_pages, sizeof *lecture_pages}},
-    {TEXT(handout, "FILE", "all pages as one HTML file, and end")},
+    {SWITCH(big, "letters have a 35th of the height")},
+    {TEXT(handout, "FILE", "all pages as one HTML file, and end"),
+     FILE_OF(".html, .htm")},
     {SWITCH(quiet, "no summary")},
-    {SWITCH(help, "this"), .letter = 'h'},
+    {SWITCH(help, "this; --help commands: what scripts can say"),
+     .letter = 'h'},
     {SWITCH(version, "the number of this version"), .letter = 'v'},
     {SWITCH(list, "the scenes")},
+    {SWITCH(notes, "what to say on each page of the lecture, and how long")},
     {.name = NULL},
 };
 
@@ -268,11 +337,19 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 void option_value(const OptionRow *row, const Options *options, char *text,
                   size_t size)
 {
-    double value = options->number[row->slot];
-    if (row->kind == OPTION_NAME)
-        option_write(row, value, text, size);
+    int count = row->count > 1 ? row->count : 1, times = 1;
+    if (row->times)
+        times = (int)options->number[row->counter];
+    const double *value = options->number + row->slot + (times - 1) * count;
+    size_t used = 0;
+    if (times < 1 || *value < row->low) /* it was not given */
+        snprintf(text, size, "none");
+    else if (row->kind == OPTION_NAME)
+        option_write(row, *value, text, size);
     else
-        snprintf(text, size, "%g", value);
+        for (int i = 0; i < count && used < size; i++)
+            used += (size_t)snprintf(text + used, size - used, "%s%g",
+                                     i ? "," : "", value[i]);
 }
 
 /* ---- the row of numbers ------------------------------------------------- */
@@ -323,8 +400,11 @@ static double factor_paced(double value, double paces)
 
 double option_paced(const OptionRow *row, const Options *options, double paces)
 {
+    static const double FIRST = 0.01; /* what goes by factors, up from 0 */
     double value = options->number[row->slot];
     char text[32];
+    if (row->pace == 0 && !(value > 0) && row->kind != OPTION_NAME)
+        return paces > 0 ? fmax(row->low, FIRST) : value;
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names);
         int now = (int)fmax(value, 0) + (paces < 0 ? -1 : 1);

@@ -18,7 +18,9 @@ function quoted(text)
 # The lines of one word, put together in text, as fields of the row.
 function put_word(    part)
 {
-    if (word in texts)
+    if (word == "formula") # one below the other
+        formula = formula (formula ? " \"\\n\" " : "") quoted(text)
+    else if (word in texts)
         print "." texts[word] " = " quoted(text) ","
     else if (word in numbers && text ~ /^[0-9.]+$/)
         print "." word " = " text ","
@@ -39,13 +41,16 @@ function end_page(    i)
     for (i in needed)
         if (page && !(needed[i] in had))
             fail(page, "the page has no " needed[i])
+    if (formula)
+        print ".formula = " formula ","
+    formula = ""
     if (page)
         print "},"
     split("", had)
 }
 
 BEGIN {
-    split("text run cards look try code claim", needed)
+    split("text run cards look try code claim notes minutes", needed)
     texts["text"] = "text"
     texts["run"] = "line"
     texts["open"] = "open"
@@ -53,8 +58,15 @@ BEGIN {
     texts["look"] = "look"
     texts["try"] = "touch"
     texts["claim"] = "claim"
+    texts["ask"] = "ask"
+    texts["answer"] = "answer"
+    texts["veils"] = "veils"
+    texts["star"] = "star"
+    texts["notes"] = "notes"
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
-    switches["plays"] switches["numbers"] switches["predict"]
+    numbers["minutes"]
+    switches["numbers"] switches["predict"] switches["forces"]
+    switches["modes"] switches["writes"]
     print "const LecturePage lecture_pages[] = {"
 }
 

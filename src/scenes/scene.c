@@ -9,9 +9,14 @@
 /* What all of those have that fall on something. */
 #define FALL "--stretch 1 --tolerance 1e-4 --gravity 9.81 --cells on "
 
+/* What all soft bodies have. */
+#define SOLIDS                                                                 \
+    "--material neo-hookean --timestep 0.01 --tolerance 1e-4 --gravity 9.81 "
+
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes",
-     PICTURE_SQUARE, NEEDS_SQUARE, NULL, create_square, .settles = true},
+     PICTURE_SQUARE, NEEDS_SQUARE, NULL, create_square, .settles = true,
+     .group = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
      NEEDS_TIME, "--timestep 0.02", .create = create_circle},
@@ -44,7 +49,8 @@ const Scene scenes[] = {
      NEEDS_SQUARE,
      "--segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
      "--tolerance 1e-3 --gravity 9.81",
-     create_square, .pin = "top-corners"},
+     create_square, .pin = "top-corners",
+     .group = "Gravity, contact, inelasticity, fracture"},
     {"drop", "Contact: a square thrown down",
      "it falls on a corner, tumbles, and comes to rest", PICTURE_SQUARE,
      NEEDS_SQUARE,
@@ -75,6 +81,25 @@ const Scene scenes[] = {
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
      .create = create_square, .settles = true, .frame = {-1.1, -1.1, 1.1, 1.1}},
+    {"stack", "Self-contact: three squares",
+     "three soft squares fall on one another", PICTURE_SQUARE, NEEDS_SQUARE,
+     SOLIDS "--segments 6 --side 0.45 --friction 0.4 --barrier 0.01875,1e5 "
+            "--ground 0,1,0,-1 --ground 1,0,-1,0 --ground -1,0,1,0 "
+            "--body 0,-0.76 --body 0.2,-0.22,12 --body -0.12,0.33,-30",
+     create_square, .frame = {-1.1, -1.1, 1.1, 0.75}},
+    {"rub", "Friction between bodies",
+     "a block slides on another one, and stops", PICTURE_SQUARE, NEEDS_SQUARE,
+     SOLIDS "--segments 12 --young 4e5 --friction 0.2 --barrier 0.02,1e5 "
+            "--body 0,-0.125 --body -0.15,0.1448,0,1,0",
+     create_square, .frame = {-0.75, -0.4, 0.75, 0.5}, .aspect = 0.25,
+     .pin = "all:1"},
+    {"gap", "Squeezed through a gap",
+     "a soft square falls through a gap narrower than itself", PICTURE_SQUARE,
+     NEEDS_SQUARE,
+     SOLIDS "--segments 10 --side 0.5 --young 2e4 --friction 0.1 "
+            "--barrier 0.0125,1e5 --ground 0,1,0,-1.1 --body 0,0.65 "
+            "--body -0.5036,0,45 --body 0.5036,0,45",
+     create_square, .frame = {-0.95, -1.2, 0.95, 0.95}, .pin = "all:2,all:3"},
     {"dent", "Inelasticity: a dent that stays",
      "springs beyond their yield strain flow, and keep it", PICTURE_SQUARE,
      NEEDS_SQUARE,
@@ -85,14 +110,15 @@ const Scene scenes[] = {
     {"tear", "Fracture: a slit runs",
      "pulled apart, springs break where the strain is largest", PICTURE_SQUARE,
      NEEDS_SQUARE,
-     FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12", create_tear,
-     .frame = {-0.78, -0.65, 0.78, 0.65}, .strain = 0.05, .pin = "left,right",
-     .moving_pins = true, .cell_stiffness = 0.3},
+     FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
+          "--self-contact on",
+     create_tear, .frame = {-0.78, -0.65, 0.78, 0.65}, .strain = 0.05,
+     .pin = "left,right", .moving_pins = true, .cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
      "struck from above it cracks from below, at a notch", PICTURE_SQUARE,
      NEEDS_SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
-          "--tear 0.1 --friction 0.3 --barrier 0.008,8e5 "
+          "--tear 0.1 --friction 0.3 --barrier 0.008,8e5 --self-contact on "
           "--ball -0.8,-0.3325,0.14 --ball 0.8,-0.3325,0.14 "
           "--ground 0,1,0,-1",
      create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain = 0.05,
@@ -101,7 +127,7 @@ const Scene scenes[] = {
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
      NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_mass,
-     .grips = "xv"},
+     .grips = "xv", .group = "Small enough to calculate along; measured now"},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
      NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
@@ -120,7 +146,7 @@ const Scene scenes[] = {
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
      /* no chaos; Newton's error is below that of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .turn = "run",
-     .step = step_race},
+     .step = step_race, .parts = {"error over h"}},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
      NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP, NULL,

@@ -8,6 +8,7 @@
 #include "model/contact.h"
 #include "model/friction.h"
 #include "model/neo_hookean.h"
+#include "model/self_contact.h"
 #include "model/pull_energy.h"
 #include "model/mass_spring_energy.h"
 #include "scenes/body.h"
@@ -233,43 +234,66 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
     return STATUS_OK;
 }
 
+Status simulation_place(Simulation *simulation, int node, double x, double y,
+                        bool really)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    size_t i = 2 * (size_t)node;
+    if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
+        !isfinite(y))
+        return STATUS_INVALID_INPUT;
+    const double before[2] = {run->x[i], run->x[i + 1]};
+    double had[SIMULATION_MAX_RUNS];
+    dissipated_so_far(simulation, had);
+    run->x[i] = x;
+    run->x[i + 1] = y;
+    Status status = system_check(run->system, run->x);
+    if (status || !really) {
+        memcpy(run->x + i, before, sizeof before);
+        return status;
+    }
+    run->v[i] = run->v[i + 1] = 0;
+    run->memory_h = 0;
+    book_change(simulation, had);
+    return STATUS_OK;
+}
+
 bool simulation_is_pinned(const Simulation *simulation, int node)
 {
     return simulation->system.pinned && simulation->system.pinned[node];
 }
 
-/* The hand is as stiff as the springs that hold a node, and so is its reach in
- * what it can do: it bends the square, and does not tear nodes out of it. */
-static double hand_stiffness(const Simulation *simulation, int node)
+/* Far stiffer than a spring, so that the node goes to the mouse, and the
+ * springs give way.  Triangles have a stiffness of their own. */
+static double hand_strength(const Simulation *simulation, int node)
 {
+    static const double TIMES = 1000;
+    const Options *options = &simulation->options;
     Place at = place_at(&simulation->system, NULL, NULL, NULL);
     double k = 0, force = 0;
     mass_spring_bounds(&at, &k, &force);
-    return k > 0 ? 0.25 * k : 100 * simulation->system.m[node];
+    if (solid_of(&simulation->system))
+        k = options->young;
+    return k > 0 ? TIMES * k : 1e5 * simulation->system.m[node];
 }
 
 Status simulation_grab(Simulation *simulation, int node, double x, double y)
 {
     System *system = &simulation->system;
-    const Pull *hand = hand_energy_of(system);
-    Pull wanted = {.node = node, .target = {x, y}};
-    double had[SIMULATION_MAX_RUNS];
+    Pull wanted = {.node = node, .mouse = {x, y}};
     if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
         return STATUS_INVALID_INPUT;
-    wanted.k =
-        hand && hand->node == node ? hand->k : hand_stiffness(simulation, node);
-    dissipated_so_far(simulation, had);
-    Status status = pull_set(system, &hand_energy, &wanted);
-    book_change(simulation, had);
-    return status;
+    memcpy(wanted.target, simulation->run[0].x + 2 * node,
+           sizeof wanted.target);
+    wanted.strength = hand_strength(simulation, node);
+    wanted.reach =
+        simulation->mesh.nodes > 0 ? 0.5 * simulation->mesh.spacing : INFINITY;
+    return pull_set(system, &hand_energy, &wanted);
 }
 
 void simulation_release(Simulation *simulation)
 {
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
     system_remove_term(&simulation->system, &hand_energy);
-    book_change(simulation, had);
 }
 
 /* The run goes on with another method. */
@@ -327,7 +351,7 @@ Status simulation_change(Simulation *simulation, const Options *options)
         options->integrator != before.integrator) {
         Pull *hand = hand_energy_of(&simulation->system);
         if (hand)
-            hand->k = hand_stiffness(simulation, hand->node);
+            hand->strength = hand_strength(simulation, hand->node);
         simulation->prediction = (Prediction){0};
     }
     if (!status)
@@ -396,16 +420,23 @@ Energies simulation_energies(const Simulation *simulation, int run)
     return energies;
 }
 
+static bool rubs(const System *system)
+{
+    return system_find_term(system, &friction_energy) ||
+           system_find_term(system, &self_friction_energy);
+}
+
 bool simulation_is_loose(const Simulation *simulation, double *needed)
 {
     const System *system = &simulation->system;
     const Options *options = &simulation->options;
     *needed = INFINITY;
     bool minimises = simulation->run[0].newton != NULL;
-    if (minimises && contact_of(system) && system_has_gravity(system))
+    bool meets = contact_of(system) || self_contact_of(system);
+    if (minimises && meets && system_has_gravity(system))
         *needed = 0.1 * options->timestep *
                   math_hypot(system->gravity[0], system->gravity[1]);
-    if (minimises && system_find_term(system, &friction_energy))
+    if (minimises && rubs(system))
         *needed = fmin(*needed, 0.1 * options->slip_speed);
     return options->tolerance > *needed * (1 + 1e-9); /* rounding */
 }
@@ -414,8 +445,8 @@ bool simulation_rests(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     double l2 = system->springs ? INFINITY : 0, needed;
-    bool balances, slips = system_find_term(system, &friction_energy) &&
-                           simulation_is_loose(simulation, &needed);
+    bool balances,
+        slips = rubs(system) && simulation_is_loose(simulation, &needed);
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
     return !slips &&
@@ -448,7 +479,8 @@ double simulation_bytes(const Options *options)
 {
     if (!(options->scene->needs & NEEDS_MESH))
         return 0;
-    double row = options->segments + 1.0, n = row * row;
+    double row = options->segments + 1.0;
+    double n = row * row * fmax(options->bodies, 1);
     if (!options_method(options)->implicit)
         return 250 * n;
     if (expects_multigrid(options))
@@ -483,7 +515,8 @@ bool simulation_projects_springs(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
-           !system_find_term(system, &cell_energy) && !solid_of(system);
+           !system_find_term(system, &cell_energy) && !solid_of(system) &&
+           !self_contact_of(system);
 }
 
 /* The mean of an array [2n] over the body's mass, out. */

@@ -1,65 +1,213 @@
 #include "scenes/start_table.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "scenes/one_line.h"
 
-/* step,time,node,x,y,vx,vy as one line of the table. */
+/* What is looked for, and what was found. */
+typedef struct Start {
+    FILE *file;
+    double step; /* below 0: the last */
+    int nodes, run;
+    double *x, *v; /* [2 nodes] */
+    bool has_step; /* the file has it */
+    bool has_panes;
+    int count; /* nodes of it */
+    long line; /* of the file, the last one that was read; 0: an array */
+} Start;
+
+/* Node i of all has this x, y, vx or vy (number 0 ... 3).  Returns whether it
+ * is a number. */
+static bool put_number(const Start *start, int i, int number, double value)
+{
+    int own = i - start->run * start->nodes;
+    double *to = number < 2 ? start->x : start->v;
+    if (own >= 0 && own < start->nodes)
+        to[2 * own + number % 2] = value;
+    return isfinite(value);
+}
+
+/* ---- CSV ---------------------------------------------------------------- */
+
+/* step,time,node,x,y,vx,vy and perhaps more as one line of the table. */
 static bool read_row(const char *line, long *step, int *node, double row[4])
 {
     int end = 0;
     int read = sscanf(line, "%ld,%*f,%d,%lf,%lf,%lf,%lf%n", step, node, &row[0],
                       &row[1], &row[2], &row[3], &end);
-    double size = fabs(row[0]) + fabs(row[1]) + fabs(row[2]) + fabs(row[3]);
-    return read == 6 && end > 0 && line[end] == '\n' && isfinite(size);
+    return read == 6 && end > 0 && (line[end] == '\n' || line[end] == ',');
 }
 
-Status start_table_read(const char *name, int nodes, int run, double *x,
-                        double *v, char *message, size_t size)
+/* Returns false at a line that is none. */
+static bool read_lines(Start *start)
 {
-    char line[256], shown[64];
+    static const char names[] = "step,time,node,x,y,vx,vy";
+    char line[256];
     double row[4] = {0};
-    long number = 1, step = -1, last = -1;
-    int node = 0, count = 0;
-    one_line(name, shown, sizeof shown);
-    FILE *file = fopen(name, "r");
-    bool whole = file && fgets(line, sizeof line, file) &&
-                 strcmp(line, "step,time,node,x,y,vx,vy\n") == 0;
-    while (whole && fgets(line, sizeof line, file)) {
-        number++;
-        whole = read_row(line, &step, &node, row);
-        count = step == last ? count + 1 : 1;
+    long step = -1, last = -1;
+    int node = 0;
+    start->line = 1;
+    if (!fgets(line, sizeof line, start->file) ||
+        strncmp(line, names, strlen(names)) != 0)
+        return false;
+    start->has_panes = strstr(line, ",pane") != NULL;
+    while (fgets(line, sizeof line, start->file)) {
+        start->line++;
+        if (!read_row(line, &step, &node, row))
+            return false;
+        if (start->step >= 0 && (double)step > start->step)
+            break;
+        start->count = step == last ? start->count + 1 : 1;
         last = step;
-        whole = whole && node == count - 1;
-        int own = node - run * nodes;
-        for (int axis = 0; whole && own >= 0 && own < nodes && axis < 2;
-             axis++) {
-            x[2 * own + axis] = row[axis];
-            v[2 * own + axis] = row[2 + axis];
-        }
+        if (node != start->count - 1)
+            return false;
+        for (int k = 0; k < 4; k++)
+            if (!put_number(start, node, k, row[k]))
+                return false;
     }
+    start->has_step = start->step < 0 || (double)last == start->step;
+    return true;
+}
+
+/* ---- arrays ------------------------------------------------------------- */
+
+/* A number of so many bytes, lowest byte first. */
+static uint64_t number_at(const unsigned char *bytes, int count)
+{
+    uint64_t number = 0;
+    while (count-- > 0)
+        number = number << 8 | bytes[count];
+    return number;
+}
+
+enum { MOST = 1000000000 }; /* rows or columns */
+
+/* Goes to the first number of an array NAME.npy of a zip file, stored.
+ *   kind   in, numpy's word for its numbers
+ *   shape  [2] out, rows and columns; one row where it has no rows
+ * Returns false where there is none. */
+static bool find_array(FILE *file, const char *name, const char *kind,
+                       long shape[2])
+{
+    unsigned char head[30], rest[512];
+    char text[256] = "";
+    for (off_t at = 0; !fseeko(file, at, SEEK_SET);) {
+        if (fread(head, 1, sizeof head, file) < sizeof head ||
+            memcmp(head, "PK\3\4", 4) != 0)
+            return false;
+        size_t letters = number_at(head + 26, 2),
+               more = number_at(head + 28, 2);
+        uint64_t size = number_at(head + 18, 4);
+        if (letters + more > sizeof rest - 8 ||
+            fread(rest, 1, letters + more, file) < letters + more)
+            return false;
+        if (size == UINT32_MAX) /* it stands behind the name */
+            size = number_at(rest + letters + 4, 8);
+        if (size > INT64_MAX / 2)
+            return false;
+        at += (off_t)(sizeof head + letters + more + size);
+        if (letters != strlen(name) + 4 || memcmp(rest, name, letters - 4) != 0)
+            continue;
+        size_t length =
+            fread(head, 1, 10, file) == 10 ? number_at(head + 8, 2) : 0;
+        if (length >= sizeof text || fread(text, 1, length, file) < length)
+            return false;
+        const char *sizes = strchr(text, '(');
+        int found =
+            sizes ? sscanf(sizes, "(%ld, %ld", &shape[0], &shape[1]) : 0;
+        if (found == 1) {
+            shape[1] = shape[0];
+            shape[0] = 1;
+        }
+        return found > 0 && strstr(text, kind) && strstr(text, ": False") &&
+               shape[0] > 0 && shape[0] < MOST && shape[1] > 0 &&
+               shape[1] < MOST;
+    }
+    return false;
+}
+
+/* The row of the step. */
+static long find_step(const Start *start)
+{
+    unsigned char bytes[8];
+    long shape[2];
+    if (!find_array(start->file, "step", "<i8", shape))
+        return -1;
+    for (long i = 0; i < shape[1]; i++)
+        if (fread(bytes, 1, 8, start->file) == 8 &&
+            (double)number_at(bytes, 8) == start->step)
+            return i;
+    return -1;
+}
+
+static bool read_arrays(Start *start)
+{
+    static const char *const names[] = {"x", "y", "vx", "vy"};
+    long shape[2], row = start->step >= 0 ? find_step(start) : 0;
+    start->has_panes = find_array(start->file, "pane", "<i", shape);
+    start->has_step = row >= 0;
+    for (int k = 0; k < 4 && row >= 0; k++) {
+        double value;
+        if (!find_array(start->file, names[k], "<f8", shape))
+            return false;
+        row = start->step < 0 ? shape[0] - 1 : row;
+        start->count = (int)shape[1];
+        if (fseeko(start->file, (off_t)row * shape[1] * 8, SEEK_CUR))
+            return false;
+        for (int i = 0; i < start->count; i++)
+            if (fread(&value, sizeof value, 1, start->file) < 1 ||
+                !put_number(start, i, k, value))
+                return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------------- */
+
+Status start_table_read(const char *name, double step, int nodes, int run,
+                        int runs, double *x, double *v, char *message,
+                        size_t size)
+{
+    Start start = {fopen(name, "rb"), step, nodes, run, x, v, .line = 0};
+    char shown[64];
+    const char *end = strrchr(name, '.');
+    bool arrays = end && strcasecmp(end, ".npz") == 0;
+    bool whole = start.file && (arrays ? read_arrays : read_lines)(&start);
     Status status = STATUS_INVALID_INPUT;
-    if (!file || ferror(file))
+    one_line(name, shown, sizeof shown);
+    if (!start.file || ferror(start.file))
         snprintf(message, size, "--state '%s': %s", shown, strerror(errno));
+    else if (!whole && arrays)
+        snprintf(message, size,
+                 "--state '%s': it has no arrays x, y, vx, vy as --states "
+                 "writes them, and numpy.savez",
+                 shown);
     else if (!whole)
         snprintf(message, size,
                  "--state '%s': line %ld is not one that --states writes, "
                  "step,time,node,x,y,vx,vy",
-                 shown, number);
-    else if (count == 0 || count % nodes != 0)
+                 shown, start.line);
+    else if (!start.has_step)
+        snprintf(message, size, "--state '%s': step %.0f is not in it", shown,
+                 step);
+    else if (start.count == 0 || start.count % nodes != 0 ||
+             (!start.has_panes && start.count / nodes > runs))
         snprintf(message, size,
-                 "--state '%s': its last step has %d nodes, the body %d", shown,
-                 count, nodes);
-    else if (run >= count / nodes)
+                 "--state '%s': its %sstep has %d nodes, the body %d", shown,
+                 step < 0 ? "last " : "", start.count, nodes);
+    else if (run >= start.count / nodes)
         snprintf(message, size,
                  "--state '%s': body %d of the scene is not in it", shown,
                  run + 1);
     else
         status = STATUS_OK;
-    if (file)
-        fclose(file);
+    if (start.file)
+        fclose(start.file);
     return status;
 }

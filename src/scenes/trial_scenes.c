@@ -120,6 +120,26 @@ static Status measure_run(Simulation *simulation,
     return status;
 }
 
+double race_order(const Race *race, int method)
+{
+    const double least = 1e-8; /* m, of tolerance and reference */
+    double order = NAN;
+    for (int i = method + RACE_METHODS; i < race->count; i += RACE_METHODS) {
+        double before = race->point[i - RACE_METHODS].error;
+        if (before > 0 && race->point[i].error > least)
+            order = log2(before / race->point[i].error);
+    }
+    return order;
+}
+
+double race_stable(const Race *race, int method)
+{
+    for (int i = method; i < race->count; i += RACE_METHODS)
+        if (race->point[i].stable)
+            return race->point[i].h;
+    return NAN;
+}
+
 Status step_race(Simulation *simulation)
 {
     Race *race = &simulation->exhibit.race;
@@ -139,6 +159,7 @@ Status step_race(Simulation *simulation)
     if (!status) {
         point->error = largest_error(simulation->system.nodes, run.x,
                                      simulation->run[1].x);
+        point->kept = energy_of(&run) / energy_of(&simulation->run[0]);
         point->stable = is_stable(simulation, &run);
     }
     time_integrator_free(&run);

@@ -24,6 +24,12 @@ static const double NO_CURVATURE = 1e-16;
  * E, and it is not called one. */
 static const double MASSES_DOWN = 100;
 
+/* A step's start is judged without a factor where the gradient's bound is at
+ * most so many tolerances: that is a square at rest.  So many products with the
+ * Hessian are let to decide. */
+static const double NEAR_REST = 100;
+enum { PRODUCTS_AT_REST = 60 };
+
 /* Saddles that one minimisation leaves, and how far: the first trial moves the
  * node that moves most by this share of a spring. */
 enum { MAX_SADDLES = 30 };
@@ -61,10 +67,9 @@ void direction_free(Newton *newton)
 }
 
 /* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
- * when the system's pattern or the kind of factor is another.  Filter NONE: for
- * a factor L D L^T, which allows negative eigenvalues; ON_DEMAND: as it is, for
- * one that does not.
- *   projected  out, blocks projected
+ * when the system's pattern or the kind of factor is another, or x wants more.
+ * Filter NONE: for a factor L D L^T, which allows negative eigenvalues;
+ * ON_DEMAND: as it is, for one that does not. projected  out, blocks projected
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 static Status assemble(Newton *newton, Filter filter, int *projected)
 {
@@ -72,10 +77,11 @@ static Status assemble(Newton *newton, Filter filter, int *projected)
     const System *system = newton->system;
     CholeskyKind kind =
         filter == FILTER_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
-    Status status = STATUS_OK;
+    bool grown;
+    Status status = incremental_potential_grow(&newton->at, &grown);
     *projected = 0;
-    if (!search->cholesky || search->kind != kind ||
-        search->pattern != system->pattern) {
+    if (!status && (!search->cholesky || search->kind != kind || grown ||
+                    search->pattern != system->pattern)) {
         free_matrix(search);
         search->pattern = system->pattern;
         search->kind = kind;
@@ -328,6 +334,34 @@ static Status solve_and_test(Newton *newton)
     return status ? status : newton_test(newton, error);
 }
 
+/* The test by conjugate gradients, with the masses as their preconditioner:
+ * r.z is then the square of what p can lack (judge), and they end where that
+ * decides the test.  Returns OK (it is passed), RUNNING (or not known). */
+static Status test_at_rest(Newton *newton)
+{
+    const SearchDirection *search = &newton->search;
+    int n = 2 * newton->system->nodes;
+    double error = 0, away = 0;
+    ConjugateGradients state = {newton->settings.filter, .enough = 0};
+    for (int i = 0; i < n; i++) {
+        search->r[i] = -newton->at.g[i];
+        newton->at.p[i] = search->d[i] = 0;
+    }
+    for (int k = 0; k < PRODUCTS_AT_REST && away <= error; k++) {
+        for (int i = 0; i < n; i++)
+            search->z[i] = search->r[i] / newton->system->m[i / 2];
+        if (!conjugate_step(newton, &state))
+            break;
+        newton->residual = newton_residual(newton);
+        away = fabs(newton->residual - newton->tolerance);
+        error = residual_per_norm(newton) *
+                system_inverse_mass_norm(newton->system, search->r);
+    }
+    newton->kind = RESIDUAL_ESTIMATE;
+    Status status = judge(newton, &error);
+    return status ? status : newton_test(newton, error);
+}
+
 /* The gradient at x; no factor there is known yet. */
 static void take_gradient(Newton *newton)
 {
@@ -357,6 +391,13 @@ static Status direction_at(Newton *newton)
             newton->counters.skipped++;
             return STATUS_OK;
         }
+    }
+    if (newton->record.iteration < 0 && !newton->rounding.blurred &&
+        filter_projects(newton->settings.filter) &&
+        newton->residual <= NEAR_REST * newton->tolerance &&
+        test_at_rest(newton) == STATUS_OK) {
+        newton->counters.skipped++;
+        return STATUS_OK;
     }
     Status status = newton_factor(newton);
     return status ? status : solve_and_test(newton);

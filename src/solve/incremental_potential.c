@@ -6,53 +6,93 @@
 
 #include "model/inertia_energy.h"
 
-static Place place_of(const IncrementalPotential *E, const double *u,
-                      const double *x)
+/* Where P is asked: at x; or, averaged, between x_n and x. */
+typedef struct Point {
+    Place at;
+    double t; /* at x_n + t u */
+} Point;
+
+static Point end_of(const IncrementalPotential *E, const double *u,
+                    const double *x)
 {
-    Place at = place_at(E->system, E->x_n, u, x);
-    at.w = E->weight;
-    at.averaged = E->averaged;
-    return at;
+    Point end = {place_at(E->system, E->x_n, u, x), 1};
+    end.at.w = E->weight;
+    return end;
 }
 
-/* E; or, with the sizes of all terms, as they are: an averaged energy is 0 for
- * u = 0. */
-static double sum_of(const IncrementalPotential *E, const double *u,
-                     const double *x, bool sizes)
+/* The average vector field (Rojas, Liu, Kavan: Average Vector Field Integration
+ * for St. Venant-Kirchhoff Deformable Models, 2018) minimises with Phi in the
+ * place of P, whose gradient is the force averaged along the way:
+ *   Phi(u)      = integral of (P(x_n + t u) - P(x_n)) / t, t = 0 ... 1
+ *   grad Phi(u) = integral of grad P(x_n + t u)
+ *   Hess Phi(u) = integral of t Hess P(x_n + t u)
+ * Springs make these cubic in t: two points of Gauss's rule are exact.
+ *   k  0, 1, ...: which point
+ * Returns false where there are no more. */
+static bool next_point(const IncrementalPotential *E, const double *u,
+                       const double *x, int k, Point *point)
 {
-    Place at = place_of(E, u, x);
+    static const double gauss[2] = {0.21132486540518712, 0.78867513459481288};
+    *point = end_of(E, u, x);
+    if (!E->between)
+        return k == 0;
+    if (k == 2)
+        return false;
+    double *there = E->between + 2 * k * E->system->nodes;
+    point->t = gauss[k];
+    point->at.w *= 0.5;
+    for (int i = 0; i < 2 * E->system->nodes; i++)
+        there[i] = E->x_n[i] + point->t * u[i];
+    point->at.x = there;
+    return true;
+}
+
+/* P, J, or Phi; or the size of P. */
+static double potential(const IncrementalPotential *E, const double *u,
+                        const double *x, bool size)
+{
+    Point point;
     double P = 0;
-    at.averaged = E->averaged && !sizes;
-    for (const TermKind *kind; (kind = next_energy(&at));) {
-        double value = kind->value(&at);
-        P += sizes ? fabs(value) : value;
-    }
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * P;
+    for (int k = 0; next_point(E, u, x, k, &point); k++)
+        for (const TermKind *kind; (kind = next_energy(&point.at));) {
+            double value = kind->value(&point.at);
+            Place start = point.at;
+            start.x = E->x_n;
+            if (E->between)
+                value = 0.5 * (value - kind->value(&start)) / point.t;
+            P += size ? fabs(value) : value;
+        }
+    return P;
 }
 
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    return sum_of(E, u, x, false);
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * potential(E, u, x, false);
 }
 
+/* Phi is 0 for u = 0, P is not. */
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    return sum_of(E, u, x, true);
+    IncrementalPotential at_end = *E;
+    at_end.between = NULL;
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * potential(&at_end, u, x, true);
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {
     const System *system = E->system;
-    Place at = place_of(E, u, x);
+    Point point;
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        kind->gradient(&at, g);
+    for (int k = 0; next_point(E, u, x, k, &point); k++)
+        for (const TermKind *kind; (kind = next_energy(&point.at));)
+            kind->gradient(&point.at, g);
     system_clear_pinned(system, g);
 }
 
@@ -105,36 +145,56 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
     return status;
 }
 
+/* Adds all terms' Hessians to a matrix through its slots or, where q is given,
+ * their products with it.  Returns how many blocks were projected. */
+static int add_hessians(const Iterate *at, Filter filter, const int *slot,
+                        const double *q, double *out)
+{
+    Point first, second;
+    int projected = 0;
+    next_point(&at->E, at->u, at->x, 0, &first);
+    first.at.w *= first.t;
+    if (next_point(&at->E, at->u, at->x, 1, &second)) {
+        first.at.x_too = second.at.x;
+        first.at.w_too = second.at.w * second.t;
+    }
+    for (const TermKind *kind; (kind = next_energy(&first.at));) {
+        if (!kind->hessian)
+            continue;
+        projected += kind->hessian(&first.at, filter, slot, q, out);
+        if (!q)
+            slot += kind->entries(&first.at);
+    }
+    return projected;
+}
+
+Status incremental_potential_grow(const Iterate *at, bool *grown)
+{
+    Point end = end_of(&at->E, at->u, at->x);
+    Status status = STATUS_OK;
+    *grown = false;
+    for (const TermKind *kind; !status && (kind = next_energy(&end.at));)
+        if (kind->grow)
+            status = kind->grow(&end.at, grown);
+    return status;
+}
+
 int incremental_potential_hessian(const Iterate *at, Filter filter,
                                   const int *slot, Sparse *A)
 {
-    const IncrementalPotential *E = &at->E;
-    const System *system = E->system;
-    Place place = place_of(E, at->u, at->x);
-    int projected = 0;
+    const System *system = at->E.system;
     memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
     inertia_energy_hessian(system->nodes, system->m, slot, A->value);
-    slot += 2 * system->nodes;
-    for (const TermKind *kind; (kind = next_energy(&place));) {
-        if (!kind->hessian)
-            continue;
-        projected += kind->hessian(&place, filter, slot, NULL, A->value);
-        slot += place.term->kind->entries(&place);
-    }
-    return projected;
+    return add_hessians(at, filter, slot + 2 * system->nodes, NULL, A->value);
 }
 
 void incremental_potential_product(const Iterate *at, Filter filter,
                                    const double *q, double *y)
 {
-    const IncrementalPotential *E = &at->E;
-    const System *system = E->system;
-    Place place = place_of(E, at->u, at->x);
+    const System *system = at->E.system;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    for (const TermKind *kind; (kind = next_energy(&place));)
-        if (kind->hessian)
-            kind->hessian(&place, filter, NULL, q, y);
+    add_hessians(at, filter, NULL, q, y);
     system_clear_pinned(system, y);
 }
 
@@ -143,17 +203,22 @@ Along incremental_potential_along(const Iterate *at)
 {
     const IncrementalPotential *E = &at->E;
     const System *system = E->system;
-    Place place = place_of(E, at->u, at->x);
+    Point point;
     Along along = {.at = at};
     double *q = along.smooth.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += at->g[i] * at->p[i];
         q[1] += 0.5 * system->m[i / 2] * at->p[i] * at->p[i];
     }
-    for (const TermKind *kind; (kind = next_energy(&place));) {
-        if (kind->along)
-            kind->along(&place, at->p, q + 1);
-        along.rough = along.rough || kind->remainder || kind->allowed;
+    for (int k = 0; next_point(E, at->u, at->x, k, &point); k++) {
+        double part[3] = {0}, t = point.t;
+        for (const TermKind *kind; (kind = next_energy(&point.at));) {
+            if (kind->along)
+                kind->along(&point.at, at->p, E->between ? part : q + 1);
+            along.rough = along.rough || kind->remainder || kind->allowed;
+        }
+        for (int i = 0; i < 3; i++, t *= point.t) /* 1/t at x_n + t u + t p */
+            q[1 + i] += t * part[i];
     }
     return along;
 }
@@ -165,7 +230,7 @@ double along_difference(const void *function, double alpha)
     if (!along->rough)
         return sum;
     const Iterate *at = along->at;
-    Place place = place_of(&at->E, at->u, at->x);
+    Place place = end_of(&at->E, at->u, at->x).at;
     for (const TermKind *kind; (kind = next_energy(&place));)
         if (kind->remainder)
             sum += kind->remainder(&place, at->p, alpha);
@@ -174,7 +239,7 @@ double along_difference(const void *function, double alpha)
 
 double incremental_potential_reach(const Iterate *at)
 {
-    Place place = place_of(&at->E, at->u, at->x);
+    Place place = end_of(&at->E, at->u, at->x).at;
     double reach = 1;
     for (const TermKind *kind; (kind = next_energy(&place));)
         if (kind->reach)
@@ -185,7 +250,7 @@ double incremental_potential_reach(const Iterate *at)
 bool incremental_potential_allowed(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    Place at = place_of(E, u, x);
+    Place at = end_of(E, u, x).at;
     for (const TermKind *kind; (kind = next_energy(&at));)
         if (kind->allowed && !kind->allowed(&at))
             return false;
@@ -195,13 +260,16 @@ bool incremental_potential_allowed(const IncrementalPotential *E,
 double incremental_potential_concave(const Iterate *at, double *sum)
 {
     const System *system = at->E.system;
-    Place place = place_of(&at->E, at->u, at->x);
+    Point point;
     double largest = 0;
     for (int i = 0; i < system->nodes; i++)
         sum[i] = 0;
-    for (const TermKind *kind; (kind = next_energy(&place));)
-        if (kind->concave)
-            kind->concave(&place, sum);
+    for (int k = 0; next_point(&at->E, at->u, at->x, k, &point); k++) {
+        point.at.w *= point.t;
+        for (const TermKind *kind; (kind = next_energy(&point.at));)
+            if (kind->concave)
+                kind->concave(&point.at, sum);
+    }
     for (int i = 0; i < system->nodes; i++) {
         double c = sum[i] / system->m[i];
         largest = isnan(c) ? INFINITY : fmax(largest, c);
@@ -213,7 +281,7 @@ void incremental_potential_inertia(const Iterate *at, double *m,
                                    double *u_tilde)
 {
     const System *system = at->E.system;
-    Place place = place_of(&at->E, at->u, at->x);
+    Place place = end_of(&at->E, at->u, at->x).at;
     for (int i = 0; i < 2 * system->nodes; i++) {
         m[i] = system->m[i / 2];
         u_tilde[i] = at->E.u_tilde[i];

@@ -25,7 +25,9 @@ Status newton_start(Newton *newton, const double *x_n, const double *u,
     Iterate *at = &newton->at;
     int size = 2 * newton->system->nodes;
     at->E = (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde,
-                                   newton->settings.averaged};
+                                   NULL};
+    if (newton->settings.averaged)
+        at->E.between = newton->x_trial + size;
     memset(at->u, 0, (size_t)size * sizeof *at->u);
     memcpy(at->x, x_n, (size_t)size * sizeof *at->x);
     for (int i = 0; u && i < size; i++) {
@@ -225,7 +227,7 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    newton->at.u = calloc(7 * size, sizeof(double));
+    newton->at.u = calloc(9 * size, sizeof(double));
     if (!newton->at.u)
         return STATUS_OUT_OF_MEMORY;
     newton->at.x = newton->at.u + size;

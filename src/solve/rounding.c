@@ -30,10 +30,13 @@ void rounding_start(Newton *newton)
     const Iterate *at = &newton->at;
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    rounding->lightest = INFINITY;
-    for (int i = 0; i < system->nodes; i++)
-        rounding->lightest = fmin(rounding->lightest, system->m[i]);
-    system_bounds(system, &rounding->stiffest, &rounding->force);
+    if (rounding->known != system->version + 1) {
+        rounding->known = system->version + 1;
+        rounding->lightest = INFINITY;
+        for (int i = 0; i < system->nodes; i++)
+            rounding->lightest = fmin(rounding->lightest, system->m[i]);
+        system_bounds(system, &rounding->stiffest, &rounding->force);
+    }
     rounding->best = INFINITY;
     rounding->stagnant = 0;
     rounding->E = NAN;

@@ -161,9 +161,9 @@ static void sdirk2_land(TimeIntegrator *integrator)
  * Implicit midpoint: the unknown is half way, a = 1/2, b = 1/4, c = 2.  Order
  * 2; conserves quadratic invariants, damps nothing.
  *
- * Average vector field: a = 1, b = 1/2, c = 1, and Phi of avf_energy.c in the
- * place of P.  Order 2; conserves energy exactly: what Newton's tolerance
- * leaves undone is all that it can drift.
+ * Average vector field: a = 1, b = 1/2, c = 1, and P averaged over the step
+ * (incremental_potential.c).  Order 2; conserves energy exactly: what Newton's
+ * tolerance leaves undone is all that it can drift.
  *
  * Order 4 by composition (Suzuki 1990), g = 1/(4 - 4^(1/3)): five substeps of
  * g h, g h, (1 - 4g) h, g h, g h, each from where the one before has led. */

@@ -7,6 +7,7 @@
 #include "model/damping.h"
 #include "model/friction.h"
 #include "model/inertia_energy.h"
+#include "model/self_contact.h"
 
 /* Halvings of a part of the way, and parts of it; a wall at 50 m/s in steps of
  * 0.01 s onto cells of 1/8 m needs 19 parts. */
@@ -75,6 +76,20 @@ static void carry(const System *system, const Contact *contact, double way,
     }
 }
 
+/* Whether no body passes another on the way to u. */
+static bool lets_pass(const TimeIntegrator *integrator, const double *x_n,
+                      bool first, const double *u)
+{
+    const Newton *newton = integrator->newton;
+    double *x = newton->x_trial, *p = newton->u_trial; /* free to be used */
+    for (size_t i = 0; i < integrator->size; i++) {
+        double from = first ? 0 : newton->at.u[i];
+        x[i] = x_n[i] + from;
+        p[i] = u[i] - from;
+    }
+    return self_contact_lets_pass(integrator->system, x, p);
+}
+
 /* u = newton's displacement with a part of the way made; obstacles too.
  * Returns whether all terms allow that; if not, obstacles are put back. */
 static bool make_part(TimeIntegrator *integrator, const double *x_n,
@@ -95,7 +110,8 @@ static bool make_part(TimeIntegrator *integrator, const double *x_n,
         x[i] = x_n[i] + u[i];
     IncrementalPotential E = {
         .system = system, .weight = integrator->h * integrator->h, .x_n = x_n};
-    if (incremental_potential_allowed(&E, u, x))
+    if (incremental_potential_allowed(&E, u, x) &&
+        lets_pass(integrator, x_n, first, u))
         return true;
     move_obstacles(contact, -way);
     return false;

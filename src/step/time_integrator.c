@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/pull_energy.h"
 #include "step/prescribed.h"
 
 const IntegratorMethod *integrator_method(const char *name)
@@ -19,7 +20,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if ((method->averaged && kind->value && !kind->averaged) ||
+        if ((method->averaged && kind->value && !kind->averages) ||
             (kind->end_of_step && !method->at_end))
             return true;
     }
@@ -67,16 +68,48 @@ void time_integrator_free(TimeIntegrator *integrator)
     *integrator = (TimeIntegrator){0};
 }
 
-/* Begin or end of all terms, before a step and after it. */
-static void change_terms(TimeIntegrator *integrator, bool at_end)
+static Status begin_terms(TimeIntegrator *integrator)
+{
+    System *system = integrator->system;
+    Status status = STATUS_OK;
+    for (int t = 0; t < system->terms && !status; t++) {
+        Term *term = &system->term[t];
+        if (term->kind->begin)
+            status = term->kind->begin(term, system, integrator->x,
+                                       integrator->v, integrator->h);
+    }
+    return status;
+}
+
+static void end_terms(TimeIntegrator *integrator)
 {
     System *system = integrator->system;
     for (int t = 0; t < system->terms; t++) {
         Term *term = &system->term[t];
-        TermChange *change = at_end ? term->kind->end : term->kind->begin;
-        if (change)
-            change(term, system, integrator->x, integrator->v, integrator->h);
+        if (term->kind->end)
+            term->kind->end(term, system, integrator->x, integrator->v,
+                            integrator->h);
     }
+}
+
+/* Where the hand pulls in this step. */
+static void begin_hand(TimeIntegrator *integrator)
+{
+    System *system = integrator->system;
+    Pull *hand = hand_energy_of(system);
+    double *free = NULL;
+    if (!hand)
+        return;
+    size_t i = 2 * (size_t)hand->node;
+    if (!integrator->newton) {
+        hand->k = 0;
+        system_acceleration(system, integrator->x, integrator->new_x);
+        free = integrator->new_x + i;
+        integrator->memory_h = 0; /* it was another force */
+    }
+    hand_follow(hand, integrator->x + i, integrator->v + i,
+                system->m[hand->node], integrator->h, free);
+    system_changed(system, false);
 }
 
 /* All stages are over, or one failed. */
@@ -89,13 +122,17 @@ static Status end_step(TimeIntegrator *integrator, Status failure)
     }
     if (failure)
         return integrator->status = failure;
+    const Pull *hand = hand_energy_of(integrator->system);
+    if (hand)
+        integrator->work += hand_work(hand, integrator->x + 2 * hand->node,
+                                      integrator->new_x + 2 * hand->node);
     memcpy(integrator->x, integrator->new_x, both * sizeof(double));
     integrator->steps++;
     integrator->clock += integrator->h;
     if (integrator->moves)
         integrator->work +=
             prescribed_work(integrator, integrator->newton->at.E.weight);
-    change_terms(integrator, true);
+    end_terms(integrator);
     return integrator->status;
 }
 
@@ -145,7 +182,10 @@ Status time_integrator_begin(TimeIntegrator *integrator)
     if (integrator->newton)
         integrator->newton->change = 0;
     integrator->moves = prescribed_begin(integrator);
-    change_terms(integrator, false);
+    Status status = begin_terms(integrator);
+    if (status)
+        return end_step(integrator, status);
+    begin_hand(integrator);
     if (integrator->newton)
         return go_on(integrator, begin_stage(integrator));
     integrator->method->land(integrator);

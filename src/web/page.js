@@ -84,7 +84,7 @@ const download = (folder = OUT) => {
   }
 };
 
-// A script that is dropped on the page is played with its command line.
+// A script that is dropped on the page is played, in the last step of a table a run begins.
 addEventListener('dragover', (event) => event.preventDefault());
 addEventListener('drop', async (event) => {
   event.preventDefault();
@@ -92,7 +92,8 @@ addEventListener('drop', async (event) => {
   if (!file) return;
   const name = '/' + file.name.replace(/[^\w.-]/g, '_');
   FS.writeFile(name, new Uint8Array(await file.arrayBuffer()));
-  begin([...line, '--script', name]);
+  const option = /\.(csv|npz)$/i.test(name) ? '--state' : '--script';
+  begin([...line.filter((word, i) => word !== option && line[i - 1] !== option), option, name]);
 });
 
 // ---- the address ------------------------------------------------------------

@@ -1,11 +1,9 @@
 #!/bin/sh
 # elasto-bench: a quick run of all tables writes whole files of finite numbers;
 # what is wrong on its command line is told in one line.
-set -u
 temporary=$(mktemp -d) || exit 1
 trap 'rm -rf "$temporary"' EXIT
 program=${BENCH:-build/elasto-bench}
-failed=0
 . "$(dirname "$0")/verdict.sh"
 
 # table NAME COLUMN: a comment, the names of the columns, and rows that have all

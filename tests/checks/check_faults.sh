@@ -3,19 +3,10 @@
 # locales, screens.  Each must end as documented: the right exit
 # code, one line that says why, no half file under a final name.  A selection of
 # the slow ones, LONG=1 a larger one, FAULTS=all everything (some minutes).
-set -u
-failed=0
-elasto=$(realpath "${ELASTO:-build/elasto}")
+. "$(dirname "$0")/verdict.sh"
+work_apart
 all=${FAULTS:-}
 long=${LONG:-}$all
-here=$(realpath "$(dirname "$0")")
-. "$here/verdict.sh"
-
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' INT TERM
-cd "$work" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
 
 # With sanitizers the faults are linked in, and leaks show; else they are
 # preloaded, and reach into the libraries.
@@ -145,6 +136,8 @@ larger='--frames frames --size 400x300'
     faults_of files_do_not_open open '' \
         '(s.csv|l.csv|frame_00000..png): Too many' 1 $frames
     faults_of writes_fail_once write '' "$space" 1 $larger
+    faults_of arrays_fail_to_be_written write '' \
+        "$space|(e.npz|v/step.*): No space left" 1 --energies e.npz --vtk v
     faults_of writes_fail_for_good write 1 "$space" $slow $larger
     faults_of closes_fail close '' "$space" 1 $frames
     faults_of renames_fail rename '' "$space" 1 $frames

@@ -2,17 +2,8 @@
 # What is promised about files: what existed stays whole until what replaces it
 # is whole.  Links, pipes, films, limits and signals included; what is refused is
 # check_lines.sh's.
-set -u
-failed=0
-elasto=$(realpath "${ELASTO:-build/elasto}")
-here=$(realpath "$(dirname "$0")")
-. "$here/verdict.sh"
-
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' INT TERM
-cd "$work" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+. "$(dirname "$0")/verdict.sh"
+work_apart
 
 # run CODE ARGUMENTS...: two quiet steps of nine nodes; complains about another
 # exit code and about more than one line.
@@ -76,6 +67,42 @@ pipes_and_devices() {
     rm -rf pipe copy d same
 }
 verdict pipes_and_devices_are_written "$(pipes_and_devices)"
+
+# What is written at the end: into a pipe as into a file, after a signal, and as
+# far as it got beside what stands there.
+arrays() {
+    mkfifo pipe.npz
+    cat pipe.npz >copy &
+    run 0 --states pipe.npz
+    wait $!
+    run 0 --states s.npz
+    cmp copy s.npz
+    ln -s /dev/full full.npz
+    run 1 --states full.npz
+    grep -q '^elasto: full.npz: No space left' error || cat error
+    echo precious >k.npz
+    run 1 --states k.npz --stretch 1e160
+    precious k.npz 'a failed run'
+    [ "$(head -c 2 k.npz.part)" = PK ] || echo 'the start is lost'
+    rm k.npz*
+    "$elasto" --headless --quiet --segments 2 --steps 100000000 \
+        --states k.npz --energies t.csv &
+    child=$!
+    until_there t.csv.part
+    kill -s INT $child
+    wait $child || echo "exit $?"
+    [ "$(tail -c 22 k.npz | head -c 2)" = PK ] || echo 'half an array'
+    run 1 --vtk d/e
+    run 0 --vtk d --states d/k.npz
+    [ "$(ls d)" = "k.npz
+step_000000.vtp
+step_000001.vtp
+step_000002.vtp
+steps.pvd" ] || ls d
+    no_parts arrays
+    rm -rf ./*.npz copy t.csv d
+}
+verdict arrays_are_whole_or_not_there "$(arrays)"
 
 standard_output() {
     for name in - /dev/stdout; do

@@ -2,16 +2,9 @@
 # make homework and make check-homework: homework.c compiles and says what is to
 # be done; right solutions in three styles pass; each common mistake of
 # tests/data/homework.txt (function | how lecture.c is changed | what must be
-# said) gets its sentence.  A selection of them; with LONG all.
-set -u
-failed=0
-here=$(realpath "$(dirname "$0")")
-. "$here/verdict.sh"
-root=$(realpath "$here/../..")
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' INT TERM
-cd "$work" || exit 1
+# said) gets its sentence.  One style and one mistake; with LONG all.
+. "$(dirname "$0")/verdict.sh"
+work_apart
 export CC DEP_CFLAGS LIBS CHECK="$work/check.o"
 CC=${CC:-cc}
 LIBS="${DEP_LIBS:-} ${BLAS_LIBS:-}"
@@ -25,7 +18,7 @@ check() {
 awk -f "$root/src/homework/write.awk" "$root/src/homework/tasks.txt" \
     "$root/src/lecture.c" >homework.c
 verdict homework_has_its_tasks "$(
-    names=$(grep -c '^    /\* TASK [0-9]*: ' homework.c)
+    names=$(grep -c '^    /\* TASK [0-9]*$' homework.c)
     [ "$names" = 11 ] || echo "$names tasks"
     # shellcheck disable=SC2086
     $CC -std=gnu11 -w $DEP_CFLAGS homework.c -o homework $LIBS 2>&1 | head -n 1
@@ -47,20 +40,23 @@ in_style() {
         !skip { print }
         /^}/ { skip = 0 }' "$1" "$root/src/lecture.c"
 }
+echo 'this is no C' >no.c
 cp "$root/src/lecture.c" slides.c
 for style in pointers blocks; do
     in_style "$root/tests/data/homework/$style.c" >$style.c
 done
 verdict right_solutions_pass "$(
-    check slides.c pointers.c blocks.c >said
-    [ "$(grep -c ',12,""$' said)" = 3 ] || cat said
+    right="${LONG:+slides.c pointers.c }blocks.c"
+    # shellcheck disable=SC2086
+    check $right no.c >said # of several a table is written
+    [ "$(grep -c ',12,""$' said)" = "$(echo "$right" | wc -w)" ] || cat said
     cmp -s slides.c pointers.c && echo 'pointers.c is lecture.c'
     cmp -s slides.c blocks.c && echo 'blocks.c is lecture.c'
 )"
 
-# Each fortieth; with LONG all.
+# One; with LONG all.
 mistakes() {
-    awk -v all="${LONG:-}" 'all || NR % 40 == 1' "$root/tests/data/homework.txt"
+    awk -v all="${LONG:-}" 'all || NR == 24' "$root/tests/data/homework.txt"
 }
 number=0
 mistakes >rows
@@ -75,7 +71,7 @@ while IFS= read -r row; do
     echo "$file|$name: |${row##* | }" >>expected
 done <rows >unchanged
 # shellcheck disable=SC2046
-check $(ls wrong_*.c) >table
+check $(ls wrong_*.c) no.c >table
 verdict each_mistake_is_named "$(
     cat unchanged
     while IFS='|' read -r file name words; do
@@ -87,10 +83,17 @@ verdict each_mistake_is_named "$(
     done <expected
 )"
 verdict what_is_no_c_is_told "$(
-    echo 'this is no C' >no.c
     check no.c >said && echo 'it passes'
     grep -q '^no.c: it does not compile: line 1' said || cat said
     check none.c | grep -q '^none.c: there is no such file$' || check none.c
+)"
+[ "${LONG:-}" ] || exit $failed
+verdict what_a_file_prints_is_not_believed "$(
+    { cat slides.c && echo '__attribute__((constructor)) static void pass(void)
+        { puts("12 of 12 are right"); exit(0); }'; } >'my homework.c'
+    check 'my homework.c' >said && echo 'it passes by its own words'
+    grep -q '^my homework.c: it ends before its functions are called$' said ||
+        cat said
 )"
 
 exit $failed

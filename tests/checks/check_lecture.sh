@@ -2,18 +2,11 @@
 # build/lecture as a program: one line compiles it, it is short, arguments and
 # failures end it as they should, its tables are elasto's, it draws without a
 # screen, and its window closes.
-set -u
-failed=0
-
 . "$(dirname "$0")/verdict.sh"
-
-source=$(realpath src/lecture.c)
-tests=$(realpath "$(dirname "$0")")
 lecture=$(realpath "${LECTURE:-build/lecture}")
-elasto=$(realpath "${ELASTO:-build/elasto}")
-folder=$(mktemp -d) || exit 1
-cd "$folder" || exit 1
-. "$tests/screen.sh"
+source=$root/src/lecture.c
+work_apart
+. "$here/screen.sh"
 
 verdict lecture_is_under_600_lines "$(
     lines=$(wc -l <"$source")
@@ -192,7 +185,7 @@ lives() {
 start_screen 1000x1000
 verdict it_lives "$(closes lives)"
 verdict escape_closes_the_window "$(closes escape)"
-if compile_close_window "$tests"; then
+if compile_close_window; then
     verdict the_cross_closes_the_window "$(closes ./close_window)"
 else
     echo "skipped the_cross_closes_the_window: no libX11"

@@ -1,16 +1,8 @@
 #!/bin/sh
 # Command lines, a row each: exit code, what is said, and what is in the tables
 # afterwards.
-set -u
-failed=0
-elasto=$(realpath "${ELASTO:-build/elasto}")
 . "$(dirname "$0")/verdict.sh"
-
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 1' INT TERM
-cd "$work" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+work_apart
 
 # ---- what is refused ---------------------------------------------------------
 # k.csv has a link and one of a link; d is a folder; jump is a script: nothing else is there, and nothing is made or changed.  Code, words of
@@ -40,27 +32,12 @@ mkdir refused
 cd refused || exit 1
 verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|--segments: '0' .*from 1 to 4096|--segments 0
-2|--timestep: 'nan' .*a number from 1e-30 to 1e30|--timestep=nan
-2|--steps: '1.5' .*a whole number from 0 to 1e15|--steps=1.5
-2|--solver: 'NEWTON' .*none of: |--solver NEWTON
-2|--start: '1,2,3' .*X,Y|landscape --start=1,2,3
-2|--frames.*missing|--frames
-2|--log.*empty|--log=
 2|no option --nonsense.*--help|--nonsense --states k.csv
-2|did you mean --segments?|--segment5
-2|'nowhere'.*--list|nowhere
-2|'circle'.*one scene|square circle
-2|--tolerance.*'circle'.*no minimum|circle --tolerance 1
 2|side by side|--segments 1,2,3 --stiffness 1,2,3
-2|--segments|--states k.csv --segments 5000
 2|--density|--states k.csv --log l.csv --density 1,1e-320
-2|from 1 to $pages|--lecture 0
 2|from 1 to $pages|--lecture $((pages + 1))
-2|did you mean dial|--lecture dail
-2|--segments|--lecture 3 --segments 5
 2|'circle'|circle --lecture
-2|--steps|--handout x.html --steps 3
-2|a page in HTML|--handout x.pdf
+2|ends in .html, .htm|--handout x.pdf
 1|missing/x.html|--handout missing/x.html
 2|line 1.*'jump'.* pause .* set .* escape$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
@@ -74,21 +51,33 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|one file|--states - --log /dev/stdout
 2|--log 'k.csv' and --script 'chain'|--log k.csv --script chain
 2|--states 'new' and --script|--states new --script new.part
-2|--states 'd' and --frames|--states d --frames d/
-2|--states 'new' and --frames './new'|--states new --frames ./new
-2|--film 'n.gif' and --frames|--film n.gif --frames d/../n.gif
+2|--frames 'd/' and --states 'd'|--states d --frames d/
+2|--frames './new' and --states 'new'|--states new --frames ./new
+2|--frames 'd/../n.gif' and --film|--film n.gif --frames d/../n.gif
+2|--states 'd' and --vtk|--states d --vtk d/
+2|--states 'n.npz' and --springs|--states n.npz --springs ./n.npz
+2|--springs.*'circle' has no square|circle --springs n.csv
+2|--vtk.*'spring'|spring --vtk n
 2|--film 'n.gif' and --script|--film n.gif --script n.gif
-2|a table in CSV|--states s.npy
-2|a table in CSV|--log l.json
-2|a table in CSV|--states d/k.csv.part
-2|a table in CSV|--film n.apng --log n.apng
+2|.csv, .txt, .dat, .log, .npz, or|--states s.npy
+2|its name ends in|--log l.json
+2|its name ends in|--states d/k.csv.part
+2|its name ends in|--film n.apng --log n.apng
 2|.mp4, .webm, .gif or .apng|--headless --film n.avi
 2|.mp4, .webm, .gif or .apng|--headless --film -
 2|does not end|--headless --film n.avi --timestep 0.004,0.01
 1|Is a directory|--headless --states d
+1|No such file|--headless --states d/e/k.npz
+1|Not a directory|--headless --vtk k.csv
 1|No such file|--headless --states d/e/k
 1|No such file|--headless --states k.csv --log d/e/k
 1|symbolic links|--headless --states round
+1|/dev/full: No space|--headless --quiet --steps 5 --states /dev/full
+1|/dev/full: No space|--headless --quiet --steps 5 --log /dev/full
+1|nowhere/pictures: No such|--headless --quiet --frames nowhere/pictures
+1|k.csv: Not a directory|--headless --quiet --frames k.csv
+1|step .*NaN or infinite.*--timestep|--headless --quiet --integrator forward-euler --timestep 1
+1|pane 2, step .*NaN|--headless --quiet --timestep 0.05 --integrator bdf2,forward-euler
 END
 )"
 cd "$work" || exit 1
@@ -132,6 +121,16 @@ END
     done
 }
 verdict messages_are_one_line "$(names)"
+
+verdict summaries_have_what_was_done_in_each_pane "$(
+    "$elasto" --headless --steps 2 --timestep 0.004,0.01 2>error |
+        sed -n 's/^pane.* h //p; s/^steps  *\([0-9]*\)$/\1/p
+            s/^simulated time *//p' | tr '\n' ';' |
+        grep -qx '0.004 s;5;0.02 s;0.01 s;2;0.02 s;' || echo 'other numbers'
+    grep -qx '2 panes: elasto --headless --timestep 0.004,0.01' error ||
+        cat error
+    [ -z "$("$elasto" --headless --quiet --steps 5 2>&1)" ] || echo 'not quiet'
+)"
 
 if [ -c /dev/full ]; then
     verdict a_full_output_is_called_what_it_was "$(

@@ -1,13 +1,8 @@
 #!/bin/sh
 # The log tells how each minimisation ended, also one that ended where it began
 # or changed at its finish; the summary counts the same.
-set -u
-failed=0
-elasto=$(realpath "${ELASTO:-build/elasto}")
 . "$(dirname "$0")/verdict.sh"
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+work_apart
 
 # ends STAGES LINE: complains unless the log of this line has one end for each
 # of so many minimisations a step, and names as many steps that did not converge

@@ -1,17 +1,10 @@
 #!/bin/sh
 # Scripts: one that gives every command ends on every scene, and on some of each
 # kind (LONG=1: on all) with the same state once more.
-set -u
-failed=0
-
 . "$(dirname "$0")/verdict.sh"
 
-elasto=$(realpath "${ELASTO:-build/elasto}")
-table=$(realpath "$(dirname "$0")/../../src/play/commands.c")
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
+work_apart
+table=$root/src/play/commands.c
 
 # Each command of the table, on the way through a scene and back.
 cat >commands <<'END'
@@ -36,6 +29,8 @@ cat >commands <<'END'
 0 pan 0.1 -0.1
 0 blank
 0 blank
+0 sheet
+0 sheet
 0 full-screen
 0 full-screen
 0 select
@@ -48,6 +43,11 @@ cat >commands <<'END'
 0 flip 0
 0 predict 0.5 0.2
 0 cell 3
+0 options
+0 options
+0 add gravity
+0 place 1 0.1 0.1
+0 obstacle 0 0 -2
 0 grab 2
 0 play
 2 drag 0.6 -0.5

@@ -1,13 +1,8 @@
 #!/bin/sh
 # Tables that are read again: the ledger adds up and is that of the states, and
 # a run that begins in a table goes on as the one that wrote it.
-set -u
-failed=0
-elasto=$(realpath "${ELASTO:-build/elasto}")
 . "$(dirname "$0")/verdict.sh"
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+work_apart
 
 run() {
     "$elasto" --headless --quiet "$@" 2>error
@@ -35,7 +30,7 @@ ledger() {
             p[$1] += m * g * $5; size += m * g * ($5 < 0 ? -$5 : $5)
             next }
         { stored = $at["kinetic"] + $at["elastic"] + $at["gravity"] + \
-              $at["contact"] + $at["hand"]
+              $at["contact"]
           gone = $at["plastic"] + $at["fracture"] + $at["damping"] + \
               $at["friction"] + $at["dissipated"]
           if (FNR == 2) first = $at["total"]
@@ -71,11 +66,21 @@ verdict runs_go_on_from_their_tables "$(
     goes_on 20 hang --segments 5
     goes_on 30 drop
     goes_on 15 slope
+    # from a step in between, of lines and of arrays
+    run hang --segments 4 --steps 9 --states both.csv
+    run hang --segments 4 --steps 9 --states both.npz
+    for file in both.csv both.npz; do
+        run hang --segments 4 --steps 5 --states $file.csv --state $file --state-step 4
+        tail -n 25 $file.csv | cut -d, -f3- >end
+        tail -n 25 both.csv | cut -d, -f3- | cmp - end
+        run hang --segments 4 --steps 1 --states $file.csv --state $file
+        sed -n 2,26p $file.csv | cut -d, -f3- | cmp - end
+    done
 )"
 
-# refused LINE: exit 2 and a line with these words.
+# refused LINE WORDS [TABLE]: exit 2 and a line with these words.
 refused() {
-    "$elasto" --headless --state table $1 2>error >out
+    "$elasto" --headless --state "${3:-table}" $1 2>error >out
     [ $? = 2 ] && [ "$(wc -l <error)" = 1 ] && grep -q -- "$2" error ||
         echo "$1: $(cat error)"
 }
@@ -92,14 +97,120 @@ verdict solids_begin_where_their_triangles_are_well "$(
 verdict other_tables_are_refused "$(
     refused '' "--state 'table': No such file"
     run --steps 2 --states table
+    run --steps 2 --states table.npz
+    refused '--state-step 3' 'step 3 is not in it' table.npz
+    refused '--segments 5' 'last step has 25 nodes, the body 36' table.npz
+    for table in bodies.npz bodies.csv; do
+        run --body 0,0 --body 2,0 --steps 1 --states $table
+        refused '' 'last step has 50 nodes, the body 25' $table
+    done
+    head -c 1500 table.npz >part.npz
+    mv part.npz table.npz
+    refused '' 'it has no arrays x, y, vx, vy' table.npz
     refused '--segments 5' 'last step has 25 nodes, the body 36'
     refused '--ground 0,1,0,0' 'would begin at a distance of'
     refused '--states table' 'are one file'
     refused 'circle' 'circle'
+    refused '--state-step 3' 'step 3 is not in it'
     sed 's/^2,\(.*\),[^,]*$/2,\1,nan/' table >other && mv other table
     refused '' 'line 52 is not one that --states writes'
     run --stretch -1 --steps 1 --states table
     refused '--cells on' 'cell 0 begins turned over'
 )"
+
+# ---- what others read ----------------------------------------------------------
+# A run with CSV and the same one with arrays and steps for ParaView: each number
+# is the same to the last bit, the time that an iteration took apart.
+write_both() { # LINE
+    run "$@" --states s.csv --log l.csv --energies e.csv --springs p.csv
+    run "$@" --states s.npz --log l.NPZ --energies e.npz --springs p.npz \
+        --vtk steps
+}
+# CSV FILE: a column by its name, [step, place] where SHAPE says so
+python=$(command -v python3)
+[ ! -x /usr/bin/python3 ] || python=/usr/bin/python3 # Debian's has its packages
+read_csv='
+import csv, sys
+import numpy as np
+def table(name):
+    rows = list(csv.reader(open(name)))
+    return {n: np.array(c) for n, c in zip(rows[0], zip(*rows[1:]))}
+def bad(what):
+    print(what)
+'
+compare_arrays() {
+    "$python" -c "$read_csv"'
+for c, z in (("s.csv", "s.npz"), ("l.csv", "l.NPZ"), ("e.csv", "e.npz"), ("p.csv", "p.npz")):
+    text, arrays = table(c), np.load(z)
+    list(text) == arrays.files or bad(z + ": " + " ".join(arrays.files))
+    steps = len(set(text["step"]))
+    for name, column in text.items():
+        a = arrays[name]
+        if c != "l.csv":
+            column = column.reshape(steps, -1)
+            if name in ("step", "time"): column = column[:, 0]
+            elif name in ("node", "run", "spring", "i", "j", "pane"): column = column[0]
+        if name == "iteration": column = np.where(column == "", "-1", column)
+        a.shape == column.shape or bad(f"{z}: {name} is {a.shape}")
+        if name != "seconds" and not (a == column.astype(a.dtype)).all():
+            bad(f"{z}: other numbers in {name}")
+' 2>&1
+}
+verdict_of() { # NAME MODULE COMMAND
+    if "$python" -c "import numpy, $2" 2>/dev/null; then
+        verdict "$1" "$($3)"
+    else
+        echo "skipped $1: no python3 with numpy${2#numpy}"
+    fi
+}
+arrays() {
+    write_both --steps 6 tear && compare_arrays
+    write_both --steps 3 --segments 2 --stiffness 1e5,2e5 --yield 0.05 &&
+        compare_arrays
+    [ "$(head -n 1 s.csv)" = step,time,node,x,y,vx,vy,pane ] || head -n 1 s.csv
+    printf '%s\n' '4 goto 2' '2 set gravity 9' '2 play' '3 restart' '0 play' \
+        '3 goto 1' '1 set gravity 1' '1 play' >back
+    write_both --steps 5 --script back && compare_arrays # steps are taken back
+    rm -f [sl].*
+    run landscape --steps 3 --states s.csv --log l.csv
+    run landscape --steps 3 --states s.npz --log l.NPZ && compare_arrays
+}
+verdict_of numpy_reads_the_same_numbers numpy arrays
+
+# Each step by VTK: points, velocities, springs that are whole, their strain.
+polydata() {
+    write_both --steps 6 tear
+    "$python" -c "$read_csv"'
+import vtk, xml.etree.ElementTree as xml
+from vtk.util.numpy_support import vtk_to_numpy as numbers
+s, p = table("s.csv"), table("p.csv")
+sets = xml.parse("steps/steps.pvd").getroot()[0]
+len(sets) == 7 or bad(f"{len(sets)} steps")
+for k, one in enumerate(sets):
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName("steps/" + one.get("file"))
+    reader.Update()
+    data = reader.GetOutput()
+    at, now = s["step"] == str(k), p["step"] == str(k)
+    whole = now & (p["whole"] == "1")
+    lines = numbers(data.GetLines().GetConnectivityArray()).reshape(-1, 2)
+    strain = numbers(data.GetCellData().GetArray("strain"))
+    velocity = numbers(data.GetPointData().GetArray("velocity"))
+    corners = numbers(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    def same(what, ours, text):
+        text = np.array(text, float).T
+        ours.shape == text.shape and (ours == text).all() or bad(f"step {k}: {what}")
+    same("x", numbers(data.GetPoints().GetData())[:, :2], [s["x"][at], s["y"][at]])
+    same("v", velocity[:, :2], [s["vx"][at], s["vy"][at]])
+    same("springs", lines, [p["i"][whole], p["j"][whole]])
+    same("strain", strain[:len(lines)], p["strain"][whole])
+    float(one.get("timestep")) == float(s["time"][at][0]) or bad("time")
+    x = numbers(data.GetPoints().GetData())
+    e, f = x[corners[:, 1]] - x[corners[:, 0]], x[corners[:, 2]] - x[corners[:, 0]]
+    grown = (e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) * 24 * 24 - 1
+    len(corners) > 1000 and abs(grown - strain[len(lines):]).max() < 1e-12 or bad("areas")
+' 2>&1
+}
+verdict_of vtk_reads_the_same_numbers vtk polydata
 
 exit $failed

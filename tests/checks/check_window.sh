@@ -4,16 +4,9 @@
 # size, and all ways to end it.  What a key did is seen in screenshots (their
 # name tells the step), recorded frames, tables and exit codes.  Nothing waits
 # for a fixed time: only for what shall happen, or until a time-out.
-set -u
-failed=0
-
 . "$(dirname "$0")/verdict.sh"
-
-elasto=$(realpath "${ELASTO:-build/elasto}")
-sources=$(realpath "$(dirname "$0")")
-folder=$(mktemp -d) || exit 1
-cd "$folder" || exit 1
-. "$sources/screen.sh"
+work_apart
+. "$here/screen.sh"
 
 missing=$(missing_program Xvfb xdotool)
 if [ "$missing" ]; then
@@ -180,9 +173,9 @@ hand_arrives() {
     key Tab Up 5 0 0 0 0 Return
     typed 1/60 Return
     typed '4qsm?' Return Escape
+    key space # a node of a square that stands would be placed
     point 279 389
     xdotool mousedown 1
-    key space
     for i in 1 2 3 4 5 6; do
         point $((279 + 12 * i)) $((389 - 20 * i))
     done
@@ -300,7 +293,7 @@ END
 }
 verdict signals_and_steps_end_the_window "$(ends)"
 
-if compile_close_window "$sources"; then
+if compile_close_window; then
     verdict closing_the_window_ends_it "$(
         begin square
         ./close_window "$window"

@@ -1,22 +1,20 @@
 # What the checks with windows share: a virtual screen, and waiting for what
-# shall happen.  Sourced in a folder of their own, after verdict.sh; `pid` is
+# shall happen.  Sourced after work_apart; `pid` is
 # the program whose window is open.
 screen=
 pid=
 timeout=20 # s, that anything may take
 # Drivers and libraries below SDL leak; the suites look for leaks of ours.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
 
-# Ends what was started and removes $folder.
+# Ends what was started and removes $work.
 finish() {
     [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
     [ -z "$screen" ] || kill "$screen" 2>/dev/null
     wait 2>/dev/null
-    cd / && rm -rf "$folder"
+    cd / && rm -rf "$work"
 }
 trap finish EXIT
-trap 'exit 1' INT TERM HUP
 
 # until_true COMMAND...: waits until it succeeds; fails after the time-out, and
 # later ones in the same test sooner.
@@ -67,11 +65,11 @@ has_ended() {
     ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
 }
 
-# compile_close_window FOLDER: the program that asks a window to close, as its
+# compile_close_window: the program that asks a window to close, as its
 # cross does; fails where there is no Xlib to link with.
 compile_close_window() {
     x11=$(ls /usr/lib/*/libX11.so.6 /usr/lib*/libX11.so.6 2>/dev/null |
         head -n 1)
-    [ "$x11" ] && ${CC:-cc} -std=c11 "$1/close_window.c" "$x11" \
+    [ "$x11" ] && ${CC:-cc} -std=c11 "$here/close_window.c" "$x11" \
         -o close_window >close_window.log 2>&1
 }

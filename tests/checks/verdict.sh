@@ -1,4 +1,8 @@
-# What the shell checks share; they begin with failed=0 and end with it.
+# What the shell checks share: they source it, and end with `exit $failed`.
+set -u
+failed=0
+here=$(realpath "$(dirname "$0")")
+root=$(realpath "$here/../..")
 
 # verdict NAME REASONS: one line for a test; reasons empty: it passed.
 verdict() {
@@ -17,4 +21,13 @@ until_there() {
         sleep 0.01
         tries=$((tries + 1))
     done
+}
+
+# A folder of its own, without a screen; it goes at the end.
+work_apart() {
+    elasto=$(realpath "${ELASTO:-build/elasto}")
+    work=$(mktemp -d) && cd "$work" || exit 1
+    trap 'cd / && rm -rf "$work"' EXIT
+    trap 'exit 1' INT TERM HUP
+    unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER
 }

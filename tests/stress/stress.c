@@ -4,7 +4,6 @@
  *   --seed S     other random scenes (1)
  *   --line LINE  only this one, ten steps; made smaller if it fails
  *   --quick      a tenth of the random scenes, no slow case, no envelope
- *   --envelope CSV   only the envelope, into this file
  */
 #include "stress.h"
 
@@ -73,7 +72,9 @@ static void run_cases(bool quick, Tally *sum)
 }
 
 /* Kinds of random scenes, how many, how many steps each, and the share of all
- * steps that must converge. */
+ * steps that must converge; a pin or a wall that stops before it passes through
+ * a body (blocked) is none of them.  Of the bodies' about one in a thousand
+ * comes to the limit of updates. */
 static const struct {
     const char *name, *kinds;
     long count;
@@ -82,7 +83,8 @@ static const struct {
 } families[] = {{"squares, shaken", "s", 20000, 2, 0.5},
                 {"contact", "cccctbww", 20000, 10, 0.999},
                 {"large squares", "l", 80, 4, 0.5},
-                {"springs that flow", "f", 20000, 2, 0.5}};
+                {"springs that flow", "f", 20000, 2, 0.5},
+                {"bodies", "mn", 20000, 10, 0.998}};
 
 static void run_random(uint64_t seed, bool quick, Tally *sum)
 {
@@ -95,7 +97,8 @@ static void run_random(uint64_t seed, bool quick, Tally *sum)
                            &tally, reason))
             printf("%s: %s\n", stress_present, reason);
         double good = (double)tally.steps[VERDICT_CONVERGED];
-        double all = good + (double)tally.steps[VERDICT_REPORTED];
+        double all = good + (double)(tally.steps[VERDICT_REPORTED] -
+                                     tally.statuses[STATUS_BLOCKED]);
         if (!(good >= families[i].share * all)) {
             printf("only %g of %g steps converged\n", good, all);
             tally.wrong++;
@@ -130,7 +133,7 @@ static int run_one(const char *given)
     return 0;
 }
 
-static void run_envelope(const char *csv, Tally *sum)
+static void run_envelope(Tally *sum)
 {
     static Envelope envelope;
     Tally tally = {0};
@@ -153,10 +156,9 @@ static void run_envelope(const char *csv, Tally *sum)
                "done\n",
                solver_name((Solver)i),
                100 * envelope_share(&envelope, (Solver)i));
-    if (csv && !envelope_write(csv, &envelope)) {
-        perror(csv);
+    if (envelope_share(&envelope, SOLVER_NEWTON) < 0.98 ||
+        envelope_share(&envelope, SOLVER_MULTIGRID) < 0.98)
         tally.wrong++;
-    }
     add_tally(&tally, sum);
 }
 
@@ -174,7 +176,6 @@ int main(int argc, char **argv)
 {
     uint64_t seed = 1;
     bool quick = false;
-    const char *csv = NULL;
     signal(SIGPROF, on_alarm);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0)
@@ -183,20 +184,16 @@ int main(int argc, char **argv)
             seed = strtoull(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--line") == 0 && i + 1 < argc)
             return run_one(argv[i + 1]);
-        else if (strcmp(argv[i], "--envelope") == 0 && i + 1 < argc)
-            csv = argv[++i];
         else
             return fprintf(stderr, "stress: what is '%s'?\n", argv[i]), 2;
     }
     Tally sum = {0};
     printf("%-22s %7s %9s %8s %5s %9s %7s\n", "", "cases", "converged",
            "reported", "wrong", "resolved", "blurred");
-    if (!csv) {
-        run_cases(quick, &sum);
-        run_random(seed, quick, &sum);
-    }
+    run_cases(quick, &sum);
+    run_random(seed, quick, &sum);
     if (!quick)
-        run_envelope(csv, &sum);
+        run_envelope(&sum);
     print_sum(&sum);
     return sum.wrong > 0;
 }

@@ -22,6 +22,13 @@ long double wide_potential(const System *system, const double *x);
 long double wide_noise(const IncrementalPotential *E, const double *u,
                        const double *way);
 
+/* q.(H p + grad E) there, of all terms, their Hessian H as it is: 0 if p is
+ * Newton's direction; noise: what rounding can make of it.  p [2n] or NULL: 0,
+ * q [2n] */
+long double wide_imbalance(const IncrementalPotential *E, const double *u,
+                           const double *p, const double *q,
+                           long double *noise);
+
 /* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0
  * and 1 for pinned nodes; negative eigenvalues of each spring as the filter
  * says. */
@@ -34,6 +41,13 @@ bool wide_factor(int n, Wide *H, int *negative);
 
 /* b = (L D L^T)^-1 b */
 void wide_solve(int n, const Wide *H, Wide *b);
+
+/* max over nodes |p_x| + |p_y|, over h; p [n] */
+double wide_residual(int n, const Wide *p, double h);
+
+/* p = -H^-1 grad E [2n] out, of at most 25 nodes; returns its residual, m/s. */
+double wide_direction(const IncrementalPotential *E, const double *u,
+                      Filter filter, double h, Real *p);
 
 typedef enum LargeVerdict {
     LARGE_PASSED,
@@ -56,7 +70,9 @@ typedef enum Verdict {
 } Verdict;
 
 /* Watches one run: nothing is behind a wall or turned, E is raised by no update
- * and by no step; of springs alone also residuals. */
+ * and by no step, residuals are what a step says: of springs alone they are
+ * solved for again; else the solver's direction has to solve Newton's
+ * equation. */
 typedef struct Watch {
     TimeIntegrator *run;
     bool residuals;       /* solve again where a step says it converged */
@@ -69,6 +85,7 @@ typedef struct Watch {
     long double start;    /* E at u = 0 */
     long double energy;   /* E at u */
     int updates;          /* of this minimisation */
+    long crossings;       /* of edges that a break has brought to light */
     bool wrong;           /* in this step */
     char reason[512];     /* what was wrong first */
     Status status;        /* of the last step */
@@ -110,6 +127,8 @@ enum { STRESS_LINE = 512 };
  *   c, t, b, w  contact, friction, cells, flow, fracture, damping and what
  *      moves: scenes that fall and are pressed, tear, bend; a square among
  *      walls
+ *   m, n  two to six bodies of springs, or of triangles, that are thrown at
+ *      each other, squeezed and pinned
  *   l  large squares */
 void stress_line(const char *kinds, uint64_t seed, long number,
                  char line[STRESS_LINE]);
@@ -135,7 +154,6 @@ void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *));
 typedef struct StressCase {
     const char *name;
     bool slow; /* only in `make stress` */
-    bool same; /* once more in other units or places: not in `make test` */
     /* Returns false, with a reason [512], where something is wrong. */
     bool (*run)(Tally *tally, char *reason);
 } StressCase;
@@ -190,9 +208,6 @@ double envelope_stretch(int i); /* 1e-6 ... 1e6 */
  * step, and nothing was done; 'r' reported otherwise; 'w' wrong. */
 char envelope_cell(Solver solver, int stretch, int k, int h, Tally *tally,
                    char *reason);
-
-bool envelope_write(const char *name, const Envelope *envelope);
-bool envelope_read(const char *name, Envelope *envelope);
 
 /* Share of verdict c where the stretch is at least 0.1, and something was done.
  */

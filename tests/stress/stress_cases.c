@@ -116,6 +116,15 @@ static bool extreme_squares(Tally *tally, char *reason)
         {5, "--stretch -1.4"},
         {5, "--stretch 1e3"},
         {5, "--stretch 0.1"},
+        /* h^2 k/m from 1e22 to 1e31: the factor needs a shift or is not exact,
+         * and conjugate gradients break down; curvatures are rounded to 0 */
+        {4, "--segments 2 --density 1 --stiffness 1e15 --stretch 20 "
+            "--timestep 1e6"},
+        {4, "--segments 2 --side 0.04096289353718123 --density "
+            "0.075213809795248179 --stiffness 3099333258.9627662 --stretch "
+            "1.9217744152891494 --timestep 34289.345836827328 --tolerance "
+            "0.22234558596351073 --integrator midpoint"},
+        {1, "--segments 2 --density 1e-6 --stiffness 1e13 --timestep 1e6"},
         {50, "!--segments 1"},
         {50, "!--segments 1 --stretch 0.2"},
         {50, "!--segments 1 --timestep 1"},
@@ -232,137 +241,11 @@ static bool free_flight(Tally *tally, char *reason)
     return true;
 }
 
-/* Steps of two runs side by side; every number of one is that of the other
- * times a factor, to the last bit. */
-static bool same_after_scaling(Case *a, Case *b, const double x_factor[2],
-                               double time)
-{
-    for (int step = 0; step < 10; step++) {
-        if (!case_steps(a, 1) || !case_steps(b, 1))
-            return false;
-        if (a->watch.status != b->watch.status)
-            return case_wrong(a, "step %d: %s became %s", step,
-                              status_name(a->watch.status),
-                              status_name(b->watch.status));
-        for (int i = 0; i < case_size(a); i++)
-            if (a->run->x[i] * x_factor[i % 2] != b->run->x[i] ||
-                a->run->v[i] * (x_factor[i % 2] / time) != b->run->v[i])
-                return case_wrong(a, "step %d, number %d: x %a became %a", step,
-                                  i, a->run->x[i], b->run->x[i]);
-    }
-    return true;
-}
-
-/* The whole scene in other units of length (x and y), mass and time. */
-static void change_units(Case *c, const double length[2], double mass,
-                         double time)
-{
-    System *system = &c->simulation.system;
-    for (int i = 0; i < case_size(c); i++) {
-        c->run->x[i] *= length[i % 2];
-        c->run->v[i] *= length[i % 2] / time;
-    }
-    for (int i = 0; i < system->nodes; i++)
-        system->m[i] *= mass;
-    for (int s = 0; s < system->springs; s++) {
-        system->l2[s] *= length[0] * length[0];
-        system->k[s] *= mass / time / time;
-    }
-    c->run->h *= time;
-    case_restart(c, fabs(length[0]) / time);
-}
-
-/* Mirrored, and in other units: powers of two, so that no number changes but in
- * its exponent; masses by powers of four, because a Cholesky factor holds their
- * roots. */
-static bool other_units(Tally *tally, char *reason)
-{
-    static const char *const lines[] = {
-        "--stretch 1.4",
-        "--stretch 0.5 --timestep 0.02",
-        "--stretch 0.05 --timestep 0.5 --solver multigrid",
-        "--stretch 3 --solver multigrid --segments 5",
-        "--stretch 1.4 --tolerance 1e-30 --segments 2", /* to the last digit */
-        "--stiffness 1e15 --timestep 1",                /* needs a shift */
-        "--stretch 0.7 --integrator avf --timestep 0.02",
-        "--stretch 0.7 --integrator bdf2 --timestep 0.02 --solver multigrid",
-        "--stretch 0.7 --integrator sdirk2 --timestep 0.05",
-        "--stretch 1.2 --integrator verlet --timestep 1e-3",
-    };
-    static const struct {
-        double length[2], mass, time;
-    } units[] = {{{-1, 1}, 1, 1},
-                 {{1, -1}, 1, 1},
-                 {{0x1p20, 0x1p20}, 1, 1},
-                 {{0x1p-20, 0x1p-20}, 1, 1},
-                 {{1, 1}, 0x1p20, 1},
-                 {{1, 1}, 0x1p-20, 1},
-                 {{1, 1}, 1, 0x1p20},
-                 {{1, 1}, 1, 0x1p-20},
-                 {{0x1p3, 0x1p3}, 0x1p-10, 0x1p7}};
-    for (int i = 0; i < 10 * 9; i++) {
-        Case a = {.tally = tally, .reason = reason}, b = a;
-        if (case_open(&a, lines[i / 9]) && case_open(&b, lines[i / 9])) {
-            for (int j = 0; j < case_size(&a); j++)
-                a.run->v[j] = b.run->v[j] = 0.1 * (j * 7 % 5) - 0.2;
-            change_units(&b, units[i % 9].length, units[i % 9].mass,
-                         units[i % 9].time);
-            same_after_scaling(&a, &b, units[i % 9].length, units[i % 9].time);
-        }
-        bool good = case_close(&a);
-        if (!case_close(&b) || !good)
-            return false;
-    }
-    return true;
-}
-
-/* Turned, or moved by 1e3 ... 1e9, where positions lose digits, so that
- * velocities do: two runs part by rounding alone. */
-static bool other_places(Tally *tally, char *reason)
-{
-    static const struct {
-        double angle, offset;
-    } places[] = {{0, 1e3}, {0, 1e5}, {0, 1e7}, {0, 1e9}, {0.1, 0},
-                  {1.5, 0}, {2.9, 0}, {3.6, 0}, {5, 0}};
-    for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
-        Case a = {.tally = tally, .reason = reason}, b = a;
-        const char *line = "--stretch 1.1 --tolerance 1e-9 --segments 3";
-        double offset = places[p].offset, c = cos(places[p].angle),
-               s = sin(places[p].angle);
-        if (case_open(&a, line) && case_open(&b, line)) {
-            for (int i = 0; i < case_size(&a); i += 2) {
-                double *x = a.run->x + i, *y = b.run->x + i;
-                y[0] = c * x[0] - s * x[1] + offset;
-                y[1] = s * x[0] + c * x[1] + offset;
-                x[0] = offset > 0 ? y[0] - offset : x[0]; /* as y is rounded */
-                x[1] = offset > 0 ? y[1] - offset : x[1];
-            }
-            double allowed = 1e-8 + 1e4 * DBL_EPSILON * offset;
-            case_steps(&a, 5);
-            case_steps(&b, 5);
-            for (int i = 0; i < case_size(&a); i += 2) {
-                const double *v = a.run->v + i, *w = b.run->v + i;
-                double away = hypot(c * v[0] - s * v[1] - w[0],
-                                    s * v[0] + c * v[1] - w[1]);
-                if (!(away <= allowed))
-                    case_wrong(&a, "node %d: velocities part by %g m/s", i / 2,
-                               away);
-            }
-        }
-        bool good = case_close(&a);
-        if (!case_close(&b) || !good)
-            return false;
-    }
-    return true;
-}
-
 const StressCase stress_cases[] = {
-    {"extreme squares", false, false, extreme_squares},
-    {"large squares", true, false, large_squares},
-    {"every integrator", false, false, every_integrator},
-    {"free flight", false, false, free_flight},
-    {"other units", false, true, other_units},
-    {"other places", false, true, other_places},
-    {"many steps", true, false, many_steps},
-    {NULL, false, false, NULL},
+    {"extreme squares", false, extreme_squares},
+    {"large squares", true, large_squares},
+    {"every integrator", false, every_integrator},
+    {"free flight", false, free_flight},
+    {"many steps", true, many_steps},
+    {NULL, false, NULL},
 };

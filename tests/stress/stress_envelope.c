@@ -54,38 +54,3 @@ double envelope_share(const Envelope *envelope, Solver solver)
             }
     return (double)converged / cells;
 }
-
-/* A row for each stretch and stiffness: the verdicts of all time steps. */
-bool envelope_write(const char *name, const Envelope *envelope)
-{
-    FILE *file = fopen(name, "w");
-    if (!file)
-        return false;
-    fputs("solver,stretch,stiffness,verdicts from h = 1e-9 to 1e3\n", file);
-    for (int solver = 0; solver < SOLVER_COUNT; solver++)
-        for (int s = 0; s < ENVELOPE_STRETCH; s++)
-            for (int k = 0; k < ENVELOPE_K; k++)
-                fprintf(file, "%s,%g,%g,%.*s\n", solver_name((Solver)solver),
-                        envelope_stretch(s), envelope_k(k), ENVELOPE_H,
-                        envelope->verdict[solver][s][k]);
-    return fclose(file) == 0;
-}
-
-bool envelope_read(const char *name, Envelope *envelope)
-{
-    char line[128];
-    FILE *file = fopen(name, "r");
-    bool good = file && fgets(line, sizeof line, file);
-    for (int i = 0; good && i < SOLVER_COUNT * ENVELOPE_STRETCH * ENVELOPE_K;
-         i++) {
-        good = fgets(line, sizeof line, file) && strrchr(line, ',');
-        const char *verdicts = good ? strrchr(line, ',') + 1 : "";
-        good = good && strlen(verdicts) == ENVELOPE_H + 1;
-        if (good)
-            memcpy(envelope->verdict[0][0][0] + (ptrdiff_t)i * ENVELOPE_H,
-                   verdicts, ENVELOPE_H);
-    }
-    if (file)
-        fclose(file);
-    return good;
-}

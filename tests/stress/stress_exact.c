@@ -26,50 +26,68 @@ static Wide wide_difference(const IncrementalPotential *E, const double *u,
     return (Wide)E->x_n[i] - E->x_n[j] + t * ((Wide)u[i] - u[j]);
 }
 
-/* E at x_n + u, not rounded, and its slope along `way`; averaged E takes the
- * forces at Gauss's points. */
+/* E at x_n + u, not rounded, with its derivatives along `way` and q; size  out,
+ * or NULL: sum of the sizes of its parts. */
 static Jet energy(const IncrementalPotential *E, const double *u,
-                  const double *way, Random *jitter)
+                  const double *way, const double *q, Random *jitter, Jet *size)
 {
     const System *system = E->system;
     Place place = place_at(system, E->x_n, u, NULL);
-    Spot spot = {
-        .at = &place, .h = sqrtl(E->weight), .p = way, .jitter = jitter};
-    Jet sum = {0};
-    place.averaged = true; /* at x_n + t u */
-    for (int a = 0; a < (E->averaged ? 2 : 1); a++) {
-        spot.t = E->averaged ? gauss[a] : 1;
-        place.w = E->averaged ? E->weight / 2 : E->weight;
-        Jet part = oracle_energy(&spot, NULL);
-        sum.f += part.f / spot.t;
-        sum.p += part.p / spot.t;
-    }
+    Spot spot = {.at = &place,
+                 .h = sqrtl(E->weight),
+                 .p = way,
+                 .q = q,
+                 .jitter = jitter,
+                 .averaged = E->between};
+    place.w = E->weight;
+    Jet sum = oracle_energy(&spot, NULL);
     for (int i = 0; i < 2 * system->nodes; i++) {
         Real away = (Real)u[i] - E->u_tilde[i];
-        sum.f += system->m[i / 2] * away * away / 2;
+        Real pull = system->m[i / 2] * away, p = way ? way[i] : 0;
+        Real dq = q ? q[i] : 0, mq = system->m[i / 2] * dq;
+        sum.f += pull * away / 2;
+        sum.q += pull * dq;
+        sum.pq += mq * p;
+        spot.size.q += fabsl(pull * dq);
+        spot.size.pq += fabsl(mq * p);
     }
+    if (size)
+        *size = spot.size;
     return sum;
 }
 
 long double wide_energy(const IncrementalPotential *E, const double *u)
 {
-    return energy(E, u, NULL, NULL).f;
+    return energy(E, u, NULL, NULL, NULL, NULL).f;
 }
 
 long double wide_noise(const IncrementalPotential *E, const double *u,
                        const double *way)
 {
     Random jitter = {1};
-    Jet exact = energy(E, u, way, NULL);
+    Jet exact = energy(E, u, way, NULL, NULL, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = energy(E, u, way, &jitter);
+        Jet rounded = energy(E, u, way, NULL, &jitter, NULL);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
         sum += DBL_EPSILON * E->system->m[i / 2] *
                (fabsl(u[i]) + fabsl(E->u_tilde[i])) * fabs(way[i]);
     return sum;
+}
+
+long double wide_imbalance(const IncrementalPotential *E, const double *u,
+                           const double *p, const double *q, long double *noise)
+{
+    Random jitter = {1};
+    Jet size, exact = energy(E, u, p, q, NULL, &size);
+    *noise = DBL_EPSILON * (size.q + size.pq);
+    for (int round = 0; round < 10; round++) { /* some pass a barrier's edge */
+        Jet rounded = energy(E, u, p, q, &jitter, NULL);
+        *noise += fabsl(rounded.q - exact.q) + fabsl(rounded.pq - exact.pq);
+    }
+    return exact.q + exact.pq;
 }
 
 long double wide_potential(const System *system, const double *x)
@@ -120,9 +138,9 @@ static void wide_spring(const IncrementalPotential *E, const double *u, int s,
 {
     Wide l2 = E->system->l2[s], k = E->system->k[s];
     f[0] = f[1] = H[0] = H[1] = H[2] = 0;
-    for (int a = 0; a < (E->averaged ? 2 : 1); a++) {
-        Wide t = E->averaged ? gauss[a] : 1;
-        Wide share = E->weight * (E->averaged ? (Wide)0.5 : (Wide)1);
+    for (int a = 0; a < (E->between ? 2 : 1); a++) {
+        Wide t = E->between ? gauss[a] : 1;
+        Wide share = E->weight * (E->between ? (Wide)0.5 : (Wide)1);
         Wide dx = wide_difference(E, u, s, 0, t);
         Wide dy = wide_difference(E, u, s, 1, t);
         Wide more = (dx * dx + dy * dy - l2) / l2;
@@ -174,7 +192,7 @@ static void wide_blocks(const IncrementalPotential *E, const double *u,
                         Filter filter, Wide *g, Real *blocks)
 {
     const System *system = E->system;
-    Wide way = E->averaged ? (Wide)0.5 : (Wide)1;
+    Wide way = E->between ? (Wide)0.5 : (Wide)1;
     for (int i = 0; i < 2 * system->nodes; i++) {
         Wide m = system->m[i / 2], force;
         Wide k = wide_pull(system, i, E->x_n[i] + way * u[i], &force);
@@ -201,7 +219,7 @@ void wide_derivatives(const IncrementalPotential *E, const double *u,
 {
     const System *system = E->system;
     int n = 2 * system->nodes;
-    Wide way = E->averaged ? (Wide)0.5 : (Wide)1, force;
+    Wide way = E->between ? (Wide)0.5 : (Wide)1, force;
     wide_blocks(E, u, filter, g, NULL);
     if (!H)
         return;
@@ -255,6 +273,31 @@ void wide_solve(int n, const Wide *H, Wide *b)
     for (int r = n - 1; r >= 0; r--)
         for (int c = r + 1; c < n; c++)
             b[r] -= H[n * c + r] * b[c];
+}
+
+double wide_residual(int n, const Wide *p, double h)
+{
+    Wide largest = 0;
+    for (int i = 0; i < n; i += 2) {
+        Wide sum = wide_abs(p[i]) + wide_abs(p[i + 1]);
+        largest = sum > largest ? sum : largest;
+    }
+    return (double)(largest / h);
+}
+
+double wide_direction(const IncrementalPotential *E, const double *u,
+                      Filter filter, double h, Real *p)
+{
+    enum { MOST = 50 };
+    int n = 2 * E->system->nodes, negative;
+    Wide g[MOST], H[MOST * MOST];
+    CHECK(n <= MOST);
+    wide_derivatives(E, u, filter, g, H);
+    CHECK(wide_factor(n, H, &negative));
+    wide_solve(n, H, g);
+    for (int i = 0; i < n; i++)
+        p[i] = -(Real)g[i];
+    return wide_residual(n, g, h);
 }
 
 /* ---- too large for a matrix -------------------------------------------- */

@@ -1,4 +1,5 @@
 /* Every step and every Newton iteration looked at from outside. */
+#include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
 #include "stress.h"
@@ -49,16 +50,9 @@ static IncrementalPotential watch_potential(const Watch *watch)
     return E;
 }
 
-/* max over nodes |p_x| + |p_y|, over h */
 static double residual_of_direction(const Watch *watch, const Wide *p)
 {
-    Wide largest = 0;
-    for (int i = 0; i < watch_size(watch); i += 2) {
-        Wide sum =
-            (p[i] < 0 ? -p[i] : p[i]) + (p[i + 1] < 0 ? -p[i + 1] : p[i + 1]);
-        largest = sum > largest ? sum : largest;
-    }
-    return (double)(largest / watch->run->newton->settings.h);
+    return wide_residual(watch_size(watch), p, watch->run->newton->settings.h);
 }
 
 /* What rounding of the gradient, where x_n + u has an ulp more or less, can
@@ -120,13 +114,66 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
-    if (E.averaged || settings->filter != FILTER_CLAMP)
+    if (E.between || settings->filter != FILTER_CLAMP)
         return;
     LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
     watch->judged++;
     watch->blurred += verdict == LARGE_UNDECIDED;
     if (verdict == LARGE_FAILED)
         blame(watch, "converged, but the residual is above %g m/s", tolerance);
+}
+
+/* m/s, of the direction, or where there was no need for one, what it cannot
+ * exceed: the Hessian is more than M. */
+static Real claimed_residual(const Newton *newton)
+{
+    const System *system = newton->system;
+    const double *p = newton->at.p, *g = newton->at.g;
+    Real most = 0, sum = 0, lightest = INFINITY;
+    for (int i = 0; i < system->nodes; i++) {
+        if (system->pinned && system->pinned[i])
+            continue;
+        Real x = g[2 * i], y = g[2 * i + 1];
+        most = fmaxl(most, fabsl(p[2 * i]) + fabsl(p[2 * i + 1]));
+        sum += (x * x + y * y) / system->m[i];
+        lightest = fminl(lightest, system->m[i]);
+    }
+    bool bound = newton->kind == RESIDUAL_BOUND;
+    return (bound ? sqrtl(2 / lightest * sum) : most) / newton->settings.h;
+}
+
+/* Of all terms: the direction passes the test, and H p = -grad E, as the oracle
+ * has both, along a random way; or grad E is the solver's where no p was needed
+ * or blocks were projected, whose Hessian is not known here. */
+static void judge_direction(Watch *watch, double limit)
+{
+    IncrementalPotential E = watch_potential(watch);
+    const Newton *newton = watch->run->newton;
+    const unsigned char *pinned = newton->system->pinned;
+    bool solved =
+        newton->kind != RESIDUAL_BOUND && newton->record.projected == 0;
+    Random random = {(uint64_t)watch->run->steps + 1};
+    /* friction is of where the walls were, which the oracle does not know */
+    if (newton->working != SOLVER_NEWTON ||
+        (watch->run->moves &&
+         system_find_term(newton->system, &friction_energy)))
+        return;
+    Real noise, residual = claimed_residual(newton);
+    if (!(residual <= limit * (1 + 1e-9L)))
+        blame(watch, "converged, but the residual is %Lg m/s", residual);
+    Real off = 0;
+    for (int i = 0; i < watch_size(watch); i++) {
+        bool held = pinned && pinned[i / 2];
+        watch->way[i] = held ? 0 : 2 * random_below(&random, 2) - 1;
+        off -= solved ? 0 : watch->way[i] * (Real)newton->at.g[i];
+    }
+    off += wide_imbalance(&E, newton->at.u, solved ? newton->at.p : NULL,
+                          watch->way, &noise);
+    /* once for the sums, once for the factor */
+    if (!(fabsl(off) <= ROUNDINGS * ROUNDINGS * noise))
+        blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
+              noise);
+    watch->judged += solved;
 }
 
 /* Where a minimisation says it converged at u: once more, in wide numbers.
@@ -139,8 +186,12 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
     bool guess = watch->run->moves && watch->run->left > 0;
     double limit = guess ? watch->run->newton->tolerance : settings->tolerance;
     double noise;
-    if (!watch->residuals || !watch->springs)
+    if (!watch->residuals || (!watch->springs && factor > 1))
         return;
+    if (!watch->springs) {
+        judge_direction(watch, limit);
+        return;
+    }
     limit *= factor;
     if (watch_size(watch) > LARGEST_JUDGED) {
         judge_large(watch, u, limit);
@@ -179,6 +230,7 @@ static void watch_begin(Watch *watch)
     const Newton *newton = watch->run->newton;
     memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
     memset(watch->u, 0, (size_t)n * sizeof *watch->u);
+    watch->crossings = exact_crossings(watch->run->system, watch->x_n);
     IncrementalPotential E = watch_potential(watch);
     watch->start = watch->energy = wide_energy(&E, watch->u);
     watch->updates = 0;
@@ -222,13 +274,18 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
               status_name(record->status), record->slope, scale);
 }
 
-/* No node is behind a wall, and with cells on none is turned. */
+/* No node is behind a wall or in another body, and with cells on, or of a
+ * solid, none is turned. */
 static void check_walls(Watch *watch, const double *x)
 {
     double gap = smallest_gap(watch->run->system, x);
     double J = smallest_cell(watch->run->system, x);
-    if (!(gap > 0) || !(J > 0))
-        blame(watch, "the smallest gap is %g, the smallest cell %g", gap, J);
+    long crossings = exact_crossings(watch->run->system, x);
+    if (!(gap > 0) || !(J > 0) || crossings > watch->crossings)
+        blame(watch,
+              "the smallest gap is %g, the smallest cell %g, %ld edges "
+              "cross",
+              gap, J, crossings);
 }
 
 /* Called after every Newton iteration. */

@@ -2,15 +2,16 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "model/cells.h"
-#include "model/contact.h"
 #include "model/damping.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/pull_energy.h"
+#include "model/self_contact.h"
 
 enum { MOST_UNKNOWNS = 512 };
 
@@ -52,15 +53,17 @@ static Real jittered(Spot *spot, Real x)
 static Jet coordinate(Spot *spot, int c, bool of_u)
 {
     const Place *at = spot->at;
-    Real x;
-    if (at->averaged) /* x may be NULL */
-        x = (of_u ? 0 : (Real)at->x_n[c]) + spot->t * at->u[c];
+    Real t = spot->t > 0 ? spot->t : 1, x;
+    if (of_u)
+        x = at->u[c];
+    else if (spot->t > 0 || !at->x)
+        x = at->x_n[c] + t * at->u[c];
     else
-        x = of_u ? at->u[c] : at->x[c];
+        x = at->x[c];
     if (spot->p)
-        x += (at->averaged ? spot->t : 1) * spot->alpha * spot->p[c];
-    return (Jet){jittered(spot, x), spot->p ? spot->p[c] : 0,
-                 spot->q ? spot->q[c] : 0, 0};
+        x += t * spot->alpha * spot->p[c];
+    return (Jet){jittered(spot, x), spot->p ? t * spot->p[c] : 0,
+                 spot->q ? t * spot->q[c] : 0, 0};
 }
 
 static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
@@ -145,6 +148,14 @@ static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
 }
 
 /* mu lambda f0(y), lambda and t of x_n: friction.h */
+static Jet friction_law(Jet y, Real e)
+{
+    Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
+    return a < 1 ? chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
+                         2 / e * (1 - a))
+                 : chain(y, fabsl(y.f) - e / 3, sign, 0);
+}
+
 static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
 {
     const Obstacle *it = &contact->obstacle[k];
@@ -155,7 +166,6 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
-    start.averaged = false;
     Real s = gap(&before, contact, i, k, n).f;
     if (!(s < 1))
         return;
@@ -165,14 +175,10 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
         y = plus(y, axis ? n[0] : -n[1],
                  it->node >= 0 ? between(spot, i, it->node, axis, true)
                                : coordinate(spot, 2 * i + axis, true));
-    Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
-    Jet f0 = a < 1 ? chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
-                           2 / e * (1 - a))
-                   : chain(y, fabsl(y.f) - e / 3, sign, 0);
     book(spot, sum,
          it->friction * contact->barrier.c / contact->barrier.d_hat *
              -(logl(s) + 1 - 1 / s),
-         f0);
+         friction_law(y, e));
 }
 
 /* c f(d/d_hat): contact.h */
@@ -190,6 +196,104 @@ static void contacts(Spot *spot, Jet *sum, const void *data)
         for (int i = 0; i < system->nodes; i++)
             if (contact_has_pair(contact, system, i, k))
                 (data == contact ? touch : friction)(spot, sum, contact, i, k);
+}
+
+/* d^2/d_hat^2 of point p and edge s; where the edge is nearest, and n. */
+static Jet parted(Spot *spot, const SelfContact *self, int p, int s, Real *r,
+                  Real n[2])
+{
+    const int *end = spot->at->system->e + 2 * s;
+    Jet d[2], e[2], q[2], length2, along, d2;
+    for (int axis = 0; axis < 2; axis++) {
+        e[axis] = between(spot, end[1], end[0], axis, false);
+        q[axis] = between(spot, p, end[0], axis, false);
+        d[axis] = q[axis];
+    }
+    along = plus(times(q[0], e[0]), 1, times(q[1], e[1]));
+    length2 = plus(times(e[0], e[0]), 1, times(e[1], e[1]));
+    Real l = length2.f;
+    *r = fminl(fmaxl(along.f / l, 0), 1);
+    if (*r == 1)
+        for (int axis = 0; axis < 2; axis++)
+            d[axis] = between(spot, p, end[1], axis, false);
+    d2 = plus(times(d[0], d[0]), 1, times(d[1], d[1]));
+    if (*r > 0 && *r < 1) {
+        Jet side = plus(times(e[0], q[1]), -1, times(e[1], q[0]));
+        d2 = times(times(side, side),
+                   chain(length2, 1 / l, -1 / (l * l), 2 / (l * l * l)));
+    }
+    for (int axis = 0; axis < 2; axis++)
+        n[axis] = (q[axis].f - *r * e[axis].f) / sqrtl(d2.f);
+    return plus((Jet){0}, 1 / ((Real)self->d_hat * self->d_hat), d2);
+}
+
+/* mu F f0(y), F and t of x_n: friction.h */
+static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p, int s)
+{
+    const System *system = spot->at->system;
+    const Term *term = system_find_term(system, &self_friction_energy);
+    const int *end = system->e + 2 * s;
+    if (!term || !spot->at->u)
+        return;
+    Place start = *spot->at;
+    Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
+    Real n[2], r, e = ((const Friction *)term->data)->slip_speed * spot->h;
+    start.x = start.x_n;
+    Real S = parted(&before, self, p, s, &r, n).f;
+    Jet y = {0};
+    if (!(S < 1))
+        return;
+    for (int axis = 0; axis < 2; axis++) {
+        Real t = axis ? n[0] : -n[1];
+        y = plus(y, t, coordinate(spot, 2 * p + axis, true));
+        y = plus(y, -t * (1 - r), coordinate(spot, 2 * end[0] + axis, true));
+        y = plus(y, -t * r, coordinate(spot, 2 * end[1] + axis, true));
+    }
+    book(spot, sum,
+         self->friction * self->c / self->d_hat * 2 * sqrtl(S) *
+             -(logl(S) + 1 - 1 / S),
+         friction_law(y, e));
+}
+
+/* Whether a point and an edge are so far from each other that there is nothing:
+ * most of them are.  x [2n] m */
+static bool is_far(const double *x, int p, const int end[2], double d_hat)
+{
+    const double *a = x + 2 * end[0], *b = x + 2 * end[1];
+    double most = 1.001 * d_hat;
+    for (int c = 0; c < 2; c++) {
+        double y = x[2 * p + c];
+        if ((y > a[c] + most && y > b[c] + most) ||
+            (y < a[c] - most && y < b[c] - most))
+            return true;
+    }
+    return false;
+}
+
+/* c f(d^2/d_hat^2): self_contact.h */
+static void meetings(Spot *spot, Jet *sum, const void *data)
+{
+    const System *system = spot->at->system;
+    const SelfContact *self = self_contact_of(system);
+    size_t size = 2 * (size_t)system->nodes;
+    double *x = malloc(size * sizeof *x);
+    Real n[2], r;
+    CHECK(x != NULL);
+    for (size_t i = 0; i < size; i++) /* friction is of the step's start */
+        x[i] = data == self ? (double)coordinate(spot, (int)i, false).f
+                            : spot->at->x_n[i];
+    for (int k = 0; k < self->boundary.edges; k++)
+        for (int i = 0; i < self->boundary.points; i++) {
+            int s = self->boundary.box[k].edge, p = self->boundary.point[i];
+            const int *end = system->e + 2 * s;
+            if (p == end[0] || p == end[1] || is_far(x, p, end, self->d_hat))
+                continue;
+            if (data == self)
+                barrier(spot, sum, self->c, parted(spot, self, p, s, &r, n));
+            else
+                rubbing(spot, sum, self, p, s);
+        }
+    free(x);
 }
 
 /* Whether triangle t of the cells has all its springs, and its area over that
@@ -262,12 +366,18 @@ static void pulls(Spot *spot, Jet *sum, const void *data)
 static const struct {
     const TermKind *kind;
     void (*formula)(Spot *spot, Jet *sum, const void *data);
-} formulas[] = {{&mass_spring_energy, springs}, {&plastic_energy, springs},
-                {&contact_energy, contacts},    {&friction_energy, contacts},
-                {&cell_energy, cells},          {&central_field, pulls},
-                {&hand_energy, pulls},          {&neo_hookean_energy, solids}};
+} formulas[] = {{&mass_spring_energy, springs},
+                {&plastic_energy, springs},
+                {&contact_energy, contacts},
+                {&friction_energy, contacts},
+                {&cell_energy, cells},
+                {&central_field, pulls},
+                {&hand_energy, pulls},
+                {&neo_hookean_energy, solids},
+                {&self_contact_energy, meetings},
+                {&self_friction_energy, meetings}};
 
-Jet oracle_energy(Spot *spot, const TermKind *only)
+static Jet energy_there(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
     Jet sum = {0};
@@ -275,12 +385,35 @@ Jet oracle_energy(Spot *spot, const TermKind *only)
     for (int i = 0; i < system->terms; i++) {
         const TermKind *kind = system->term[i].kind;
         for (size_t f = 0; f < sizeof formulas / sizeof *formulas; f++)
-            if (formulas[f].kind == kind &&
-                (!only || kind == only || kind->averaged == only))
+            if (formulas[f].kind == kind && (!only || kind == only))
                 formulas[f].formula(spot, &sum, system->term[i].data);
     }
     spot->size = plus((Jet){0}, spot->at->w, spot->size);
     return plus((Jet){0}, spot->at->w, sum);
+}
+
+/* Averaged: two points of Gauss's rule are exact up to degree 3. */
+Jet oracle_energy(Spot *spot, const TermKind *only)
+{
+    static const Real gauss[2] = {0.2113248654051871177454256L,
+                                  0.7886751345948128822545744L};
+    if (!spot->averaged)
+        return energy_there(spot, only);
+    Place x_n = *spot->at;
+    Spot start = {.at = &x_n, .h = spot->h};
+    Jet sum = {0}, size = {0};
+    x_n.x = x_n.x_n;
+    Real before = energy_there(&start, only).f;
+    for (int i = 0; i < 2; i++) {
+        spot->t = gauss[i];
+        Jet there = energy_there(spot, only);
+        there.f -= before;
+        sum = plus(sum, 1 / (2 * spot->t), there);
+        size = plus(size, 1 / (2 * spot->t), spot->size);
+    }
+    spot->t = 0;
+    spot->size = size;
+    return sum;
 }
 
 Jet oracle_step(Spot *spot, const double *u_tilde)
@@ -302,7 +435,7 @@ static Jet step_jet(const IncrementalPotential *E, const double *u,
 {
     Place at = place_at(E->system, E->x_n, u, x);
     at.w = E->weight;
-    Spot spot = {.at = &at, .h = 1, .t = 1, .p = p, .q = q};
+    Spot spot = {.at = &at, .h = 1, .p = p, .q = q};
     return u ? oracle_step(&spot, E->u_tilde) : oracle_energy(&spot, NULL);
 }
 
@@ -330,49 +463,6 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     }
 }
 
-/* Adds lambda q q^T of the direction q across the spring's four unknowns:
- * [q, -q] [q, -q]^T. */
-static void add_mode(const System *system, int s, Real lambda, const Real q[2],
-                     Real *H)
-{
-    int size = 2 * system->nodes;
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++) {
-            int row = 2 * system->e[2 * s + r / 2] + r % 2;
-            int column = 2 * system->e[2 * s + c / 2] + c % 2;
-            Real sign = r / 2 == c / 2 ? 1 : -1;
-            H[size * row + column] += sign * lambda * q[r % 2] * q[c % 2];
-        }
-}
-
-void exact_hessian(const IncrementalPotential *E, const double *x, bool clamp,
-                   Real *H)
-{
-    const System *system = E->system;
-    int size = 2 * system->nodes;
-    for (int i = 0; i < size * size; i++)
-        H[i] = i % (size + 1)
-                   ? 0
-                   : system->m[i / size / 2] *
-                         (1 + (Real)E->weight * central_omega2(system));
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        Real dx = (Real)x[i] - x[j], dy = (Real)x[i + 1] - x[j + 1];
-        Real length = hypotl(dx, dy), l2 = system->l2[s];
-        Real factor = 2 * (Real)E->weight * system->k[s] / l2;
-        Real along = factor * (3 * length * length - l2);
-        Real across = factor * (length * length - l2);
-        Real q[2] = {1, 0}, r[2] = {0, 1};
-        if (length > 0) {
-            q[0] = r[1] = dx / length;
-            q[1] = dy / length;
-            r[0] = -q[1];
-        }
-        add_mode(system, s, clamp ? fmaxl(along, 0) : along, q, H);
-        add_mode(system, s, clamp ? fmaxl(across, 0) : across, r, H);
-    }
-}
-
 void exact_eigen(int n, Real *a, Real *v)
 {
     for (int i = 0; i < n * n; i++)
@@ -396,18 +486,30 @@ void exact_eigen(int n, Real *a, Real *v)
     }
 }
 
-void make_psd(double a[16])
+/* ---- what must not be passed --- */
+
+/* Twice the area of nodes a, b, c. */
+static Real area_of(const double *x, int a, int b, int c)
 {
-    Real l[16], q[16];
-    for (int i = 0; i < 16; i++)
-        l[i] = a[i];
-    exact_eigen(4, l, q);
-    for (int i = 0; i < 16; i++) {
-        Real sum = 0;
-        for (int k = 0; k < 4; k++)
-            sum += fmaxl(l[5 * k], 0) * q[i / 4 * 4 + k] * q[i % 4 * 4 + k];
-        a[i] = (double)sum;
-    }
+    const double *o = x + 2 * a, *p = x + 2 * b, *q = x + 2 * c;
+    return ((Real)p[0] - o[0]) * ((Real)q[1] - o[1]) -
+           ((Real)p[1] - o[1]) * ((Real)q[0] - o[0]);
+}
+
+long exact_crossings(const System *system, const double *x)
+{
+    const SelfContact *self = self_contact_of(system);
+    long count = 0;
+    for (int k = 0; self && k < self->boundary.edges; k++)
+        for (int l = 0; l < k; l++) {
+            const int *e = system->e + 2 * self->boundary.box[k].edge;
+            const int *f = system->e + 2 * self->boundary.box[l].edge;
+            count +=
+                area_of(x, e[0], e[1], f[0]) * area_of(x, e[0], e[1], f[1]) <
+                    0 &&
+                area_of(x, f[0], f[1], e[0]) * area_of(x, f[0], f[1], e[1]) < 0;
+        }
+    return count;
 }
 
 /* ---- what must stay above 0 ---------------------------------------------- */
@@ -435,8 +537,8 @@ double smallest_gap(const System *system, const double *x)
 
 double smallest_cell(const System *system, const double *x)
 {
-    const Term *term = system_find_term(system, &cell_energy);
-    const Cells *cells = term ? term->data : NULL;
+    const Cells *cells = system_data(system, &cell_energy);
+    const NeoHookean *solid = solid_of(system);
     Place at = place_at(system, x, NULL, x);
     Spot spot = {.at = &at};
     double smallest = INFINITY;
@@ -444,5 +546,11 @@ double smallest_cell(const System *system, const double *x)
     for (int t = 0; cells && t < cells->triangles; t++)
         if (triangle(&spot, cells, t, &J))
             smallest = fmin(smallest, (double)J.f);
+    for (int t = 0; solid && t < solid->triangles; t++) {
+        const int *node = solid->node[t];
+        smallest =
+            fmin(smallest, (double)(area_of(x, node[0], node[1], node[2]) /
+                                    (2 * solid->area)));
+    }
     return smallest;
 }

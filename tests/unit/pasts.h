@@ -2,21 +2,32 @@
 #ifndef ELASTO_PASTS_H
 #define ELASTO_PASTS_H
 
-#include <stdio.h>
-
 #include "test.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "play/past.h"
 
 static Past past;
 
+/* Of a state, and of what was lost until then. */
+static inline uint64_t hash_of(const Simulation *simulation, uint64_t hash)
+{
+    hash = state_hash(simulation, hash);
+    for (int i = 0; i < SYSTEM_MAX_TERMS; i++) {
+        uint64_t bits;
+        memcpy(&bits, &simulation->system.lost[i].energy, sizeof bits);
+        hash = 31 * hash + bits;
+    }
+    return hash;
+}
+
 static inline uint64_t hash_now(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&past); p++)
-        hash = state_hash(&past.machine[p].simulation, hash);
+        hash = hash_of(&past.machine[p].simulation, hash);
     return hash;
 }
 
@@ -26,16 +37,6 @@ static inline Status work(void)
     while (status == STATUS_RUNNING)
         status = past_iterate(&past);
     return status;
-}
-
-/* Options of this command line. */
-static inline Options line_options(const char *line)
-{
-    Simulation simulation;
-    simulation_from_line(line, NULL, NULL, &simulation);
-    Options options = simulation.options;
-    simulation_free(&simulation);
-    return options;
 }
 
 static inline void begin_past(const char *line)

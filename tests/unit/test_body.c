@@ -3,8 +3,6 @@
  */
 #include "test.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "scenes/body.h"
@@ -141,7 +139,7 @@ TEST(the_words_of_pin_name_their_nodes)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char pinned[9] = {0};
         const SquareMesh shape =
-            square_mesh_shape(cases[i].columns, cases[i].rows, 1);
+            square_mesh_shape(cases[i].columns, cases[i].rows, 1, 1);
         CHECK_STATUS(pins_read(cases[i].text, &shape, pinned), STATUS_OK);
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
@@ -154,7 +152,7 @@ TEST(the_words_of_pin_name_their_nodes)
         "+1",  "top left",   "0x1",
         "1e0", "4294967296", "99999999999999999999999999999999",
     };
-    const SquareMesh shape = square_mesh_shape(2, 2, 1);
+    const SquareMesh shape = square_mesh_shape(2, 2, 1, 1);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         CHECK_STATUS(pins_read(bad[i], &shape, NULL), STATUS_INVALID_INPUT);
 }

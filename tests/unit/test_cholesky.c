@@ -1,18 +1,11 @@
-/* Sparse matrices, the Hessian that is assembled in one, its factorisations and
- * what they say of matrices that have none: against dense elimination in
- * extended precision.
+/* Sparse matrices, their factorisations and what these say of matrices that
+ * have none: against dense elimination in extended precision.
  */
 #include "test.h"
 
 #include <float.h>
-#include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "model/mass_spring_energy.h"
-#include "model/pull_energy.h"
-#include "solve/cholesky.h"
 
 /* ---- triplets ---------------------------------------------------------- */
 
@@ -63,82 +56,6 @@ TEST(triplets_make_the_dense_matrix)
         }
         sparse_free(&A);
         triplets_free(&triplets);
-    }
-}
-
-TEST(sizes_have_limits)
-{
-    static const struct {
-        int size;
-        long long count;
-    } bad[] = {{4, INT_MAX}, {4, 1LL << 40}, {4, 0}, {0, 4}};
-    Triplets triplets;
-    Sparse A;
-    int one[1], *slot;
-    for (int i = 0; i < 4; i++) {
-        CHECK_STATUS(triplets_create(bad[i].size, bad[i].count, &triplets),
-                     STATUS_TOO_LARGE);
-        triplets_free(&triplets);
-    }
-    CHECK_STATUS(triplets_create(4, 1, &triplets), STATUS_OK);
-    CHECK_STATUS(sparse_create(&triplets, &A, one), STATUS_OK); /* empty */
-    CHECK(A.entries == 0 && A.start[4] == 0);
-    sparse_free(&A);
-    triplets_free(&triplets);
-    System system = {.nodes = 4, .springs = INT_MAX / SPRING_ENTRIES};
-    system_add_term(&system, &mass_spring_energy, NULL);
-    CHECK_STATUS(incremental_potential_pattern(&system, &A, &slot),
-                 STATUS_TOO_LARGE);
-    sparse_free(&A);
-    free(slot);
-}
-
-/* In elimination order or not, projected or not.  A pinned node keeps its mass
- * and loses every term; the others lose only what couples them to it.  1e-14 of
- * the largest entry: sums of at most forty terms. */
-TEST(the_hessian_is_assembled)
-{
-    Random random = {5};
-    for (int trial = 0; trial < 80; trial++) {
-        System system;
-        Sparse A;
-        int *slot, pinned = trial % 3 ? -1 : random_below(&random, 3);
-        bool ordered = trial % 2, clamp = trial / 2 % 2;
-        double x[MAX_SIZE], dense[MAX_SIZE * MAX_SIZE];
-        Real exact[MAX_SIZE * MAX_SIZE], largest = 0;
-        random_system(&random, SPRINGS_MIXED, &system, x);
-        CHECK_STATUS(central_field_set(&system, 2), STATUS_OK);
-        int n = system.nodes, size = 2 * n;
-        if (ordered) /* 1, 2, ..., 0 */
-            system.order = calloc((size_t)n, sizeof *system.order);
-        for (int i = 0; ordered && i < n; i++)
-            system.order[i] = (i + 1) % n;
-        if (pinned >= 0) {
-            CHECK_STATUS(system_create_pins(&system), STATUS_OK);
-            system.pinned[pinned] = 1;
-        }
-        Iterate at = {.E = {.system = &system, .weight = 0.5}, .u = x, .x = x};
-        CHECK_STATUS(incremental_potential_pattern(&system, &A, &slot),
-                     STATUS_OK);
-        incremental_potential_hessian(&at, clamp ? FILTER_CLAMP : FILTER_NONE,
-                                      slot, &A);
-        dense_from_sparse(&A, dense);
-        exact_hessian(&at.E, x, clamp, exact);
-        for (int i = 0; i < size * size; i++)
-            largest = fmaxl(largest, fabsl(exact[i]));
-        for (int i = 0; i < size * size; i++) {
-            int r = i / size, c = i % size;
-            if (r / 2 == pinned || c / 2 == pinned)
-                exact[i] = r == c ? system.m[pinned] : 0;
-            if (ordered) {
-                r = 2 * system.order[r / 2] + r % 2;
-                c = 2 * system.order[c / 2] + c % 2;
-            }
-            CHECK_NEAR(dense[size * r + c], exact[i], 1e-14L * largest);
-        }
-        free(slot);
-        sparse_free(&A);
-        system_free(&system);
     }
 }
 

@@ -8,12 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/cells.h"
-#include "model/contact.h"
-#include "model/damping.h"
-#include "model/fracture.h"
-#include "model/friction.h"
-#include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
 
 /* k |x - o|^2 / 2 of one node, its gradient and what the bounds say of it; the
@@ -52,30 +46,6 @@ TEST(the_hand_is_a_spring_of_no_length)
     }
 }
 
-/* A full list takes no more terms, and what they brought is freed; without
- * leaks and twice freed memory only where that is looked for. */
-TEST(a_full_list_refuses_terms)
-{
-    System system;
-    double x[MAX_SIZE];
-    Random random = {12};
-    random_system(&random, SPRINGS_MIXED, &system, x);
-    while (system.terms < SYSTEM_MAX_TERMS)
-        CHECK_STATUS(system_add_term(&system, &mass_spring_energy, NULL),
-                     STATUS_OK);
-    const Pull hand = {.node = 0, .k = 1};
-    const Barrier barrier = {.d_hat = 0.1, .c = 1};
-    CHECK_STATUS(pull_set(&system, &hand_energy, &hand), STATUS_TOO_LARGE);
-    CHECK_STATUS(damping.set(&system, NULL, &(double){0.1}), STATUS_TOO_LARGE);
-    CHECK_STATUS(fracture_add(&system, 0.1, 0), STATUS_TOO_LARGE);
-    CHECK_STATUS(contact_add(&system, &barrier, 0, NULL), STATUS_TOO_LARGE);
-    CHECK_STATUS(friction_add(&system, 0.1), STATUS_TOO_LARGE);
-    const SquareMesh shape = square_mesh_shape(1, 1, 1);
-    CHECK_STATUS(cells_add(&system, &shape, 1), STATUS_TOO_LARGE);
-    CHECK(system.terms == SYSTEM_MAX_TERMS && !contact_of(&system));
-    system_free(&system);
-}
-
 /* Averaged vector field conserves energy exactly, so all that is there was
  * there at the start or is the work of the hand: taking, moving, letting go. */
 TEST(work_is_what_energy_gains)
@@ -103,29 +73,60 @@ TEST(work_is_what_energy_gains)
             high = fmax(high, energies.total);
             /* What Newton's tolerance leaves: measured 2e-9 of the highest. */
             CHECK_NEAR(energies.total - energies.work, start, 1e-7 * high);
-            CHECK(step < 5 || step >= 40 || OF(&energies, hand) >= 0);
         }
         Energies end = simulation_energies(simulation, 0);
-        CHECK(OF(&end, hand) == 0 && fabs(end.work) > 1e-3 * start);
+        CHECK(fabs(end.work) > 1e-3 * start);
         past_free(&past);
     }
 }
 
-/* A node pulled for a while is where the hand is. */
-TEST(the_node_follows)
+/* A node that is pulled is where the mouse is: within 2 % of the way after half
+ * a second and from then on, inside of a square, at its corner, and held by
+ * pins; in no step does it jump further than a cell. */
+TEST(the_hand_wins)
 {
-    begin_past("square --segments 4 --stretch 1 --timestep 0.02");
-    const Simulation *simulation = &past.machine[0].simulation;
-    const double *x = simulation->run[0].x;
-    edit(COMMAND_GRAB, 24, x[48], x[49]);
-    edit(COMMAND_DRAG, 24, 1.5, 1);
-    for (int i = 1; i <= 400; i++)
-        show(i);
-    CHECK_NEAR(simulation->run[0].x[48], 1.5, 0.01);
-    CHECK_NEAR(simulation->run[0].x[49], 1, 0.01);
-    edit(COMMAND_RELEASE, 0, 0, 0);
-    CHECK(!hand_energy_of(&simulation->system));
-    past_free(&past);
+    static const struct {
+        const char *line;
+        int node;
+        double way[2];
+    } rows[] = {
+        {"square --segments 4 --stretch 1 --timestep 0.02", 24, {1, 0.5}},
+        {"square --stretch 1 --stiffness 1e3 --timestep 0.01", 12, {0.3, 0.2}},
+        {"square --stretch 1 --stiffness 1e7 --timestep 0.01", 12, {0.3, 0.2}},
+        {"hang", 6, {0, -0.66}},
+        {"hang --integrator bdf2", 6, {0, -0.66}},
+        {"hang --segments 6 --integrator sdirk2", 3, {0.1, -0.5}},
+        {"hang --segments 6 --integrator midpoint", 3, {0.1, -0.5}},
+        {"hang --segments 6 --integrator avf", 3, {0.1, -0.5}},
+        {"hang --segments 6 --integrator avf4", 3, {0.1, -0.5}},
+        {"hang --segments 6 --integrator verlet --timestep 0.001", 3, {0, -1}},
+        {"hang --segments 6 --integrator symplectic-euler --timestep 0.001",
+         3,
+         {0, -1}},
+        {"return --segments 4 --stretch 1", 24, {0.4, 0.2}},
+        {"circle --integrator backward-euler", 0, {1, 1}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        begin_past(rows[i].line);
+        const Simulation *simulation = &past.machine[0].simulation;
+        double *x = simulation->run[0].x + 2 * rows[i].node, last[2];
+        double to[2] = {x[0] + rows[i].way[0], x[1] + rows[i].way[1]};
+        double way = hypot(rows[i].way[0], rows[i].way[1]), furthest = 0;
+        double cell = simulation->mesh.nodes ? simulation->mesh.spacing : way;
+        edit(COMMAND_GRAB, rows[i].node, x[0], x[1]);
+        edit(COMMAND_DRAG, 0, to[0], to[1]);
+        while (simulation_time(simulation) < 1) {
+            memcpy(last, x, sizeof last);
+            show(past.step + 1);
+            furthest = fmax(furthest, hypot(x[0] - last[0], x[1] - last[1]));
+            if (simulation_time(simulation) > 0.5)
+                CHECK_AT_MOST(hypot(x[0] - to[0], x[1] - to[1]), 0.02 * way);
+        }
+        CHECK_AT_MOST(furthest, cell);
+        edit(COMMAND_RELEASE, 0, 0, 0);
+        CHECK(!hand_energy_of(&simulation->system));
+        past_free(&past);
+    }
 }
 
 /* sum m |v - v_n|^2/2, J */
@@ -158,8 +159,8 @@ static void jerk(Random *random, int step)
 }
 
 /* One step after a jerk.  A step of backward Euler ends where E is at most what
- * it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 + P_n, the
- * hand's energy in P, up to the rounding of the energies themselves.  Methods
+ * it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 + P_n, and what
+ * the hand's energy falls by is its work, up to rounding.  Methods
  * that damp nothing gather the hand's work: beyond 1e20 J, false, and nothing
  * is NaN.  A step of explicit ones may lead beyond all numbers: false, and it
  * changes nothing. */
@@ -168,7 +169,8 @@ static bool jerked_step(bool descends)
     const Simulation *simulation = &past.machine[0].simulation;
     const TimeIntegrator *run = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
-    double v[MAX_SIZE * 3], high = simulation_energies(simulation, 0).total;
+    Energies energies = simulation_energies(simulation, 0);
+    double v[MAX_SIZE * 3], high = energies.total - energies.work;
     long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
     past_aim(&past, before + 1, false);
@@ -186,8 +188,9 @@ static bool jerked_step(bool descends)
         return false;
     CHECK(isfinite(now.total) && isfinite(now.work));
     if (descends)
-        CHECK_AT_MOST(change_of_motion(simulation, v) + now.total - now.kinetic,
-                      high * (1 + 1e-12));
+        CHECK_AT_MOST(change_of_motion(simulation, v) + now.total -
+                          now.kinetic - now.work,
+                      high + 1e-12 * (now.total + fabs(now.work)));
     return true;
 }
 

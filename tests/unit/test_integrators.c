@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "bench/reference.h"
-#include "step/time_integrator.h"
 
 /* The methods of the table, each with every solver that it can have. */
 typedef struct Way {
@@ -140,23 +139,6 @@ TEST(momentum_is_kept)
     }
 }
 
-/* At rest, moved at 0.5 m/s: a step of h v = 5e-10 m is lost in the last digits
- * of x, but the velocity must not be. */
-TEST(free_flight_keeps_its_velocity)
-{
-    for (Way way = {0}; next_way(&way);) {
-        Simulation *square =
-            go(&way, "--stretch 1 --timestep 1e-9 --tolerance 1e-14");
-        TimeIntegrator *run = &square->run[0];
-        for (size_t i = 0; i < run->size; i++)
-            run->v[i] = i % 2 ? -0.25 : 0.5;
-        make_steps(square, 10);
-        for (size_t i = 0; i < run->size; i++)
-            CHECK_NEAR(run->v[i], i % 2 ? -0.25 : 0.5, 1e-12);
-        CHECK_NEAR(run->clock, 1e-8, 1e-22);
-    }
-}
-
 static Real total_of(const TimeIntegrator *run)
 {
     IncrementalPotential E = {.system = run->system, .weight = 1};
@@ -189,35 +171,6 @@ TEST(average_vector_field_keeps_energy)
 }
 
 /* ---- the table --------------------------------------------------------- */
-
-/* Every method stands under its name; what needs no minimisation has no Newton
- * object, no Hessian, and nothing counted, and without springs not even
- * backward Euler needs a matrix. */
-TEST(explicit_methods_have_no_matrix)
-{
-    static const char *const lines[] = {"square", "circle", "unprojected"};
-    const NewtonCounters zero = {0};
-    CHECK(integrator_method("euler") == NULL && !integrator_method(""));
-    CHECK(integrator_method("backward-euler") == &integrator_methods[0]);
-    for (const IntegratorMethod *row = integrator_methods; row->name; row++) {
-        bool implicit = row->implicit;
-        CHECK(integrator_method(row->name) == row);
-        for (int i = 0; i < (implicit ? 1 : 3); i++) {
-            Simulation *it =
-                make_steps(simulate("%s --timestep 0.001 --integrator %s",
-                                    lines[i], row->name),
-                           10);
-            NewtonCounters did = simulation_counters(it);
-            CHECK((it->run[0].newton != NULL) == implicit);
-            CHECK((memcmp(&did, &zero, sizeof did) != 0) == implicit);
-            CHECK(implicit || simulation_matrix_entries(it) == 0);
-            CHECK(simulation_has_filter(it) == implicit);
-            CHECK(simulation_has_line_search(it) == implicit);
-        }
-    }
-    CHECK(simulation_matrix_entries(make_steps(simulate("square"), 10)) > 100);
-    CHECK(simulation_matrix_entries(make_steps(simulate("circle"), 10)) == 0);
-}
 
 /* h far above the limit: it overflows at last, and says so; |d|^4 does so at
  * once.  The state of the last good step stays. */
@@ -266,28 +219,6 @@ TEST(a_failed_step_is_not_remembered)
     }
     CHECK_SAME_BITS(pair[0]->run[0].x, pair[1]->run[0].x, 2 * 25);
     CHECK_SAME_BITS(pair[0]->run[0].v, pair[1]->run[0].v, 2 * 25);
-}
-
-TEST(bad_starts_are_refused)
-{
-    const double bad[] = {NAN, INFINITY, 0, -1};
-    Simulation *square = simulate("--segments 1");
-    TimeIntegrator run;
-    for (int i = 0; i < 8; i++) {
-        double x[8], v[8] = {0};
-        memcpy(x, square->run[0].x, sizeof x);
-        NewtonSettings settings = {.h = i < 4 ? bad[i] : 1,
-                                   .tolerance = i == 4   ? 0
-                                                : i == 5 ? NAN
-                                                         : 1};
-        *(i == 6 ? &v[3] : &x[3]) = i == 6 ? NAN : i == 7 ? INFINITY : x[3];
-        CHECK_STATUS(time_integrator_create(&integrator_methods[0],
-                                            &square->system, &settings, x, v,
-                                            &run),
-                     STATUS_INVALID_INPUT);
-        time_integrator_free(&run);
-    }
-    time_integrator_free(NULL);
 }
 
 TESTS(NULL, NULL)

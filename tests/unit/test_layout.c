@@ -284,6 +284,80 @@ TEST(markup_is_set)
     }
 }
 
+/* What formulas measure, in ems of letters 20 pixels high: a part that stands
+ * above another one makes no width, brackets, rules and rows do. */
+TEST(formulas_are_set)
+{
+    static const struct {
+        const char *markup, *other; /* at least so much wider, and higher */
+        double wider, most_wider, higher, most_higher;
+    } rows[] = {
+        {"frac{x over x}", "x", 0.2, 0.6, 0.2, 1.3},
+        {"frac{xxxx over x}", "frac{x over xxxx}", 0, 0, 0, 0},
+        {"frac{frac{x over x} over x}", "frac{x over x}", 0.1, 0.6, 0.5, 1.6},
+        {"sqrt{x}", "x", 0.5, 1.2, 0, 0.3},
+        {"sqrt{frac{x over x}}", "sqrt{x}", 0.2, 0.6, 0.3, 1.3},
+        {"matrix{x & x; x & x}", "xx", 1.2, 2.5, 0.5, 1.4},
+        {"matrix{x; x; x}", "matrix{x; x}", 0, 0, 1, 1.3},
+        {"matrix{xx & x; x & xx}", "matrix{x & x; x & x}", 1, 1.3, 0, 0},
+        {"matrix{frac{x over x} & x}", "matrix{x & x}", 0.2, 0.6, 0.2, 1.4},
+        {"#p{xx}", "xx", 0, 0, 0, 0},
+        {"matrix{wide{1} & 1}", "matrix{wide{\u221212.5} & 1}", 0, 0, 0, 0},
+        {"wide{00000000}", "00000000", 0, 0, 0, 0},
+        {"frac{x}", "x", 0.2, 0.6, 0, 1},
+        {"frac {x}", "frac x", 0, 0, 0, 0},
+        {"matrix{;;&&&&&&&&&&&&&&;&}", "", 0, 99, 0, 9},
+        {"matrix{frac{sqrt{#p{^{_{", "", 0, 99, 0, 9},
+    };
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        TextExtent a = text_extent(text, &style, rows[i].markup);
+        TextExtent b = text_extent(text, &style, rows[i].other);
+        double wider = (a.width - b.width) / 20;
+        double higher = (a.above + a.below - b.above - b.below) / 20;
+        if (!(wider >= rows[i].wider && wider <= rows[i].most_wider &&
+              higher >= rows[i].higher - 1e-9 &&
+              higher <= rows[i].most_higher + 1e-9))
+            fail_msg("%s: %.2f wider, %.2f higher than %s", rows[i].markup,
+                     wider, higher, rows[i].other);
+        canvas_clear(&canvas, 0xffffffff);
+        CHECK(text_draw(text, &canvas, &style, 2, 30, ALIGN_LEFT,
+                        rows[i].markup) == (int)a.width);
+    }
+}
+
+/* Numerator above, line, denominator below: ink in three parts of the height
+ * with white between them; a matrix has its rows. */
+TEST(parts_of_formulas_stand_apart)
+{
+    static const struct {
+        const char *markup;
+        int bands;
+    } rows[] = {{"frac{x over x}", 3},
+                {"frac{\u2212 over \u2212}", 3},
+                {"x^{x}", 1},
+                {"frac{x over x} frac{x over x}", 3}};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && text; i++) {
+        int bands = 0;
+        canvas_clear(&canvas, 0xffffffff);
+        text_draw(text, &canvas, &style, 5, 15, ALIGN_LEFT, rows[i].markup);
+        for (int j = 1; j < 60; j++)
+            bands += ink(0, j, j + 1) > 0 && ink(0, j - 1, j) == 0;
+        CHECK(bands == rows[i].bands);
+    }
+}
+
+/* Braces of the markup are no facts. */
+TEST(braces_are_told_apart)
+{
+    const char *line = "{a}^{b}_{c}frac{d over {e}}matrix{f}#p{g}{x}# {h}";
+    const char *facts = "aeh";
+    for (const char *at = line; *at; at++)
+        if (*at == '{')
+            CHECK(text_is_markup(line, at) == !strchr(facts, at[1]));
+}
+
 /* The slides' letters have their colours: orange keeps its red. */
 TEST(letters_have_colours)
 {

@@ -1,6 +1,6 @@
 /* Every allocation of ours and of CHOLMOD's fails once, and then for good:
  * OUT_OF_MEMORY, nothing leaks, nothing crashes.  Linked with
- * -Wl,--wrap=malloc,--wrap=calloc.
+ * -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc.
  */
 #include "test.h"
 
@@ -10,6 +10,7 @@
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 
@@ -32,6 +33,11 @@ void *__wrap_malloc(size_t size)
 void *__wrap_calloc(size_t count, size_t size)
 {
     return allocation_fails() ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return allocation_fails() ? NULL : __real_realloc(old, size);
 }
 
 /* CHOLMOD gets the same ones; how depends on its version. */
@@ -65,12 +71,11 @@ TEST(every_allocation_may_fail)
 {
     static const char *const lines[] = {
         "--segments 3", "--segments 19", "--filter none",
-        "dent --segments 3 --damping 0.01 --tear 0.3"};
+        "dent --segments 3 --damping 0.01 --tear 0.3",
+        "--segments 2 --body 0,0 --body 1.001,0 --self-friction 1"};
     share_with_cholmod();
     for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
-        Options options;
-        char message[512];
-        CHECK_STATUS(parse_line(lines[l], 0, &options, message), STATUS_OK);
+        const Options options = line_options(lines[l]);
         CHECK_STATUS(run_once(&options), STATUS_OK);
         long total = allocations;
         CHECK(total > 20);

@@ -1,14 +1,11 @@
-/* The square: nodes, springs and numbering as on the slides; the scene made
- * of it; and what is refused.
- */
+/* The square: nodes, springs and numbering as on the slides. */
 #include "test.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/pull_energy.h"
+#include "model/self_contact.h"
 
 /* A centred grid, column by column from below; springs as the slide's four
  * loops make them: to the right, up, and the diagonals of each cell.  Halves
@@ -19,7 +16,7 @@ TEST(nodes_and_springs_are_the_slides)
     for (int n = 1; n <= 70; n++) {
         SquareMesh mesh;
         int row = n + 1, s = 0;
-        CHECK_STATUS(square_mesh_create(n, n, 0.5 * n, &mesh), STATUS_OK);
+        CHECK_STATUS(square_mesh_create(n, n, 0.5 * n, 1, &mesh), STATUS_OK);
         CHECK(mesh.nodes == row * row && mesh.segments == n);
         CHECK(mesh.springs == 2 * n * row + 2 * n * n);
         memset(seen, 0, sizeof seen);
@@ -56,16 +53,17 @@ static bool joins(const SquareMesh *mesh, int spring, int a, int b)
     return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
 }
 
-/* Of a beam: cells and triangles lie anticlockwise, have the area of a cell and
- * of half a one, and the springs that join their nodes; the outline has what is
- * left over at all sides.  Coordinates are halves: exact. */
+/* Of two beams: cells and triangles lie anticlockwise, have the area of a cell
+ * and of half a one, and the springs that join their nodes; the outline has
+ * what is left over at all sides.  Coordinates are halves: exact. */
 TEST(cells_triangles_and_outline_are_those_of_the_springs)
 {
-    enum { COLUMNS = 5, ROWS = 3 };
+    enum { COLUMNS = 5, ROWS = 3, BODIES = 2 };
     int node[4], spring[6], seen = 0;
     SquareMesh mesh;
-    CHECK_STATUS(square_mesh_create(COLUMNS, ROWS, 2.5, &mesh), STATUS_OK);
-    CHECK(mesh.cells == 15 && mesh.spacing == 0.5);
+    CHECK_STATUS(square_mesh_create(COLUMNS, ROWS, 2.5, BODIES, &mesh),
+                 STATUS_OK);
+    CHECK(mesh.cells == 30 && mesh.spacing == 0.5);
     for (int t = 0; t < 4 * mesh.cells; t++) {
         square_mesh_triangle(&mesh, t, node, spring);
         const double *a = mesh.x + 2 * node[0], *b = mesh.x + 2 * node[1];
@@ -82,9 +80,10 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     }
     double twice = 0;
     for (int k = 0; k < mesh.outline; k++) {
-        int i = square_mesh_outline(&mesh, k);
-        const double *a = mesh.x + 2 * i;
-        const double *b = mesh.x + 2 * square_mesh_outline(&mesh, k + 1);
+        square_mesh_outline(&mesh, k, node);
+        int i = node[0], j = node[1];
+        const double *a = mesh.x + 2 * i, *b = mesh.x + 2 * j;
+        CHECK(i / 24 == j / 24 && square_mesh_body(&mesh, &i) == k / 16);
         CHECK(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) == 0.5);
         CHECK(square_mesh_sides(&mesh, i) ==
               (a[0] == -1.25 ? MESH_LEFT : 0) +
@@ -93,7 +92,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
                   (a[1] == 0.75 ? MESH_TOP : 0));
         twice += a[0] * b[1] - a[1] * b[0];
     }
-    CHECK(mesh.outline == 16 && twice == 2 * 2.5 * 1.5);
+    CHECK(mesh.outline == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
     for (int c = 0; c < mesh.cells; c++) /* 2 x 2, cut at the edges */
         if (square_mesh_patch(&mesh, c, 2, node)) {
@@ -102,7 +101,45 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
             twice += 2 * (up[0] - low[0]) * (up[1] - low[1]);
             seen++;
         }
-    CHECK(seen == 6 && twice == 2 * 2.5 * 1.5);
+    CHECK(seen == 12 && twice == BODIES * 2 * 2.5 * 1.5);
+    square_mesh_free(&mesh);
+}
+
+/* Of two cells beside each other, with some springs of the first one broken: ab
+ * bc dc ad ac bd.  bc is the second one's ad. */
+TEST(the_boundary_is_that_of_what_is_solid)
+{
+    static const struct {
+        int broken[6], edges, points;
+    } rows[] = {
+        {{0}, 6, 6},
+        {{0, 0, 0, 0, 1, 0}, 6, 6}, /* the other diagonal will do */
+        {{0, 0, 0, 0, 0, 1}, 6, 6},
+        {{0, 1, 0, 0, 0, 0}, 6, 6}, /* a crack between them: abd, and b'c'a' */
+        {{1, 0, 0, 0, 0, 0}, 5, 6}, /* a is of no triangle */
+        {{0, 0, 0, 0, 1, 1}, 4, 6}, /* d and a are threads' ends */
+        {{1, 1, 1, 1, 1, 1}, 3, 6},
+    };
+    SquareMesh mesh;
+    CHECK_STATUS(square_mesh_create(2, 1, 2, 1, &mesh), STATUS_OK);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const Barrier barrier = {0.01, 1};
+        int node[4], spring[6];
+        System system;
+        CHECK_STATUS(system_create(6, mesh.springs, &system), STATUS_OK);
+        memcpy(system.e, mesh.e, 2 * (size_t)mesh.springs * sizeof *mesh.e);
+        square_mesh_cell(&mesh, 0, node, spring);
+        for (int s = 0; s < mesh.springs; s++)
+            system.k[s] = system.l2[s] = 1;
+        for (int k = 0; k < 6; k++)
+            system.k[spring[k]] = !rows[i].broken[k];
+        CHECK_STATUS(self_contact_set(&system, &mesh, &barrier, 0), STATUS_OK);
+        CHECK(system_energy_of(&system, &self_contact_energy, mesh.x) == 0);
+        const Boundary *boundary = &self_contact_of(&system)->boundary;
+        CHECK_NEAR(boundary->edges, rows[i].edges, 0);
+        CHECK_NEAR(boundary->points, rows[i].points, 0);
+        system_free(&system);
+    }
     square_mesh_free(&mesh);
 }
 
@@ -128,90 +165,6 @@ TEST(order_keeps_the_factor_small)
     CHECK_AT_MOST(ours, 6 * factor_entries(12, true));
 }
 
-/* m = density side^2 / nodes, l2 = |d|^2 at rest, x = stretch times rest. */
-TEST(the_square_scene_is_the_slides)
-{
-    Simulation *scene = simulate("square --segments 4 --side 2 --density 500 "
-                                 "--stiffness 3e4 --stretch 1.25");
-    const System *system = &scene->system;
-    const TimeIntegrator *run = &scene->run[0];
-    CHECK(system->nodes == 25 && system->springs == 72);
-    CHECK(system->terms == 1 && system->pinned == NULL);
-    assert_string_equal(run->method->name, "backward-euler");
-    for (int i = 0; i < 50; i++) {
-        CHECK(system->m[i / 2] == 500 * 4 / 25.0);
-        CHECK(run->x[i] == (i % 2 ? 1 : 1.25) * scene->mesh.x[i]);
-        CHECK(run->v[i] == 0);
-    }
-    for (int s = 0; s < 72; s++) {
-        CHECK(system->k[s] == 3e4);
-        CHECK(system->l2[s] == (s < 40 ? 0.25 : 0.5)); /* halves: exact */
-        CHECK(system->e[2 * s] == scene->mesh.e[2 * s]);
-    }
-    CHECK_NEAR(strain_of(scene, 0), 0.25, 1e-15);
-    CHECK_NEAR(strain_of(scene, 20), 0, 1e-15);
-}
-
 /* ---- what is refused --------------------------------------------------- */
-
-TEST(bad_sizes_are_refused)
-{
-    const double lengths[] = {0, -1, NAN, INFINITY, -INFINITY};
-    const int segments[] = {0, -1, SQUARE_MESH_MAX_SEGMENTS + 1, INT_MAX};
-    const int sizes[][2] = {
-        {0, 0}, {-1, 1}, {INT_MAX, 0}, {1, -1}, {1, INT_MAX}};
-    SquareMesh mesh;
-    System system;
-    for (int i = 0; i < 9; i++) {
-        int n = i < 5 ? 4 : segments[i - 5];
-        CHECK_STATUS(square_mesh_create(n, n, i < 5 ? lengths[i] : 1, &mesh),
-                     STATUS_INVALID_INPUT);
-        square_mesh_free(&mesh);
-    }
-    for (int i = 0; i < 5; i++) {
-        CHECK_STATUS(system_create(sizes[i][0], sizes[i][1], &system),
-                     STATUS_INVALID_INPUT);
-        system_free(&system);
-    }
-    CHECK_STATUS(system_create(3, 0, &system), STATUS_OK);
-    CHECK(system.terms == 0);
-    system_free(&system);
-    system_free(NULL);
-}
-
-/* Of two nodes and a spring, all in order but for one thing. */
-TEST(bad_systems_are_refused)
-{
-    const double bad[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e-310, -1e-310};
-    const int ends[][2] = {{0, 0}, {1, 1}, {-1, 0},      {0, -1},
-                           {2, 0}, {0, 2}, {INT_MAX, 0}, {0, INT_MIN}};
-    System system;
-    double x[4] = {0, 0, 1, 0}, omega2 = 1;
-    CHECK_STATUS(system_create(2, 1, &system), STATUS_OK);
-    double *number[] = {system.m, &system.m[1], system.l2, system.k, x,
-                        x + 1,    x + 2,        x + 3,     &omega2};
-    system.m[0] = system.m[1] = system.l2[0] = system.k[0] = 1;
-    system.e[1] = 1;
-    for (int field = 0; field < 9; field++) /* of x only what is not finite */
-        for (int i = 0; i < (field < 4 ? 7 : 3); i++) {
-            double good = *number[field];
-            *number[field] = bad[i];
-            CHECK_STATUS(central_field_set(&system, omega2), STATUS_OK);
-            CHECK_STATUS(system_check(&system, x), STATUS_INVALID_INPUT);
-            *number[field] = good;
-            CHECK_STATUS(central_field_set(&system, omega2), STATUS_OK);
-            CHECK_STATUS(system_check(&system, x), STATUS_OK);
-        }
-    for (int i = 0; i < 8; i++) {
-        memcpy(system.e, ends[i], sizeof ends[i]);
-        CHECK_STATUS(system_check(&system, x), STATUS_INVALID_INPUT);
-    }
-    memcpy(system.e, (int[]){1, 0}, 2 * sizeof(int));
-    CHECK_STATUS(system_check(&system, x), STATUS_OK);
-    system.l2[0] = 1e300; /* k / l2 would be denormal */
-    system.k[0] = 1e-100;
-    CHECK_STATUS(system_check(&system, x), STATUS_INVALID_INPUT);
-    system_free(&system);
-}
 
 TESTS(NULL, NULL)

@@ -1,46 +1,18 @@
-/* Newton's method: every way in which it can end, and that its records and
- * counters say what happened, by formulas that share nothing with it.
+/* Newton's method: every way in which it can end, and that it says which, by
+ * formulas that share nothing with it.  (Each update: test_numbers, stress.)
  */
 #include "test.h"
+#include "stress.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/mass_spring_energy.h"
-#include "model/plasticity.h"
-#include "solve/line_search.h"
+#include "model/contact.h"
+#include "solve/newton_parts.h"
 
 /* Squares of up to 4 segments; most have 3. */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
-
-/* max over nodes |p_x| + |p_y|, over h, of p = -H^-1 grad E. */
-static double exact_residual(const IncrementalPotential *E, const double *u,
-                             const double *x, bool clamp, double h)
-{
-    int size = 2 * E->system->nodes;
-    long double H[LARGEST * LARGEST], p[LARGEST], largest = 0;
-    exact_derivatives(E, u, x, p, NULL);
-    exact_hessian(E, x, clamp, H);
-    CHECK(dense_solve(size, H, p));
-    for (int i = 0; i < size; i += 2)
-        largest = fmaxl(largest, fabsl(p[i]) + fabsl(p[i + 1]));
-    return (double)(largest / h);
-}
-
-/* Springs shorter than at rest. */
-static int short_springs(const System *system, const double *x)
-{
-    int count = 0;
-    for (int s = 0; s < system->springs; s++) {
-        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-        double dx = x[i] - x[j], dy = x[i + 1] - x[j + 1];
-        count += dx * dx + dy * dy < system->l2[s];
-    }
-    return count;
-}
 
 /* Follows a run from record to record. */
 typedef struct Witness {
@@ -49,79 +21,6 @@ typedef struct Witness {
     int iteration;
     long iterations, trials, projected;
 } Witness;
-
-/* Before each step: the iterate is the state. */
-static void witness_start(Witness *witness)
-{
-    const TimeIntegrator *run = &witness->simulation->run[0];
-    memset(witness->u, 0, run->size * sizeof(double));
-    memcpy(witness->x, run->x, run->size * sizeof(double));
-    witness->iteration = 0;
-}
-
-static bool witness_record(void *user, const NewtonRecord *record)
-{
-    Witness *witness = user;
-    if (record->iteration < 0)
-        return true;
-    const TimeIntegrator *run = &witness->simulation->run[0];
-    const Newton *newton = run->newton;
-    const IncrementalPotential *E = &newton->at.E;
-    bool clamp = newton->settings.filter == FILTER_CLAMP;
-    double residual =
-        exact_residual(E, witness->u, witness->x, clamp, newton->settings.h);
-    long double before = exact_energy(E, witness->u, witness->x);
-    long double after = exact_energy(E, newton->at.u, newton->at.x);
-    CHECK_NEAR(record->residual, residual, 1e-10 * residual);
-    CHECK_NEAR(record->change, after - before, 5e-13L * before);
-    CHECK(record->kind == RESIDUAL_VALUE && record->slope < 0);
-    CHECK(record->change <= 0 && after <= before);
-    CHECK(record->iteration == witness->iteration++ && record->factorised);
-    CHECK(record->step == witness->simulation->steps + 1);
-    CHECK(record->alpha == ldexp(1, 1 - record->trials));
-    CHECK(record->projected ==
-          (clamp ? short_springs(E->system, witness->x) : 0));
-    memcpy(witness->u, newton->at.u, run->size * sizeof(double));
-    memcpy(witness->x, newton->at.x, run->size * sizeof(double));
-    witness->iterations++;
-    witness->trials += record->trials;
-    witness->projected += record->projected;
-    return true;
-}
-
-/* Each iteration is watched.  1e-10: the condition of H, some thousand, times
- * rounding; 5e-13 of E: the rounding of g, along p. */
-TEST(records_are_right)
-{
-    static const char *const lines[] = {
-        "--segments 3", "--segments 2 --side 3 --density 20 --stiffness 7e3",
-        "--segments 3 --stretch 0.5 --timestep 0.02",
-        "--segments 3 --stretch 0.05 --timestep 0.1 --tolerance 1e-3",
-        "--segments 3 --filter none"};
-    enum { STEPS = 15 };
-    for (int i = 0; i < 5; i++) {
-        Witness witness = {0};
-        Simulation *simulation =
-            simulate_watched(witness_record, &witness, "%s", lines[i]);
-        witness.simulation = simulation;
-        for (int step = 0; step < STEPS; step++) {
-            witness_start(&witness);
-            make_steps(simulation, 1);
-        }
-        NewtonCounters counters = simulation_counters(simulation);
-        CHECK(witness.iterations > 0);
-        CHECK(counters.minimisations == STEPS);
-        CHECK(counters.iterations == witness.iterations);
-        CHECK(counters.trials == witness.trials);
-        CHECK(counters.projected >= witness.projected);
-        CHECK(counters.gradients == STEPS + counters.iterations);
-        /* Each direction has a factor, unless its test was passed without. */
-        long factored = counters.gradients - counters.skipped;
-        CHECK(counters.factorisations >= factored);
-        CHECK(counters.solves >= factored);
-        CHECK(simulation->steps == STEPS && simulation->unconverged == 0);
-    }
-}
 
 /* A residual that is called a value is that of the exact direction, an estimate
  * is as near to it as to the tolerance, which it decides, and a bound is above
@@ -144,13 +43,14 @@ TEST(residuals_are_what_they_are_called)
         double tolerance = simulation->options.tolerance;
         for (int step = 0; step < 60; step++) {
             double x_n[LARGEST];
+            Real p[LARGEST];
             memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
             make_steps(simulation, 1);
             IncrementalPotential E = newton->at.E;
             E.x_n = x_n;
             double residual = newton->residual;
             double exact =
-                exact_residual(&E, newton->at.u, newton->at.x, true, run->h);
+                wide_direction(&E, newton->at.u, FILTER_CLAMP, run->h, p);
             seen[newton->working == SOLVER_MULTIGRID][newton->kind]++;
             if (newton->kind == RESIDUAL_VALUE)
                 CHECK_NEAR(residual, exact, 1e-9 * exact);
@@ -160,7 +60,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_AT_MOST(exact, residual);
         }
     }
-    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] == 0 &&
+    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] > 20 &&
           seen[0][RESIDUAL_BOUND] > 20);
     CHECK(seen[1][RESIDUAL_VALUE] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20 &&
           seen[1][RESIDUAL_BOUND] > 0);
@@ -200,24 +100,6 @@ TEST(what_does_not_converge_says_why)
         CHECK(status_is_unconverged(rows[i].status));
         CHECK_AT_MOST(simulation_counters(simulation).iterations,
                       rows[i].iterations * rows[i].steps);
-    }
-}
-
-/* All nodes in one point: a maximum of P, where its gradient is 0.  It is left,
- * unless h is so small that the masses outweigh the springs: there E is least.
- */
-TEST(maximum_is_not_taken_for_a_minimum)
-{
-    for (int heavy = 0; heavy < 2; heavy++) {
-        Simulation *point =
-            simulate("--segments 3 --timestep %g", heavy ? 1e-6 : 0.1);
-        memset(point->run[0].x, 0, SIZE * sizeof(double));
-        double maximum = simulation_energies(point, 0).total;
-        NewtonCounters did = simulation_counters(make_steps(point, 1));
-        double end = simulation_energies(point, 0).total;
-        CHECK(heavy ? end == maximum : end < 0.9 * maximum);
-        CHECK((did.factorisations > 0) == !heavy &&
-              (did.saddles > 0) == !heavy);
     }
 }
 
@@ -325,34 +207,6 @@ TEST(levers_swing_or_say_why_not)
     }
 }
 
-static bool right_of_the_wall(const Place *at)
-{
-    return at->x[0] > -0.3;
-}
-
-/* A wall at x = -0.3 that tells no reach beforehand, as where rounding takes a
- * step into one: from x = 0 to x_tilde = -1 1 and 1/2 are refused, with and
- * without a line search; no later one ends beyond the wall. */
-TEST(steps_into_a_wall_are_halved)
-{
-    const double x[4] = {0};
-    TermKind wall = mass_spring_energy; /* of no strength */
-    wall.allowed = right_of_the_wall;
-    for (int search = 0; search < LINE_SEARCH_COUNT; search++) {
-        make_pair(1, 1, 0);
-        pair.term[0].kind = &wall;
-        watch_pair(1, 1e-6, FILTER_CLAMP);
-        newton.settings.search = (LineSearch)search;
-        newton.u_tilde[0] = -1;
-        CHECK_STATUS(newton_start(&newton, x, NULL, 1), STATUS_RUNNING);
-        CHECK_STATUS(newton_iterate(&newton), STATUS_RUNNING);
-        CHECK_NEAR(newton.at.x[0], -0.25, 0);
-        while (newton_iterate(&newton) == STATUS_RUNNING)
-            CHECK(newton.at.x[0] > -0.3);
-        CHECK(newton.at.x[0] > -0.3 && newton.status != STATUS_OK);
-    }
-}
-
 /* ---- squares of next to no mass -------------------------------------------
  */
 
@@ -439,29 +293,6 @@ TEST(energy_never_rises_without_masses)
     }
 }
 
-/* Stops at the given record. */
-static bool stop_at(void *user, const NewtonRecord *record)
-{
-    (void)record;
-    return --*(int *)user > 0;
-}
-
-TEST(observers_can_interrupt)
-{
-    for (int records = 1; records <= 3; records++) {
-        double x[SIZE];
-        int left = records;
-        Simulation *simulation =
-            simulate_watched(stop_at, &left, "--segments 3 --tolerance 1e-9");
-        memcpy(x, simulation->run[0].x, sizeof x);
-        CHECK_STATUS(simulation_step(simulation), STATUS_INTERRUPTED);
-        CHECK(left == 0 && simulation->steps == 0);
-        CHECK_SAME_BITS(simulation->run[0].x, x, SIZE);
-        left = 1000; /* and the step can be made again */
-        make_steps(simulation, 1);
-    }
-}
-
 /* ---- backtracking ------------------------------------------------------ */
 
 /* Alphas up to the limit do not raise the energy. */
@@ -503,66 +334,69 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
     }
 }
 
-/* Springs that flow, of which a long line says that E falls without end. */
-static double a_lie(const Place *at, const double *p, double alpha)
-{
-    return alpha > 0.001 ? -1e20 : plastic_energy.remainder(at, p, alpha);
-}
+/* ---- ends -----------------------------------------------------------------
+ */
 
-/* E after each update. */
-typedef struct Falling {
-    Simulation *simulation;
-    double E;
-    int updates, halved;
-    bool good;
-} Falling;
-
-static bool see_fall(void *user, const NewtonRecord *record)
+/* The test of Algorithm 3 is passed on saddles, in a square that is squeezed
+ * evenly without any update: they are left, by both solvers.  Some of these
+ * steps ended by 1e4 to 1e10 times M above a minimum. */
+TEST(an_end_that_bends_down_is_left)
 {
-    Falling *falling = user;
-    const Iterate *at = &falling->simulation->run[0].newton->at;
-    double E = incremental_potential_value(&at->E, at->u, at->x);
-    if (record->iteration > 0) { /* 1e-9: the rounding of E */
-        falling->good = falling->good && E <= falling->E * (1 + 1e-9) &&
-                        record->change <= 0 &&
-                        record->change >= -falling->E * (1 + 1e-9);
-        falling->halved += record->alpha < 0.001;
-    }
-    falling->E = E;
-    falling->updates++;
-    return true;
-}
-
-/* Whatever a term says about a line: no update raises E, and none is said to
- * lower it by more than there is of it.  Springs that flow let light nodes fly,
- * so that long steps raise E. */
-TEST(no_update_is_taken_that_E_contradicts)
-{
-    Falling falling = {.good = true};
-    Simulation *flying = simulate_watched(
-        see_fall, &falling,
-        "--segments 4 --stretch 4 --timestep 1 --yield 0.01 --density 0.001");
-    TermKind liar = plastic_energy;
-    liar.remainder = a_lie;
-    falling.simulation = flying;
-    system_find_term(&flying->system, &plastic_energy)->kind = &liar;
-    make_steps(flying, 1);
-    CHECK(falling.good && falling.updates > 5 && falling.halved > 5);
-}
-
-/* Each constant has a name and a text of its own. */
-TEST(every_status_has_a_text)
-{
-    for (int i = 0; i < STATUS_COUNT; i++) {
-        CHECK(strlen(status_text((Status)i)) > 5);
-        for (int j = 0; j < i; j++) {
-            CHECK(strcmp(status_text((Status)i), status_text((Status)j)) != 0);
-            CHECK(strcmp(status_name((Status)i), status_name((Status)j)) != 0);
+    static const char *const lines[] = {
+        "--stretch 0 --timestep 1",
+        "--stretch 0 --timestep 1 --segments 8 --tolerance 1e-6",
+        "--stretch 0.5 --timestep 1000",
+        "--segments 2 --stretch 0.5 --timestep 0.1 --stiffness 1e8 "
+        "--pin 0,1,2,6,7,8",
+        "--segments 4 --stretch 0.627 --timestep 0.00814 --stiffness 6.47e12 "
+        "--tolerance 0.0185 --pin 0,1,2,3,4,20,21,22,23,24 --gravity 9.81",
+        "--stretch 1e6 --timestep 1 --stiffness 1e8",
+        "--segments 7 --stretch 0.581 --timestep 0.343 --stiffness 6.72e7 "
+        "--tolerance 0.00792 --gravity 5.51e-6 --damping 0.0528",
+    };
+    for (size_t i = 0; i < 2 * (sizeof lines / sizeof *lines); i++) {
+        Simulation *simulation = simulate("%s --solver %s", lines[i / 2],
+                                          i % 2 ? "multigrid" : "newton");
+        for (int step = 0; step < 3; step++) {
+            make_steps(simulation, 1);
+            CHECK_STATUS(direction_bends_up(simulation->run[0].newton, 101.1),
+                         STATUS_OK);
         }
     }
-    CHECK(!status_is_unconverged(STATUS_OK));
-    CHECK(!status_is_unconverged(STATUS_OUT_OF_MEMORY));
-    CHECK(!status_is_unconverged(STATUS_INTERRUPTED));
+}
+
+/* What a step may cost is told by the square, not by the scene: 250 000 nodes
+ * updated, but 1000 updates at least, each with a factor or two and no more
+ * trials than there are halvings. */
+TEST(work_is_limited_by_the_size)
+{
+    static const char *const lines[] = {
+        "tear --segments 16 --pin top,bottom --stretch 1e-9",
+        ("tear --segments 6 --stretch 1e4 --timestep 1e-9 --pin left --density "
+         "1e-9 --yield 0.01 --tear 0.01 --damping 1e6"),
+        "--segments 12 --stretch 6 --timestep 10 --density 0.001 --yield 0.002",
+        "--segments 8 --stretch 4 --timestep 10 --yield 0.01 --density 1"};
+    for (int i = 0; i < 4; i++) {
+        Simulation *simulation = simulate("%s", lines[i]);
+        double nodes = simulation->system.nodes;
+        Status status = simulation_step(simulation);
+        NewtonCounters did = simulation_counters(simulation);
+        CHECK(!status || status == STATUS_ITERATION_LIMIT);
+        CHECK_AT_MOST(did.iterations, fmax(250000 / nodes, 1000));
+        CHECK_AT_MOST(did.factorisations, 2.0 * did.iterations + 10);
+        CHECK_AT_MOST(did.solves, 8.0 * did.iterations + 10);
+        CHECK_AT_MOST(did.trials, 66.0 * did.iterations);
+    }
+    /* a wall that comes in parts gets no more than one that does not */
+    Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
+    TimeIntegrator *run = &simulation->run[0];
+    contact_of(run->system)->obstacle[1].motion =
+        (Motion){1, {0.01}, {{0, -50}}};
+    run->newton->settings.max_iterations = 10;
+    CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
+    CHECK_AT_MOST(run->newton->counters.iterations, 19);
+    CHECK(run->moved > 0 && run->moved < 1);
+    CHECK(smallest_gap(run->system, run->x) > 0);
 }
 
 TESTS(NULL, NULL)

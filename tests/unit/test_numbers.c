@@ -5,21 +5,18 @@
  * by test_picture, messages by test_player, a page's words by test_pages, what
  * plasticity, fracture and friction took by test_laws.) */
 #include "attended.h"
+#include "stress.h"
 #include "test.h"
 
 #include <ctype.h>
 #include <math.h>
 
 #include "model/cells.h"
-#include "model/contact.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/plasticity.h"
 #include "model/pull_energy.h"
 #include "picture/cards.h"
-#include "picture/plot.h"
-#include "scenes/scene.h"
-#include "scenes/small_scenes.h"
 
 enum { WIDE = 1200, HIGH = 900, MOST = 400, UNKNOWNS = 50, NODES = 700 };
 
@@ -59,12 +56,26 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
+/* Whether the page itself says it: what it claims is another test's. */
+static bool says(const LecturePage *page, const char *markup)
+{
+    const char *texts[] = {page->text,  page->formula, page->look,
+                           page->touch, page->claim,   page->ask};
+    Facts facts;
+    TextLine line;
+    facts_of(&player.show, player.show.active, &facts);
+    for (int i = 0; i < 6; i++)
+        for (const char *at = texts[i]; (at = text_line_of(&facts, at, &line));)
+            if (strcmp(line.words, markup) == 0)
+                return true;
+    return false;
+}
+
 int __wrap_paper_paragraph(Paper *on, Face face, double size, Colour colour,
                            Box box, int lines, const char *markup)
 {
     const LecturePage *page = player.show.lecture;
-    bool own = page && (markup == page->text || markup == page->look ||
-                        markup == page->touch || markup == page->claim);
+    bool own = page && lines > 0 && says(page, markup);
     if (lines > 0 && !own && markup != player.show.message)
         keep(box.x, box.y, markup);
     within = true;
@@ -183,24 +194,6 @@ static bool only_springs(const Simulation *simulation)
            (filter == FILTER_CLAMP || filter == FILTER_NONE);
 }
 
-/* What Algorithm 3 knows at x: p [2n] out, its residual, m/s. */
-static Real newton_at(const Simulation *simulation,
-                      const IncrementalPotential *E, const double *u,
-                      const double *x, Real *p)
-{
-    static Real H[UNKNOWNS * UNKNOWNS];
-    int size = 2 * simulation->system.nodes;
-    Real most = 0;
-    exact_derivatives(E, u, x, p, NULL);
-    exact_hessian(E, x, simulation->options.filter == FILTER_CLAMP, H);
-    CHECK(dense_solve(size, H, p));
-    for (int i = 0; i < size; i++)
-        p[i] = -p[i];
-    for (int i = 0; i < size; i += 2)
-        most = fmaxl(most, fabsl(p[i]) + fabsl(p[i + 1]));
-    return most / made.timestep;
-}
-
 /* The minimisation of the step that led here: where its trace stands. */
 static void tell_springs(const Simulation *simulation, const Trace *trace)
 {
@@ -218,13 +211,14 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
         u_tilde[i] = made.timestep * v_n[i];
         u[i] = x[i] - x_n[i];
     }
-    Real residual = newton_at(simulation, &E, u, x, p);
+    Filter filter = simulation->options.filter;
+    Real residual = wide_direction(&E, u, filter, made.timestep, p);
     near("residual", residual, 1e-6L * residual + 1e-12L);
     near("p size", residual * made.timestep,
          1e-6L * residual * made.timestep + 1e-14L);
     for (int i = 0; i < size; i++)
         u[i] = trace->x[i] - x_n[i];
-    newton_at(simulation, &E, u, trace->x, p);
+    wide_direction(&E, u, filter, made.timestep, p);
     exact_derivatives(&E, u, trace->x, g, NULL);
     for (int i = 0; i < size; i++) {
         q[i] = (double)p[i];
@@ -246,7 +240,7 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
     near("projected", (least + most) / 2.0L, (most - least) / 2.0L);
     Place at = place_at(system, x_n, u, trace->x);
     at.w = E.weight;
-    Spot spot = {.at = &at, .h = made.timestep, .t = 1};
+    Spot spot = {.at = &at, .h = made.timestep};
     Real before = oracle_step(&spot, u_tilde).f;
     spot.p = q;
     spot.alpha = trace_alpha(trace, trace->trials);
@@ -258,16 +252,31 @@ static void tell_springs(const Simulation *simulation, const Trace *trace)
               (change > 0) == !trace->accepted);
 }
 
+/* What the slides' program prints; test_reference has its own lists. */
+static void tell_prints(const Trace *trace)
+{
+    for (int i = 0; i < trace->updates; i++) {
+        is("Iteration", i);
+        is("printed", trace->record[i].residual);
+        is("printed", trace->record[i].alpha);
+    }
+}
+
 static void tell_trace(const Simulation *simulation, const Trace *trace)
 {
     is("tolerance", simulation->options.tolerance);
     is("h then", trace->h);
+    tell_prints(trace);
     CHECK(made.timestep == 0 || trace->h == made.timestep);
     for (int i = -9; i <= 9 && (trace->p || player.show.panes > 1); i++)
         is("search direction", powl(10, i));
     is("nth", trace->iteration + 1);
     is("length", powl(2, 1 - fmaxl(trace->trials, 1)) *
                      (trace->first > 0 ? trace->first : 1));
+    Real risen = 0;
+    for (int i = 0; i < trace->updates; i++)
+        risen += trace->record[i].change;
+    is("risen", risen);
     if (only_springs(simulation) && trace->x) {
         tell_springs(simulation, trace);
         return;
@@ -296,7 +305,7 @@ static void tell_energies(const Simulation *simulation)
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
     Energies ledger = simulation_energies(simulation, 0);
     Place at = place_at(system, x, NULL, x);
-    Spot spot = {.at = &at, .h = 1, .t = 1};
+    Spot spot = {.at = &at, .h = 1};
     Real kinetic = 0, gravity = 0, sum = 0, size = 0;
     for (int i = 0; i < 2 * system->nodes; i++) {
         kinetic += (Real)system->m[i / 2] * v[i] * v[i] / 2;
@@ -319,6 +328,64 @@ static void tell_energies(const Simulation *simulation)
          1e-13L * (kinetic + size + fabsl(gravity)));
     for (int i = 0; i < ledger.rows; i++)
         is(ledger.row[i].name, ledger.row[i].value);
+}
+
+/* ---- what pages say of the square ---------------------------------------- */
+
+/* Its mesh, its fastest oscillation, and the force on its last node. */
+static void tell_page(const Simulation *simulation)
+{
+    static Real H[UNKNOWNS * UNKNOWNS], v[UNKNOWNS * UNKNOWNS];
+    const System *system = &simulation->system;
+    const Options *o = &simulation->options;
+    const double *x = simulation->run[0].x;
+    int size = 2 * system->nodes, shorter = 0;
+    Real n = o->segments, nodes = (n + 1) * (n + 1), top = 0, g[UNKNOWNS];
+    Real side = simulation->mesh.side;
+    Real mass = o->density * side * side;
+    const IncrementalPotential E = {.system = system, .weight = 1, .x_n = x};
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
+                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
+        shorter += d < (1 - 5e-10L) * sqrtl(system->l2[s]);
+    }
+    if (o->bodies > 0 || o->scene->create != scene_find("square")->create)
+        nodes = system->nodes;
+    is("masses", nodes);
+    near("mass", system->nodes * (Real)system->m[0], 1e-9L * mass);
+    is("node mass", system->m[0]);
+    is("middle", floorl((nodes - 1) / 2));
+    is("places", 4 * (nodes + 2 * (Real)system->springs));
+    is("short", shorter);
+    int newest = (int)(simulation->steps % system->springs);
+    is("newest", newest);
+    is("from", system->e[2 * newest]);
+    is("to", system->e[2 * newest + 1]);
+    is("segments", n);
+    is("side", side);
+    is("rho", o->density);
+    is("k", o->stiffness);
+    is("stretch", o->stretch);
+    is("h", o->timestep);
+    is("epsilon", o->tolerance);
+    is("last", system->nodes - 1);
+    if (size > UNKNOWNS)
+        return;
+    exact_derivatives(&E, NULL, x, g, H);
+    for (int i = size - 2; i < size; i++) {
+        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
+        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
+    }
+    if (!o->page->modes)
+        return;
+    for (int i = 0; i < size * size; i++) /* masses are equal */
+        H[i] /= system->m[0];
+    exact_eigen(size, H, v);
+    for (int i = 0; i < size; i++)
+        top = fmaxl(top, H[i * size + i]);
+    near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
+    near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
 }
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -357,6 +424,17 @@ static void tell_masses(const Simulation *simulation)
         is_point("v'", new_v[0], new_v[1]);
         is_point("carrying", by[0], by[1]);
         run_now = 0;
+        if (one) {
+            Real off[2];
+            for (int i = 0; i < 2; i++)
+                off[i] = new_x[i] - cosl(h) * x[i] - sinl(h) * v[i];
+            near("miss", hypotl(off[0], off[1]), 1e-15L * (1 + h));
+            is("half", h * h / 2 * hypotl(x[0], x[1]));
+            is("h limit", 2); /* cos(turn) = 1 - h^2/2 is above -1 */
+        }
+        Real turn = 8 * atanl(1) * h;
+        is("doubling", logl(4) / logl(1 + turn * turn));
+        is("growth", sqrtl(1 + turn * turn));
     }
 }
 
@@ -377,12 +455,26 @@ static void tell_spring(const Simulation *simulation)
     near("force", -2 * k * s * y, 1e-15L * k);
     near("along", high, 1e-14L * k);
     near("across", low, 1e-14L * k);
+    Real up = fmaxl(high, 0) / (r * r), flat = fmaxl(low, 0) / (r * r);
+    const Real H[2][3] = {{high - 4 * k * y * y / (l * l),
+                           4 * k * x * y / (l * l),
+                           high - 4 * k * x * x / (l * l)},
+                          {up * x * x + flat * y * y, (up - flat) * x * y,
+                           up * y * y + flat * x * x}};
+    static const char *const names[4][3] = {{"Hxx", "Hxy", "Hyy"},
+                                            {"Pxx", "Pxy", "Pyy"},
+                                            {"-Hxx", "-Hxy", "-Hyy"},
+                                            {"-Pxx", "-Pxy", "-Pyy"}};
+    for (int i = 0; i < 12; i++)
+        near(names[i / 3][i % 3], (i < 6 ? 1 : -1) * H[i / 3 % 2][i % 3],
+             1e-12L * k);
     near("root energy", 2 * k * (r - l) * (r - l), 1e-15L * k);
     is("root along", 4 * k);
     near("root across", 4 * k * (1 - l / r), 1e-14L * k);
     near("eigenvalue", 2 * low, 0.05L); /* one digit is shown */
     near("eigenvalue", 2 * high, 0.05L);
     near("clamped", 0, 0);
+    near("negative", fminl(0, 2 * fminl(low, high)), 1e-13L * k);
 }
 
 /* ---- minima that are searched -------------------------------------------- */
@@ -468,6 +560,38 @@ static void tell_iterate(const Simulation *simulation)
     }
 }
 
+/* E at the iterate of the landscape: its parts and derivatives. */
+static void tell_landscape(const Simulation *simulation)
+{
+    const Descent *descent = &simulation->descent;
+    const double *o = simulation->exhibit.target;
+    unsigned parts = simulation->exhibit.parts;
+    Real at[2] = {descent->point[0], descent->point[1]}, E, g[2], p[2];
+    Real m = parts & PART_INERTIA ? 1 : 0, H[3] = {m, 0, m};
+    Real h = parts & PART_ELASTICITY ? simulation->run[0].h : 0;
+    int springs;
+    map_E(simulation, at, FILTER_NONE, &E, g, p, &springs);
+    for (int pin = 1; pin <= 2; pin++) {
+        const double *held = simulation->run[0].x + 2 * pin;
+        Real d[2] = {at[0] - held[0], at[1] - held[1]};
+        Real l2 = simulation->system.l2[0];
+        Real c = h * h * 2 * simulation->system.k[0] / l2;
+        for (int i = 0; i < 3; i++)
+            H[i] += c * (2 * d[i / 2] * d[(i + 1) / 2] +
+                         (i != 1) * (d[0] * d[0] + d[1] * d[1] - l2));
+    }
+    is_point("place", at[0], at[1]);
+    is_point("x tilde", o[0], o[1]);
+    near("E", E, 1e-13L * (1 + E));
+    near("bowl", (powl(at[0] - o[0], 2) + powl(at[1] - o[1], 2)) / 2, 1e-15L);
+    for (int i = 0; i < 2; i++)
+        near("g", g[i], 1e-12L);
+    near("Hxx", H[0], 1e-12L);
+    near("Hxy", H[1], 1e-12L);
+    near("Hyy", H[2], 1e-12L);
+    near("m", 1, 0);
+}
+
 /* The last update, or the first one that is to come. */
 static void tell_search(const Simulation *simulation)
 {
@@ -509,10 +633,13 @@ static void tell_search(const Simulation *simulation)
     near("direction", p[0], 1e-9L * fabsl(p[0]) + 1e-15L);
     near("minimum of the model", at[0] + p[0], 1e-9L * fabsl(p[0]));
     near("slope", E[1], 1e-13L);
+    is("digits", fmaxl(0, floorl(-log10l(fabsl(p[0] / to[0])))));
     is("curvature", E[2]);
     near("E", E[0], 1e-14L);
     near("next E", trial, 1e-9L * fabsl(trial));
     tell_iterate(simulation);
+    if (!scalar)
+        tell_landscape(simulation);
 }
 
 static void tell_dial(const Simulation *simulation)
@@ -572,6 +699,25 @@ static void tell_race(const Simulation *simulation)
         }
     }
     run_now = 0;
+    for (int i = 0; i < RACE_METHODS; i++) { /* the table; h = 2 ms is third */
+        const RacePoint *third = &race->point[2 * RACE_METHODS + i];
+        Real order = 0, stable = 0;
+        for (int k = i; k < race->count; k += RACE_METHODS) {
+            if (k > i && race->point[k].error > 1e-8)
+                order = logl((Real)race->point[k - RACE_METHODS].error /
+                             race->point[k].error) /
+                        logl(2);
+            if (race->point[k].stable)
+                stable = fmaxl(stable, race->point[k].h);
+        }
+        near("order", order, 0.051L);
+        is("stable", 1e3L * stable);
+        is("h", 2);
+        if (third->method) {
+            is("kept", third->kept);
+            is_rough("time", 1e3L * third->seconds);
+        }
+    }
 }
 
 /* A cell that is known has run; its three steps are made again. */
@@ -613,7 +759,7 @@ static Jet potential_along(const System *system, const double *x,
 {
     static double way[2][2 * NODES];
     Place at = place_at(system, x, NULL, x);
-    Spot spot = {.at = &at, .h = 1, .t = 1, .p = way[0], .q = way[1]};
+    Spot spot = {.at = &at, .h = 1, .p = way[0], .q = way[1]};
     way[0][p] = way[1][q] = 1;
     Jet out = oracle_energy(&spot, kind);
     way[0][p] = way[1][q] = 0;
@@ -781,6 +927,8 @@ static void tell_all(const Show *show)
     if (kind == PICTURE_CURVE || kind == PICTURE_TANGENT ||
         kind == PICTURE_LANDSCAPE)
         tell_search(simulation);
+    if (kind == PICTURE_SQUARE && o->page)
+        tell_page(simulation);
     if (kind == PICTURE_DIAL)
         tell_dial(simulation);
     if (kind == PICTURE_RACE)
@@ -833,6 +981,7 @@ static const char notation[] =
     "(1 + (h\u03c9)\u00b2)|/3 + \u2154|(4{x}|(4v|1 \u2212 1/\u221a2|"
     "(1 \u2212 4g)|1/(4 \u2212 4|l/\u221a3|m/2|P = l\u00b2 k/2|/2 \u00b7|"
     "f = \u22122 k s d|2k|\u00b2 \u2212 1 =|alpha} = 1|h\u03c9 < 2|"
+    "rows 2i, 2i + 1|{alpha} / 2|(n_seg + 1)|side_len\u00b2|h\u00b2/2|\u2190 1|"
     "6 methods|3 integrators|4th order|below 0";
 
 /* Blanks out what is no number: notation, what stands behind ^ and _ but a
@@ -992,7 +1141,6 @@ static void check_text(const Show *show, const Layout *layout, const char *name,
 static void check_frame(const char *name, PickKind kind, int index)
 {
     Show *show = &player.show;
-    player_sample(&player);
     player_fill(&player);
     show->hover = (Pick){kind, 0, index, {0, 0}};
     tell_all(show);
@@ -1055,7 +1203,7 @@ static const char *touch_now(void)
 }
 
 static const char walked[] =
-    "newton explodes alpha algorithm3 square unprojected drop landscape";
+    "newton explodes square unprojected drop landscape";
 
 /* At its start, later, line by line, touched. */
 static void play(const char *name)
@@ -1111,11 +1259,11 @@ TEST(numbers_of_long_runs)
         {"square --integrator sdirk2", 3, {"", "set integrator verlet"}},
         {"square --segments 3", 2, {"", "grab 0", "drag -1 0.5", "release"}},
         {"square --segments 2", 3, {"", "method", "add-pane", "add-pane"}},
-        {"dent", 90, {""}},
-        {"tear", 90, {""}},
-        {"drop", 70, {"", "enlarge 4"}},
-        {"squeeze", 40, {""}},
-        {"bend", 60, {""}},
+        {"dent --segments 6", 80, {""}},
+        {"tear --segments 8", 80, {""}},
+        {"drop --segments 6", 70, {"", "enlarge 4"}},
+        {"squeeze --segments 6", 40, {""}},
+        {"bend --segments 16", 60, {""}},
         {"slope", 30, {"", "set friction 0.5"}},
         {"hang", 30, {"", "pin 3"}},
         {"explosion", 1, {"", "projection"}},

@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "scenes/one_line.h"
-#include "scenes/options.h"
 #include "scenes/pages.h"
-#include "scenes/scene.h"
 
 static Options parse_good(const char *line)
 {
@@ -100,23 +98,13 @@ TEST(values_are_read)
     CHECK(o.balls == 2 && o.ball[0][1] == -9 && o.ball[1][2] == 0.5);
     CHECK(o.barrier[0] == 0.1 && o.barrier[1] == 1e5);
     CHECK(o.size[0] == 640 && o.size[1] == 480);
-    const char *const texts[][2] = {{o.pin, "top"},    {o.frames, "a/b"},
-                                    {o.states, "-"},   {o.log, "-x"},
-                                    {o.film, "f.gif"}, {o.script, "s"}};
-    for (int i = 0; i < 6; i++)
-        assert_string_equal(texts[i][0], texts[i][1]);
-    o = parse_good("--minimum --paused --fullscreen --headless --quiet --help "
-                   "--version --list");
-    CHECK(o.minimum && o.paused && o.fullscreen && o.headless && o.quiet);
-    CHECK(o.help && o.version && o.list);
+    assert_string_equal(o.pin, "top");
     o = parse_good(""); /* of the integrators: the scene's choice */
     CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1);
-    CHECK(!o.frames && !o.states && !o.log && !o.page && o.panes == 1);
-    CHECK(!o.headless && !o.quiet && !o.help && !o.version && !o.list);
-    CHECK(!o.minimum && !options_integrator(&o));
+    CHECK(!o.frames && !o.page && o.panes == 1 && !options_integrator(&o));
     CHECK(parse_good("-h -V").help && parse_good("-V").version);
-    assert_string_equal(parse_good("--lecture").page->name, "solid");
-    assert_string_equal(parse_good("--lecture 2").page->name, "mesh");
+    assert_string_equal(parse_good("--lecture").page->name, "opening");
+    assert_string_equal(parse_good("--lecture 2").page->name, "solid");
     assert_string_equal(parse_good("--handout h.html").handout, "h.html");
     CHECK(parse_good("--side 2 --side 3").side == 3); /* the last one counts */
     o = parse_good("overshoot --start 3");
@@ -124,6 +112,12 @@ TEST(values_are_read)
     CHECK(parse_good("landscape --start 1,2").start[1] == 2);
     /* what is given stands instead of the scene's own */
     CHECK(parse_good("drop").grounds == 3);
+    o = parse_good("--body 1,2 --body 3,4,5,6,7 --ceiling 9,-1,8");
+    CHECK(o.bodies == 2 && o.body[0][5] == 1 && o.body[0][2] == 0);
+    CHECK(o.body[1][4] == 7 && o.body[1][6] == 1 && o.self_contact == 1);
+    CHECK(parse_good("--body 1,2,3,4,5,0.5,2").body[0][6] == 2);
+    CHECK(parse_good("--body 1,2").self_contact == 0); /* it is alone */
+    CHECK(parse_good("--body 1,2 --body 5,2 --self-contact off").bodies == 2);
     o = parse_good("drop --ground 0,1,0,-2");
     CHECK(o.grounds == 1 && o.ground[0][3] == -2);
     /* the scene stands anywhere */
@@ -151,7 +145,7 @@ TEST(names_are_read)
             assert_string_equal(value, name);
         }
     }
-    CHECK(names == 22);
+    CHECK(names == 24);
     CHECK(standard.solver == SOLVER_AUTO && standard.filter == FILTER_CLAMP);
     CHECK(standard.line_search == LINE_SEARCH_BACKTRACK && !standard.cells);
     assert_string_equal(solver_name(SOLVER_MULTIGRID), "multigrid");
@@ -210,6 +204,17 @@ static const char *const bad_lines[][4] = {
     {"--barrier 1,1", "--barrier", "nothing to touch", "--ball"},
     {"--slip-speed 1", "--slip-speed", "nothing to touch"},
     {"--hardening 1", "--hardening", "do not flow", "--yield"},
+    {"--body 1", "X,Y[,DEG[,VX,VY[,SX,SY]]], each from -1e9"},
+    {"--body 1,2,3,4", "--body: '1,2,3,4' is not X,Y[,DEG"},
+    {"--body 1,2,3,4,5,6", "--body", "is not X,Y"},
+    {"--body 1,2 --at 3,4", "--at", "each --body says its own"},
+    {"tear --body 1,2", "--body", "bodies of its own"},
+    {"--ceiling 1,1,0", "--ceiling: V is 1", "below 0"},
+    {"--self-friction 1", "--self-friction", "--self-contact on"},
+    {"--body 0,0 --body 2,0 --pin top:3", "--pin: 'top:3'"},
+    {"--pin top:", "--pin: 'top:'"},
+    {"--pin 3:1", "--pin: '3:1'"},
+    {"--self-contact on --integrator bdf2", "bodies that touch"},
     {"--young 1e4", "--young", "springs have none", "--material"},
     {"return --yield 1", "--yield", "triangles have none"},
     {"dent --material neo-hookean", "--material", "'dent' is about springs"},
@@ -219,10 +224,11 @@ static const char *const bad_lines[][4] = {
     {"landscape --start 3", "--start: '3'", "X,Y, each from", "in m"},
     {"overshoot --start x", "--start: 'x'", "-1e300 to 1e300"},
     {"--lecture overshot", "--lecture: 'overshot'", "mean overshoot"},
-    {"--lecture 99", "--lecture: '99'", "from 1 to 33"},
+    {"--lecture 99", "--lecture: '99'", "the pages from 1 to"},
     {"--lecture 2 drop", "--lecture", "'drop'", "scenes of their own"},
     {"--lecture 2 --side 2", "--side", "pages say that"},
     {"--handout h --quiet", "--handout", "--quiet says nothing"},
+    {"--handout h drop", "--handout", "drop says nothing"},
 };
 
 TEST(bad_lines_are_answered)
@@ -344,26 +350,6 @@ TEST(the_row_has_its_places_and_paces)
     }
 }
 
-/* A value of any length and of any bytes: one line, and the range is there; as
- * much of it as there is room for. */
-TEST(long_values_are_cut)
-{
-    static char value[2000];
-    char *argv[] = {"elasto", "--side", value}, message[512];
-    Options options;
-    for (int length = 1; length < 2000; length++) {
-        value[length - 1] = (char)("x\n\033\302\233\303\244"[length % 7]);
-        CHECK_STATUS(options_parse(3, argv, 0, &options, message, 512),
-                     STATUS_INVALID_INPUT);
-        CHECK(strlen(message) < 200 && strstr(message, "--side"));
-        CHECK(strstr(message, "a number from 1e-30 to 1e30, in m"));
-        CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
-    }
-    message[20] = 'y';
-    options_parse(3, argv, 0, &options, message, 20);
-    CHECK(strlen(message) == 19 && message[20] == 'y');
-}
-
 /* A piece of a random line, at the end of its words.  word [80] in/out */
 static void add_piece(Random *random, char *word)
 {
@@ -444,24 +430,6 @@ TEST(texts_become_one_line)
         one_line(line, line, sizeof line);
         assert_string_equal(line, "a?b");
     }
-}
-
-/* Options of pane 0, 1, ... of a line with lists. */
-TEST(lists_are_side_by_side)
-{
-    const double h[] = {0.1, 0.1, 0.2, 0.2};
-    char message[512];
-    Options options;
-    for (int pane = 0; pane < 4; pane++) {
-        CHECK_STATUS(parse_line("--timestep 0.1,0.2 --filter clamp,none", pane,
-                                &options, message),
-                     STATUS_OK);
-        CHECK(options.panes == 4 && options.timestep == h[pane]);
-        CHECK(options.filter == (pane % 2 ? FILTER_NONE : FILTER_CLAMP));
-    }
-    CHECK_STATUS(parse_line("--timestep 1,,2", 1, &options, message),
-                 STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "--timestep: ''") != NULL);
 }
 
 /* Rows of 80 with every option and scene; the same text again. */

@@ -6,63 +6,6 @@
 
 #include <math.h>
 
-#include "base/clock.h"
-#include "scenes/scene.h"
-
-/* E of a step from x_n with v_n where springs alone act, at x, J s^2. */
-static double step_energy(const Simulation *simulation, const double *x_n,
-                          const double *v_n, const double *x)
-{
-    const System *system = &simulation->system;
-    long double h = simulation->options.timestep, sum = 0;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        long double off = (long double)x[i] - x_n[i] - h * v_n[i];
-        sum += system->m[i / 2] / 2 * off * off;
-    }
-    for (int s = 0; s < system->springs; s++) {
-        const double *a = x + 2 * (size_t)system->e[2 * s];
-        const double *b = x + 2 * (size_t)system->e[2 * s + 1];
-        long double dx = (long double)a[0] - b[0];
-        long double dy = (long double)a[1] - b[1];
-        long double strain = (dx * dx + dy * dy) / system->l2[s] - 1;
-        sum += h * h * system->l2[s] * system->k[s] / 2 * strain * strain;
-    }
-    return (double)sum;
-}
-
-/* What a step is told to have done to E is E at its end less E at its start:
- * also where E was 2e16 in between, and where no update but the centre of mass
- * moved the square.  The last line: strains of 1e-6 have ten digits. */
-TEST(e_is_told_as_it_is)
-{
-    static const struct {
-        const char *line;
-        double digits; /* of E */
-    } rows[] = {{"explosion", 1e-12},
-                {"square --segments 1 --timestep 0.05 --stretch 0.5 --filter "
-                 "none --line-search none",
-                 1e-12},
-                {"square --stretch 1.4", 1e-12},
-                {"square --stretch 1 --velocity 0.3,0.2 --tolerance 1", 1e-12},
-                {"square --stretch 1.000001 --tolerance 1e-9", 1e-9}};
-    for (int i = 0; i < 5; i++) {
-        double x[64], v[64];
-        begin(rows[i].line);
-        const Simulation *simulation = player_simulation(&player);
-        size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof *x;
-        CHECK(bytes <= sizeof x);
-        memcpy(x, simulation->run[0].x, bytes);
-        memcpy(v, simulation->run[0].v, bytes);
-        double before = step_energy(simulation, x, v, x);
-        CHECK_STATUS(obey("next"), STATUS_OK);
-        double after = step_energy(simulation, x, v, simulation->run[0].x);
-        CHECK(after != before);
-        CHECK_NEAR(told(0, 1)->change, after - before,
-                   rows[i].digits * (before + after));
-        end();
-    }
-}
-
 /* Runs until it pauses by itself, as it must within some hundred steps. */
 static void run_until_it_pauses(void)
 {
@@ -154,92 +97,6 @@ TEST(rest_is_told_from_tolerance)
     end();
 }
 
-/* What is left of a motion beside the rigid one. */
-TEST(rigid_motion_deforms_nothing)
-{
-    double centre, turn;
-    begin("square --segments 3 --stretch 1.2");
-    Simulation *simulation = &player.past.machine[0].simulation;
-    TimeIntegrator *run = &simulation->run[0];
-    for (int i = 0; i < simulation->system.nodes; i++) {
-        run->v[2 * i] = 3 - 2 * run->x[2 * i + 1];
-        run->v[2 * i + 1] = 4 + 2 * run->x[2 * i];
-    }
-    /* rounding of numbers near 5 */
-    CHECK_AT_MOST(simulation_deforming(simulation, &centre, &turn), 1e-14);
-    CHECK_NEAR(centre, 5, 1e-14);
-    CHECK_NEAR(turn, 2, 1e-14);
-    for (int i = 0; i < simulation->system.nodes; i++)
-        run->v[2 * i] += 0.5 * run->x[2 * i]; /* stretches; up to 0.3 m/s */
-    CHECK_NEAR(simulation_deforming(simulation, &centre, &turn), 0.3, 1e-14);
-    CHECK(simulation_is_free(simulation));
-    CHECK_STATUS(obey("pin 0"), STATUS_OK);
-    CHECK(!simulation_is_free(simulation));
-    end();
-    const char *held[] = {"hang", "drop", "squeeze", "bend", "tear"};
-    for (size_t i = 0; i < sizeof held / sizeof *held; i++) {
-        begin(held[i]);
-        CHECK(!simulation_is_free(&machine(0)->simulation));
-        end();
-    }
-}
-
-/* A step is taken again as it was made, and what was changed since is changed
- * once more: the energies beside it are those with the change. */
-TEST(energies_of_a_step_taken_again_have_its_changes)
-{
-    begin("square");
-    obey_all((const char *const[]){"next", "next", "set stiffness 150000",
-                                   "projection", NULL});
-    const History *history = &past_curves(&player.past, 0)->history;
-    double now = simulation_energies(player_simulation(&player), 0).total;
-    CHECK_NEAR(history->value[0][history->count - 1], now, 1e-9 * now);
-    end();
-}
-
-/* A step whose line search finds nothing, line by line: each line says what is
- * true of itself, and the verdict comes where the search gives up.  The test
- * after it shows the residual as it is, above the tolerance. */
-TEST(a_failed_search_is_no_convergence)
-{
-    int verdicts = 0, lines = 0;
-    begin("unprojected");
-    obey_all((const char *const[]){"finer", "finer", "next", NULL});
-    for (Line line = LINE_START; line != LINE_END; lines++) {
-        char number[16];
-        player_fill(&player);
-        const Trace *trace = player.show.pane[0].trace;
-        const char *sentence = player.show.sentence;
-        line = trace->line;
-        snprintf(number, sizeof number, "line %d:", (int)line);
-        bool verdict = strstr(sentence, "no small step") != NULL;
-        CHECK(verdict == trace->given_up);
-        CHECK(verdict || strncmp(sentence, number, strlen(number)) == 0);
-        CHECK(!trace->given_up || trace->slope > 0);
-        CHECK(!trace->given_up || !trace->accepted);
-        if (line == LINE_END) {
-            CHECK(trace->given_up && trace->residual > 0.01);
-            CHECK(trace->difference != NULL && verdicts == 1);
-        }
-        verdicts += verdict;
-        if (line != LINE_END)
-            CHECK_STATUS(obey("next"), STATUS_OK);
-    }
-    CHECK(lines > 10 && verdicts == 2);
-    player_simulation(&player);
-    obey_all((const char *const[]){"finer", NULL});
-    player_fill(&player);
-    CHECK(player.show.pane[0].trace->line == LINE_NONE);
-    CHECK(player.show.pane[0].trace->given_up);
-    CHECK(player.show.pane[0].trace->residual > 0.01);
-    end();
-    begin("square"); /* one that converges gives nothing up */
-    obey_all((const char *const[]){"next", NULL});
-    player_fill(&player);
-    CHECK(!player.show.pane[0].trace->given_up);
-    end();
-}
-
 /* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
  * with contact; what is drawn of the last test is a p that belongs there, or
  * none. */
@@ -284,155 +141,6 @@ TEST(the_curve_goes_through_the_step)
     }
 }
 
-/* The last round ends with the test: with a direction where one was made, also
- * without where a bound decides. */
-TEST(last_rounds_have_their_lines)
-{
-    int passed[2] = {0, 0};
-    begin("drop --segments 6");
-    for (int step = 0; step < 60; step++) {
-        static const char *const lines[2] = {"2347", "27"};
-        char line[9] = "";
-        CHECK_STATUS(obey("step"), STATUS_OK);
-        const Rounds *rounds = &machine(0)->rounds;
-        for (int i = 0; i < rounds->places && rounds->made.count > 0; i++)
-            if (rounds->place[i].round == rounds->made.count &&
-                rounds->place[i].line != LINE_END)
-                snprintf(line + strlen(line), 3, "%d", rounds->place[i].line);
-        if (rounds->made.count == 0)
-            continue;
-        assert_string_equal(line, lines[rounds->passed]);
-        passed[rounds->passed]++;
-    }
-    CHECK(passed[0] > 0 && passed[1] > 0);
-    end();
-}
-
-/* A point that is dragged changes the state of this step: what energies and
- * paths show of it is the state of now. */
-TEST(what_is_dragged_is_shown_as_it_is)
-{
-    begin("arrows --integrator forward-euler");
-    for (int step = 0; step < 3; step++) {
-        player_sample(&player);
-        CHECK_STATUS(obey("handle 0 0.5 0.25"), STATUS_OK);
-        CHECK_STATUS(obey("handle 1 1.5 2.25"), STATUS_OK);
-        player_sample(&player);
-        const Curves *curves = past_curves(&player.past, 0);
-        CHECK(curves->history.count == step + 1);
-        /* (0.5^2 + 0.25^2 + 1^2 + 2^2) / 2 */
-        CHECK_NEAR(curves->history.value[0][step], 2.65625, 0);
-        CHECK_NEAR(curves->history.value[2][step], 0.25, 0);
-        CHECK_STATUS(obey("next"), STATUS_OK);
-    }
-    end();
-}
-
-/* A pane that fails is not made good by the one after it. */
-TEST(every_pane_may_fail)
-{
-    begin("square --integrator forward-euler,backward-euler --steps 1000");
-    CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
-    CHECK(machine(0)->failed && !machine(1)->failed);
-    end();
-    begin("square --tolerance 1e-30,0.01");
-    CHECK(!player_unconverged(&player));
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    CHECK(machine(0)->simulation.unconverged == 1);
-    CHECK(machine(1)->simulation.unconverged == 0);
-    CHECK(player_unconverged(&player));
-    end();
-}
-
-/* A run of a given number of steps ends at its failure. */
-TEST(a_counted_run_ends_at_its_failure)
-{
-    begin("square --integrator forward-euler --steps 1000");
-    CHECK_STATUS(player_run(&player), STATUS_NOT_FINITE);
-    CHECK(!player_stands(&player) &&
-          player.past.step == past_newest(&player.past));
-    end();
-}
-
-/* Curves get each step once, however often it is drawn; a change at an old step
- * ends the time line there. */
-TEST(old_steps_are_neither_kept_twice_nor_for_ever)
-{
-    begin("square --segments 2");
-    obey_all((const char *const[]){"step", "step", "step", "back", NULL});
-    long count = past_curves(&player.past, 0)->history.calls;
-    player_sample(&player);
-    CHECK(count > 0 && past_curves(&player.past, 0)->history.calls == count);
-    CHECK(player.past.step == 2 && past_newest(&player.past) == 3);
-    CHECK_STATUS(obey("set stiffness 2e5"), STATUS_OK);
-    CHECK(player.past.step == 2 && past_newest(&player.past) == 2);
-    end();
-}
-
-/* The summary: no projection where there was none, and why the first step that
- * did not converge did not, whatever came after it. */
-TEST(the_summary_counts)
-{
-    char text[2048], expected[80];
-    begin("square --filter none --timestep 0.02 --stretch 0.5");
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    Status first = told(0, 1)->status;
-    obey_all((const char *const[]){"set timestep 1e-4", "set tolerance 1e-30",
-                                   "step", NULL});
-    CHECK(told(0, 2)->status > STATUS_OK);
-    CHECK(told(0, 2)->status != first);
-    FILE *file = fmemopen(text, sizeof text, "w");
-    CHECK(file != NULL);
-    summary_print(file, &player);
-    fclose(file);
-    NewtonCounters sum = simulation_counters(player_simulation(&player));
-    CHECK(sum.projected == 0 && sum.trials > 0);
-    CHECK(strstr(text, "springs projected") == NULL);
-    snprintf(expected, sizeof expected, " not converged 2, the first: %s\n",
-             status_name(first));
-    CHECK(status_is_unconverged(first) && strstr(text, expected) != NULL);
-    end();
-}
-
-/* Whether the summary after a step has this word at the start of a line. */
-static bool summary_has(const char *line, const char *words)
-{
-    char text[2048], wanted[80];
-    begin(line);
-    CHECK_STATUS(obey("step"), STATUS_OK);
-    FILE *file = fmemopen(text, sizeof text, "w");
-    CHECK(file != NULL);
-    summary_print(file, &player);
-    fclose(file);
-    CHECK(simulation_counters(player_simulation(&player)).projected > 0);
-    end();
-    snprintf(wanted, sizeof wanted, "\n%s ", words);
-    return strstr(text, wanted) != NULL;
-}
-
-/* What is counted as projected is called what it is: springs, or, where
- * contacts and cells have blocks too, blocks. */
-TEST(projections_have_their_name)
-{
-    static const char *const lines[] = {
-        "square --stretch 0.5", "drop --stretch 0.6 --filter clamp",
-        "square --stretch 0.6 --cells on --filter clamp",
-        "square --stretch 0.5 --damping 0.01"};
-    for (int n = 0; n < 4; n++) {
-        bool springs = n == 0 || n == 3;
-        CHECK(summary_has(lines[n], "springs projected") == springs);
-        CHECK(summary_has(lines[n], "blocks projected") == !springs);
-        begin(lines[n]);
-        Trace trace = {.line = LINE_PROJECT, .projected = 9};
-        Show show;
-        show_create(player_simulation(&player), &show);
-        show.pane[0].trace = &trace;
-        show_describe(&show);
-        CHECK(strstr(show.sentence, springs ? "9 of 72 springs" : "9 blocks"));
-        end();
-    }
-}
-
 static void give_up(int number)
 {
     stop = number;
@@ -450,18 +158,6 @@ TEST(scripts_wait_while_it_runs)
     end();
 }
 
-/* Where a window shows sixteen steps a frame, a run of ten makes ten. */
-TEST(many_steps_a_frame_end_in_time)
-{
-    begin("square --segments 2 --steps 10");
-    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
-    player.window = true;
-    player.speed = 4;
-    CHECK_STATUS(player_run(&player), STATUS_OK);
-    CHECK(player.past.step == 10);
-    end();
-}
-
 /* Frames until nothing is computed any more. */
 static void work_off(void)
 {
@@ -475,7 +171,7 @@ static void work_off(void)
  * the step as a whole. */
 TEST(a_long_step_is_made_in_slices)
 {
-    const char *line = "--segments 140 --solver newton";
+    const char *line = "--segments 110 --solver newton";
     Simulation plain;
     simulation_from_line(line, NULL, NULL, &plain);
     CHECK_STATUS(simulation_step(&plain), STATUS_OK);
@@ -507,34 +203,37 @@ TEST(a_long_step_is_made_in_slices)
     end();
 }
 
-/* Between two lines the square is where it was, then on its way, then where it
- * will be. */
-TEST(glides_begin_and_end_at_lines)
+static const History *history_now(void)
 {
-    enum { SIZE = 18 };
-    double before[SIZE], now[SIZE];
-    begin("square --segments 2");
-    player.window = true;
-    obey_all((const char *const[]){"finer", "finer", "next", "next", "next",
-                                   "next", "next", NULL});
-    player.glide = clock_now() - 1;
-    player_fill(&player);
-    CHECK(player.show.pane[0].trace->line == LINE_SEARCH && player.glide == 0);
-    memcpy(before, pane_x(&player.show.pane[0]), sizeof before);
-    CHECK_STATUS(obey("next"), STATUS_OK);   /* line 6 moves the square */
-    static const double ago[] = {0, 0.2, 1}; /* s */
-    for (int i = 0; i < 3; i++) {
-        /* 1 ... 0 and flat at both ends: a fifth of the time before the end
-         * about a tenth of the way is left. */
-        player.glide = clock_now() - ago[i];
-        player_fill(&player);
-        double rest = player.show.pane[0].trace->rest;
-        CHECK(i == 0 ? rest > 0.99 : i == 1 ? rest < 0.105 : rest == 0);
-        memcpy(now, pane_x(&player.show.pane[0]), sizeof now);
-        const double *to = machine(0)->rounds.round[1].x;
-        for (int k = 0; k < SIZE; k++)
-            CHECK_NEAR(now[k], to[k] + rest * (before[k] - to[k]), 1e-12);
+    static History history;
+    past_history(&player.past, 0, &history);
+    return &history;
+}
+
+/* Curves have the steps that are known, also of a long run the first and the
+ * newest, in order; a change at an old step ends them there, and undone they
+ * are as before. */
+TEST(curves_span_what_is_known)
+{
+    begin("square --segments 1 --stretch 1 --gravity 9.81");
+    for (int newest = 1; newest <= 2100; newest++) {
+        CHECK_STATUS(obey("step"), STATUS_OK);
+        if (newest % 300)
+            continue;
+        const History *history = history_now();
+        int count = history->count, pace = 1;
+        while (newest / pace > HISTORY_POINTS - 2)
+            pace *= 2;
+        CHECK(count == newest / pace + 1 && history->time[0] == 0);
+        for (int i = 0; i < count; i++)
+            CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
+    double before = history_now()->value[1][400];
+    obey_all((const char *const[]){"goto 30", "set stiffness 2e5", NULL});
+    CHECK(history_now()->count == 31);
+    obey_all((const char *const[]){"step", "undo", NULL});
+    CHECK(history_now()->count == 2100 / 4 + 1);
+    CHECK(history_now()->value[1][400] == before);
     end();
 }
 

@@ -7,20 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/scene.h"
 #include "scenes/state.h"
 
-enum { STEPS = 60 }; /* no multiple of 37 */
-
-/* Options of this command line. */
-static Options line_options(const char *line)
-{
-    Simulation simulation;
-    simulation_from_line(line, NULL, NULL, &simulation);
-    Options options = simulation.options;
-    simulation_free(&simulation);
-    return options;
-}
+enum { STEPS = 36 }; /* no multiple of 37 */
 
 /* The state after the next step; bytes [state_bytes] out. */
 static void step(Simulation *simulation, void *bytes)

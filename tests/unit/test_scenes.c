@@ -1,23 +1,11 @@
-/* Each scene shows what its sentence claims, with the numbers of the slides.
+/* The table of scenes, and the small ones among them, held to formulas written
+ * here once more.  (What pages say of them is test_pages' matter.)
  */
 #include "test.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "scenes/small_scenes.h"
-#include "scenes/scene.h"
-
-/* Of the circle: one turn a second, h = 0.02 s. */
-static const double HW = 0.02 * 6.283185307179586;
-
-static double radius(const Simulation *simulation, int run)
-{
-    const double *x = simulation->run[run].x;
-    return hypot(x[0], x[1]);
-}
 
 /* Steps until the scene is done, at most `limit`; the status of the last. */
 static Status run_to_end(Simulation *simulation, int limit)
@@ -57,119 +45,7 @@ TEST(scenes_are_complete)
     CHECK(scene_find("1") == scenes && scene_find("2") == scenes + 1);
 }
 
-/* ---- circle ------------------------------------------------------------- */
-
-/* |x| grows by sqrt(1 + (h w)^2) in a step of forward Euler, and shrinks by it
- * in backward Euler.  With s = sin(t/2) = h w/2 a step of symplectic Euler from
- * (1, 0) at speed w leads to x = cos(n t + t/2)/cos(t/2), y = sin(n
- * t)/cos(t/2), so |x|^2 = (1 - s sin(2 n t + t/2)) / (1 - s^2): between 1/(1 +
- * s) and 1/(1 - s), and near both. */
-TEST(euler_methods_go_out_in_and_around)
-{
-    double factor = sqrt(1 + HW * HW), s = HW / 2, low = 2, high = 0;
-    Simulation *simulation = simulate("circle");
-    CHECK(simulation->runs == 3);
-    CHECK_NEAR(radius(simulation, 0), 1, 0);
-    for (int i = 0; i < 20000; i++) {
-        double before[2] = {radius(simulation, 0), radius(simulation, 2)};
-        make_steps(simulation, 1);
-        double r = radius(simulation, 1);
-        low = fmin(low, r);
-        high = fmax(high, r);
-        if (i >= 2000)
-            continue;
-        CHECK_NEAR(radius(simulation, 0) / before[0], factor, 1e-12);
-        CHECK_NEAR(radius(simulation, 2) / before[1], 1 / factor, 1e-12);
-    }
-    CHECK_NEAR(low, 1 / sqrt(1 + s), 1e-5);
-    CHECK_NEAR(high, 1 / sqrt(1 - s), 1e-5);
-    CHECK(low >= 1 / sqrt(1 + s) - 1e-9 && high <= 1 / sqrt(1 - s) + 1e-9);
-}
-
-/* ---- overshoot ---------------------------------------------------------- */
-
-/* From x the full step leads to x - sinh(2 x)/2.  A line search, also one that
- * a key turns on in the middle, makes it converge; starts without a direction
- * are unconverged at once, the minimum is not. */
-TEST(overshoot_follows_its_closed_form)
-{
-    static const struct {
-        const char *line;
-        int full, updates; /* full steps at first; of them all, -1: some */
-        Status status;
-    } rows[] = {{"", 9, 2, STATUS_DIVERGED},
-                {"--start 1e300", 0, 0, STATUS_DIVERGED},
-                {"--start 0", 0, 0, STATUS_OK},
-                {"--start 0.5", 0, -1, STATUS_OK},
-                {"--line-search backtrack", 0, -1, STATUS_OK},
-                {"--line-search backtrack --start -9", 0, -1, STATUS_OK},
-                {"", 1, -1, STATUS_OK}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Simulation *simulation = simulate("overshoot %s", rows[i].line);
-        const Descent *descent = &simulation->descent;
-        if (rows[i].full == 1) {
-            simulation_step(simulation);
-            simulation_set(simulation, OPTION_SLOT(line_search),
-                           LINE_SEARCH_BACKTRACK);
-        }
-        CHECK_STATUS(run_to_end(simulation, 100), rows[i].status);
-        CHECK(rows[i].updates < 0 || rows[i].updates == descent->count);
-        for (int k = 0; k < descent->count; k++) {
-            const NewtonRecord *record = &descent->record[k];
-            Real x = record->from[0], to = x - sinhl(2 * x) / 2;
-            bool full = k < rows[i].full;
-            CHECK(full ? record->change > 0 : record->change < 0);
-            CHECK(record->step == k + 1 && record->iteration == k);
-            CHECK_NEAR(record->residual, fabsl(tanhl(x)), 1e-15L);
-            if (full)
-                CHECK_NEAR(record->to[0], to, 1e-12L * fabsl(to));
-        }
-        if (rows[i].status)
-            continue;
-        CHECK_NEAR(simulation->run[0].x[0], 0, 1e-10);
-        CHECK_NEAR(simulation->run[0].x[1], logl(2), 1e-15);
-        long steps = simulation->steps;
-        CHECK_STATUS(simulation_step(simulation), STATUS_OK);
-        CHECK(simulation->steps == steps); /* it is over */
-    }
-}
-
-/* ---- unprojected -------------------------------------------------------- */
-
-/* Without projection the first direction points uphill; with it, chosen at once
- * or by the key, every step converges. */
-TEST(projection_is_switched_while_running)
-{
-    Simulation *simulation = simulate("unprojected");
-    for (int i = 0; i < 3; i++) {
-        CHECK_STATUS(simulation_step(simulation), STATUS_NOT_DESCENT);
-        const NewtonRecord *record = &simulation->run[0].newton->record;
-        CHECK(record->slope > 0 && record->alpha == 0);
-        CHECK(record->projected == 0);
-    }
-    simulation_set(simulation, OPTION_SLOT(filter), FILTER_CLAMP);
-    make_steps(simulation, 50);
-    CHECK(simulation->unconverged == 3);
-    CHECK(simulation_counters(simulation).projected > 0);
-}
-
 /* ---- landscape ---------------------------------------------------------- */
-
-/* The raw direction at the start is uphill, the clamped one down; a key turns
- * it round on the spot, and a search that failed leaves it to be seen. */
-TEST(landscape_starts_where_newton_goes_uphill)
-{
-    Simulation *simulation = simulate("landscape --filter none");
-    for (int i = 0; i < 3; i++) {
-        simulation_set(simulation, OPTION_SLOT(filter),
-                       i % 2 ? FILTER_CLAMP : FILTER_NONE);
-        CHECK(i % 2 ? simulation->descent.slope < -0.1
-                    : simulation->descent.slope > 0.1);
-    }
-    CHECK_STATUS(run_to_end(simulation, 1), STATUS_NOT_DESCENT);
-    CHECK(simulation->descent.record[0].slope > 0);
-    CHECK(simulation->descent.slope > 0.1 && simulation->run[0].x[0] == 0.1);
-}
 
 /* E decreases from record to record, each begins where the last one ended, on
  * demand the Hessian is projected where it is not positive definite, and the
@@ -223,6 +99,142 @@ TEST(landscape_is_downhill_from_everywhere)
         free_all_begun();
     }
     CHECK(uphill > 5 && hollow > 100);
+}
+
+/* ---- one mass ----------------------------------------------------------- */
+
+/* The mass keeps its velocity and the tip its place where the other is dragged;
+ * the exact path is the ellipse from there, also after another method is
+ * chosen.  All runs follow. */
+TEST(mass_is_dragged)
+{
+    Simulation *scene = simulate("arrows"), *one;
+    double at[SCENE_MAX_HANDLES][2], now[2], later[2];
+    make_steps(scene, 1);
+    exhibit_drag(scene, 0, 0.25, -0.5);
+    exhibit_drag(scene, 1, 0.25 + 2, -0.5 + 3);
+    CHECK(exhibit_handles(scene, at) == 2);
+    CHECK(at[0][0] == 0.25 && at[1][1] == 2.5);
+    const double x[2] = {0.25, -0.5}, v[2] = {2, 3};
+    for (int run = 0; run < 3; run++) {
+        CHECK_SAME_BITS(scene->run[run].x, x, 2);
+        CHECK_SAME_BITS(scene->run[run].v, v, 2);
+    }
+    one = simulate("arrows --integrator forward-euler");
+    exhibit_drag(one, 0, 0.25, -0.5);
+    exhibit_drag(one, 1, 0.25 + 2, -0.5 + 3);
+    for (int changed = 0; changed < 2; changed++) {
+        Options other = one->options;
+        mass_exact(one, 0, now);
+        mass_exact(one, 0.5 * M_PI, later);
+        CHECK_SAME_BITS(now, x, 2);
+        for (int i = 0; i < 2; i++)
+            CHECK_NEAR(later[i], v[i], 1e-15);
+        make_steps(one, 1);
+        other.integrator =
+            integrator_method("symplectic-euler") - integrator_methods;
+        CHECK_STATUS(simulation_change(one, &other), STATUS_OK);
+    }
+}
+
+/* ---- two unknowns ------------------------------------------------------- */
+
+/* What is switched off is not minimised either: the part that is left falls in
+ * each update, to its own minimum, with every method. */
+TEST(landscape_minimises_what_it_shows)
+{
+    static const char *const lines[] = {
+        "landscape --start 0.6,0.9", "landscape --start 0.2,-0.3 --filter abs",
+        "landscape --start 0.6,0.9 --filter on-demand",
+        "landscape --start 0.6,0.9 --filter none",
+        "landscape --start 0.6,0.9 --filter none --line-search none"};
+    for (int i = 0; i < 10; i++) {
+        Simulation *scene = simulate("%s", lines[i / 2]);
+        const Descent *descent = &scene->descent;
+        bool off = i % 2;
+        make_steps(scene, 1);
+        exhibit_flip(scene, off);
+        unsigned part = off ? PART_INERTIA : PART_ELASTICITY;
+        CHECK(scene->exhibit.parts == part && descent->count == 0);
+        while (!scene->done) {
+            double before = descent->value;
+            make_steps(scene, 1);
+            CHECK(descent->value < before);
+        }
+        CHECK(!off || descent->count == 1);
+        CHECK_AT_MOST(descent->residual, scene->options.tolerance);
+        /* p <= h 1e-6, twice: E <= 10 p^2 */
+        const double *at = descent->point;
+        CHECK_AT_MOST(landscape_part_value(scene, part, at[0], at[1]), 1e-12);
+    }
+    /* both springs along x: elasticity alone has no H^-1 */
+    Simulation *flat = simulate("landscape --start 0.3,0");
+    exhibit_flip(flat, 0);
+    CHECK_STATUS(flat->status, STATUS_SINGULAR);
+    CHECK(flat->done && flat->descent.direction[0] == 0);
+}
+
+/* ---- the envelope ------------------------------------------------------- */
+
+static const EnvelopeCell *visit(Simulation *map, int column, int row)
+{
+    CHECK_STATUS(envelope_visit(map, column, row), STATUS_OK);
+    return &map->exhibit.map.cell[row][column];
+}
+
+/* A cell is the run that its command line makes. */
+TEST(envelope_cells_are_runs)
+{
+    static const int cells[6][2] = {{13, 11}, {20, 8},  {24, 21},
+                                    {0, 0},   {22, 21}, {24, 20}};
+    Simulation *map = simulate("envelope");
+    int refused = 0;
+    for (int i = 0; i < 6; i++) {
+        int column = cells[i][0], row = cells[i][1];
+        const EnvelopeCell *cell = visit(map, column, row);
+        Status worst = STATUS_OK;
+        Simulation *run =
+            simulate("square --segments %d --stretch %.17g --timestep %.17g "
+                     "--stiffness %.17g",
+                     (int)map->options.segments, map->options.stretch,
+                     envelope_timestep(column), envelope_stiffness(row));
+        for (int step = 0; step < ENVELOPE_STEPS; step++) {
+            Status status = simulation_step(run);
+            worst = status ? status : worst;
+        }
+        CHECK(cell->known);
+        CHECK_STATUS(cell->worst, worst);
+        refused += worst != STATUS_OK;
+        CHECK(cell->updates == simulation_counters(run).iterations);
+        CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
+    }
+    CHECK(refused >= 1); /* such cells are compared too */
+}
+
+/* ---- predict, then show ------------------------------------------------- */
+
+TEST(predictions_are_compared)
+{
+    Simulation *scene = simulate("arrows --integrator forward-euler");
+    const Prediction *guess = &scene->prediction;
+    simulation_predict(scene, 1.3, 0.9); /* it will be (1, 0.5) */
+    CHECK(guess->made && !guess->shown);
+    make_steps(scene, 1);
+    CHECK(guess->shown);
+    CHECK_NEAR(guess->distance, 0.5, 1e-15);
+    make_steps(scene, 1);
+    CHECK(!guess->made && !guess->shown);
+    /* along x alone: from 2 to 2 - sinh(4)/2 */
+    scene = simulate("overshoot");
+    simulation_predict(scene, -11, 123);
+    make_steps(scene, 1);
+    CHECK_NEAR(scene->prediction.distance, 0.644958598563875, 1e-12);
+    exhibit_drag(scene, 0, 1.5, NAN); /* x alone counts */
+    exhibit_drag(scene, 0, NAN, 1);
+    CHECK(scene->descent.point[0] == 1.5 && scene->steps == 0);
+    scene = simulate("square"); /* no single point */
+    simulation_predict(scene, 1, 1);
+    CHECK(!scene->prediction.made);
 }
 
 TESTS(NULL, NULL)

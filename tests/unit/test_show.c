@@ -6,13 +6,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
-#include "picture/handles.h"
-#include "picture/picture.h"
-#include "picture/plot.h"
 #include "picture/square_pen.h"
-#include "scenes/scene.h"
-#include "scenes/small_scenes.h"
 #include "test.h"
 
 /* ---- a scene after some steps, and what a player would show of it -------- */
@@ -30,18 +24,25 @@ static void set_size(int width, int height)
     layout = show_layout(&show, width, height);
 }
 
+static void sample(void)
+{
+    Energy row[HISTORY_SERIES];
+    int rows = show_sample(&simulation, row);
+    history_add(&history, simulation_time(&simulation), rows, row);
+}
+
 /* In the place of the one before. */
 static void stand_up(const char *line, int steps)
 {
     simulation_free(&simulation);
     simulation_from_line(line, NULL, NULL, &simulation);
     history_clear(&history);
-    show_sample(&simulation, &history);
+    sample();
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
         assert_true(!status || status_is_unconverged(status) ||
                     simulation.done);
-        show_sample(&simulation, &history);
+        sample();
     }
     show_create(&simulation, &show);
     show.pane[0].history = &history;
@@ -108,31 +109,6 @@ static bool picks(Pick pick, PickKind kind, int index)
 
 /* ---- all of a frame ------------------------------------------------------ */
 
-/* Two drawings of the same state are equal in every pixel; so is a second one
- * on the same paper, which has kept something. */
-TEST(frames_are_repeatable)
-{
-    for (const Scene *scene = scenes; scene->name; scene++) {
-        static uint32_t first[700 * 560];
-        Race race = {0}; /* measured run times */
-        for (int i = 0; i < 3; i++) {
-            if (i < 2)
-                stand_up(scene->name, 2);
-            if (i == 0)
-                race = simulation.exhibit.race;
-            simulation.exhibit.race = race;
-            if (i < 2)
-                set_size(700, 560);
-            show.closed = 0;
-            show_describe(&show);
-            draw();
-            if (i == 0)
-                memcpy(first, paper.canvas.pixels, sizeof first);
-            assert_memory_equal(paper.canvas.pixels, first, sizeof first);
-        }
-    }
-}
-
 /* Any size can be drawn of any scene, all there is at once, and blown-up
  * positions do no harm. */
 TEST(every_size_is_drawn)
@@ -174,19 +150,6 @@ TEST(a_bare_square_is_the_slide)
         CHECK((at & 255) == 255 && (at >> 8 & 255) == (at >> 16 & 255));
     }
     CHECK(on_stage(COLOUR_X) > 1000);
-}
-
-/* Nothing of the stage is drawn over the cards, however near it is seen. */
-TEST(the_stage_keeps_to_itself)
-{
-    const Box whole = {0, 0, 1280, 800};
-    stand_up("square", 0);
-    draw_without_words();
-    int before = on_stage(COLOUR_X);
-    show_zoom(&show, &layout, layout.stage.x + 200, 400, 5);
-    draw();
-    CHECK(on_stage(COLOUR_X) != before);
-    CHECK(count_colour(whole, COLOUR_X) == on_stage(COLOUR_X));
 }
 
 /* ---- what is seen -------------------------------------------------------- */
@@ -270,21 +233,6 @@ TEST(states_show_what_they_are)
     }
 }
 
-/* A spring that is gone is not drawn; what is held has a spring to the hand. */
-TEST(broken_springs_are_gone)
-{
-    stand_up("drop", 0);
-    draw();
-    int blue = on_stage(COLOUR_X);
-    simulation.system.breaks = true;
-    simulation.system.k[5] = 0;
-    draw();
-    CHECK(on_stage(COLOUR_X) < blue && on_stage(COLOUR_HAND) == 0);
-    show.hand = (Hand){.on = true, .target = {0.5, 1}};
-    draw();
-    CHECK(on_stage(COLOUR_HAND) > 20);
-}
-
 /* Cells below five pixels are faces: inside the outline each pixel is covered;
  * what has folded over is dark, and stands above the rest. */
 TEST(fine_squares_are_faces)
@@ -332,21 +280,6 @@ TEST(folds_are_counted)
     CHECK(pane_folded(&show.pane[0]) == 0);
     simulation.run[0].x[2 * 12] += 0.6; /* beyond its right neighbour */
     CHECK(pane_folded(&show.pane[0]) == 2);
-}
-
-/* Six panes side by side, each with its own square. */
-TEST(panes_are_drawn_apart)
-{
-    stand_up("square", 1);
-    show.pane[0].label = "pane";
-    show.panes = 6;
-    for (int p = 1; p < 6; p++)
-        show.pane[p] = show.pane[0];
-    draw();
-    int first = count_colour(layout.pane[0], COLOUR_X);
-    CHECK(first > 100);
-    for (int p = 1; p < 6; p++)
-        CHECK(count_colour(layout.pane[p], COLOUR_X) > first / 2);
 }
 
 /* Words on a pane keep apart: the card at the mouse hides the label of the
@@ -525,29 +458,6 @@ TEST(the_mouse_finds_nodes_and_springs)
         CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
 
-/* The landscape gives back the point that is drawn there. */
-TEST(maps_are_where_they_seem)
-{
-    stand_up("landscape --start 0.9,0.8 --tolerance 1e9", 0);
-    draw_without_words();
-    Camera camera = show_camera(&show, &layout, 0);
-    double at[2], sum[3] = {0};
-    camera_pixel(&camera, (const double[2]){0.9, 0.8}, at);
-    for (int j = (int)at[1] - 30; j < at[1] + 30; j++)
-        for (int i = (int)at[0] - 30; i < at[0] + 30; i++)
-            if (pixel(i, j) == COLOUR_TEXT) {
-                sum[0] += i + 0.5;
-                sum[1] += j + 0.5;
-                sum[2] += 1;
-            }
-    CHECK(sum[2] > 50);
-    Pick pick = show_pick(&show, &layout, sum[0] / sum[2], sum[1] / sum[2]);
-    CHECK(picks(pick, PICK_HANDLE, 1));
-    CHECK_NEAR(pick.point[0], 0.9, 0.01);
-    CHECK_NEAR(pick.point[1], 0.8, 0.01);
-    CHECK(show_pick(&show, &layout, 300, 350).kind == PICK_PLACE);
-}
-
 /* ---- contact ------------------------------------------------------------- */
 
 /* Two of the slopes let the body slide, the third holds it, and words say so
@@ -589,7 +499,8 @@ TEST(contacts_slide_or_hold)
     }
 }
 
-/* ---- what is written and plotted ---------------------------------------- */
+/* ---- what is written ------------------------------------------------------
+ */
 
 /* Every text of a frame. */
 static char written[500][160];
@@ -608,48 +519,10 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Every line of a plot in the units of its axes. */
-static struct Stroke {
-    double a[2], b[2];
-    Colour colour;
-} plotted[4000];
-static int lines;
-
-void __real_plot_line(const Plot *plot, const double *a, const double *b,
-                      double width, Colour colour);
-void __wrap_plot_line(const Plot *plot, const double *a, const double *b,
-                      double width, Colour colour);
-
-void __wrap_plot_line(const Plot *plot, const double *a, const double *b,
-                      double width, Colour colour)
-{
-    if (lines < 4000)
-        plotted[lines++] = (struct Stroke){{a[0], a[1]}, {b[0], b[1]}, colour};
-    __real_plot_line(plot, a, b, width, colour);
-}
-
-/* A graph as 300 lines. */
-void __real_plot_graph(const Plot *plot, double (*y)(const void *, double),
-                       const void *data, double width, Colour colour);
-void __wrap_plot_graph(const Plot *plot, double (*y)(const void *, double),
-                       const void *data, double width, Colour colour);
-
-void __wrap_plot_graph(const Plot *plot, double (*y)(const void *, double),
-                       const void *data, double width, Colour colour)
-{
-    double pace = (plot->x.high - plot->x.low) / 300;
-    for (int i = 0; i < 300 && lines < 4000; i++) {
-        double x = plot->x.low + i * pace;
-        plotted[lines++] = (struct Stroke){
-            {x, y(data, x)}, {x + pace, y(data, x + pace)}, colour};
-    }
-    __real_plot_graph(plot, y, data, width, colour);
-}
-
 /* Whether a text of the frame that is drawn now begins so. */
 static bool is_drawn(const char *text)
 {
-    writings = lines = 0;
+    writings = 0;
     draw();
     for (int i = 0; i < writings; i++)
         if (strncmp(written[i], text, strlen(text)) == 0)
@@ -689,55 +562,6 @@ TEST(notes_tell_of_nodes_and_springs)
         show.hover = rows[i].hover;
         if (is_drawn(rows[i].text) != rows[i].told)
             fail_msg("%s: %s", rows[i].line, rows[i].text);
-    }
-}
-
-/* The tangent of g is 0 where the update goes, and the parabola, which E has in
- * common with it at the start, is lowest there. */
-TEST(tangents_lead_to_the_next_iterate)
-{
-    const Simulation *after = make_steps(simulate("tangent"), 1);
-    const double next = after->descent.point[0];
-    char text[80];
-    stand_up("tangent", 0);
-    const double x = simulation.descent.point[0];
-    const double E = descent_value(&simulation, x, 0);
-    snprintf(text, sizeof text, "x^{1} = %.8g", next);
-    CHECK(is_drawn(text));
-    int first = 0;
-    while (first < lines && plotted[first].colour != COLOUR_P)
-        first++;
-    const double *a = plotted[first].a, *b = plotted[first].b;
-    CHECK_NEAR(a[0] - a[1] * (b[0] - a[0]) / (b[1] - a[1]), next, 1e-12);
-    const double *near = NULL, *low = NULL;
-    for (int i = first + 1; i < lines && plotted[i].colour == COLOUR_P; i++) {
-        const double *end = plotted[i].b;
-        near = !near || fabs(end[0] - x) < fabs(near[0] - x) ? end : near;
-        low = !low || end[1] < low[1] ? end : low;
-    }
-    const double pace = plotted[first + 1].b[0] - plotted[first + 1].a[0];
-    double slope = descent_at(&simulation, FILTER_NONE, x, 0).g[0];
-    CHECK_NEAR(low[0], next, 0.51 * pace);
-    CHECK_NEAR(near[1], E + slope * (near[0] - x), 10 * pace * pace);
-}
-
-/* The first, second, third time, and so on. */
-TEST(times_are_counted_in_words)
-{
-    static const char *const words[] = {"1st",  "2nd",  "3rd",  "4th",
-                                        "11th", "12th", "13th", "21st",
-                                        "22nd", "23rd", "111th"};
-    stand_up("square", 0);
-    Trace trace = {.line = LINE_DO};
-    show.pane[0].trace = &trace;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        char sentence[80];
-        trace.iteration = atoi(words[i]) - 1;
-        show.sentence[0] = '\0';
-        show_describe(&show);
-        snprintf(sentence, sizeof sentence,
-                 "line 2: the loop begins for the %s time", words[i]);
-        assert_string_equal(show.sentence, sentence);
     }
 }
 
@@ -812,28 +636,6 @@ TEST(ends_and_methods_have_their_names)
                         "the gradient is 0, but this is a maximum");
 }
 
-/* The residual of a search that has ended is the one that passed. */
-TEST(the_last_residual_passes)
-{
-    static const char *const searches[] = {
-        "landscape", "landscape --filter none --line-search none", "tangent",
-        "overshoot --line-search backtrack"};
-    for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
-        DescentTrace space;
-        stand_up(searches[i], 0);
-        const Descent *descent = &simulation.descent;
-        while (!simulation.done) {
-            double before = pane_trace(&show.pane[0], &space)->residual;
-            CHECK(before > simulation.options.tolerance);
-            simulation_step(&simulation);
-            CHECK_NEAR(descent->record[descent->count - 1].residual, before,
-                       1e-9 * before);
-        }
-        CHECK_AT_MOST(pane_trace(&show.pane[0], &space)->residual,
-                      simulation.options.tolerance);
-    }
-}
-
 /* ---- cards --------------------------------------------------------------- */
 
 /* Values, estimates and bounds of residuals look different, and where there are
@@ -869,14 +671,15 @@ TEST(kinds_of_residuals_are_told_apart)
  * ten is a logarithmic one. */
 TEST(energies_before_an_explosion_are_seen)
 {
-    double joule, last, later[HISTORY_SERIES], least = INFINITY;
+    double joule, last, least = INFINITY;
+    Energy later[HISTORY_SERIES];
     stand_up("square", 6);
     double now = simulation_time(&simulation);
     double total = history.value[0][history.count - 1];
     double before = energies_axis(&show, &joule, &last).high * joule;
     for (int s = 0; s < history.series; s++)
-        later[s] = 1e298;
-    history_add(&history, now + 0.1, later);
+        later[s] = (Energy){history.name[s], 1e298};
+    history_add(&history, now + 0.1, history.series, later);
     CHECK(energies_value(&simulation, &history, 0, now) == total);
     Axis axis = energies_axis(&show, &joule, &last);
     CHECK(!axis.log && axis.high * joule <= before &&
@@ -899,78 +702,6 @@ TEST(energies_before_an_explosion_are_seen)
     CHECK(least > 0 && least < 1e-6);
 }
 
-/* One colour a method, here and there; and what is a unit but for rounding is
- * called by it. */
-TEST(energies_have_colours_and_units)
-{
-    stand_up("arrows", 6);
-    draw();
-    Box card = layout.card[picture_card(&mass_picture, "energies")];
-    for (int r = 0; r < 3; r++) {
-        Colour colour = colour_of_method(simulation.run[r].method->name);
-        CHECK(count_colour(card, colour) > 20 && on_stage(colour) > 50);
-    }
-    stand_up("arrows --integrator midpoint", 3);
-    history.value[0][history.count - 1] = 0.99999999;
-    CHECK(is_drawn("implicit midpoint 1 J"));
-}
-
-/* Seven kinds of energy in a small card leave room for their curves: light
- * lines across are at most so far up as the plot is. */
-TEST(a_legend_leaves_room_for_curves)
-{
-    stand_up("dent", 60);
-    draw();
-    Box card = layout.card[picture_card(&square_picture, "energies")];
-    int top = card.y + 2;
-    while (top < card.y + card.height &&
-           count_colour((Box){card.x + 2, top, card.width - 4, 1},
-                        COLOUR_GRID) <= card.width / 3)
-        top++;
-    CHECK(top < card.y + 0.55 * card.height);
-}
-
-/* Above the diagonal are the springs, below it what a factor has: eliminating a
- * node joins all its later neighbours. */
-TEST(the_pattern_is_that_of_the_factor)
-{
-    enum { N = 81, SIDE = 10 * N };
-    static bool matrix[N][N], factor[N][N];
-    stand_up("square --segments 8", 0);
-    set_size(SIDE, SIDE);
-    const System *system = &simulation.system;
-    CHECK(system->nodes == N);
-    for (int s = 0; s < system->springs; s++) {
-        int i = system->order[system->e[2 * s]];
-        int j = system->order[system->e[2 * s + 1]];
-        matrix[i][j] = matrix[j][i] = factor[i][j] = factor[j][i] = true;
-    }
-    for (int k = 0; k < N; k++)
-        for (int i = k + 1; i < N; i++)
-            for (int j = k + 1; j < N; j++)
-                factor[i][j] = factor[i][j] || (factor[i][k] && factor[k][j]);
-    card_spy.draw(&paper, (Box){0, 0, SIDE, SIDE}, &show);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++) {
-            bool there = i == j || (i < j ? matrix : factor)[i][j];
-            CHECK(there == (pixel(10 * j + 5, 10 * i + 5) != COLOUR_WHITE));
-        }
-}
-
-/* Cards about updates promise none where a method makes none. */
-TEST(explicit_methods_promise_no_updates)
-{
-    static const char *const methods[] = {
-        "square", "square --integrator bdf2", "landscape",
-        "square --integrator forward-euler", "square --integrator verlet"};
-    for (int i = 0; i < 5; i++) {
-        stand_up(methods[i], 0);
-        char words[SHOW_TEXT] = "";
-        text_say(&show, "{explicit}none\nsome", words, sizeof words);
-        assert_string_equal(words, i > 2 ? "none" : "some");
-    }
-}
-
 /* Every card of every picture has a name of its own, and they fit. */
 TEST(cards_have_names)
 {
@@ -981,53 +712,6 @@ TEST(cards_have_names)
         for (int c = 0; c < count; c++)
             CHECK(picture_card(picture, picture->cards[c]->name) == c);
         CHECK(picture_card(picture, "nothing") == -1);
-    }
-}
-
-static bool boxes_meet(Box a, Box b)
-{
-    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
-           b.y < a.y + a.height;
-}
-
-/* On each side of the body where there is room, and inside the stage where
- * there is none. */
-TEST(notes_stand_beside_the_body)
-{
-    static const Box bodies[] = {{20, 20, 200, 360},
-                                 {200, 20, 190, 360},
-                                 {20, 20, 360, 200},
-                                 {20, 180, 360, 200},
-                                 {0, 0, 400, 400}};
-    Plot stage = {.paper = &paper, .box = {0, 0, 400, 400}, .em = 10};
-    stand_up("square", 0);
-    for (int i = 0; i < 5; i++) {
-        Box body = bodies[i];
-        Box note = plot_note(&stage, body.x + 20, body.y + 20, 100, 100, body);
-        CHECK(boxes_meet(note, body) == (i == 4));
-        CHECK(note.x > 0 && note.y > 0 && note.x + note.width < 400 &&
-              note.y + note.height < 400);
-    }
-}
-
-/* The widest number of an axis has room left of it; the unit of one that is
- * too low for it is left out. */
-TEST(numbers_of_axes_have_room)
-{
-    const Axis x = {0, 1, false, false, "t in s"};
-    const Axis y = {-4e298, 4e298, false, false, "J"};
-    stand_up("square", 0);
-    Plot plot = plot_create(&paper, (Box){100, 0, 300, 300}, x, y);
-    int wide = paper_width(&paper, FACE_REGULAR, 0.82, "\u22124\u00b710^{298}");
-    CHECK(plot.box.x >= 100 + wide && plot.box.x < 100 + 2 * wide);
-    CHECK(plot.box.x + plot.box.width <= 400);
-    for (int low = 0; low < 2; low++) {
-        canvas_clear(&paper.canvas, COLOUR_WHITE);
-        plot = plot_create(&paper, (Box){0, 0, 300, low ? 40 : 80}, x,
-                           (Axis){0, 1, false, false, "kJ"});
-        Box corner = {plot.box.x + plot.box.width - 30, 0, 32,
-                      plot.box.y + plot.box.height};
-        CHECK((count_colour(corner, COLOUR_TEXT) == 0) == low);
     }
 }
 

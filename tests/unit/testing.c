@@ -1,6 +1,5 @@
 #include "testing.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -194,14 +193,20 @@ Status parse_line(const char *line, int pane, Options *options, char *message)
     return options_parse(argc, argv, pane, options, message, 512);
 }
 
-void simulation_from_line(const char *line, NewtonObserver observer, void *user,
-                          Simulation *simulation)
+Options line_options(const char *line)
 {
     char message[512];
     Options options;
     if (parse_line(line, 0, &options, message))
         print_error("%s\n", message);
     CHECK(message[0] == '\0');
+    return options;
+}
+
+void simulation_from_line(const char *line, NewtonObserver observer, void *user,
+                          Simulation *simulation)
+{
+    const Options options = line_options(line);
     CHECK_STATUS(simulation_create(&options, observer, user, simulation),
                  STATUS_OK);
 }

@@ -89,6 +89,9 @@ void dense_from_sparse(const Sparse *A, double *dense);
  * empty one.  message [512] out */
 Status parse_line(const char *line, int pane, Options *options, char *message);
 
+/* Options of this command line, which is a good one. */
+Options line_options(const char *line);
+
 /* The simulation that this line sets up; free it with simulation_free. */
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);

@@ -1,0 +1,58 @@
+/* boundary.h - the boundary of all that is solid, and which of its points come
+ * near which of its edges.
+ *
+ *     d-----c      A cell gives both triangles of a diagonal where both are
+ *     |   / |      solid (their three springs are whole): abd and cdb, else bca
+ *     | /   |      and dac; else the first one that is solid.  A side that has
+ *     a-----b      one triangle is an edge; its ends, and nodes of no triangle,
+ *                  are points.  Springs without triangles are threads: nothing
+ *                  meets them.
+ *
+ * Boxes hold what points and edges pass; the edges' are sorted by their left
+ * side, and a point looks from the widest edge before it to its own right side.
+ */
+#ifndef ELASTO_BOUNDARY_H
+#define ELASTO_BOUNDARY_H
+
+#include "model/square_mesh.h"
+#include "model/system.h"
+
+/* m, what a point or an edge fills on its way; the coordinate along which all
+ * together are longer comes first. */
+typedef struct Box2 {
+    double low[2], high[2];
+    int edge; /* whose it is, a spring; not used of points */
+} Box2;
+
+typedef struct Boundary {
+    SquareMesh shape;     /* without arrays */
+    unsigned version;     /* of the system, that it is of */
+    int points, edges;    /* how many */
+    int *point;           /* [nodes] nodes */
+    Box2 *box;            /* [springs] of the edges, sorted */
+    unsigned char *sides; /* [springs] triangles on it */
+    unsigned char *role;  /* [nodes] */
+    /* The way that the boxes are of: from x along alpha p less its mean, and
+     * this much more around; widest of the edges' boxes. */
+    const double *x, *p;
+    double alpha, mean[2], margin, widest;
+    bool upright; /* that is y */
+    Box2 own;     /* of the point that looks */
+} Boundary;
+
+/* Bytes of all arrays; and puts them there. */
+size_t boundary_bytes(const SquareMesh *mesh);
+void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary);
+
+/* Makes the boxes of x [2n] along alpha p [2n], NULL: of x alone, each wider by
+ * `margin`, m, at all sides; and finds the boundary, if springs have changed.
+ * x, p must stay until the last boundary_next. */
+void boundary_sort(Boundary *boundary, const System *system, const double *x,
+                   const double *p, double alpha, double margin);
+
+/* The next edge that point i (a number of `point`) may meet.
+ *   place  in/out, 0: before the first
+ * Returns a spring; or -1, and place is 0 again. */
+int boundary_next(Boundary *boundary, const System *system, int i, int *place);
+
+#endif

@@ -1,0 +1,76 @@
+/* table.h - rows of numbers as a file.  The end of its name says how:
+ *
+ *   .npz    an array for each column, for numpy.load: where every step has as
+ *           many rows [step, place], of time [step], of a node's number
+ *           [place]; else [row]
+ *   .pvd    the list of a folder's steps, for ParaView (vtk.h)
+ *   others  CSV: a line of names, then a line a row; 17 digits, so that who
+ *           reads them has the same double
+ * CSV is written as it comes, the others at the end, out of a file that has no
+ * name.
+ */
+#ifndef ELASTO_TABLE_H
+#define ELASTO_TABLE_H
+
+#include "play/output.h"
+
+enum { TABLE_COLUMNS = 32, TABLE_LETTERS = 16 }; /* at most */
+
+typedef struct Table {
+    Output output;
+    const struct TableFormat *format; /* NULL: CSV */
+    FILE *rows; /* with a format: [columns] doubles each */
+    int columns;
+    struct {
+        char name[TABLE_LETTERS];
+        char kind; /* 'w'hole, 'p'lace, 't'ext; 0: a number */
+    } column[TABLE_COLUMNS];
+    const char *(*text)(const char *column, int place); /* the texts */
+} Table;
+
+/* Adds columns: names with commas between them.  Behind one there may be :whole
+ * (a whole number, below 0: CSV has nothing there), :place (the same, of a node
+ * or a spring: alike in all steps), :text (the place of a text).  The first
+ * column is the step, which does not fall, the next one its time where there
+ * are places. */
+void table_columns(Table *table, const char *names);
+
+/* Opens it; CSV has its line of names then.
+ * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
+Status table_open(const char *name, Table *table);
+
+/* Whether it is open. */
+bool table_is_open(const Table *table);
+
+/* One row, value [columns]; whether it could be written table_check says. */
+void table_add(Table *table, const double *value);
+
+/* FILE_FAILED if something could not be written so far, else OK. */
+Status table_check(const Table *table);
+
+/* Takes back the rows of later steps; of all, and the names, where last is
+ * below 0: then the columns may be others.  Returns OK, FILE_FAILED. */
+Status table_cut(Table *table, long last);
+
+/* Writes the rest and gives the file its name (output_close), or leaves it as
+ * NAME.part where it is put aside; OK too if it is not open. */
+Status table_close(Table *table, bool aside);
+
+/* Closes it without a trace. */
+void table_discard(Table *table);
+
+/* Goes through the rows of a table with a format: row [columns] out, from the
+ * first one after `rewind(table->rows)`.  Returns false behind the last. */
+bool table_next(const Table *table, double *row);
+
+/* ---- formats ------------------------------------------------------------ */
+
+typedef struct TableFormat {
+    const char *end; /* of the name */
+    void (*write)(const Table *table, FILE *file);
+} TableFormat;
+
+void npz_write(const Table *table, FILE *file);
+void pvd_write(const Table *table, FILE *file);
+
+#endif

@@ -1,0 +1,182 @@
+#include "model/boundary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t boundary_bytes(const SquareMesh *mesh)
+{
+    size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
+    return springs * (sizeof(Box2) + 1) + nodes * (sizeof(int) + 1);
+}
+
+void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
+{
+    *boundary = (Boundary){.shape = *mesh, .version = ~0u};
+    boundary->shape.x = NULL;
+    boundary->shape.e = boundary->shape.order = NULL;
+    boundary->box = bytes;
+    boundary->point = (int *)(boundary->box + mesh->springs);
+    boundary->sides = (unsigned char *)(boundary->point + mesh->nodes);
+    boundary->role = boundary->sides + mesh->springs;
+}
+
+/* ---- what is solid ------------------------------------------------------ */
+
+enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
+
+static bool is_solid(const Boundary *boundary, const System *system, int t)
+{
+    int node[3], side[3];
+    square_mesh_triangle(&boundary->shape, t, node, side);
+    return !spring_is_broken(system, side[0]) &&
+           !spring_is_broken(system, side[1]) &&
+           !spring_is_broken(system, side[2]);
+}
+
+static void take_triangle(Boundary *boundary, int t)
+{
+    int node[3], side[3];
+    square_mesh_triangle(&boundary->shape, t, node, side);
+    for (int k = 0; k < 3; k++) {
+        boundary->role[node[k]] |= IN_A_TRIANGLE;
+        boundary->sides[side[k]]++;
+    }
+}
+
+/* Triangle 4 c + k is corner k of cell c: opposite corners share a diagonal. */
+static void take_cell(Boundary *boundary, const System *system, int c)
+{
+    int solid = 0;
+    for (int k = 0; k < 4; k++)
+        solid |= is_solid(boundary, system, 4 * c + k) << k;
+    int pair = (solid & 5) == 5 ? 5 : (solid & 10) == 10 ? 10 : solid;
+    for (int k = 0, taken = 0; k < 4; k++)
+        if (pair >> k & 1 && (pair == 5 || pair == 10 || !taken++))
+            take_triangle(boundary, 4 * c + k);
+}
+
+static void find_boundary(Boundary *boundary, const System *system)
+{
+    const SquareMesh *shape = &boundary->shape;
+    memset(boundary->sides, 0, (size_t)shape->springs);
+    memset(boundary->role, 0, (size_t)shape->nodes);
+    boundary->points = boundary->edges = 0;
+    for (int c = 0; c < shape->cells; c++)
+        take_cell(boundary, system, c);
+    for (int s = 0; s < shape->springs; s++) {
+        if (boundary->sides[s] != 1)
+            continue;
+        boundary->box[boundary->edges++].edge = s;
+        for (int end = 0; end < 2; end++)
+            boundary->role[system->e[2 * s + end]] |= ON_AN_EDGE;
+    }
+    for (int i = 0; i < shape->nodes; i++)
+        if (boundary->role[i] != IN_A_TRIANGLE)
+            boundary->point[boundary->points++] = i;
+    boundary->version = system->version;
+}
+
+/* ---- who comes near whom ------------------------------------------------ */
+
+static void widen(Box2 *box, int k, double from, double to)
+{
+    box->low[k] = from < box->low[k] ? from : box->low[k];
+    box->high[k] = to > box->high[k] ? to : box->high[k];
+}
+
+/* What a node passes, without the motion that all have in common. */
+static void add_node(const Boundary *boundary, int node, Box2 *box)
+{
+    const double *p = boundary->p, *mean = boundary->mean;
+    for (int c = 0; c < 2; c++) {
+        double x = boundary->x[2 * node + c], margin = boundary->margin;
+        double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
+        widen(box, boundary->upright ? 1 - c : c,
+              x - margin + (way < 0 ? way : 0),
+              x + margin + (way > 0 ? way : 0));
+    }
+}
+
+static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
+
+/* Equal ones by number: the order is one of x alone. */
+static int by_left_side(const void *one, const void *other)
+{
+    const Box2 *a = one, *b = other;
+    if (a->low[0] != b->low[0])
+        return a->low[0] < b->low[0] ? -1 : 1;
+    return a->edge - b->edge;
+}
+
+void boundary_sort(Boundary *boundary, const System *system, const double *x,
+                   const double *p, double alpha, double margin)
+{
+    if (boundary->version != system->version)
+        find_boundary(boundary, system);
+    boundary->x = x;
+    boundary->p = p;
+    boundary->alpha = alpha;
+    boundary->margin = margin;
+    boundary->widest = boundary->mean[0] = boundary->mean[1] = 0;
+    Box2 all = nothing;
+    for (int i = 0; i < boundary->points; i++) {
+        int node = boundary->point[i];
+        for (int c = 0; c < 2; c++) {
+            widen(&all, c, x[2 * node + c], x[2 * node + c]);
+            if (p)
+                boundary->mean[c] += p[2 * node + c] / boundary->points;
+        }
+    }
+    boundary->upright = all.high[1] - all.low[1] > all.high[0] - all.low[0];
+    for (int k = 0; k < boundary->edges; k++) {
+        Box2 *box = &boundary->box[k];
+        int s = box->edge;
+        *box = nothing;
+        box->edge = s;
+        add_node(boundary, system->e[2 * s], box);
+        add_node(boundary, system->e[2 * s + 1], box);
+        double wide = box->high[0] - box->low[0];
+        boundary->widest = wide > boundary->widest ? wide : boundary->widest;
+    }
+    qsort(boundary->box, (size_t)boundary->edges, sizeof *boundary->box,
+          by_left_side);
+}
+
+/* The first edge that may end behind this. */
+static int first_edge(const Boundary *boundary, double left)
+{
+    int low = 0, high = boundary->edges;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (boundary->box[middle].low[0] < left - boundary->widest)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+int boundary_next(Boundary *boundary, const System *system, int i, int *place)
+{
+    int node = boundary->point[i];
+    Box2 *own = &boundary->own;
+    int k = *place;
+    if (k == 0) {
+        *own = nothing;
+        add_node(boundary, node, own);
+        k = first_edge(boundary, own->low[0]);
+    }
+    for (; k < boundary->edges && boundary->box[k].low[0] <= own->high[0];
+         k++) {
+        const Box2 *box = &boundary->box[k];
+        const int *end = system->e + 2 * box->edge;
+        if (box->low[1] > own->high[1] || box->high[1] < own->low[1] ||
+            box->high[0] < own->low[0] || end[0] == node || end[1] == node)
+            continue;
+        *place = k + 1;
+        return box->edge;
+    }
+    *place = 0;
+    return -1;
+}

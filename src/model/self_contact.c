@@ -1,0 +1,398 @@
+#include "model/self_contact.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/area.h"
+#include "model/barrier.h"
+
+static SelfContact *data_of(const Place *at)
+{
+    return at->term->data;
+}
+
+static double dot(const double a[2], const double b[2])
+{
+    return a[0] * b[0] + a[1] * b[1];
+}
+
+/* ---- blocks of the matrix ----------------------------------------------- */
+
+static int compare(const void *one, const void *other)
+{
+    const SelfPair *a = one, *b = other;
+    return a->node != b->node ? a->node - b->node : a->edge - b->edge;
+}
+
+/* The block of a pair, or -1: it has none. */
+static int block_of(const SelfContact *self, SelfPair pair)
+{
+    const SelfPair *found =
+        self->pairs == 0 ? NULL
+                         : bsearch(&pair, self->pair, (size_t)self->sorted,
+                                   sizeof pair, compare);
+    for (int i = self->sorted; i < self->pairs && !found; i++)
+        if (compare(&self->pair[i], &pair) == 0)
+            found = &self->pair[i];
+    return found ? (int)(found - self->pair) : -1;
+}
+
+static Status add_pair(SelfContact *self, SelfPair pair)
+{
+    if (self->pairs == self->room) {
+        int room = 2 * self->room + 64;
+        SelfPair *more = realloc(self->pair, (size_t)room * sizeof *more);
+        if (!more)
+            return STATUS_OUT_OF_MEMORY;
+        self->pair = more;
+        self->room = room;
+    }
+    self->pair[self->pairs++] = pair;
+    return STATUS_OK;
+}
+
+/* The pairs that come near if all go on as they do get blocks; the list is made
+ * of x_n and v_n alone, so that a step knows nothing of those before it. */
+static Status begin(Term *term, System *system, const double *x_n,
+                    const double *v_n, double h)
+{
+    SelfContact *self = term->data;
+    Boundary *boundary = &self->boundary;
+    int old = self->pairs, edge, place = 0;
+    bool grown = old > self->sorted;
+    Status status = STATUS_OK;
+    boundary_sort(boundary, system, x_n, v_n, h, self->d_hat);
+    for (int i = 0; i < boundary->points && !status; i++)
+        while (!status &&
+               (edge = boundary_next(boundary, system, i, &place)) >= 0)
+            status = add_pair(self, (SelfPair){boundary->point[i], edge});
+    int count = self->pairs - old;
+    SelfPair *fresh = self->pair + old;
+    self->pairs = old;
+    if (status || count + old == 0)
+        return status;
+    qsort(fresh, (size_t)count, sizeof *fresh, compare);
+    size_t bytes = (size_t)count * sizeof *fresh;
+    if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0)
+        system_changed(system, true);
+    memmove(self->pair, fresh, bytes);
+    self->pairs = self->sorted = count;
+    return STATUS_OK;
+}
+
+static Status grow(const Place *at, bool *grown)
+{
+    SelfContact *self = data_of(at);
+    Status status = STATUS_OK;
+    for (ElementWalk walk = elements_from(at, NULL, 0);
+         !status && elements_next(&walk);)
+        if (walk.element.block < 0) {
+            *grown = true;
+            status = add_pair(
+                self, (SelfPair){walk.element.node[0], walk.element.from});
+        }
+    return status;
+}
+
+static int blocks(const Place *at)
+{
+    return data_of(at)->pairs;
+}
+
+static int nodes_of(const System *system, SelfPair pair, int node[3])
+{
+    node[0] = pair.node;
+    node[1] = system->e[2 * pair.edge];
+    node[2] = system->e[2 * pair.edge + 1];
+    return 3;
+}
+
+static int nodes(const Place *at, int block, int node[3])
+{
+    const SelfContact *self = data_of(at);
+    return self->pairs == 0 ? 0 : nodes_of(at->system, self->pair[block], node);
+}
+
+/* ---- elements ----------------------------------------------------------- */
+
+static void look(const Place *at, const double *p, double alpha)
+{
+    SelfContact *self = data_of(at);
+    boundary_sort(&self->boundary, at->system, at->x, p, alpha,
+                  0.5 * self->d_hat);
+}
+
+static int count(const Place *at)
+{
+    return data_of(at)->boundary.points;
+}
+
+/* d^2/d_hat^2, n and r from q and e. */
+static void measure(const SelfContact *self, Element *element)
+{
+    const double *q = element->v, *e = element->v + 2;
+    double along = dot(q, e), length2 = dot(e, e), d;
+    if (along > 0 && along < length2) {
+        double length = sqrt(length2), side = cross(e, q);
+        double sign = copysign(1 / length, side);
+        d = fabs(side) / length;
+        element->r = along / length2;
+        element->n[0] = -sign * e[1];
+        element->n[1] = sign * e[0];
+    } else {
+        element->r = along > 0;
+        element->n[0] = q[0] - element->r * e[0];
+        element->n[1] = q[1] - element->r * e[1];
+        d = sqrt(dot(element->n, element->n));
+        element->n[0] /= d;
+        element->n[1] /= d;
+    }
+    element->s = (d / self->d_hat) * (d / self->d_hat);
+}
+
+/* Point i and, where it is asked for again, the next edge.  `way` is in the
+ * boxes; without one what is not near has no force. */
+static bool get(const Place *at, int i, double way, Element *element)
+{
+    static const double differences[2][3] = {{1, -1, 0}, {0, -1, 1}};
+    SelfContact *self = data_of(at);
+    Boundary *boundary = &self->boundary;
+    int edge;
+    while ((edge = boundary_next(boundary, at->system, i, &element->more)) >=
+           0) {
+        const SelfPair pair = {boundary->point[i], edge};
+        element->vectors = 2;
+        element->nodes = nodes_of(at->system, pair, element->node);
+        element->weight = differences;
+        element->factor = at->w;
+        element->from = edge;
+        element_vectors(element, at->x, element->v);
+        measure(self, element);
+        if (!boundary->p && element->s >= 1)
+            continue;
+        element->block = boundary->p ? -1 : block_of(self, pair);
+        return true;
+    }
+    (void)way;
+    return false;
+}
+
+static double value(const Place *at, const Element *element)
+{
+    return data_of(at)->c * barrier_value(element->s);
+}
+
+/* -dW/dd >= 0, N */
+static double force(const SelfContact *self, double S)
+{
+    return -self->c * barrier_slope(S) * 2 * sqrt(S) / self->d_hat;
+}
+
+/* d changes by n.(dq - r de). */
+static void gradient(const Place *at, const Element *element, double g[4])
+{
+    double F = force(data_of(at), element->s);
+    for (int i = 0; i < 4; i++)
+        g[i] = F * element->n[i % 2] * (i < 2 ? -1 : element->r);
+}
+
+/* With w = dq - r de, t along the edge and e_n = n.de: W'' w_n^2, which is
+ * never negative, and beside the edge F (2 w_t e_n/|e| + d e_n^2/|e|^2), past
+ * an end -F/d w_t^2: a 2x2 matrix in (w_t, e_n), which is projected. */
+static bool hessian(const Place *at, const Element *element, Filter filter,
+                    double H[4][4])
+{
+    const SelfContact *self = data_of(at);
+    const double *n = element->n, *e = element->v + 2;
+    double S = element->s, r = element->r, d = sqrt(S) * self->d_hat;
+    double F = force(self, S), length = sqrt(dot(e, e));
+    double bend = self->c / (self->d_hat * self->d_hat) *
+                  (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
+    double sign = copysign(1, cross(e, n)); /* t = n turned back, along e */
+    const double t[2] = {sign * n[1], -sign * n[0]};
+    bool beside = r > 0 && r < 1;
+    double Q[3] = {beside ? 0 : -F / d, beside ? F / length : 0,
+                   beside ? F * d / (length * length) : 0};
+    bool changed = filter_2x2(filter, Q);
+    const double wn[4] = {n[0], n[1], -r * n[0], -r * n[1]};
+    const double wt[4] = {t[0], t[1], -r * t[0], -r * t[1]};
+    const double en[4] = {0, 0, n[0], n[1]};
+    for (int i = 0; i < 4; i++)
+        for (int k = i; k < 4; k++)
+            H[i][k] = H[k][i] = bend * wn[i] * wn[k] + Q[0] * wt[i] * wt[k] +
+                                Q[1] * (wt[i] * en[k] + en[i] * wt[k]) +
+                                Q[2] * en[i] * en[k];
+    return changed;
+}
+
+/* A number along a line: N + n1 + n2, of degree 0, 1 and 2. */
+typedef struct Along2 {
+    double N, n1, n2;
+} Along2;
+
+/* (N^2/l)' - N^2/l, N or the end of it counting only where it is > 0 or
+ * `always`: what is of degree 1 is added to *first, the rest returned. */
+static double ratio_change(Along2 top, Along2 l, bool always, double *first)
+{
+    double N = top.N, change = top.n1 + top.n2, end = l.N + l.n1 + l.n2;
+    bool starts = always || N > 0, ends = always || N + change > 0;
+    if (!starts)
+        return ends ? (N + change) * (N + change) / end : 0;
+    double one = (2 * N * top.n1 - N * N * l.n1 / l.N) / l.N;
+    *first += one;
+    if (!ends)
+        return -N * N / l.N - one;
+    return (2 * N * top.n2 + change * change - N * N * l.n2 / l.N -
+            one * (l.n1 + l.n2)) /
+           end;
+}
+
+static double remainder_along(const Place *at, const Element *element,
+                              const double P[4], double alpha)
+{
+    const SelfContact *self = data_of(at);
+    const double *q = element->v, *e = element->v + 2;
+    const double dq[2] = {alpha * P[0], alpha * P[1]};
+    const double de[2] = {alpha * P[2], alpha * P[3]};
+    double d_hat2 = self->d_hat * self->d_hat, first = 0;
+    const Along2 l = {dot(e, e), 2 * dot(e, de), dot(de, de)};
+    const Along2 side = {cross(e, q), cross(de, q) + cross(e, dq),
+                         cross(de, dq)};
+    const Along2 low = {-dot(q, e), -dot(dq, e) - dot(q, de), -dot(dq, de)};
+    const Along2 high = {-low.N - l.N, -low.n1 - l.n1, -low.n2 - l.n2};
+    double rest = ratio_change(side, l, true, &first) +
+                  ratio_change(low, l, false, &first) +
+                  ratio_change(high, l, false, &first);
+    double S = element->s, slope = barrier_slope(S);
+    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* no W is left */
+        return self->c * (-barrier_value(S) - slope * first / d_hat2);
+    return self->c * (slope * rest / d_hat2 +
+                      barrier_remainder(S, (first + rest) / d_hat2));
+}
+
+/* The first alpha > 0 at which p is on the line of the edge, e x q = 0, and
+ * between its ends: a quadratic equation.  (Both at once along one line, which
+ * no root tells, happens to edges beside each other: there another edge at the
+ * same end tells.) */
+static double reach(const Place *at, const Element *element, const double P[4])
+{
+    static const double ENDS = 1e-9; /* of an edge: rounding of its ends */
+    const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
+    double c0 = cross(e, q), c1 = cross(de, q) + cross(e, dq);
+    double c2 = cross(de, dq), discriminant = c1 * c1 - 4 * c2 * c0;
+    double first = INFINITY;
+    (void)at;
+    if (!(discriminant >= 0))
+        return INFINITY;
+    double k = -0.5 * (c1 + copysign(sqrt(discriminant), c1));
+    const double root[2] = {k / c2, c0 / k};
+    for (int i = 0; i < 2; i++) {
+        double alpha = root[i];
+        const double Q[2] = {q[0] + alpha * dq[0], q[1] + alpha * dq[1]};
+        const double E[2] = {e[0] + alpha * de[0], e[1] + alpha * de[1]};
+        double r = dot(Q, E) / dot(E, E);
+        if (alpha > 0 && alpha < first && r >= -ENDS && r <= 1 + ENDS)
+            first = alpha;
+    }
+    return ELEMENT_LIMIT * first;
+}
+
+/* Of a matrix [[0, b], [b, c]], c >= 0, the lower eigenvalue is -b at least;
+ * |(w_t, e_n)|^2 <= 3 |(dq, de)|^2. */
+static double concave(const Place *at, const Element *element)
+{
+    const SelfContact *self = data_of(at);
+    double F = at->w * force(self, element->s), d = sqrt(element->s);
+    const double *e = element->v + 2;
+    bool beside = element->r > 0 && element->r < 1;
+    return beside ? 3 * F / sqrt(dot(e, e)) : 2 * F / (d * self->d_hat);
+}
+
+/* mu F; slides with w_t. */
+static double rub(const Place *at, const Element *element, double t[4],
+                  double *carry)
+{
+    const SelfContact *self = data_of(at);
+    const double *n = element->n;
+    t[0] = -n[1];
+    t[1] = n[0];
+    t[2] = element->r * n[1];
+    t[3] = -element->r * n[0];
+    *carry = 0;
+    return self->friction * force(self, element->s);
+}
+
+const ElementKind self_contact_elements = {.look = look,
+                                           .count = count,
+                                           .get = get,
+                                           .blocks = blocks,
+                                           .nodes = nodes,
+                                           .value = value,
+                                           .gradient = gradient,
+                                           .hessian = hessian,
+                                           .remainder = remainder_along,
+                                           .reach = reach,
+                                           .concave = concave,
+                                           .rub = rub};
+
+/* ---- the term ----------------------------------------------------------- */
+
+/* Where the barrier begins: 16 c/d_hat^2, and the force half way. */
+static void bounds(const Place *at, double *stiffest, double *force_out)
+{
+    const SelfContact *self = data_of(at);
+    bound_raise(stiffest, 16 * self->c / (self->d_hat * self->d_hat));
+    bound_raise(force_out, 4 * self->c / self->d_hat);
+}
+
+static void free_pairs(void *data)
+{
+    free(((SelfContact *)data)->pair);
+}
+
+const TermKind self_contact_energy = {
+    .name = "bodies that touch",
+    ELEMENTS(self_contact_elements),
+    .energy = "contact",
+    .place = PLACE_CONTACT,
+    .begin = begin,
+    .grow = grow,
+    .bounds = bounds,
+    .free = free_pairs,
+    .internal = true,
+    .end_of_step = true,
+};
+
+SelfContact *self_contact_of(const System *system)
+{
+    return system_data(system, &self_contact_energy);
+}
+
+bool self_contact_lets_pass(const System *system, const double *x,
+                            const double *p)
+{
+    Place at = place_at(system, NULL, NULL, x);
+    at.term = system_find_term(system, &self_contact_energy);
+    return !at.term || elements_reach(&at, p) > 1;
+}
+
+Status self_contact_set(System *system, const SquareMesh *mesh,
+                        const Barrier *barrier, double friction)
+{
+    SelfContact *self = self_contact_of(system);
+    Status status = STATUS_OK;
+    if (!self) {
+        self = calloc(1, sizeof *self + boundary_bytes(mesh));
+        if (!self)
+            return STATUS_OUT_OF_MEMORY;
+        boundary_lay_out(mesh, self + 1, &self->boundary);
+        status = system_add_term(system, &self_contact_energy, self);
+    }
+    if (status)
+        return status;
+    self->d_hat = barrier->d_hat;
+    self->c = barrier->c / 8;
+    self->friction = friction;
+    return STATUS_OK;
+}

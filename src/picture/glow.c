@@ -1,0 +1,112 @@
+/* glow.c - the term at the mouse, or of the line that is walked, lights up.
+ *
+ * A term of the formulas has a colour of its own, and so has what it is in the
+ * picture: letters, arrows, curves, words of legends.  So everything of one
+ * colour is one term, and it is found where it was drawn, by its pixels.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+
+static const double GLOW_RADIUS = 4; /* units */
+static const double AT_MOUSE = 0.5;  /* ems around it */
+static const double INKED = 0.5;     /* of a pixel, that it counts */
+
+static int channel(Colour colour, int k)
+{
+    return (int)(colour >> 8 * k & 255);
+}
+
+/* Whether the pixel is this colour on white, most of it. */
+static bool has_colour(Colour pixel, Colour colour)
+{
+    double ink = 0, off = 0;
+    for (int k = 0; k < 3; k++)
+        if (channel(colour, k) < 128)
+            ink = fmax(ink, (255.0 - channel(pixel, k)) /
+                                (255.0 - channel(colour, k)));
+    for (int k = 0; k < 3; k++)
+        off = fmax(off, fabs(255 - ink * (255 - channel(colour, k)) -
+                             channel(pixel, k)));
+    return ink > INKED && off < 16;
+}
+
+/* Pixels of a disc around one of its pixels, into the map. */
+static void stamp(unsigned char *map, const Canvas *canvas, int x, int y,
+                  int radius)
+{
+    for (int dy = -radius; dy <= radius; dy++) {
+        int half = (int)sqrt((double)(radius * radius - dy * dy));
+        int left = x > half ? x - half : 0;
+        int right = x + half < canvas->width ? x + half : canvas->width - 1;
+        if (y + dy >= 0 && y + dy < canvas->height)
+            memset(map + (size_t)(y + dy) * canvas->width + left, 1,
+                   (size_t)(right - left + 1));
+    }
+}
+
+static void light(Canvas *canvas, Colour colour, int radius)
+{
+    size_t count = (size_t)canvas->width * canvas->height;
+    unsigned char *map = calloc(count, 1);
+    for (size_t i = 0; i < count && map; i++)
+        if (canvas->pixels[i] != COLOUR_WHITE &&
+            has_colour(canvas->pixels[i], colour))
+            stamp(map, canvas, (int)(i % canvas->width),
+                  (int)(i / canvas->width), radius);
+    for (size_t i = 0; i < count && map; i++) {
+        Colour pixel = canvas->pixels[i], lit = 0xff000000u;
+        if (!map[i] || channel(pixel, 1) < 128)
+            continue; /* ink stays as it is */
+        for (int k = 0; k < 3; k++)
+            lit |= (Colour)(channel(pixel, k) * channel(COLOUR_GLOW, k) / 255)
+                   << 8 * k;
+        canvas->pixels[i] = lit;
+    }
+    free(map);
+}
+
+/* The colour of the term within this distance, or 0. */
+static Colour term_near(const Canvas *canvas, const double at[2], double ems)
+{
+    int reach = (int)ems, x = (int)at[0], y = (int)at[1];
+    Colour colour, best = 0;
+    int least = reach * reach + 1;
+    for (int j = -reach; j <= reach; j++)
+        for (int i = -reach; i <= reach; i++) {
+            bool inside = x + i >= 0 && x + i < canvas->width && y + j >= 0 &&
+                          y + j < canvas->height;
+            int far = i * i + j * j;
+            if (!inside || far >= least)
+                continue;
+            Colour pixel = canvas->pixels[canvas->width * (y + j) + x + i];
+            for (int term = 0; (colour = colour_of_term(term)); term++)
+                if (has_colour(pixel, colour)) {
+                    best = colour;
+                    least = far;
+                }
+        }
+    return best;
+}
+
+void glow_draw(Paper *paper, const Show *show)
+{
+    static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
+                                               [LINE_SOLVE] = COLOUR_P,
+                                               [LINE_SEARCH] = COLOUR_ALPHA};
+    const Trace *trace = show->pane[show->active].trace;
+    Colour colour = 0;
+    if (!show->lecture || show->print)
+        return;
+    if (show->over.zone == ZONE_CARD || show->over.zone == ZONE_STAGE)
+        colour = term_near(&paper->canvas, show->over.at, AT_MOUSE * paper->em);
+    if (colour == COLOUR_X && show->over.zone == ZONE_STAGE)
+        colour = 0; /* all of the square */
+    if (!colour && trace)
+        colour = of_line[trace->line];
+    if (colour)
+        light(&paper->canvas, colour, (int)(GLOW_RADIUS * paper->unit + 0.5));
+}

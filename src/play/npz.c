@@ -1,0 +1,163 @@
+/* npz.c - a table as numpy.load reads it: a zip file (PKWARE: APPNOTE 6.3) of
+ * arrays (numpy: NEP 1), stored as they are.  All sizes have 64 bits, those of
+ * the format's first version say so with all bits set; the date is zip's first,
+ * so that equal tables are equal files.
+ */
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "play/table.h"
+
+enum { TEXT_LETTERS = 24 }; /* at most */
+
+/* Where bytes go: all are counted, and the file may be NULL. */
+typedef struct Sink {
+    FILE *file;
+    uLong crc;
+    uint64_t size;
+} Sink;
+
+static void put_bytes(Sink *sink, const void *bytes, size_t size)
+{
+    sink->crc = crc32(sink->crc, bytes, (uInt)size);
+    sink->size += size;
+    if (sink->file)
+        fwrite(bytes, 1, size, sink->file);
+}
+
+/* How many rows each step has. */
+typedef struct Shape {
+    size_t steps, places; /* places = 0: not as many in all; steps are rows */
+} Shape;
+
+static Shape shape_of(const Table *table)
+{
+    double row[TABLE_COLUMNS], step = -1;
+    size_t rows = 0, steps = 0, places = 0;
+    bool even = false;
+    for (int c = 0; c < table->columns; c++)
+        even = even || table->column[c].kind == 'p';
+    rewind(table->rows);
+    for (; table_next(table, row); rows++) {
+        even = even && (row[0] == step || rows == steps * places);
+        steps += row[0] != step;
+        places += steps == 1;
+        step = row[0];
+    }
+    even = even && rows > 0 && rows == steps * places;
+    return even ? (Shape){steps, places} : (Shape){rows, 0};
+}
+
+/* A value as numpy has it on machines that begin with the lowest byte; texts
+ * have four bytes a letter. */
+static void put_value(Sink *sink, const Table *table, int c, double value)
+{
+    const char *name = table->column[c].name;
+    char kind = table->column[c].kind, letters[4 * TEXT_LETTERS] = "";
+    int64_t whole = (int64_t)value;
+    if (kind == '\0')
+        put_bytes(sink, &value, sizeof value);
+    else if (kind != 't')
+        put_bytes(sink, &whole, sizeof whole);
+    else {
+        const char *text = table->text(name, (int)whole);
+        for (int i = 0; i < TEXT_LETTERS && text[i]; i++)
+            letters[4 * i] = text[i];
+        put_bytes(sink, letters, sizeof letters);
+    }
+}
+
+/* The array of column c, after a head of two times 64 bytes. */
+static void put_array(Sink *sink, const Table *table, int c, Shape shape)
+{
+    double row[TABLE_COLUMNS];
+    char head[128], size[48], kind = table->column[c].kind;
+    bool once = shape.places > 0 && c < 2; /* in a step */
+    bool first = shape.places > 0 && kind == 'p';
+    snprintf(size, sizeof size, "%zu,", first ? shape.places : shape.steps);
+    if (shape.places > 0 && !once && !first)
+        snprintf(size, sizeof size, "%zu, %zu", shape.steps, shape.places);
+    snprintf(head, sizeof head,
+             "\x93NUMPY\x01%c%c%c{'descr': '%s', 'fortran_order': False, "
+             "'shape': (%s), }",
+             0, (int)sizeof head - 10, 0,
+             kind == '\0'  ? "<f8"
+             : kind == 't' ? "<U24"
+                           : "<i8",
+             size);
+    size_t used = 10 + strlen(head + 10);
+    memset(head + used, ' ', sizeof head - used);
+    head[sizeof head - 1] = '\n';
+    put_bytes(sink, head, sizeof head);
+    rewind(table->rows);
+    for (size_t i = 0; table_next(table, row); i++)
+        if (once ? i % shape.places == 0 : !first || i < shape.places)
+            put_value(sink, table, c, row[c]);
+}
+
+/* Numbers of so many bytes each, lowest byte first. */
+typedef struct Field {
+    int bytes;
+    uint64_t value;
+} Field;
+
+static void put_fields(Sink *sink, const Field *field, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int b = 0; b < field[i].bytes; b++) {
+            unsigned char byte = (unsigned char)(field[i].value >> 8 * b);
+            put_bytes(sink, &byte, 1);
+        }
+}
+
+#define PUT(sink, ...)                                                         \
+    put_fields(sink, (const Field[]){__VA_ARGS__},                             \
+               sizeof((const Field[]){__VA_ARGS__}) / sizeof(Field))
+
+enum { VERSION = 45, FIRST_DAY = 0x21, SIZES = 16 };
+static const uint64_t ALL = UINT64_MAX;
+
+/* What is said of a file before it, and in the list at the end. */
+static void put_entry(Sink *sink, const char *name, const Sink *array,
+                      bool listed, uint64_t at)
+{
+    char file[32];
+    size_t letters = (size_t)snprintf(file, sizeof file, "%s.npy", name);
+    if (listed)
+        PUT(sink, {4, 0x02014b50}, {2, VERSION});
+    else
+        PUT(sink, {4, 0x04034b50});
+    PUT(sink, {2, VERSION}, {4, 0}, {2, 0}, {2, FIRST_DAY}, {4, array->crc},
+        {4, ALL}, {4, ALL}, {2, letters});
+    if (listed)
+        PUT(sink, {2, SIZES + 12}, {8, 0}, {2, 0}, {4, ALL});
+    else
+        PUT(sink, {2, SIZES + 4});
+    put_bytes(sink, file, letters);
+    PUT(sink, {2, 1}, {2, listed ? SIZES + 8 : SIZES}, {8, array->size},
+        {8, array->size}, {listed ? 8 : 0, at});
+}
+
+/* Each array twice: its sum of 32 bits stands before it. */
+void npz_write(const Table *table, FILE *file)
+{
+    const Shape shape = shape_of(table);
+    Sink zip = {file, 0, 0}, array[TABLE_COLUMNS] = {{0}};
+    uint64_t at[TABLE_COLUMNS], count = (uint64_t)table->columns;
+    for (int c = 0; c < table->columns; c++) {
+        put_array(&array[c], table, c, shape);
+        at[c] = zip.size;
+        put_entry(&zip, table->column[c].name, &array[c], false, 0);
+        put_array(&zip, table, c, shape);
+    }
+    uint64_t list = zip.size;
+    for (int c = 0; c < table->columns; c++)
+        put_entry(&zip, table->column[c].name, &array[c], true, at[c]);
+    uint64_t end = zip.size;
+    PUT(&zip, {4, 0x06064b50}, {8, 44}, {2, VERSION}, {2, VERSION}, {8, 0},
+        {8, count}, {8, count}, {8, end - list}, {8, list});
+    PUT(&zip, {4, 0x07064b50}, {4, 0}, {8, end}, {4, 1});
+    PUT(&zip, {4, 0x06054b50}, {4, 0}, {4, ALL}, {4, ALL}, {4, ALL}, {2, 0});
+}

@@ -1,0 +1,138 @@
+#include "play/table.h"
+
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+static const TableFormat formats[] = {{".npz", npz_write}, {".pvd", pvd_write}};
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+/* What the end of the name says, or NULL. */
+static const TableFormat *format_of(const char *name)
+{
+    const char *end = strrchr(name, '.');
+    for (int i = 0; i < FORMATS && end; i++)
+        if (strcasecmp(end, formats[i].end) == 0)
+            return &formats[i];
+    return NULL;
+}
+
+void table_columns(Table *table, const char *names)
+{
+    for (const char *at = names; *at && table->columns < TABLE_COLUMNS;) {
+        int length = (int)strcspn(at, ",:"), c = table->columns++;
+        snprintf(table->column[c].name, TABLE_LETTERS, "%.*s", length, at);
+        at += length;
+        table->column[c].kind = *at == ':' ? at[1] : '\0';
+        at += strcspn(at, ",");
+        at += *at == ',';
+    }
+}
+
+/* The line of names, in CSV. */
+static void put_names(const Table *table)
+{
+    for (int c = 0; c < table->columns && !table->rows; c++)
+        fprintf(table->output.file, "%s%c", table->column[c].name,
+                c + 1 < table->columns ? ',' : '\n');
+}
+
+Status table_open(const char *name, Table *table)
+{
+    table->format = format_of(name);
+    Status status = output_open(name, &table->output);
+    if (status)
+        return status;
+    table->rows = table->format ? tmpfile() : NULL;
+    if (table->format && !table->rows) {
+        output_discard(&table->output, false);
+        return STATUS_FILE_FAILED;
+    }
+    put_names(table);
+    return table_check(table);
+}
+
+bool table_is_open(const Table *table)
+{
+    return table->output.file != NULL;
+}
+
+void table_add(Table *table, const double *value)
+{
+    FILE *file = table->output.file;
+    if (table->rows) {
+        fwrite(value, sizeof *value, (size_t)table->columns, table->rows);
+        return;
+    }
+    for (int c = 0; c < table->columns && !ferror(file); c++) {
+        char kind = table->column[c].kind;
+        if (kind == 't')
+            fputs(table->text(table->column[c].name, (int)value[c]), file);
+        else if (kind == '\0')
+            fprintf(file, "%.17g", value[c]);
+        else if (value[c] >= 0)
+            fprintf(file, "%.0f", value[c]);
+        putc(c + 1 < table->columns ? ',' : '\n', file);
+    }
+}
+
+/* The streams remember that a write failed. */
+Status table_check(const Table *table)
+{
+    bool failed = table->rows && ferror(table->rows);
+    return failed ? STATUS_FILE_FAILED : output_check(&table->output);
+}
+
+bool table_next(const Table *table, double *row)
+{
+    size_t columns = (size_t)table->columns;
+    return fread(row, sizeof *row, columns, table->rows) == columns;
+}
+
+/* Of the rows without a name. */
+static Status cut_rows(const Table *table, long last)
+{
+    double row[TABLE_COLUMNS];
+    off_t end = 0;
+    rewind(table->rows);
+    while (table_next(table, row) && row[0] <= (double)last)
+        end += (off_t)sizeof *row * table->columns;
+    bool failed = fseeko(table->rows, end, SEEK_SET) ||
+                  ftruncate(fileno(table->rows), end);
+    return failed ? STATUS_FILE_FAILED : STATUS_OK;
+}
+
+Status table_cut(Table *table, long last)
+{
+    if (!table_is_open(table))
+        return STATUS_OK;
+    Status status =
+        table->rows ? cut_rows(table, last) : output_cut(&table->output, last);
+    if (status == STATUS_OK && last < 0)
+        put_names(table);
+    return status ? status : table_check(table);
+}
+
+Status table_close(Table *table, bool aside)
+{
+    Status status = table_check(table);
+    if (table->rows) {
+        if (status == STATUS_OK && fflush(table->rows) == 0)
+            table->format->write(table, table->output.file);
+        status = table_check(table);
+        fclose(table->rows);
+        table->rows = NULL;
+    }
+    if (aside || (status && table->format))
+        output_discard(&table->output, true);
+    Status closed = output_close(&table->output);
+    return status ? status : closed;
+}
+
+void table_discard(Table *table)
+{
+    if (table->rows)
+        fclose(table->rows);
+    table->rows = NULL;
+    output_discard(&table->output, false);
+}

@@ -1,0 +1,44 @@
+/* modes.c - the fastest small oscillation around a state: M q'' = -H q. */
+#include <math.h>
+
+#include "scenes/simulation.h"
+
+/* Paces of the power iteration, and numbers that it has room for. */
+enum { PACES = 300, ROOM = 2 * SIMULATION_MODE_NODES };
+
+/* M^-1 H q, out; H of the first run's system where it is, 1/s^2 */
+static void pull(const Simulation *simulation, const double *q, double *out)
+{
+    const System *system = &simulation->system;
+    double *x = simulation->run[0].x, nothing[ROOM] = {0};
+    const IncrementalPotential E = {
+        .system = system, .weight = 1, .x_n = x, .u_tilde = nothing};
+    const Iterate at = {E, nothing, x, nothing, nothing};
+    incremental_potential_product(&at, FILTER_NONE, q, out);
+    for (int i = 0; i < 2 * system->nodes; i++)
+        out[i] = out[i] / system->m[i / 2] - q[i];
+}
+
+double simulation_fastest(const Simulation *simulation, double *mode)
+{
+    double pulled[ROOM], omega2 = NAN;
+    int n = 2 * simulation->system.nodes;
+    if (n > ROOM)
+        return NAN;
+    for (int i = 0; i < n; i++) /* no symmetry: in it all modes have a part */
+        mode[i] = sin(1 + i + 0.1 * i * i);
+    for (int pace = 0; pace < PACES; pace++) {
+        double size = 0;
+        for (int i = 0; i < n; i++)
+            size += mode[i] * mode[i];
+        for (int i = 0; i < n; i++)
+            mode[i] /= sqrt(size);
+        pull(simulation, mode, pulled);
+        omega2 = 0;
+        for (int i = 0; i < n; i++)
+            omega2 += mode[i] * pulled[i];
+        for (int i = 0; i < n && pace + 1 < PACES; i++)
+            mode[i] = pulled[i];
+    }
+    return omega2 > 0 ? sqrt(omega2) : NAN;
+}
