@@ -33,9 +33,8 @@ typedef struct Cells {
 /* sum of W over the triangles whose springs are whole; data: Cells. */
 extern const TermKind cell_energy;
 
-/* Adds all triangles of the mesh.
- *   stiffness  J/m^2, k_c
- * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status cells_add(System *system, const SquareMesh *shape, double stiffness);
+/* Adds all triangles of the mesh, or gives those that are there this stiffness,
+ * J/m^2, k_c.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+Status cells_set(System *system, const SquareMesh *shape, double stiffness);
 
 #endif

@@ -22,23 +22,17 @@ typedef struct Candidate {
 
 typedef struct Fracture {
     double strength;      /* s_c > 0, a strain */
-    double scatter;       /* part of it by which springs differ */
     int broken;           /* springs so far, without slits of the scene */
     Candidate *candidate; /* [springs] room */
     unsigned char *taken; /* [nodes] one of its springs broke in this step */
 } Fracture;
 
 /* No energy of its own; at a step's end it breaks springs and books the energy
- * that goes with them.  data: Fracture.  It must stand last in the list. */
+ * that goes with them.  data: Fracture; its number is s_c.  It must stand last
+ * in the list. */
 extern const TermKind fracture;
-
-/* Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status fracture_add(System *system, double strength, double scatter);
 
 /* The system's, or NULL. */
 Fracture *fracture_of(const System *system);
-
-/* The strain at which spring s breaks. */
-double fracture_strength(const Fracture *fracture, int s);
 
 #endif

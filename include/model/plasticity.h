@@ -29,10 +29,6 @@ typedef struct SpringLaw {
 double spring_law_slope(SpringLaw law, double e);
 double spring_law_curvature(SpringLaw law, double e);
 
-/* V(e + t) - V(e) - V'(e) t >= 0, with full relative accuracy while H is not
- * many powers of ten below 1. */
-double spring_law_remainder(SpringLaw law, double e, double t);
-
 /* ---- the term -------------------------------------------------------- */
 
 /* The term's data. */
@@ -44,13 +40,9 @@ typedef struct Plasticity {
 } Plasticity;
 
 /* sum of W over the springs, in the place of mass_spring_energy; data:
- * Plasticity.  Its value has what hardening stores, k l2 H kappa^2/2; what
- * flowing costs, k l2 Y gamma, is booked as lost. */
+ * Plasticity; its numbers are Y and H.  Its value has what hardening stores, k
+ * l2 H kappa^2/2; what flowing costs, k l2 Y gamma, is booked as lost. */
 extern const TermKind plastic_energy;
-
-/* Puts it in the place of the elastic springs.
- * Returns OK, OUT_OF_MEMORY. */
-Status plasticity_set(System *system, double yield, double hardening);
 
 /* The system's plastic state, or NULL. */
 Plasticity *plasticity_of(const System *system);

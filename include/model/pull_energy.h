@@ -29,9 +29,6 @@ typedef struct Pull {
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE (no room in the list). */
 Status pull_set(System *system, const TermKind *kind, const Pull *pull);
 
-/* The same with the field; takes it away where omega2 is 0, 1/s^2. */
-Status central_field_set(System *system, double omega2);
-
 /* The hand of a system, or NULL; its numbers may be changed. */
 Pull *hand_energy_of(const System *system);
 

@@ -78,9 +78,8 @@ void *system_data(const System *system, const TermKind *kind);
 /* Takes it out of the list and frees its data; nothing where there is none. */
 void system_remove_term(System *system, const TermKind *kind);
 
-/* Books what a term of this kind has taken out, J; all of it so far, J. */
+/* Books what a term of this kind has taken out, J. */
 void system_lose(System *system, const TermKind *kind, double energy);
-double system_lost(const System *system, const TermKind *kind);
 
 /* Checks what the struct promises: every number finite and in its range, every
  * spring between two different nodes, every bound of a term finite.  x [2n] m,
@@ -90,10 +89,6 @@ Status system_check(const System *system, const double *x);
 
 /* P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
-
-/* The share of one kind of term; 0 where there is none. */
-double system_energy_of(const System *system, const TermKind *kind,
-                        const double *x);
 
 /* -sum m g.x, J, and whether there is gravity. */
 bool system_has_gravity(const System *system);

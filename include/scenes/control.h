@@ -13,19 +13,14 @@ typedef struct Control {
     Options options;
     int hand;     /* the node that it holds; -1: none */
     double at[2]; /* m, where it pulls it */
-    int pins;
-    int pin[]; /* [pins] nodes, ascending */
+    int nodes;
+    unsigned char pinned[]; /* [nodes] 1: it never moves */
 } Control;
 
-/* What a new simulation has; one user.  NULL: no memory. */
+/* What a simulation has now; the same once more.  One user, who may change it
+ * as long as it is alone.  NULL: no memory. */
 Control *control_of(const Simulation *simulation);
-
-/* The same with room for one more pin; one user, who may change it as long as
- * it is alone.  NULL: no memory. */
 Control *control_copy(const Control *from);
-
-/* Sets or frees a pin of a copy that nobody else uses. */
-void control_pin(Control *control, int node, bool pinned);
 
 /* A ground or, behind those, a ball of the options goes to (x, y), m. */
 void obstacle_move(Options *options, int number, double x, double y);

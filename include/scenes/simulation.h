@@ -130,12 +130,6 @@ long long simulation_matrix_entries(const Simulation *simulation);
  * start. */
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row);
 
-/* Goes on from the present state with other options: all that is no matter of
- * the start may differ.  What this does to the energy is booked as work.
- * Returns as simulation_create; after a failure only simulation_free is
- * allowed. */
-Status simulation_change(Simulation *simulation, const Options *options);
-
 /* Whether the obstacles of other options leave room for the bodies as they are.
  *   message  [size] out, one line where not */
 bool simulation_has_room(const Simulation *simulation, const Options *options,
@@ -150,16 +144,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
 /* Whether a hand can take hold of its nodes. */
 bool simulation_is_handled(const Simulation *simulation);
 
-/* Pins a node where it is, or sets it free; its velocity is 0 then.
- * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (there is no such node). */
-Status simulation_pin(Simulation *simulation, int node, bool pinned);
 bool simulation_is_pinned(const Simulation *simulation, int node);
-
-/* A hand takes a node of every run where it is, pulls it to (x, y), m, and lets
- * it go.  Returns OK, OUT_OF_MEMORY, INVALID_INPUT (no such node, or no finite
- * place), TOO_LARGE. */
-Status simulation_grab(Simulation *simulation, int node, double x, double y);
-void simulation_release(Simulation *simulation);
 
 /* Whether there is a Hessian to project and a line to search (not in explicit
  * integrators). */

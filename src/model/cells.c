@@ -156,10 +156,15 @@ const TermKind cell_energy = {
     .end_of_step = true,
 };
 
-Status cells_add(System *system, const SquareMesh *shape, double stiffness)
+Status cells_set(System *system, const SquareMesh *shape, double stiffness)
 {
     size_t numbers = 3 * 4 * (size_t)shape->cells;
-    Cells *cells = calloc(1, sizeof *cells + 2 * numbers * sizeof(int));
+    Cells *cells = system_data(system, &cell_energy);
+    if (cells) {
+        cells->c = cells->area * stiffness;
+        return STATUS_OK;
+    }
+    cells = calloc(1, sizeof *cells + 2 * numbers * sizeof(int));
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     cells->triangles = 4 * shape->cells;

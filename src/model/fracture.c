@@ -7,6 +7,9 @@
 
 #include "model/mass_spring_energy.h"
 
+/* Part by which the strengths of springs differ. */
+static const double SCATTER = 0.1;
+
 Fracture *fracture_of(const System *system)
 {
     return system_data(system, &fracture);
@@ -22,9 +25,10 @@ static double scatter_of(int s)
     return (double)(z >> 11) * 0x1p-52 - 1;
 }
 
-double fracture_strength(const Fracture *fracture, int s)
+/* The strain at which spring s breaks. */
+static double strength_of(const Fracture *fracture, int s)
 {
-    return fracture->strength * (1 + fracture->scatter * scatter_of(s));
+    return fracture->strength * (1 + SCATTER * scatter_of(s));
 }
 
 /* The most loaded candidates first; equal loads by number. */
@@ -44,7 +48,7 @@ static int find_candidates(Fracture *fracture, const System *system,
     for (int s = 0; s < system->springs; s++) {
         double d[2];
         double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
-        double load = strain / fracture_strength(fracture, s);
+        double load = strain / strength_of(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
             fracture->candidate[count++] = (Candidate){load, s};
     }
@@ -79,25 +83,29 @@ static void end(Term *term, System *system, const double *x, const double *v,
     system_changed(system, false);
 }
 
-const TermKind fracture = {
-    .loss = "fracture",
-    .place = PLACE_FRACTURE,
-    .end = end,
-    .internal = true,
-};
-
-Status fracture_add(System *system, double strength, double scatter)
+static Status set(System *system, const struct SquareMesh *mesh,
+                  const double *number)
 {
     size_t springs = (size_t)system->springs;
+    (void)mesh;
+    if (number[0] == 0 || fracture_of(system))
+        return STATUS_OK;
     Fracture *data =
         calloc(1, sizeof *data + springs * sizeof *data->candidate +
                       (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
-    data->strength = strength;
-    data->scatter = scatter;
+    data->strength = number[0];
     data->candidate = (Candidate *)(data + 1);
     data->taken = (unsigned char *)(data->candidate + springs);
     system->breaks = true;
     return system_add_term(system, &fracture, data);
 }
+
+const TermKind fracture = {
+    .set = set,
+    .loss = "fracture",
+    .place = PLACE_FRACTURE,
+    .end = end,
+    .internal = true,
+};

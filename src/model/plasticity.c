@@ -53,10 +53,11 @@ static double spring_law_flow(SpringLaw law, double e)
     return law.flow * beyond(law, e);
 }
 
-/* The integral of (t - s) V''(e + s) over s = 0 ... t, mirrored so that t >= 0:
- * V'' is 1 - flow + theta everywhere, and flow more where the spring is
- * elastic.  Nothing is subtracted but ends of the way. */
-double spring_law_remainder(SpringLaw law, double e, double t)
+/* V(e + t) - V(e) - V'(e) t >= 0: the integral of (t - s) V''(e + s) over s = 0
+ * ... t, mirrored so that t >= 0.  V'' is 1 - flow + theta everywhere, and flow
+ * more where the spring is elastic.  Nothing is subtracted but ends of the way,
+ * so no digits are lost while H is not many powers of ten below 1. */
+static double spring_law_remainder(SpringLaw law, double e, double t)
 {
     double start = copysign(1, t) * e, way = fabs(t);
     double from = larger(-law.yield - start, 0);
@@ -231,8 +232,31 @@ static void concave(const Place *at, double *sum)
     }
 }
 
+/* In the place of the elastic springs: yield and hardening, which stay. */
+static Status set(System *system, const struct SquareMesh *mesh,
+                  const double *number)
+{
+    size_t springs = (size_t)system->springs;
+    (void)mesh;
+    if (number[0] == 0 || plasticity_of(system))
+        return STATUS_OK;
+    Plasticity *data = calloc(1, sizeof *data + 2 * springs * sizeof(double));
+    if (!data)
+        return STATUS_OUT_OF_MEMORY;
+    data->yield = number[0];
+    data->hardening = number[1];
+    data->ep = (double *)(data + 1);
+    data->kappa = data->ep + springs;
+    Term *elastic = system_find_term(system, &mass_spring_energy);
+    if (!elastic)
+        return system_add_term(system, &plastic_energy, data);
+    *elastic = (Term){.kind = &plastic_energy, .data = data};
+    return STATUS_OK;
+}
+
 const TermKind plastic_energy = {
     .name = "plastic springs",
+    .set = set,
     .energy = "elastic",
     .loss = "plastic",
     .value = value,
@@ -248,20 +272,3 @@ const TermKind plastic_energy = {
     .internal = true,
     .end_of_step = true,
 };
-
-Status plasticity_set(System *system, double yield, double hardening)
-{
-    size_t springs = (size_t)system->springs;
-    Plasticity *data = calloc(1, sizeof *data + 2 * springs * sizeof(double));
-    if (!data)
-        return STATUS_OUT_OF_MEMORY;
-    data->yield = yield;
-    data->hardening = hardening;
-    data->ep = (double *)(data + 1);
-    data->kappa = data->ep + springs;
-    Term *elastic = system_find_term(system, &mass_spring_energy);
-    if (!elastic)
-        return system_add_term(system, &plastic_energy, data);
-    *elastic = (Term){.kind = &plastic_energy, .data = data};
-    return STATUS_OK;
-}

@@ -92,15 +92,6 @@ Status pull_set(System *system, const TermKind *kind, const Pull *pull)
     return term ? STATUS_OK : system_add_term(system, kind, own);
 }
 
-Status central_field_set(System *system, double omega2)
-{
-    Pull all = {.node = -1, .k = omega2};
-    if (omega2 != 0)
-        return pull_set(system, &central_field, &all);
-    system_remove_term(system, &central_field);
-    return STATUS_OK;
-}
-
 Pull *hand_energy_of(const System *system)
 {
     return system_data(system, &hand_energy);

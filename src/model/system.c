@@ -101,26 +101,14 @@ void system_remove_term(System *system, const TermKind *kind)
     system_changed(system, true);
 }
 
-/* The row of a loss, or the free one behind. */
-static Loss *loss_of(const System *system, const TermKind *kind)
-{
-    int i = 0;
-    while (i < SYSTEM_MAX_TERMS - 1 && system->lost[i].name &&
-           strcmp(system->lost[i].name, kind->loss) != 0)
-        i++;
-    return (Loss *)&system->lost[i];
-}
-
+/* Into the row of this name, or the free one behind. */
 void system_lose(System *system, const TermKind *kind, double energy)
 {
-    Loss *loss = loss_of(system, kind);
+    Loss *loss = system->lost;
+    while (loss->name && strcmp(loss->name, kind->loss) != 0)
+        loss++;
     loss->name = kind->loss;
     loss->energy += energy;
-}
-
-double system_lost(const System *system, const TermKind *kind)
-{
-    return loss_of(system, kind)->energy;
 }
 
 /* A normal number > 0: not 0, denormal, infinite or NaN. */
@@ -201,14 +189,6 @@ double system_gravity_potential(const System *system, const double *x)
     }
     double rounding = sqrt(system->nodes) * DBL_EPSILON * size;
     return fabs(sum) <= rounding ? 0 : sum;
-}
-
-double system_energy_of(const System *system, const TermKind *kind,
-                        const double *x)
-{
-    Place at = place_at(system, x, NULL, x);
-    at.term = system_find_term(system, kind);
-    return at.term ? kind->value(&at) : 0;
 }
 
 double system_potential(const System *system, const double *x)

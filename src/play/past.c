@@ -855,7 +855,7 @@ static const Control *changed(const Control *from, const Command *edit)
     if (edit->kind == COMMAND_OBSTACLE)
         obstacle_move(&control->options, (int)edit->number, edit->x, edit->y);
     if (edit->kind == COMMAND_PIN)
-        control_pin(control, (int)edit->number, edit->x != 0);
+        control->pinned[edit->number] = edit->x != 0;
     if (edit->kind == COMMAND_GRAB)
         control->hand = (int)edit->number;
     if (edit->kind == COMMAND_RELEASE)

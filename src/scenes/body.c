@@ -7,10 +7,7 @@
 
 #include "model/cells.h"
 #include "model/contact.h"
-#include "model/damping.h"
-#include "model/fracture.h"
 #include "model/friction.h"
-#include "model/plasticity.h"
 #include "model/self_contact.h"
 #include "scenes/start_table.h"
 #include "base/mathematics.h"
@@ -82,9 +79,6 @@ Status pins_read(const char *text, const SquareMesh *shape,
 }
 
 /* ---- the body ------------------------------------------------------------ */
-
-/* Part by which the strengths of springs differ. */
-#define TEAR_SCATTER 0.1
 
 SquareMesh body_shape(const Options *options)
 {
@@ -300,18 +294,11 @@ static Status set_terms(const Options *options, const SquareMesh *mesh,
 {
     double part = options->scene->cell_stiffness;
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
-    Cells *cells = system_data(system, &cell_energy);
     Status status = set_obstacles(options, mesh, system);
     if (!status)
         status = set_self_contact(options, mesh, system);
-    if (!status && options->yield > 0 && !plasticity_of(system))
-        status = plasticity_set(system, options->yield, options->hardening);
-    if (cells)
-        cells->c = cells->area * k_c;
-    else if (!status && options->cells)
-        status = cells_add(system, mesh, k_c);
-    if (!status && options->tear > 0 && !fracture_of(system))
-        status = fracture_add(system, options->tear, TEAR_SCATTER);
+    if (!status && options->cells)
+        status = cells_set(system, mesh, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++)
         if (row->term && row->term->set)
             status = row->term->set(system, mesh, options->number + row->slot);

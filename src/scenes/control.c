@@ -1,58 +1,47 @@
 #include "scenes/control.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
 #include "model/pull_energy.h"
+#include "scenes/body.h"
 
-/* With room for this many pins. */
-static Control *make_control(int pins)
+static Control *make_control(int nodes)
 {
-    Control *control =
-        calloc(1, sizeof *control + (size_t)pins * sizeof *control->pin);
+    Control *control = calloc(1, sizeof *control + (size_t)nodes);
     if (control)
-        control->users = 1;
+        *control = (Control){.users = 1, .nodes = nodes, .hand = -1};
     return control;
 }
 
 Control *control_of(const Simulation *simulation)
 {
-    int nodes = simulation->system.nodes;
-    Control *control = make_control(nodes);
+    const System *system = &simulation->system;
+    const Pull *hand = hand_energy_of(system);
+    Control *control = make_control(system->nodes);
     if (!control)
         return NULL;
     control->options = simulation->options;
-    control->hand = -1;
-    for (int i = 0; i < nodes; i++)
-        if (simulation_is_pinned(simulation, i))
-            control->pin[control->pins++] = i;
+    if (hand) {
+        control->hand = hand->node;
+        memcpy(control->at, hand->mouse, sizeof control->at);
+    }
+    if (system->pinned)
+        memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
 }
 
 Control *control_copy(const Control *from)
 {
-    Control *control = make_control(from->pins + 1);
+    Control *control = make_control(from->nodes);
     if (!control)
         return NULL;
-    memcpy(control, from,
-           sizeof *from + (size_t)from->pins * sizeof *from->pin);
+    memcpy(control, from, sizeof *from + (size_t)from->nodes);
     control->users = 1;
     return control;
-}
-
-void control_pin(Control *control, int node, bool pinned)
-{
-    int at = 0;
-    while (at < control->pins && control->pin[at] < node)
-        at++;
-    int *pin = control->pin + at, behind = control->pins - at;
-    bool had = behind > 0 && *pin == node;
-    if (had == pinned)
-        return;
-    memmove(pin + pinned, pin + had, (size_t)(behind - had) * sizeof *pin);
-    if (pinned)
-        *pin = node;
-    control->pins += pinned - had;
 }
 
 void obstacle_move(Options *options, int number, double x, double y)
@@ -77,29 +66,180 @@ void control_drop(const Control *control)
         free(own);
 }
 
-/* The hand, where it is not already. */
+/* ---- what a run makes of it ---------------------------------------------- */
+
+/* J, of each run: out [runs]. */
+static void dissipated_so_far(const Simulation *simulation, double *out)
+{
+    for (int r = 0; r < simulation->runs; r++)
+        out[r] = simulation_energies(simulation, r).dissipated;
+}
+
+/* What another stiffness or a pin has done to the energy is the work of whoever
+ * set it: nothing else in the ledger jumps.  had [runs] J, dissipated before.
+ */
+static void book_change(Simulation *simulation, const double *had)
+{
+    for (int r = 0; r < simulation->runs; r++)
+        simulation->work[r] +=
+            had[r] - simulation_energies(simulation, r).dissipated;
+}
+
+/* The run goes on with another method. */
+static Status change_method(Simulation *simulation, int r)
+{
+    TimeIntegrator *run = &simulation->run[r], old = *run;
+    Status status =
+        simulation_start(simulation, r, options_method(&simulation->options),
+                         old.system, old.x, old.v);
+    run->steps = old.steps;
+    run->status = old.status;
+    run->clock = old.clock;
+    run->moved = old.moved;
+    run->work = old.work;
+    if (old.newton)
+        newton_counters_add(&old.newton->counters, &simulation->counted);
+    time_integrator_free(&old);
+    return status;
+}
+
+/* What the options say, to what goes by them in a run. */
+static Status change_run(Simulation *simulation, int r, const Options *before)
+{
+    const Options *options = &simulation->options;
+    TimeIntegrator *run = &simulation->run[r];
+    bool stiffer = options->stiffness != before->stiffness;
+    Status status = STATUS_OK;
+    if (simulation->scene->needs & NEEDS_BODY)
+        status = body_follow(simulation, r);
+    if (!status && options->integrator != before->integrator)
+        return change_method(simulation, r);
+    if (stiffer)
+        run->memory_h = 0;
+    run->h = options->timestep;
+    if (run->newton) {
+        NewtonSettings *own = &run->newton->settings, old = *own;
+        *own = newton_settings_of(options);
+        own->averaged = old.averaged;
+        own->observer = old.observer;
+        own->user = old.user;
+    }
+    return status;
+}
+
+static Status use_options(Simulation *simulation, const Options *options)
+{
+    const Options before = simulation->options;
+    Status status = STATUS_OK;
+    simulation->options = *options;
+    for (int r = 0; r < simulation->runs && !status; r++)
+        status = change_run(simulation, r, &before);
+    if (options->stiffness != before.stiffness ||
+        options->integrator != before.integrator)
+        simulation->prediction = (Prediction){0};
+    if (simulation->scene->aim && !simulation->done &&
+        (options->filter != before.filter ||
+         options->line_search != before.line_search))
+        simulation->scene->aim(simulation);
+    return status;
+}
+
+static void stop_node(TimeIntegrator *run, int node)
+{
+    run->v[2 * node] = run->v[2 * node + 1] = 0;
+    run->memory_h = 0;
+}
+
+/* A node whose pin comes or goes stands still.  A system without pins is the
+ * one that never had any: its centre of mass is free. */
+static Status use_pins(Simulation *simulation, const Control *control)
+{
+    System *system = &simulation->system;
+    bool any = false;
+    for (int i = 0; i < system->nodes; i++) {
+        any = any || control->pinned[i];
+        if (simulation_is_pinned(simulation, i) == control->pinned[i])
+            continue;
+        system_changed(system, true);
+        for (int r = 0; r < simulation->runs; r++)
+            if (simulation->run[r].system == system)
+                stop_node(&simulation->run[r], i);
+    }
+    if (any && !system->pinned && system_create_pins(system))
+        return STATUS_OUT_OF_MEMORY;
+    if (any) {
+        memcpy(system->pinned, control->pinned, (size_t)system->nodes);
+    } else {
+        free(system->pinned);
+        system->pinned = NULL;
+    }
+    return STATUS_OK;
+}
+
+/* Far stiffer than a spring, so that the node goes to the mouse, and the
+ * springs give way.  Triangles have a stiffness of their own. */
+static double hand_strength(const Simulation *simulation, int node)
+{
+    static const double TIMES = 1000;
+    const Options *options = &simulation->options;
+    Place at = place_at(&simulation->system, NULL, NULL, NULL);
+    double k = 0, force = 0;
+    mass_spring_bounds(&at, &k, &force);
+    if (solid_of(&simulation->system))
+        k = options->young;
+    return k > 0 ? TIMES * k : 1e5 * simulation->system.m[node];
+}
+
 static Status use_hand(Simulation *simulation, const Control *control)
 {
-    const Pull *hand = hand_energy_of(&simulation->system);
-    if (control->hand < 0) {
-        simulation_release(simulation);
+    System *system = &simulation->system;
+    Pull wanted = {.node = control->hand, .reach = INFINITY};
+    if (wanted.node < 0) {
+        system_remove_term(system, &hand_energy);
         return STATUS_OK;
     }
-    if (hand && hand->node == control->hand &&
-        hand->mouse[0] == control->at[0] && hand->mouse[1] == control->at[1])
-        return STATUS_OK;
-    return simulation_grab(simulation, control->hand, control->at[0],
-                           control->at[1]);
+    memcpy(wanted.mouse, control->at, sizeof wanted.mouse);
+    memcpy(wanted.target, simulation->run[0].x + 2 * wanted.node,
+           sizeof wanted.target);
+    wanted.strength = hand_strength(simulation, wanted.node);
+    if (simulation->mesh.nodes > 0)
+        wanted.reach = 0.5 * simulation->mesh.spacing;
+    return pull_set(system, &hand_energy, &wanted);
 }
 
 Status simulation_use(Simulation *simulation, const Control *control)
 {
-    Status status = simulation_change(simulation, &control->options);
-    for (int i = 0, at = 0; i < simulation->system.nodes && !status; i++) {
-        bool pinned = at < control->pins && control->pin[at] == i;
-        at += pinned;
-        if (simulation_is_pinned(simulation, i) != pinned)
-            status = simulation_pin(simulation, i, pinned);
+    double had[SIMULATION_MAX_RUNS];
+    dissipated_so_far(simulation, had);
+    Status status = use_options(simulation, &control->options);
+    if (!status)
+        status = use_pins(simulation, control);
+    if (!status)
+        status = use_hand(simulation, control);
+    if (!status)
+        book_change(simulation, had);
+    return status;
+}
+
+Status simulation_place(Simulation *simulation, int node, double x, double y,
+                        bool really)
+{
+    TimeIntegrator *run = &simulation->run[0];
+    size_t i = 2 * (size_t)node;
+    if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
+        !isfinite(y))
+        return STATUS_INVALID_INPUT;
+    const double before[2] = {run->x[i], run->x[i + 1]};
+    double had[SIMULATION_MAX_RUNS];
+    dissipated_so_far(simulation, had);
+    run->x[i] = x;
+    run->x[i + 1] = y;
+    Status status = system_check(run->system, run->x);
+    if (status || !really) {
+        memcpy(run->x + i, before, sizeof before);
+        return status;
     }
-    return status ? status : use_hand(simulation, control);
+    stop_node(run, node);
+    book_change(simulation, had);
+    return STATUS_OK;
 }

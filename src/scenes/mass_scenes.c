@@ -22,7 +22,8 @@ static Status create_orbit(Simulation *simulation, double omega2,
     if (status)
         return status;
     simulation->system.m[0] = 1;
-    status = central_field_set(&simulation->system, omega2);
+    status = pull_set(&simulation->system, &central_field,
+                      &(Pull){.node = -1, .k = omega2});
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.began, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);

@@ -9,8 +9,6 @@
 #include "model/friction.h"
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
-#include "model/pull_energy.h"
-#include "model/mass_spring_energy.h"
 #include "scenes/body.h"
 #include "base/mathematics.h"
 
@@ -177,190 +175,15 @@ double simulation_time(const Simulation *simulation)
     return simulation->run[0].clock;
 }
 
-/* A system whose last pin is gone is the one that never had any: its centre of
- * mass is free again. */
-static void drop_empty_pins(System *system)
-{
-    for (int i = 0; i < system->nodes; i++)
-        if (system->pinned[i])
-            return;
-    free(system->pinned);
-    system->pinned = NULL;
-}
-
-/* J, of each run: out [runs]. */
-static void dissipated_so_far(const Simulation *simulation, double *out)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        out[r] = simulation_energies(simulation, r).dissipated;
-}
-
-/* What another stiffness or a pin has done to the energy is the work of whoever
- * set it: nothing else in the ledger jumps.  had [runs] J, dissipated before.
- */
-static void book_change(Simulation *simulation, const double *had)
-{
-    for (int r = 0; r < simulation->runs; r++)
-        simulation->work[r] +=
-            had[r] - simulation_energies(simulation, r).dissipated;
-}
-
 bool simulation_is_handled(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->grips;
 }
 
-Status simulation_pin(Simulation *simulation, int node, bool pinned)
-{
-    System *system = &simulation->system;
-    if (node < 0 || node >= system->nodes)
-        return STATUS_INVALID_INPUT;
-    if (!system->pinned && system_create_pins(system))
-        return STATUS_OUT_OF_MEMORY;
-    system->pinned[node] = pinned;
-    drop_empty_pins(system);
-    system_changed(system, true);
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
-    for (int i = 0; i < simulation->runs; i++) {
-        TimeIntegrator *run = &simulation->run[i];
-        if (run->system != system)
-            continue;
-        run->v[2 * node] = run->v[2 * node + 1] = 0;
-        run->memory_h = 0;
-    }
-    book_change(simulation, had);
-    return STATUS_OK;
-}
-
-Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool really)
-{
-    TimeIntegrator *run = &simulation->run[0];
-    size_t i = 2 * (size_t)node;
-    if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
-        !isfinite(y))
-        return STATUS_INVALID_INPUT;
-    const double before[2] = {run->x[i], run->x[i + 1]};
-    double had[SIMULATION_MAX_RUNS];
-    dissipated_so_far(simulation, had);
-    run->x[i] = x;
-    run->x[i + 1] = y;
-    Status status = system_check(run->system, run->x);
-    if (status || !really) {
-        memcpy(run->x + i, before, sizeof before);
-        return status;
-    }
-    run->v[i] = run->v[i + 1] = 0;
-    run->memory_h = 0;
-    book_change(simulation, had);
-    return STATUS_OK;
-}
-
 bool simulation_is_pinned(const Simulation *simulation, int node)
 {
     return simulation->system.pinned && simulation->system.pinned[node];
-}
-
-/* Far stiffer than a spring, so that the node goes to the mouse, and the
- * springs give way.  Triangles have a stiffness of their own. */
-static double hand_strength(const Simulation *simulation, int node)
-{
-    static const double TIMES = 1000;
-    const Options *options = &simulation->options;
-    Place at = place_at(&simulation->system, NULL, NULL, NULL);
-    double k = 0, force = 0;
-    mass_spring_bounds(&at, &k, &force);
-    if (solid_of(&simulation->system))
-        k = options->young;
-    return k > 0 ? TIMES * k : 1e5 * simulation->system.m[node];
-}
-
-Status simulation_grab(Simulation *simulation, int node, double x, double y)
-{
-    System *system = &simulation->system;
-    Pull wanted = {.node = node, .mouse = {x, y}};
-    if (!isfinite(x) || !isfinite(y) || node < 0 || node >= system->nodes)
-        return STATUS_INVALID_INPUT;
-    memcpy(wanted.target, simulation->run[0].x + 2 * node,
-           sizeof wanted.target);
-    wanted.strength = hand_strength(simulation, node);
-    wanted.reach =
-        simulation->mesh.nodes > 0 ? 0.5 * simulation->mesh.spacing : INFINITY;
-    return pull_set(system, &hand_energy, &wanted);
-}
-
-void simulation_release(Simulation *simulation)
-{
-    system_remove_term(&simulation->system, &hand_energy);
-}
-
-/* The run goes on with another method. */
-static Status change_method(Simulation *simulation, int r)
-{
-    TimeIntegrator *run = &simulation->run[r], old = *run;
-    Status status =
-        simulation_start(simulation, r, options_method(&simulation->options),
-                         old.system, old.x, old.v);
-    run->steps = old.steps;
-    run->status = old.status;
-    run->clock = old.clock;
-    run->moved = old.moved;
-    run->work = old.work;
-    if (old.newton)
-        newton_counters_add(&old.newton->counters, &simulation->counted);
-    time_integrator_free(&old);
-    return status;
-}
-
-/* What the options say, to what goes by them in a run. */
-static Status change_run(Simulation *simulation, int r, const Options *before)
-{
-    const Options *options = &simulation->options;
-    TimeIntegrator *run = &simulation->run[r];
-    bool stiffer = options->stiffness != before->stiffness;
-    Status status = STATUS_OK;
-    if (simulation->scene->needs & NEEDS_BODY)
-        status = body_follow(simulation, r);
-    if (!status && options->integrator != before->integrator)
-        return change_method(simulation, r);
-    if (stiffer)
-        run->memory_h = 0;
-    run->h = options->timestep;
-    if (run->newton) {
-        NewtonSettings *own = &run->newton->settings, old = *own;
-        *own = newton_settings_of(options);
-        own->averaged = old.averaged;
-        own->observer = old.observer;
-        own->user = old.user;
-    }
-    return status;
-}
-
-Status simulation_change(Simulation *simulation, const Options *options)
-{
-    const Options before = simulation->options;
-    double had[SIMULATION_MAX_RUNS];
-    Status status = STATUS_OK;
-    dissipated_so_far(simulation, had);
-    simulation->options = *options;
-    for (int r = 0; r < simulation->runs && !status; r++)
-        status = change_run(simulation, r, &before);
-    if (options->stiffness != before.stiffness ||
-        options->integrator != before.integrator) {
-        Pull *hand = hand_energy_of(&simulation->system);
-        if (hand)
-            hand->strength = hand_strength(simulation, hand->node);
-        simulation->prediction = (Prediction){0};
-    }
-    if (!status)
-        book_change(simulation, had);
-    if (simulation->scene->aim && !simulation->done &&
-        (options->filter != before.filter ||
-         options->line_search != before.line_search))
-        simulation->scene->aim(simulation);
-    return status;
 }
 
 Effect simulation_effect(const Simulation *simulation, const OptionRow *row)

@@ -284,26 +284,27 @@ TEST(friction_stays_in_its_cone_and_takes_energy)
 static Status meddle(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;
-    Options options = scene->options;
+    const Options *now = &scene->options;
     switch (deed % 8) {
     case 0:
-        return simulation_grab(scene, 7, x[0], x[1]);
+        return simulation_hold(scene, 7, x[0], x[1]);
     case 1:
-        return simulation_grab(scene, 7, x[0] + 0.1, x[1] - 0.07);
+        return simulation_hold(scene, 7, x[0] + 0.1, x[1] - 0.07);
     case 2:
-        simulation_release(scene);
-        return STATUS_OK;
+        return simulation_hold(scene, -1, 0, 0);
     case 3:
     case 5:
         return simulation_pin(scene, 9, deed % 8 == 3);
     case 4:
-        simulation_set(scene, OPTION_SLOT(timestep), 0.4 * options.timestep);
-        return STATUS_OK;
+        return simulation_set(scene, OPTION_SLOT(timestep),
+                              0.4 * now->timestep);
     default:
-        options.stiffness *= deed % 2 ? 0.5 : 3;
-        options.friction *= deed % 2 ? 0.5 : 2;
-        options.damping = deed % 2 ? 0.01 : 0.02;
-        return simulation_change(scene, &options);
+        simulation_set(scene, OPTION_SLOT(stiffness),
+                       now->stiffness * (deed % 2 ? 0.5 : 3));
+        simulation_set(scene, OPTION_SLOT(friction),
+                       now->friction * (deed % 2 ? 0.5 : 2));
+        return simulation_set(scene, OPTION_SLOT(damping),
+                              deed % 2 ? 0.01 : 0.02);
     }
 }
 

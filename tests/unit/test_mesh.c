@@ -134,7 +134,9 @@ TEST(the_boundary_is_that_of_what_is_solid)
         for (int k = 0; k < 6; k++)
             system.k[spring[k]] = !rows[i].broken[k];
         CHECK_STATUS(self_contact_set(&system, &mesh, &barrier, 0), STATUS_OK);
-        CHECK(system_energy_of(&system, &self_contact_energy, mesh.x) == 0);
+        Place at = place_at(&system, mesh.x, NULL, mesh.x);
+        at.term = system_find_term(&system, &self_contact_energy);
+        CHECK(self_contact_energy.value(&at) == 0);
         const Boundary *boundary = &self_contact_of(&system)->boundary;
         CHECK_NEAR(boundary->edges, rows[i].edges, 0);
         CHECK_NEAR(boundary->points, rows[i].points, 0);

@@ -28,7 +28,7 @@ static void disturb(const Options *options, Simulation *used)
     bool damps = used->run[0].method->at_end && used->system.springs > 0;
     simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
     CHECK_STATUS(simulation_pin(used, last, !pinned), STATUS_OK);
-    CHECK_STATUS(simulation_grab(used, 0, 0.1, 0.2), STATUS_OK);
+    CHECK_STATUS(simulation_hold(used, 0, 0.1, 0.2), STATUS_OK);
     if (damps)
         CHECK_STATUS(simulation_set(used, OPTION_SLOT(damping), 1e8),
                      STATUS_OK);
@@ -43,7 +43,7 @@ static void disturb(const Options *options, Simulation *used)
         CHECK_STATUS(
             simulation_set(used, OPTION_SLOT(damping), options->damping),
             STATUS_OK);
-    simulation_release(used);
+    CHECK_STATUS(simulation_hold(used, -1, 0, 0), STATUS_OK);
     CHECK_STATUS(simulation_pin(used, last, pinned), STATUS_OK);
     simulation_set(used, OPTION_SLOT(timestep), options->timestep);
 }

@@ -24,9 +24,10 @@ enum { SIZE = 2 * 40 };
 typedef struct Row {
     const char *name;
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
-    double yield, hardening, damping, pull; /* 0: none; hardening as it is */
-    bool rubs, averaged, flat;              /* flat: no spring has a length */
-    bool solid;                             /* triangles for springs */
+    double yield, hardening;   /* side by side, as options have them */
+    double damping, pull;      /* 0: none */
+    bool rubs, averaged, flat; /* flat: no spring has a length */
+    bool solid;                /* triangles for springs */
     double far; /* alpha goes up to this, where nothing limits it */
     const OptionRow *option; /* or NULL: another term, by its own numbers */
 } Row;
@@ -120,7 +121,7 @@ static void make_grid(const Row *row, Random *random, Case *c)
                                 random_uniform(random, 0, 0.49)};
     CHECK_STATUS(row->solid
                      ? neo_hookean_energy.set(&c->system, &mesh, material)
-                     : cells_add(&c->system, &mesh, 5),
+                     : cells_set(&c->system, &mesh, 5),
                  STATUS_OK);
     if (row->option)
         set_option(row->option, random, &mesh, &c->system);
@@ -201,14 +202,18 @@ static void make_shape(const Row *row, Random *random, Case *c)
     c->system.k[0] = 7;
 }
 
+static Status set_field(System *system, double omega2)
+{
+    return pull_set(system, &central_field, &(Pull){.node = -1, .k = omega2});
+}
+
 /* What else the row has: pull, flow, damping. */
 static void add_terms(const Row *row, Random *random, System *system)
 {
     if (row->pull > 0)
-        CHECK_STATUS(central_field_set(system, row->pull), STATUS_OK);
+        CHECK_STATUS(set_field(system, row->pull), STATUS_OK);
     if (row->yield > 0) {
-        CHECK_STATUS(plasticity_set(system, row->yield, row->hardening),
-                     STATUS_OK);
+        CHECK_STATUS(plastic_energy.set(system, NULL, &row->yield), STATUS_OK);
         for (int s = 0; s < system->springs; s++) {
             plasticity_of(system)->ep[s] = random_uniform(random, -0.3, 0.3);
             plasticity_of(system)->kappa[s] = random_uniform(random, 0, 0.5);
@@ -603,7 +608,7 @@ static void a_system_uses_its_terms(void **unused)
     System system;
     double x[MAX_SIZE], v[MAX_SIZE], a[MAX_SIZE], kinetic = 0;
     random_system(&random, SPRINGS_MIXED, &system, x);
-    CHECK_STATUS(central_field_set(&system, 3), STATUS_OK);
+    CHECK_STATUS(set_field(&system, 3), STATUS_OK);
     Place at = place_at(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {

@@ -224,11 +224,35 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     return begun.run[begun.count++] = run;
 }
 
+/* Takes the control, which is dropped, too. */
+static Status use(Simulation *simulation, Control *control)
+{
+    Status status = simulation_use(simulation, control);
+    control_drop(control);
+    return status;
+}
+
 Status simulation_set(Simulation *simulation, int slot, double value)
 {
-    Options options = simulation->options;
-    options.number[slot] = value;
-    return simulation_change(simulation, &options);
+    Control *control = control_of(simulation);
+    control->options.number[slot] = value;
+    return use(simulation, control);
+}
+
+Status simulation_pin(Simulation *simulation, int node, bool pinned)
+{
+    Control *control = control_of(simulation);
+    control->pinned[node] = pinned;
+    return use(simulation, control);
+}
+
+Status simulation_hold(Simulation *simulation, int node, double x, double y)
+{
+    Control *control = control_of(simulation);
+    control->hand = node;
+    control->at[0] = x;
+    control->at[1] = y;
+    return use(simulation, control);
 }
 
 Simulation *make_steps(Simulation *simulation, int count)

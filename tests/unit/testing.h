@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "scenes/simulation.h"
+#include "scenes/control.h"
 
 /* |got - expected| <= tolerance; NaN fails. */
 #define CHECK_NEAR(got, expected, tolerance)                                   \
@@ -103,8 +103,11 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     __attribute__((format(printf, 3, 4)));
 void free_all_begun(void);
 
-/* simulation_change of one number, by its slot. */
+/* simulation_use with one number, by its slot, a pin or a hold changed; -1:
+ * nothing is held. */
 Status simulation_set(Simulation *simulation, int slot, double value);
+Status simulation_pin(Simulation *simulation, int node, bool pinned);
+Status simulation_hold(Simulation *simulation, int node, double x, double y);
 
 /* So many steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
