@@ -16,78 +16,12 @@
 
 enum { COMMAND_TEXT_SIZE = 64 };
 
-/* What each does is in its row of commands.c, and told by --help commands. */
+/* What each does is in its row, and told by --help commands. */
 typedef enum CommandKind {
     COMMAND_NONE,
-    COMMAND_REDRAW,
-    COMMAND_QUIT,
-    COMMAND_TOGGLE_PAUSE,
-    COMMAND_PLAY,
-    COMMAND_PAUSE,
-    COMMAND_NEXT,
-    COMMAND_BACK,
-    COMMAND_STEP,
-    COMMAND_FINER,
-    COMMAND_HOME,
-    COMMAND_END,
-    COMMAND_GOTO,
-    COMMAND_UNDO,
-    COMMAND_REDO,
-    COMMAND_RESTART,
-    COMMAND_FASTER,
-    COMMAND_SLOWER,
-    COMMAND_FILTER,
-    COMMAND_SEARCH,
-    COMMAND_METHOD,
-    COMMAND_ADD_PANE,
-    COMMAND_END_PANE,
-    COMMAND_PANE,
-    COMMAND_SET,
-    COMMAND_DEFAULT,
-    COMMAND_SELECT,
-    COMMAND_OPTIONS,
-    COMMAND_ADD,
-    COMMAND_RAISE,
-    COMMAND_LOWER,
-    COMMAND_SCENE,
-    COMMAND_START,
-    COMMAND_GRAB,
-    COMMAND_DRAG,
-    COMMAND_RELEASE,
-    COMMAND_PIN,
-    COMMAND_PLACE,
-    COMMAND_OBSTACLE,
-    COMMAND_HANDLE,
-    COMMAND_FLIP,
-    COMMAND_ZOOM,
-    COMMAND_PAN,
-    COMMAND_FIT,
-    COMMAND_COLOURS,
-    COMMAND_BARE,
-    COMMAND_KEYS,
-    COMMAND_CARD,
-    COMMAND_ENLARGE,
-    COMMAND_PREDICT,
-    COMMAND_CELL,
-    COMMAND_PAGE,
-    COMMAND_PAGE_ON,
-    COMMAND_PAGE_BACK,
-    COMMAND_PAGES,
-    COMMAND_SHEET,
-    COMMAND_CODE,
-    COMMAND_HASH,
-    COMMAND_SHOT,
-    COMMAND_FILM,
-    COMMAND_FULL,
-    COMMAND_BLANK,
-    COMMAND_ESCAPE,
-    COMMAND_TYPE_NUMBER,
-    COMMAND_TYPE_PAGE,
-    COMMAND_TYPE,
-    COMMAND_ENTER,
-    COMMAND_CLOSE,
-    COMMAND_CHOOSE,
-    COMMAND_OPEN,
+#define ROW(kind, ...) COMMAND_##kind,
+#include "play/command_rows.def"
+#undef ROW
     COMMAND_KINDS
 } CommandKind;
 
@@ -108,7 +42,8 @@ typedef enum Keyboard {
     AT_FIELD = 8,     /* what is typed: it takes every key */
     AT_SHEET = 16,    /* while all scenes are shown: no key of the run */
     AT_QUESTION = 32, /* a page waits for a number */
-    AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION
+    AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
+    AT_ANY = AT_PLAY | AT_SHEET
 } Keyboard;
 
 enum {
@@ -127,13 +62,13 @@ typedef struct CommandRow {
     const char *word; /* in scripts; NULL: not there */
     const char *does; /* for whoever reads or writes one, and hovers over a
                          chip */
+    unsigned flags;
     const char *keys; /* "Space", "Ctrl+R", several: "?|F1", "*": any; NULL */
     /* What it does, for the list of keys; "": told with the row before it;
      * NULL: not in the list. */
     const char *label;
-    unsigned flags;
-    /* What stands behind the word, a letter each: n a whole number from 0, x
-     * and y, w a word, o the name of an option, v its value; NULL: nothing. */
+    /* What stands behind the word: "N X Y", a whole number from 0 and two more;
+     * "OPTION VALUE"; or a name; NULL: nothing. */
     const char *takes;
     Keyboard keyboard; /* 0: AT_PLAY */
     const char *chip;  /* what it does now, for the chips: "play|pause" */

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/verdict.sh"
 
 work_apart
-table=$root/src/play/commands.c
+table=$root/include/play/command_rows.def
 
 # Each command of the table, on the way through a scene and back.
 cat >commands <<'END'
@@ -100,7 +100,7 @@ cat >commands <<'END'
 END
 
 missing_words() {
-    words=$(sed -n 's/.*\[COMMAND_[A-Z_]*\] = {[a-z_]*, "\([a-z-]*\)".*/\1/p' "$table")
+    words=$(sed -n 's/^ROW([A-Z_]*, [a-z_]*, "\([a-z-]*\)".*/\1/p' "$table")
     [ "$(echo "$words" | wc -l)" -gt 40 ] || echo 'the table was not read'
     for word in $words; do
         grep -q "^[0-9]* $word\( \|$\)" commands || echo "no $word"
