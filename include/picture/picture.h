@@ -9,8 +9,7 @@
 #include "picture/paper.h"
 #include "picture/show.h"
 
-typedef struct Plot Plot;   /* plot.h: where a pane is drawn, and how */
-typedef struct Facts Facts; /* facts.h: what its texts know */
+typedef struct Plot Plot; /* plot.h: where a pane is drawn, and how */
 
 /* A card in the column. */
 typedef struct Card {

@@ -72,7 +72,31 @@ typedef struct Trace {
     const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
 } Trace;
 
+/* What is known of a pane, by name: see facts.h. */
+enum { FACTS_MOST = 160, FACTS_RUNS = 3 };
+
+typedef struct Fact {
+    const char *name;
+    int run;           /* 1, 2, 3: it is known of this one alone; 0: of all */
+    const char *words; /* NULL: numbers */
+    double value[2];
+    bool point; /* both: "(1, 0.5)" */
+} Fact;
+
+typedef struct Facts {
+    int count, run; /* those that are added now are of this one */
+    Colour colour[FACTS_RUNS + 1]; /* of a run; [0] of what is of all */
+    Fact fact[FACTS_MOST];
+} Facts;
+
 /* ---- panes -------------------------------------------------------------- */
+
+/* A descent's last update as a trace. */
+typedef struct DescentTrace {
+    Trace trace;
+    const Simulation *simulation;
+    double from[2], p[2], value;
+} DescentTrace;
 
 /* One picture on the stage. */
 typedef struct Pane {
@@ -84,6 +108,10 @@ typedef struct Pane {
     const Trace *trace;
     const char *label; /* over the pane where there are several */
     Status trouble;    /* how the shown step ended */
+    /* What show_know fills. */
+    Facts facts;
+    DescentTrace descent;
+    const Trace *update; /* the trace, or that of a descent; or NULL */
 } Pane;
 
 /* What the mouse is over, or holds. */
@@ -255,6 +283,12 @@ const char *show_listing_purpose(const Show *show, const Layout *layout,
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);
 
+/* The pane whose numbers the cards show. */
+static inline const Pane *show_pane(const Show *show)
+{
+    return &show->pane[show->active];
+}
+
 /* Positions that a pane shows, [2n] m. */
 const double *pane_x(const Pane *pane);
 
@@ -274,15 +308,18 @@ typedef enum LectureColumn {
 void show_lecture(LectureColumn column, const struct LecturePage *left,
                   Show *show);
 
-/* The number that texts know by this name (facts.h); NaN: it is not known. */
-double show_number(const Show *show, const char *name);
+/* Fills the facts of all panes. */
+void show_know(Show *show);
 
-/* All lines of a text (facts.h) that are known of the active pane, one below
- * the other; out [size]. */
-void show_say(const Show *show, const char *text, char *out, size_t size);
+/* The number that texts know by this name (facts.h) now; NaN: none. */
+double show_number(Show *show, const char *name);
 
-/* Fills topic, sentence, method and state in plain words, as far as they are
- * empty, from the active pane and its trace. */
+/* All lines of a text (facts.h) that are known of the active pane now, one
+ * below the other; out [size]. */
+void show_say(Show *show, const char *text, char *out, size_t size);
+
+/* The last thing before a frame: fills the facts, and from those of the active
+ * pane topic, sentence, method and state, as far as they are empty. */
 void show_describe(Show *show);
 
 /* What the history of this scene's picture shows of the state now.  row out;

@@ -77,7 +77,7 @@ static bool is_worthy(const History *history, int series)
  * [HISTORY_SERIES] out; returns how many. */
 static int find_curves(const Show *show, Curve *curve)
 {
-    const Pane *active = &show->pane[show->active];
+    const Pane *active = show_pane(show);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
     int count = 0;
@@ -142,7 +142,7 @@ double energies_value(const Simulation *simulation, const History *history,
  * long as what is shown so far can be seen on it. */
 Axis energies_axis(const Show *show, double *joule, double *last)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     Curve curve[HISTORY_SERIES];
     int curves = find_curves(show, curve);
     double low = 0, high = 0, first = 0, least = INFINITY, all[2] = {0, 0};
@@ -192,7 +192,7 @@ static int write_legend(Paper *paper, Box inside, int curves,
 {
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < curves; c++) {
-        TextLine line = {curve[c].colour, FACE_REGULAR, ""};
+        TextLine line = {.colour = curve[c].colour};
         double value = energies_value(curve[c].simulation, curve[c].history,
                                       curve[c].series, time);
         EnergyUnit unit = energy_unit(fabs(value));
@@ -240,7 +240,7 @@ static void draw_energies(Paper *paper, Box inside, const Show *show)
 {
     Curve curve[HISTORY_SERIES];
     double joule, last;
-    double now = simulation_time(show->pane[show->active].simulation);
+    double now = simulation_time(show_pane(show)->simulation);
     int curves = find_curves(show, curve);
     Box rest = draw_legend(paper, inside, curves, curve, now);
     Axis energy = energies_axis(show, &joule, &last);
@@ -265,7 +265,7 @@ const Card card_energies = {
  * number in every step is a straight line. */
 static void draw_radius(Paper *paper, Box inside, const Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     Curve curve[HISTORY_SERIES];
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);

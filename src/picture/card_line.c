@@ -83,12 +83,10 @@ static Box draw_words(Paper *paper, Box inside, const Show *show)
         "#warning* {uphill}{p} points uphill";
     int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
-    Facts facts;
-    TextLine line;
-    facts_of(show, show->active, &facts);
+    TextLine line = text_of(&show_pane(show)->facts, words);
     Box before = canvas_clip(&paper->canvas,
                              (Box){inside.x, inside.y, inside.width, high});
-    for (const char *text = words; (text = text_line_of(&facts, text, &line));)
+    while (text_next(&line))
         words_flow(paper, inside, at, WORD_SIZE, 1, &line, true);
     canvas_clip(&paper->canvas, before);
     inside.y += high;
@@ -118,8 +116,7 @@ static void draw_curves(Paper *paper, Box inside, const Show *show,
 
 static void draw_line(Paper *paper, Box inside, const Show *show)
 {
-    DescentTrace space;
-    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    const Trace *trace = show_pane(show)->update;
     if (trace && trace->difference && isfinite(trace->slope) &&
         trace->slope != 0) {
         draw_curves(paper, inside, show, trace);

@@ -93,19 +93,20 @@ static const Row rows[] = {
 enum { ROWS = sizeof rows / sizeof *rows };
 
 /* A line: number, text, value; lit or struck through. */
-static void draw_row(Paper *paper, Box box, Facts *facts, const Trace *trace,
-                     const Row *row, bool lit, int number)
+static void draw_row(Paper *paper, Box box, const Pane *pane, const Row *row,
+                     bool lit, int number)
 {
-    TextLine off, words, value;
+    const Trace *trace = pane->update;
+    const Facts *facts = &pane->facts;
     bool reached =
         trace && (trace->line == LINE_NONE || trace->line >= row->line);
-    bool struck = row->off && text_line_of(facts, row->off, &off);
+    bool struck = text_is_known(facts, row->off);
+    TextLine words = text_first(facts, row->markup);
+    TextLine value = text_first(facts, reached || struck ? row->value : NULL);
     double line = text_line(paper->em);
     double y = box.y + 0.5 * (box.height - line);
     int x = box.x + paper_pixels(paper, 2 + 1.2 * row->indent);
     int right = box.x + box.width - paper_pixels(paper, 0.6);
-    text_line_of(facts, row->markup, &words);
-    text_line_of(facts, reached || struck ? row->value : NULL, &value);
     if (lit)
         canvas_card(&paper->canvas, box, 0.3 * paper->em, COLOUR_LIT, 0);
     paper_write(paper, FACE_REGULAR, 0.82, COLOUR_GREY, box.x + 1.2 * paper->em,
@@ -127,15 +128,13 @@ static void draw_row(Paper *paper, Box box, Facts *facts, const Trace *trace,
                     value.words);
 }
 
-/* The rows of what the active pane does: facts and shown [ROWS] out.  Returns
- * how many there are. */
-static int find_rows(const Show *show, Facts *facts, const Row **shown)
+/* The rows of what the active pane does: shown [ROWS] out.  Returns how many
+ * there are. */
+static int find_rows(const Show *show, const Row **shown)
 {
     int count = 0;
-    TextLine line;
-    facts_of(show, show->active, facts);
     for (int i = 0; i < ROWS; i++)
-        if (text_line_of(facts, rows[i].of, &line))
+        if (text_is_known(&show_pane(show)->facts, rows[i].of))
             shown[count++] = &rows[i];
     return count;
 }
@@ -143,10 +142,9 @@ static int find_rows(const Show *show, Facts *facts, const Row **shown)
 /* Ems, with title and margin. */
 static double listing_needs(const Show *show, double wide)
 {
-    Facts facts;
     const Row *shown[ROWS];
     (void)wide;
-    return 1.5 * find_rows(show, &facts, shown) + 2.6;
+    return 1.5 * find_rows(show, shown) + 2.6;
 }
 
 /* How high a line of so many is, pixels. */
@@ -159,44 +157,38 @@ static int find_pitch(Box inside, double em, int count)
 const char *show_listing_purpose(const Show *show, const Layout *layout,
                                  double y)
 {
-    Facts facts;
     const Row *shown[ROWS];
-    const Picture *picture =
-        picture_of(show->pane[show->active].simulation->scene);
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     if (show->over.zone != ZONE_CARD ||
         picture->cards[show->over.index] != &card_listing)
         return NULL;
     Box inside = cards_inside(layout->card[show->over.index], layout->em);
-    int count = find_rows(show, &facts, shown);
+    int count = find_rows(show, shown);
     int pitch = find_pitch(inside, layout->em, count);
     int row = pitch > 0 && y >= inside.y ? ((int)y - inside.y) / pitch : count;
     bool known = row < count && strcmp(shown[row]->of, "{by gradient}") != 0;
     return known ? purposes[shown[row]->line] : NULL;
 }
 
-static void draw_rows(Paper *paper, Box inside, const Show *show, Facts *facts,
-                      int count, const Row *const *shown, bool inside_line)
+static void draw_rows(Paper *paper, Box inside, const Pane *pane, int count,
+                      const Row *const *shown, bool inside_line)
 {
-    TextLine line;
-    DescentTrace space;
-    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    const Trace *trace = pane->update;
     int pitch = find_pitch(inside, paper->em, count);
     for (int i = 0; i < count; i++) {
-        bool lit = inside_line
-                       ? text_line_of(facts, shown[i]->of, &line) != NULL
-                       : trace && trace->line == shown[i]->line;
+        bool lit = inside_line ? text_is_known(&pane->facts, shown[i]->of)
+                               : trace && trace->line == shown[i]->line;
         draw_row(paper,
                  (Box){inside.x, inside.y + i * pitch, inside.width, pitch},
-                 facts, trace, shown[i], lit, i + 1);
+                 pane, shown[i], lit, i + 1);
     }
 }
 
 static void draw_listing(Paper *paper, Box inside, const Show *show)
 {
-    Facts facts;
     const Row *shown[ROWS];
-    int count = find_rows(show, &facts, shown);
-    draw_rows(paper, inside, show, &facts, count, shown, false);
+    int count = find_rows(show, shown);
+    draw_rows(paper, inside, show_pane(show), count, shown, false);
 }
 
 /* Line 5 from inside. */
@@ -214,18 +206,15 @@ static void draw_search(Paper *paper, Box inside, const Show *show)
          "{taken}{alpha} = {length:/}"}};
     enum { COUNT = sizeof search_rows / sizeof *search_rows };
     const Row *shown[COUNT];
-    Facts facts;
-    facts_of(show, show->active, &facts);
     for (int i = 0; i < COUNT; i++)
         shown[i] = &search_rows[i];
-    draw_rows(paper, inside, show, &facts, COUNT, shown, true);
+    draw_rows(paper, inside, show_pane(show), COUNT, shown, true);
 }
 
 /* The newest updates, as many as there is room for. */
 static void draw_prints(Paper *paper, Box inside, const Show *show)
 {
-    DescentTrace space;
-    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    const Trace *trace = show_pane(show)->update;
     int pitch = paper_pixels(paper, 1.45), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;

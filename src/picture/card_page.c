@@ -27,11 +27,11 @@ static const double GUESSED_EM = 20; /* pixels */
 /* One text with its head in bold; facts NULL: its lines as they are written,
  * which are only measured.  Returns where the next one begins. */
 static int put_words(Paper *paper, Box inside, int y, double size, double head,
-                     const Words *words, Facts *facts, bool draw)
+                     const Words *words, const Facts *facts, bool draw)
 {
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
-    TextLine line;
+    TextLine line = text_of(facts, words->text);
     if (words->head) {
         int width = paper_pixels(paper, head * size);
         if (draw)
@@ -44,7 +44,7 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
         int lines = (int)((inside.y + inside.height - box.y) / text_line(em));
         size_t length = strcspn(at, "\n");
         if (facts)
-            at = text_line_of(facts, at, &line);
+            at = text_next(&line) ? line.rest : NULL;
         else
             snprintf(line.words, sizeof line.words, "%.*s", (int)length, at);
         if (!facts)
@@ -58,7 +58,7 @@ static int put_words(Paper *paper, Box inside, int y, double size, double head,
 
 /* Returns how high it is, in pixels. */
 static int put_page(Paper *paper, Box inside, double size, const Show *show,
-                    Facts *facts, bool draw)
+                    const Facts *facts, bool draw)
 {
     const LecturePage *page = show->lecture;
     const char *how = page->answer    ? "Type a number, then Enter. N shows it."
@@ -80,10 +80,9 @@ static int put_page(Paper *paper, Box inside, double size, const Show *show,
 double page_letters(Paper *paper, Box inside, const Show *show)
 {
     double size = LETTERS;
-    Facts facts;
-    facts_of(show, show->active, &facts);
+    const Facts *facts = &show_pane(show)->facts;
     while (size > SMALLEST &&
-           put_page(paper, inside, size, show, &facts, false) > inside.height)
+           put_page(paper, inside, size, show, facts, false) > inside.height)
         size -= 0.05;
     return size;
 }
@@ -91,12 +90,9 @@ double page_letters(Paper *paper, Box inside, const Show *show)
 /* The same letters on every page; smaller ones where they do not fit. */
 static void draw_lecture(Paper *paper, Box inside, const Show *show)
 {
-    Facts facts;
-    if (!show->lecture)
-        return;
-    facts_of(show, show->active, &facts);
-    put_page(paper, inside, page_letters(paper, inside, show), show, &facts,
-             true);
+    if (show->lecture)
+        put_page(paper, inside, page_letters(paper, inside, show), show,
+                 &show_pane(show)->facts, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const Show *show)
@@ -104,10 +100,8 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     if (!show->lecture)
         return inside;
     const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
-    Facts facts;
-    facts_of(show, show->active, &facts);
-    int y =
-        put_words(paper, inside, inside.y, 1, TEST_ROOM, &words, &facts, true);
+    int y = put_words(paper, inside, inside.y, 1, TEST_ROOM, &words,
+                      &show_pane(show)->facts, true);
     return (Box){inside.x, y, inside.width, inside.y + inside.height - y};
 }
 

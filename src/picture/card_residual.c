@@ -98,8 +98,7 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
  * larger. */
 static void draw_residual(Paper *paper, Box inside, const Show *show)
 {
-    DescentTrace space;
-    const Trace *trace = pane_trace(&show->pane[show->active], &space);
+    const Trace *trace = show_pane(show)->update;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
         cards_hint(paper, inside, show,
@@ -127,7 +126,7 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     Plot plot = plot_create(paper, inside, x, y);
     draw_updates(&plot, trace->record_before, trace->updates_before, 1, 2.5,
                  COLOUR_BORDER);
-    const Scene *scene = show->pane[show->active].simulation->scene;
+    const Scene *scene = show_pane(show)->simulation->scene;
     draw_tolerance(&plot, trace->tolerance,
                    scene->needs & NEEDS_TIME ? trace->h : 0);
     draw_updates(&plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);

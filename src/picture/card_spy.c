@@ -96,7 +96,7 @@ static void light_spring(Paper *paper, const System *system, int spring,
 static void draw_matrix(Paper *paper, Box square, const Show *show,
                         bool natural, int springs)
 {
-    const System *system = &show->pane[show->active].simulation->system;
+    const System *system = &show_pane(show)->simulation->system;
     const int facts[3] = {system->nodes, system->springs, springs};
     uint64_t key = paper_key(natural, facts, sizeof facts);
     bool drawn = false, over = show->hover.kind == PICK_SPRING;
@@ -142,7 +142,7 @@ static void draw_words(Paper *paper, Box words, int side)
 
 static void draw_spy(Paper *paper, Box inside, const Show *show)
 {
-    const System *system = &show->pane[show->active].simulation->system;
+    const System *system = &show_pane(show)->simulation->system;
     int side = inside.width < inside.height ? inside.width : inside.height;
     int line = paper_pixels(paper, 1.3);
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
@@ -163,14 +163,13 @@ static void draw_assembly(Paper *paper, Box inside, const Show *show)
     int side = (inside.width - gap) / 2;
     if (side > inside.height - line)
         side = inside.height - line;
-    int springs = lecture_spring(show->pane[show->active].simulation) + 1;
+    int springs = lecture_spring(show_pane(show)->simulation) + 1;
     for (int k = 0; k < 2 && side > 4 * line; k++) {
         int x = inside.x + k * (side + gap);
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
         draw_matrix(paper, (Box){x, inside.y + line, side, side}, show, !k,
-                    k ? show->pane[show->active].simulation->system.springs
-                      : springs);
+                    k ? show_pane(show)->simulation->system.springs : springs);
     }
 }
 

@@ -21,10 +21,7 @@ static double descent_difference(const void *function, double alpha)
            space->value;
 }
 
-/* The last update of a descent; before the first one, the one to come.  The
- * residual is that of the present iterate: at the end the one that passes. */
-static const Trace *descent_trace(const Simulation *simulation,
-                                  DescentTrace *space)
+const Trace *descent_trace(const Simulation *simulation, DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
     Trace *trace = &space->trace;
@@ -63,15 +60,6 @@ static const Trace *descent_trace(const Simulation *simulation,
     return trace;
 }
 
-const Trace *pane_trace(const Pane *pane, DescentTrace *space)
-{
-    if (pane->trace)
-        return pane->trace;
-    if (pane->simulation->scene->step != step_descent)
-        return NULL;
-    return descent_trace(pane->simulation, space);
-}
-
 double trace_alpha(const Trace *trace, int trial)
 {
     return ldexp(trace->first > 0 ? trace->first : 1, 1 - trial);
@@ -93,34 +81,32 @@ double fitting_size(Paper *paper, Face face, double size, double least,
 
 void cards_hint(Paper *paper, Box inside, const Show *show, const char *text)
 {
-    char words[SHOW_TEXT] = "";
-    text_say(show, text, words, sizeof words);
+    TextLine line = text_first(&show_pane(show)->facts, text);
     double size =
-        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, words);
+        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, line.words);
     paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
                 inside.x + 0.5 * inside.width,
                 inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
-                "%s", words);
+                "%s", line.words);
 }
 
 /* Frame, title and cross; returns what is inside. */
 static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                       bool closed)
 {
-    char title[SHOW_TEXT] = "";
+    TextLine title = text_first(&show_pane(show)->facts, card->title);
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
     double unit = paper->unit, x = box.x + box.width - bar / 2.0;
     double y = box.y + bar / 2.0, arm = 3.4 * unit;
-    text_say(show, card->title, title, sizeof title);
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
     Box before =
         canvas_clip(&paper->canvas, (Box){box.x, box.y, box.width - bar, bar});
     double size = fitting_size(paper, FACE_BOLD, 0.96, 0.7,
-                               box.width - bar - margin, title);
+                               box.width - bar - margin, title.words);
     paper_write(paper, FACE_BOLD, size, closed ? COLOUR_FAINT : COLOUR_TEXT,
                 box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
-                title);
+                title.words);
     canvas_clip(&paper->canvas, before);
     for (int k = 0; k < 2 && !show->print; k++) { /* a plus, or a cross */
         double right = closed && k ? 0 : arm;
@@ -259,8 +245,7 @@ static void draw_page(Paper *paper, Box column, const Show *show)
 
 void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
-    const Picture *picture =
-        picture_of(show->pane[show->active].simulation->scene);
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     if (show->page.kind != PAGE_NONE && layout->column.width > 0) {
         draw_page(paper, layout->column, show);
         return;

@@ -73,14 +73,9 @@ void frame_draw(Paper *paper, const Layout *layout, const Show *show);
 /* Steps that the time line has room for: those there are, at least some. */
 long frame_span(const Show *show);
 
-/* The trace of a pane; where a descent is shown iteration by iteration, one
- * made from it.  NULL: none. */
-typedef struct DescentTrace {
-    Trace trace;
-    const Simulation *simulation;
-    double from[2], p[2], value;
-} DescentTrace;
-const Trace *pane_trace(const Pane *pane, DescentTrace *space);
+/* The last update of a descent; before the first one, the one to come.  The
+ * residual is that of the present iterate: at the end the one that passes. */
+const Trace *descent_trace(const Simulation *simulation, DescentTrace *space);
 
 /* The step length of trial 1, 2, ... */
 double trace_alpha(const Trace *trace, int trial);

@@ -1,6 +1,8 @@
 /* The sentences above the stage: texts of facts.h; the first line that is
  * known is said. */
-#include "picture/facts.h"
+#include <stdio.h>
+
+#include "picture/cards.h"
 #include "scenes/scene.h"
 
 /* Where a search ended, what went wrong, the line of Algorithm 3, the scene. */
@@ -50,12 +52,33 @@ static const char states[] = "{done}at its end\n"
                              "{paused}paused\n"
                              "running";
 
+/* The first line that is known, where there are no words yet; out [size]. */
+static void say(const Show *show, const char *text, char *out, size_t size)
+{
+    if (!out[0])
+        snprintf(out, size, "%.*s", (int)size - 1,
+                 text_first(&show_pane(show)->facts, text).words);
+}
+
+void show_know(Show *show)
+{
+    for (int i = 0; i < show->panes; i++) {
+        Pane *pane = &show->pane[i];
+        bool descends = pane->simulation->scene->step == step_descent;
+        pane->update = pane->trace || !descends
+                           ? pane->trace
+                           : descent_trace(pane->simulation, &pane->descent);
+        facts_of(show, i, &pane->facts);
+    }
+}
+
 void show_describe(Show *show)
 {
-    const Scene *scene = show->pane[show->active].simulation->scene;
+    const Scene *scene = show_pane(show)->simulation->scene;
+    show_know(show);
     if (!show->topic)
         show->topic = scene->title ? scene->title : scene->name;
-    text_say(show, sentences, show->sentence, sizeof show->sentence);
-    text_say(show, methods, show->method, sizeof show->method);
-    text_say(show, states, show->state, sizeof show->state);
+    say(show, sentences, show->sentence, sizeof show->sentence);
+    say(show, methods, show->method, sizeof show->method);
+    say(show, states, show->state, sizeof show->state);
 }

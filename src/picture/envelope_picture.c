@@ -121,7 +121,7 @@ static void envelope_facts(const Simulation *simulation, Facts *facts)
 /* The square of the cell after its steps, fitted into the card. */
 static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
     double bounds[4] = {-0.5, -0.5, 0.5, 0.5};

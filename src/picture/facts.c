@@ -166,31 +166,27 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
 
 void facts_of(const Show *show, int pane, Facts *facts)
 {
+    static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
+                                                  "line 3", "line 4", "line 5",
+                                                  "line 6", "line 7", "line 8"};
     const Pane *now = &show->pane[pane];
     const Simulation *simulation = now->simulation;
     const Picture *picture = picture_of(simulation->scene);
-    DescentTrace space;
-    const Trace *trace = pane_trace(now, &space);
-    bool whole = !now->trace || !now->trace->line || now->trace->given_up;
+    Line line = now->trace ? now->trace->line : LINE_NONE;
+    bool whole = !line || now->trace->given_up;
     facts->count = facts->run = 0;
     for (int run = 0; run <= FACTS_RUNS; run++)
         facts->colour[run] = COLOUR_TEXT;
-    facts->each = NULL;
     add_settings(show, simulation, facts);
     add_end(simulation, facts);
     if (whole && now->trouble && now->trouble != STATUS_INTERRUPTED) {
         fact_words(facts, status_name(now->trouble), "");
         fact_words(facts, "trouble", status_text(now->trouble));
     }
-    if (now->trace && now->trace->line) {
-        static const char *const lines[LINE_COUNT] = {
-            "",       "line 1", "line 2", "line 3", "line 4",
-            "line 5", "line 6", "line 7", "line 8"};
-        fact_when(facts, lines[now->trace->line], true);
-    }
-    fact_when(facts, "no step", !trace);
-    if (trace)
-        add_trace(simulation, trace, facts);
+    fact_when(facts, lines[line], line);
+    fact_when(facts, "no step", !now->update);
+    if (now->update)
+        add_trace(simulation, now->update, facts);
     if (picture->facts)
         picture->facts(simulation, facts);
 }
@@ -198,22 +194,23 @@ void facts_of(const Show *show, int pane, Facts *facts)
 /* ---- texts --------------------------------------------------------------- */
 
 /* "#warning"; of a run, "#run" and "#1" */
-static Colour line_colour(const Facts *facts, const char *name, size_t length)
+static Colour line_colour(const Facts *facts, int run, const char *name,
+                          size_t length)
 {
     if (length == 3 && strncmp(name, "run", 3) == 0)
-        return facts->colour[facts->run];
+        return facts->colour[run];
     if (*name >= '0' && *name <= '0' + FACTS_RUNS)
         return facts->colour[*name - '0'];
     return colour_named(name, length);
 }
 
 /* The fact of this name, up to its colon or brace. */
-static const Fact *find_fact(const Facts *facts, const char *name)
+static const Fact *find_fact(const Facts *facts, int run, const char *name)
 {
     size_t length = strcspn(name, ":}");
     for (int i = 0; i < facts->count; i++) {
         const Fact *one = &facts->fact[i];
-        bool here = one->run == 0 || one->run == facts->run;
+        bool here = one->run == 0 || one->run == run;
         if (here && strlen(one->name) == length &&
             strncmp(name, one->name, length) == 0)
             return one;
@@ -221,11 +218,10 @@ static const Fact *find_fact(const Facts *facts, const char *name)
     return NULL;
 }
 
-double show_number(const Show *show, const char *name)
+double show_number(Show *show, const char *name)
 {
-    Facts facts;
-    facts_of(show, show->active, &facts);
-    const Fact *one = find_fact(&facts, name);
+    show_know(show);
+    const Fact *one = find_fact(&show_pane(show)->facts, 0, name);
     return one && !one->words ? one->value[0] : NAN;
 }
 
@@ -261,16 +257,16 @@ static void put_fact(const Fact *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills one line [length]; false: something in it is not known. */
-static bool fill_line(const Facts *facts, const char *text, size_t length,
-                      TextLine *line)
+/* Fills in the line of so many bytes; false: something in it is not known. */
+static bool fill_line(TextLine *line, const char *text, size_t length)
 {
+    const Facts *facts = line->facts;
     const char *from = text, *end = text + length;
-    size_t used = 0;
-    *line = (TextLine){COLOUR_TEXT, FACE_REGULAR, ""};
-    size_t name = strcspn(text, " *{");
+    size_t used = 0, name = strcspn(text, " *{");
+    line->colour = COLOUR_TEXT;
+    line->face = FACE_REGULAR;
     if (*from == '#' && from[name] != '{') {
-        line->colour = line_colour(facts, from + 1, name - 1);
+        line->colour = line_colour(facts, line->run, from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
@@ -279,7 +275,7 @@ static bool fill_line(const Facts *facts, const char *text, size_t length,
             line->words[used++] = *from++;
             continue;
         }
-        const Fact *one = find_fact(facts, from + 1);
+        const Fact *one = find_fact(facts, line->run, from + 1);
         name = strcspn(from, ":}");
         if (!one)
             return false;
@@ -288,52 +284,57 @@ static bool fill_line(const Facts *facts, const char *text, size_t length,
         used += strlen(line->words + used);
         from += strcspn(from, "}") + 1;
     }
+    line->words[used] = '\0';
     return true;
 }
 
-const char *text_line_of(Facts *facts, const char *text, TextLine *line)
+TextLine text_of(const Facts *facts, const char *text)
 {
-    while (text) {
-        if (*text == '@') {
-            text = facts->each = text + 2;
-            facts->run = 1;
+    return (TextLine){.facts = facts, .rest = text ? text : ""};
+}
+
+bool text_next(TextLine *line)
+{
+    for (;;) {
+        if (*line->rest == '@') {
+            line->rest = line->each = line->rest + 2;
+            line->run = 1;
         }
-        if (!*text && facts->each && facts->run < FACTS_RUNS) {
-            text = facts->each;
-            facts->run++;
+        if (!*line->rest && line->each && line->run < FACTS_RUNS) {
+            line->rest = line->each;
+            line->run++;
         }
+        const char *text = line->rest;
+        size_t length = strcspn(text, "\n");
+        line->rest += length + (text[length] == '\n');
+        if (*text && fill_line(line, text, length))
+            return true;
         if (!*text)
             break;
-        size_t length = strcspn(text, "\n");
-        bool known = fill_line(facts, text, length, line);
-        text += length + (text[length] == '\n');
-        if (known)
-            return text;
     }
-    facts->each = NULL;
-    facts->run = 0;
-    *line = (TextLine){COLOUR_TEXT, FACE_REGULAR, ""};
-    return NULL;
+    line->words[0] = '\0';
+    return false;
 }
 
-void text_say(const Show *show, const char *text, char *out, size_t size)
+TextLine text_first(const Facts *facts, const char *text)
 {
-    Facts facts;
-    TextLine line;
-    if (out[0])
-        return;
-    facts_of(show, show->active, &facts);
-    text_line_of(&facts, text, &line);
-    snprintf(out, size, "%s", line.words);
+    TextLine line = text_of(facts, text);
+    text_next(&line);
+    return line;
 }
 
-void show_say(const Show *show, const char *text, char *out, size_t size)
+bool text_is_known(const Facts *facts, const char *text)
 {
-    Facts facts;
-    TextLine line;
+    TextLine line = text_of(facts, text);
+    return text_next(&line);
+}
+
+void show_say(Show *show, const char *text, char *out, size_t size)
+{
     size_t used = 0;
-    facts_of(show, show->active, &facts);
-    while ((text = text_line_of(&facts, text, &line)) && used + 1 < size)
+    show_know(show);
+    for (TextLine line = text_of(&show_pane(show)->facts, text);
+         used + 1 < size && text_next(&line);)
         used += (size_t)snprintf(out + used, size - used, "%s%s",
                                  used ? "\n" : "", line.words);
 }
@@ -356,17 +357,15 @@ static double line_height(Paper *paper, const TextLine *line, double size,
 void text_in_card(Paper *paper, Box inside, const Show *show, const char *text)
 {
     double height = 0, size = 1, y = inside.y, above;
-    Facts facts;
-    TextLine line;
-    facts_of(show, show->active, &facts);
-    for (const char *at = text; (at = text_line_of(&facts, at, &line));) {
+    const TextLine begin = text_of(&show_pane(show)->facts, text);
+    for (TextLine line = begin; text_next(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
         height += line_height(paper, &line, 1, NULL);
         if (width > inside.width)
             size = fmin(size, (double)inside.width / width);
     }
     size = fmax(fmin(size, inside.height / height), paper->least);
-    while ((text = text_line_of(&facts, text, &line))) {
+    for (TextLine line = begin; text_next(&line);) {
         double used = line_height(paper, &line, size, &above);
         paper_write(paper, line.face, size, line.colour, inside.x, y + above,
                     ALIGN_LEFT, "%s", line.words);

@@ -16,22 +16,7 @@
 
 #include "picture/picture.h"
 
-enum { FACTS_MOST = 160, FACTS_RUNS = 3, FACTS_TEXT = 512 };
-
-typedef struct Fact {
-    const char *name;
-    int run;           /* 1, 2, 3: it is known of this one alone; 0: of all */
-    const char *words; /* NULL: numbers */
-    double value[2];
-    bool point; /* both: "(1, 0.5)" */
-} Fact;
-
-struct Facts {
-    int count, run;   /* of those that are added, or looked for, now */
-    const char *each; /* where the text of each run begins; or NULL */
-    Colour colour[FACTS_RUNS + 1]; /* "#run ": of the present one; "#1 " */
-    Fact fact[FACTS_MOST];
-};
+enum { FACTS_TEXT = 512 };
 
 /* A number, NaN: not known; words, NULL: not known; a switch; a point [2].  Of
  * several facts with one name the first counts. */
@@ -40,24 +25,31 @@ void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
 void fact_point(Facts *facts, const char *name, const double point[2]);
 
-/* What is known of a pane, and what its picture knows beside that. */
+/* What is known of a pane, whose update is known, and what its picture knows
+ * beside that; facts out. */
 void facts_of(const Show *show, int pane, Facts *facts);
 
-/* A line as it is written. */
+/* A line as it is written, and where in its text. */
 typedef struct TextLine {
     Colour colour;
     Face face;
     char words[FACTS_TEXT];
+    const Facts *facts;
+    const char *rest, *each; /* what follows; what is said of each run */
+    int run;
 } TextLine;
 
-/* The next line of a text that is known.  Returns where the text goes on; NULL:
- * there was no such line, and the words are "". */
-const char *text_line_of(Facts *facts, const char *text, TextLine *line);
+/* All lines of a text that are known:
+ *     for (TextLine line = text_of(facts, text); text_next(&line);)
+ * At the end the words are "".  text may be NULL. */
+TextLine text_of(const Facts *facts, const char *text);
+bool text_next(TextLine *line);
 
-/* The first such line of the active pane; out [size], unless it has words. */
-void text_say(const Show *show, const char *text, char *out, size_t size);
+/* The first one, and whether there is one. */
+TextLine text_first(const Facts *facts, const char *text);
+bool text_is_known(const Facts *facts, const char *text);
 
-/* All its known lines in a card, one below the other, as large as fits but no
+/* All known lines in a card, one below the other, as large as fits but no
  * larger than plain text.  An empty line is half as high. */
 void text_in_card(Paper *paper, Box inside, const Show *show, const char *text);
 

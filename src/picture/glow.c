@@ -97,7 +97,7 @@ void glow_draw(Paper *paper, const Show *show)
     static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
-    const Trace *trace = show->pane[show->active].trace;
+    const Trace *trace = show_pane(show)->trace;
     Colour colour = 0;
     if (!show->lecture || show->print)
         return;

@@ -20,7 +20,7 @@ static const char *const line_texts[LINE_COUNT] = {
  * through, else the page's. */
 static const char *lit_text(const Show *show, const LecturePage *page)
 {
-    const Trace *trace = show->pane[show->active].trace;
+    const Trace *trace = show_pane(show)->trace;
     if (strcmp(page->function, "step_forward") == 0 && trace &&
         trace->line != LINE_NONE && line_texts[trace->line])
         return line_texts[trace->line];
@@ -80,7 +80,7 @@ static bool has_word(const char *words, const char *word)
 
 void show_lecture(LectureColumn column, const LecturePage *left, Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     const LecturePage *page = simulation->options.page;
     const Picture *picture = picture_of(simulation->scene);
     if (column == LECTURE_PAGES)

@@ -77,11 +77,8 @@ static void draw_label(Paper *paper, const Layout *layout, const Show *show,
 /* The words of a picture. */
 static void draw_legend(Plot *stage, const Show *show, const Picture *picture)
 {
-    Facts facts;
-    TextLine line;
-    const char *text = picture->legend;
-    facts_of(show, stage->pane, &facts);
-    while ((text = text_line_of(&facts, text, &line)))
+    const Facts *facts = &show->pane[stage->pane].facts;
+    for (TextLine line = text_of(facts, picture->legend); text_next(&line);)
         plot_legend(stage, line.colour, "%s", line.words);
     if (picture->scale)
         plot_scale(stage);

@@ -121,7 +121,7 @@ static void draw_table(Paper *paper, Box inside, const Show *show)
                                         "time"};
     static const double columns[] = {0, 0.49, 0.68, 0.84, 1};
     enum { COLUMNS = sizeof columns / sizeof *columns, THIRD = 2 };
-    const Race *race = &show->pane[show->active].simulation->exhibit.race;
+    const Race *race = &show_pane(show)->simulation->exhibit.race;
     double line = fmin(1.5 * paper->em, inside.height / (RACE_METHODS + 1.0));
     double size = fmin(0.9, line / (1.35 * paper->em));
     for (int row = 0; row <= RACE_METHODS; row++) {

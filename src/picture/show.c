@@ -32,8 +32,7 @@ static int count_letters(const char *text)
  * wide. */
 static void ask_cards(const Show *show, const Layout *layout, LayoutWish *wish)
 {
-    const Picture *picture =
-        picture_of(show->pane[show->active].simulation->scene);
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     for (int c = 0; c < wish->cards; c++)
         if (picture->cards[c]->needs)
             wish->least[c] = picture->cards[c]->needs(
@@ -46,7 +45,7 @@ static void ask_cards(const Show *show, const Layout *layout, LayoutWish *wish)
  * stage. */
 static double least_letter(const Show *show, int width, int height)
 {
-    bool big = show->pane[show->active].simulation->options.big;
+    bool big = show_pane(show)->simulation->options.big;
     double letter = big ? fmin(height / 35.0, width / 54.0)
                         : fmin(height / 55.0, width / 64.0);
     return show->lecture || big ? fmax(show->letter, letter) : show->letter;
@@ -69,8 +68,7 @@ static void place_star(const Show *show, const Picture *picture, Layout *layout)
 
 Layout show_layout(const Show *show, int width, int height)
 {
-    const Picture *picture =
-        picture_of(show->pane[show->active].simulation->scene);
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     LayoutWish wish = {.bare = show->bare,
                        .letter = least_letter(show, width, height),
                        .panes = show->panes,

@@ -178,7 +178,7 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
 
 static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     SpringFacts facts = facts_of_spring(simulation);
     double most = 1e-300;
     for (int i = 0; i < 4; i++) {
@@ -213,7 +213,7 @@ static double root_over(const void *data, double d)
 
 static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 {
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = show_pane(show)->simulation;
     const System *system = &simulation->system;
     SpringFacts now = facts_of_spring(simulation);
     bool both = simulation->exhibit.parts;

@@ -144,13 +144,12 @@ static Box body_box(const Plot *stage, const Pane *pane)
 
 /* A text beside a point of the world. */
 static void draw_note(Plot *stage, const Pane *pane, const double *at,
-                      Facts *facts, const char *text)
+                      const Facts *facts, const char *text)
 {
     Paper *paper = stage->paper;
     int wide = paper_pixels(paper, WIDTH), lines = 0;
     double p[2];
-    TextLine line;
-    for (const char *next = text; (next = text_line_of(facts, next, &line));) {
+    for (TextLine line = text_of(facts, text); text_next(&line);) {
         int width = paper_width(paper, line.face, SMALL, line.words);
         wide = width > wide ? width : wide;
         lines++;
@@ -159,7 +158,7 @@ static void draw_note(Plot *stage, const Pane *pane, const double *at,
     Box box =
         plot_note(stage, p[0], p[1], wide, paper_pixels(paper, LINE * lines),
                   body_box(stage, pane));
-    while ((text = text_line_of(facts, text, &line))) {
+    for (TextLine line = text_of(facts, text); text_next(&line);) {
         paper_write(paper, line.face, SMALL, line.colour, box.x, box.y,
                     ALIGN_LEFT, "%s", line.words);
         box.y += paper_pixels(paper, LINE);

@@ -238,12 +238,12 @@ static void explain_number(const Player *player, Show *show)
 }
 
 /* What a sentence can say of a chip, a step of the time line, a line of the
- * listing under the mouse. */
-static void explain_over(const Player *player, Show *show)
+ * listing under the mouse; false: of nothing. */
+static bool explain_over(const Player *player, Show *show)
 {
     const Paper *paper = player->view ? view_paper(player->view) : NULL;
     if (!paper || player->sheet)
-        return;
+        return false;
     Layout layout =
         show_layout(show, paper->canvas.width, paper->canvas.height);
     const char *purpose = show_listing_purpose(show, &layout, player->mouse.y);
@@ -263,6 +263,9 @@ static void explain_over(const Player *player, Show *show)
                                        : "");
     else if (purpose)
         snprintf(show->sentence, SHOW_TEXT, "%s", purpose);
+    else
+        return false;
+    return true;
 }
 
 /* The chip of a command: its first key, and what that does now: word number
@@ -504,13 +507,14 @@ void player_fill(Player *player)
     if (player->column == COLUMN_OPTIONS)
         fill_options(player);
     explain_number(player, show);
-    explain_over(player, show);
-    if (player->explains && show->sentence[0] && !player->typing)
-        show->message[0] = '\0';
+    bool explained = show->sentence[0];
     show->veiled = player_veils(player);
     show_lecture(player->column >= COLUMN_KEYS ? LECTURE_CARDS
                                                : (LectureColumn)player->column,
                  player->left, show);
     player_fill_sheet(player);
     show_describe(show);
+    explained = explain_over(player, show) || explained;
+    if (player->explains && explained && !player->typing)
+        show->message[0] = '\0';
 }

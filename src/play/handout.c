@@ -158,7 +158,7 @@ static void write_text(FILE *file, const char *text)
 
 /* <p> or another element, a head in bold, and what is known of the text now,
  * line by line; nothing where nothing is. */
-static void write_said(FILE *file, const Show *show, const char *element,
+static void write_said(FILE *file, Show *show, const char *element,
                        const char *head, const char *text)
 {
     char words[WORDS] = "";
@@ -263,7 +263,7 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
 /* ---- pages -------------------------------------------------------------- */
 
 /* The page that the player shows. */
-static Status write_page(FILE *file, const LecturePage *page, const Show *show,
+static Status write_page(FILE *file, const LecturePage *page, Show *show,
                          const char *name)
 {
     fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name,

@@ -61,11 +61,9 @@ static bool says(const LecturePage *page, const char *markup)
 {
     const char *texts[] = {page->text,  page->formula, page->look,
                            page->touch, page->claim,   page->ask};
-    Facts facts;
-    TextLine line;
-    facts_of(&player.show, player.show.active, &facts);
+    const Facts *facts = &show_pane(&player.show)->facts;
     for (int i = 0; i < 6; i++)
-        for (const char *at = texts[i]; (at = text_line_of(&facts, at, &line));)
+        for (TextLine line = text_of(facts, texts[i]); text_next(&line);)
             if (strcmp(line.words, markup) == 0)
                 return true;
     return false;
@@ -964,12 +962,11 @@ static bool holds(const Fact *fact, int k)
 /* All facts with numbers. */
 static void check_facts(const char *name)
 {
-    Facts facts;
-    facts_of(&player.show, player.show.active, &facts);
-    for (int i = 0; i < facts.count; i++)
-        for (int k = 0; k <= facts.fact[i].point && !facts.fact[i].words; k++)
-            if (!holds(&facts.fact[i], k))
-                wrong(name, facts.fact[i].name, facts.fact[i].value[k]);
+    const Facts *facts = &show_pane(&player.show)->facts;
+    for (const Fact *one = facts->fact; one < facts->fact + facts->count; one++)
+        for (int k = 0; k <= one->point && !one->words; k++)
+            if (!holds(one, k))
+                wrong(name, one->name, one->value[k]);
 }
 
 /* ---- numbers in words ---------------------------------------------------- */

@@ -46,6 +46,7 @@ static void stand_up(const char *line, int steps)
     }
     show_create(&simulation, &show);
     show.pane[0].history = &history;
+    show_know(&show);
     set_size(1280, 800);
 }
 
@@ -60,6 +61,7 @@ static int take_down(void **unused)
 static void draw(void)
 {
     int width = paper.canvas.width, height = paper.canvas.height;
+    show_know(&show);
     show_draw(&paper, &show);
     layout = show_layout(&show, width, height);
 }
@@ -581,7 +583,6 @@ TEST(texts_say_what_is_known)
                 {"{e:2} {e} {e:7}", "1200 1230 1234.567"},
                 {"{nothing}\n@\n{f}", "2"}};
     Facts facts = {.count = 0};
-    TextLine line;
     fact(&facts, "a", 0.69);
     fact(&facts, "b", -0.5511);
     fact(&facts, "c", 1.468e-6);
@@ -592,10 +593,10 @@ TEST(texts_say_what_is_known)
     fact(&facts, "f", 2);
     facts.run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *rest = text_line_of(&facts, rows[i].text, &line);
+        TextLine line = text_first(&facts, rows[i].text);
         assert_string_equal(line.words, rows[i].line);
         CHECK((line.colour == COLOUR_WARNING) == (i == 1));
-        CHECK(!text_line_of(&facts, rest, &line) && line.words[0] == 0);
+        CHECK(!text_next(&line) && line.words[0] == 0);
     }
 }
 
