@@ -22,6 +22,8 @@ SquareMesh square_mesh_shape(int columns, int rows, double side, int bodies)
  */
 static int body_of(const SquareMesh *shape, int all, int *i)
 {
+    if (shape->bodies == 1)
+        return 0;
     int each = all / shape->bodies, body = *i / each;
     *i %= each;
     return body;
@@ -106,7 +108,7 @@ bool square_mesh_patch(const SquareMesh *shape, int c, int cells, int node[4])
     node[1] = first + node_at(shape, right, low);
     node[2] = first + node_at(shape, right, up);
     node[3] = first + node_at(shape, left, up);
-    return left % cells == 0 && low % cells == 0;
+    return cells == 1 || (left % cells == 0 && low % cells == 0);
 }
 
 /* Node k of a body's outline. */

@@ -78,16 +78,29 @@ void canvas_clear(Canvas *canvas, Colour colour)
          colour | 0xff000000u);
 }
 
-/* Whole pixels that are touched, as far as they are inside `clip`. */
+/* fmin and fmax, which are calls and take longer; NaN: the second one. */
+static inline double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* Whole pixels that are touched, as far as they are inside `clip`, whose
+ * numbers are >= 0, so that an int cuts like floor. */
 static Box touched(Box clip, double left, double top, double right,
                    double bottom)
 {
-    double x0 = fmax(floor(left), clip.x), y0 = fmax(floor(top), clip.y);
-    double x1 = fmin(ceil(right), clip.x + clip.width);
-    double y1 = fmin(ceil(bottom), clip.y + clip.height);
-    if (!(x1 > x0) || !(y1 > y0))
+    double x0 = most(left, clip.x), x1 = least(right, clip.x + clip.width);
+    double y0 = most(top, clip.y), y1 = least(bottom, clip.y + clip.height);
+    if (!(x1 >= x0) || !(y1 >= y0))
         return (Box){0, 0, 0, 0};
-    return (Box){(int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0)};
+    int x = (int)x0, y = (int)y0, right_end = (int)x1, low_end = (int)y1;
+    return (Box){x, y, right_end + (right_end < x1) - x,
+                 low_end + (low_end < y1) - y};
 }
 
 Box canvas_clip(Canvas *canvas, Box box)
@@ -313,10 +326,10 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     uint32_t full = opacity(colour);
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
-    Box box = touched(canvas->clip, fmin(c[0], fmin(c[2], c[4])) - reach,
-                      fmin(c[1], fmin(c[3], c[5])) - reach,
-                      fmax(c[0], fmax(c[2], c[4])) + reach,
-                      fmax(c[1], fmax(c[3], c[5])) + reach);
+    Box box = touched(canvas->clip, least(c[0], least(c[2], c[4])) - reach,
+                      least(c[1], least(c[3], c[5])) - reach,
+                      most(c[0], most(c[2], c[4])) + reach,
+                      most(c[1], most(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -342,14 +355,14 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         for (int i = left; smooth && i < right; i++) {
             double inside = 0.5; /* and more is all of the pixel */
             for (int k = 0; k < 3; k++)
-                inside = fmin(inside, edge[k][0] * i + first[k]);
+                inside = least(inside, edge[k][0] * i + first[k]);
             row[i] = mix(row[i], colour,
-                         (uint32_t)(fmax(inside + 0.5, 0) * full + 0.5));
+                         (uint32_t)(most(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
 
-/* value, limited to 0 ... 1; a call of fmin and fmax would take longer. */
+/* value, limited to 0 ... 1 */
 static inline double limit_part(double value)
 {
     return value < 0 ? 0 : value > 1 ? 1 : value;

@@ -161,9 +161,9 @@ static double turn(const double *x, int a, int b, int c)
 {
     const double *p = x + 2 * (size_t)a, *q = x + 2 * (size_t)b,
                  *r = x + 2 * (size_t)c;
-    double dx = q[0] - p[0], dy = q[1] - p[1];
-    double unit = fmax(fabs(dx), fabs(dy));
-    unit = unit > 1e100 ? 1 / unit : 1;
+    double dx = q[0] - p[0], dy = q[1] - p[1], unit = 1;
+    if (fabs(dx) > 1e100 || fabs(dy) > 1e100)
+        unit = 1 / fmax(fabs(dx), fabs(dy));
     return unit * dx * (r[1] - p[1]) - unit * dy * (r[0] - p[0]);
 }
 
