@@ -103,7 +103,7 @@ static void circle_bounds(const Show *show, int pane, double bounds[4])
         const double *x = simulation->run[r].x;
         most = fmax(most, fmin(math_hypot(x[0], x[1]), CIRCLE_MOST));
     }
-    bounds_around(CIRCLE_REACH, 1.1 * most, M_SQRT2, bounds);
+    bounds_around(CIRCLE_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
 /* The node of the nearest run. */
@@ -233,7 +233,7 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
         most = fmax(most,
                     math_hypot(step.x[0] + step.v[0], step.x[1] + step.v[1]));
     }
-    bounds_around(MASS_REACH, 1.1 * most, M_SQRT2, bounds);
+    bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
 /* The exact path: a circle where v is across and as long as x. */

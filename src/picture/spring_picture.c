@@ -16,7 +16,7 @@ static const double SPRING_TURN = 6.283185307179586;
 static void spring_bounds(const Show *show, int pane, double bounds[4])
 {
     const double *x = show->pane[pane].simulation->run[0].x;
-    bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), M_SQRT2, bounds);
+    bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), sqrt(2), bounds);
 }
 
 static SpringFacts facts_of_spring(const Simulation *simulation)
