@@ -23,11 +23,12 @@ $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
 $(B)/tests/unit/test_show $(B)/tests/unit/test_pages: \
   LIBS += $(call wrap,text_draw)
 
-# Multigrid's loops once more, for one number at a time: before the archive.
+# Multigrid's loops once more, for one number at a time, and Cholesky's for two:
+# before the archive.
 $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(call shown,CC)
-	$(Q)$(COMPILE) -DFAST= -MMD -MP -c $< -o $@
-$(B)/tests/unit/test_widths: $(GRID_LOOPS:%=$(B)/narrow/%.o)
+	$(Q)$(COMPILE) -DFAST= -DAVX= -MMD -MP -c $< -o $@
+$(B)/tests/unit/test_widths: $(patsubst %,$(B)/narrow/%.o,$(GRID_LOOPS) panels)
 
 $(B)/tests/unit/test_numbers: LIBS += $(call wrap,text_draw paper_paragraph \
   plot_create plot_on)

@@ -6,111 +6,125 @@
 
 #include "solve/grid_loops.h"
 
-/* Four numbers side by side, an extension of C that gcc and clang share; they
- * may begin at any number of an array.  Where one register holds them, two of
- * them are worked on at once. */
-enum { FOUR = 4, GROUP = 4 };
+/* Columns that are worked on at once. */
+enum { GROUP = 4 };
+
+/* Two and four numbers side by side, an extension of C that gcc and clang
+ * share; they may begin at any number of an array. */
+enum { TWO = 2, FOUR = 4 };
+typedef double Two
+    __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
 typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
                                    aligned(sizeof(double))));
-#ifdef __x86_64__
-enum { WIDE = 2 };
+
+/* A function for registers of four, and whether the processor has them. */
+#if defined(__x86_64__) && !defined(AVX)
+#define AVX       __attribute__((target("avx2")))
+#define HAS_AVX() __builtin_cpu_supports("avx2")
 #else
-enum { WIDE = 1 };
+#define AVX
+#define HAS_AVX() false
 #endif
 
+/* A loop of at most four. */
+#define EACH(i, count) _Pragma("GCC unroll 4") for (int i = 0; i < (count); i++)
+
 /* C [m, n] = A [m, k] B^T or, where it subtracts, C -= A B^T, with B [n, k]
- * and n at most 4.  All are stored by columns, lda, ldb, ldc numbers apart. */
+ * and n at most 4; and then, where there is L [n, n], C = C L^-T.  All are
+ * stored by columns, lda, ldb, ldc, ldl numbers apart. */
 typedef struct Product {
     int m, n, k;
     const double *A, *B;
     double *C;
     int lda, ldb, ldc;
     bool subtracts;
+    const double *L;
+    int ldl;
 } Product;
 
-/* Rows i ... i + 4 wide - 1 of C's n columns; wide is 1 or 2. */
-INLINE void block(const Product *at, int i, int wide, int n)
-{
-    const double *a = at->A + i, *b = at->B;
-    Four s[GROUP][2] = {{{0}}};
-    for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
-#pragma GCC unroll 4
-        for (int r = 0; r < wide; r++)
-#pragma GCC unroll 4
-            for (int q = 0; q < n; q++)
-                s[q][r] += *(const Four *)(a + r * FOUR) * b[q];
-#pragma GCC unroll 4
-    for (int r = 0; r < wide; r++)
-#pragma GCC unroll 4
-        for (int q = 0; q < n; q++) {
-            Four *c = (Four *)(at->C + (size_t)q * at->ldc + i + r * FOUR);
-            *c = at->subtracts ? *c - s[q][r] : s[q][r];
-        }
-}
-
-/* Row i of C's n columns. */
-INLINE void row(const Product *at, int i, int n)
-{
-    const double *a = at->A + i, *b = at->B;
-    double s[GROUP] = {0};
-    for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)
-#pragma GCC unroll 4
-        for (int q = 0; q < n; q++)
-            s[q] += *a * b[q];
-#pragma GCC unroll 4
-    for (int q = 0; q < n; q++) {
-        double *c = at->C + (size_t)q * at->ldc + i;
-        *c = at->subtracts ? *c - s[q] : s[q];
+/* Rows of C's n columns, from row i on: so many (`wide`) Lanes. */
+#define ROWS(rows, Lanes, wide)                                                \
+    INLINE void rows(const Product *at, int i, int n, const double *inverse)   \
+    {                                                                          \
+        const int lanes = sizeof(Lanes) / sizeof(double);                      \
+        const double *a = at->A + i, *b = at->B;                               \
+        Lanes s[GROUP][wide] = {0};                                            \
+        for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)            \
+            EACH (r, wide)                                                     \
+                EACH (q, n)                                                    \
+                    s[q][r] += *(const Lanes *)(a + r * lanes) * b[q];         \
+        EACH (r, wide)                                                         \
+            EACH (q, n) {                                                      \
+                double *to = at->C + (size_t)q * at->ldc + i + r * lanes;      \
+                Lanes *c = (Lanes *)to;                                        \
+                s[q][r] = at->subtracts ? *c - s[q][r] : s[q][r];              \
+                if (at->L) {                                                   \
+                    EACH (p, GROUP)                                            \
+                        if (p < q)                                             \
+                            s[q][r] -=                                         \
+                                s[p][r] * at->L[(size_t)p * at->ldl + q];      \
+                    s[q][r] *= inverse[q];                                     \
+                }                                                              \
+                *c = s[q][r];                                                  \
+            }                                                                  \
     }
-}
+ROWS(one_row, double, 1)
+ROWS(two_rows, Two, 1)
+ROWS(four_rows, Two, 2)
+ROWS(four_rows_avx, Four, 1)
+ROWS(eight_rows_avx, Four, 2)
 
-INLINE void columns(const Product *at, int n)
+INLINE void columns(const Product *at, int n, bool avx)
 {
+    double inverse[GROUP];
     int i = 0;
-    for (; WIDE == 2 && i + 2 * FOUR <= at->m; i += 2 * FOUR)
-        block(at, i, 2, n);
-    for (; i + FOUR <= at->m; i += FOUR)
-        block(at, i, 1, n);
+    for (int q = 0; at->L && q < n; q++)
+        inverse[q] = 1 / at->L[(size_t)q * at->ldl + q];
+    for (; avx && i + 8 <= at->m; i += 8)
+        eight_rows_avx(at, i, n, inverse);
+    for (; avx && i + 4 <= at->m; i += 4)
+        four_rows_avx(at, i, n, inverse);
+    for (; !avx && i + 4 <= at->m; i += 4)
+        four_rows(at, i, n, inverse);
+    for (; i + 2 <= at->m; i += 2)
+        two_rows(at, i, n, inverse);
     for (; i < at->m; i++)
-        row(at, i, n);
+        one_row(at, i, n, inverse);
 }
 
-FAST static void multiply(const Product *at)
+INLINE void multiply_with(const Product *at, bool avx)
 {
     switch (at->n) {
     case 1:
-        columns(at, 1);
+        columns(at, 1, avx);
         break;
     case 2:
-        columns(at, 2);
+        columns(at, 2, avx);
         break;
     case 3:
-        columns(at, 3);
+        columns(at, 3, avx);
         break;
     default:
-        columns(at, GROUP);
+        columns(at, GROUP, avx);
     }
+}
+
+AVX static void multiply_avx(const Product *at)
+{
+    multiply_with(at, true);
+}
+
+static void multiply(const Product *at)
+{
+    if (HAS_AVX())
+        multiply_avx(at);
+    else
+        multiply_with(at, false);
 }
 
 static int least(int a, int b)
 {
     return a < b ? a : b;
-}
-
-/* B [m, n] = B L^-T, with L [n, n] and n at most 4. */
-static void divide(int m, int n, const double *L, int ldl, double *B, int ldb)
-{
-    for (int q = 0; q < n; q++) {
-        double *b = B + (size_t)q * ldb, inverse = 1 / L[(size_t)q * ldl + q];
-        for (int p = 0; p < q; p++) {
-            const double *a = B + (size_t)p * ldb;
-            double l = L[(size_t)p * ldl + q];
-            for (int i = 0; i < m; i++)
-                b[i] -= a[i] * l;
-        }
-        for (int i = 0; i < m; i++)
-            b[i] *= inverse;
-    }
 }
 
 /* Another case than CHOLMOD's has no answer: it ends as a pivot that is NaN. */
@@ -132,7 +146,8 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
         return;
     for (int j = 0; j < *n; j += GROUP)
         multiply(&(Product){*m, least(*n - j, GROUP), *k, A, B + j,
-                            C + (size_t)j * *ldc, *lda, *ldb, *ldc, false});
+                            C + (size_t)j * *ldc, *lda, *ldb, *ldc, false, NULL,
+                            0});
 }
 
 /* The lower triangle of C = A A^T; what stands right of it in a group of
@@ -145,7 +160,8 @@ void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
         return;
     for (int j = 0; j < *n; j += GROUP)
         multiply(&(Product){*n - j, least(*n - j, GROUP), *k, A + j, A + j,
-                            C + (size_t)j * *ldc + j, *lda, *lda, *ldc, false});
+                            C + (size_t)j * *ldc + j, *lda, *lda, *ldc, false,
+                            NULL, 0});
 }
 
 /* B = B L^-T */
@@ -158,10 +174,10 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
                 B))
         return;
     for (int j = 0; j < *n; j += GROUP) {
-        int wide = least(*n - j, GROUP);
-        double *b = B + (size_t)j * *ldb;
-        multiply(&(Product){*m, wide, j, B, L + j, b, *ldb, *ldl, *ldb, true});
-        divide(*m, wide, L + (size_t)j * *ldl + j, *ldl, b, *ldb);
+        const double *D = L + (size_t)j * *ldl + j;
+        multiply(&(Product){*m, least(*n - j, GROUP), j, B, L + j,
+                            B + (size_t)j * *ldb, *ldb, *ldl, *ldb, true, D,
+                            *ldl});
     }
 }
 
@@ -194,22 +210,18 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
         int wide = least(*n - j, GROUP), below = *n - j - wide;
         double *D = A + (size_t)j * *lda + j;
         multiply(&(Product){*n - j, wide, j, A + j, A + j, D, *lda, *lda, *lda,
-                            true});
+                            true, NULL, 0});
         int failed = factor(wide, D, *lda);
         if (failed) {
             *info = j + failed;
             return;
         }
-        divide(below, wide, D, *lda, D + wide, *lda);
+        multiply(&(Product){below, wide, 0, D, D, D + wide, *lda, *lda, *lda,
+                            true, D, *lda});
     }
 }
 
 /* ---- solving with one right-hand side: four columns at a time ---- */
-
-/* Two numbers in one register, as four above. */
-enum { TWO = 2 };
-typedef double Two
-    __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
 
 static inline Two two(const double *a)
 {
