@@ -22,7 +22,8 @@ typedef struct Pull {
     /* Of a hand: */
     double mouse[2]; /* m, where it wants the node; */
     double strength; /* J/m^2, how strongly it insists; */
-    double reach;    /* m, it goes ahead in a step, at most */
+    double cell;     /* m, side of a cell, and */
+    double side;     /* m, of the body that it pulls at */
 } Pull;
 
 /* Adds a pull of one of these kinds, or changes the one that there is.
@@ -34,7 +35,9 @@ Pull *hand_energy_of(const System *system);
 
 /* Before a step of h s from x, v [2] of its node with the mass m, kg: its k and
  * target.  The node then goes a part of the way, half of it at most, and in
- * short steps so much that the distance falls by e in 0.06 s.
+ * short steps so much that the distance falls by e in 0.06 s; but not beyond
+ * half a cell or, where cells are small, half a side in a second: at twice that
+ * the cells at a corner turn over.
  *   free  [2] m/s^2, the node's acceleration without the hand, of an explicit
  *         method, in which the force has to be that which leads there; NULL:
  *         an implicit one, in which a stiff spring does */

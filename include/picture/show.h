@@ -140,6 +140,14 @@ typedef struct Hand {
     double target[2]; /* m, the mouse */
 } Hand;
 
+/* The part of a pane's world that stays on the stage while something in it is
+ * dragged, so that it stays under the mouse. */
+typedef struct Held {
+    bool on, away; /* the mouse has left the stage: the view follows again */
+    int pane;
+    double bounds[4];
+} Held;
+
 /* ---- around the stage --------------------------------------------------- */
 
 /* A number or a choice in the row. */
@@ -239,6 +247,7 @@ typedef struct Show {
     Pick hover; /* what the mouse is over */
     Hit over;   /* and which part of the window */
     Hand hand;
+    Held held;
     bool strain;   /* springs coloured by strain */
     bool bare;     /* the picture of the slide and nothing else */
     bool print;    /* stage and cards alone, without those of words */
@@ -262,6 +271,9 @@ Layout show_layout(const Show *show, int width, int height);
 
 /* The camera of a pane. */
 Camera show_camera(const Show *show, const Layout *layout, int pane);
+
+/* It holds still from now on. */
+void show_hold(Show *show, int pane);
 
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
 Pick show_pick(const Show *show, const Layout *layout, double x, double y);

@@ -101,11 +101,13 @@ void hand_follow(Pull *hand, const double *x, const double *v, double m,
                  double h, const double *free)
 {
     static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
+    static const double CELL = 0.5, SPEED = 0.5, SIDE = 1.0 / 64;
+    double reach = fmax(CELL * hand->cell, fmin(SPEED * h, SIDE) * hand->side);
     double d[2] = {hand->mouse[0] - x[0], hand->mouse[1] - x[1]};
     double away = sqrt(d[0] * d[0] + d[1] * d[1]);
     double slow = fmin(MOST, h / TIME), part = slow;
-    if (part * away > hand->reach)
-        part = hand->reach / away;
+    if (part * away > reach)
+        part = reach / away;
     /* Where the node is at rest the force is that of k part = strength. */
     hand->k = fmin(fmax(hand->strength / slow, INERTIA * m / (h * h)),
                    LIMIT * hand->strength);

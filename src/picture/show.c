@@ -110,7 +110,9 @@ Layout show_layout(const Show *show, int width, int height)
 static const Picture *find_bounds(const Show *show, int pane, double bounds[4])
 {
     const Picture *picture = picture_of(show->pane[pane].simulation->scene);
-    if (picture->bounds)
+    if (show->held.on && !show->held.away && show->held.pane == pane)
+        memcpy(bounds, show->held.bounds, sizeof show->held.bounds);
+    else if (picture->bounds)
         picture->bounds(show, pane, bounds);
     else
         memcpy(bounds, picture->around, sizeof picture->around);
@@ -123,6 +125,13 @@ Camera show_camera(const Show *show, const Layout *layout, int pane)
     const Picture *picture = find_bounds(show, pane, bounds);
     return camera_create(layout->pane[pane], bounds, picture->stretched,
                          &show->lens);
+}
+
+void show_hold(Show *show, int pane)
+{
+    Held held = {.on = true, .pane = pane};
+    find_bounds(show, pane, held.bounds);
+    show->held = held;
 }
 
 Pick show_pick(const Show *show, const Layout *layout, double x, double y)

@@ -474,6 +474,7 @@ void player_fill(Player *player)
     Show *show = &player->show;
     Pick hover = show->hover;
     Hit over = show->over;
+    Held held = show->held;
     int chosen = show->chosen;
     show_create(player_simulation(player), show);
     show->panes = past_panes(&player->past);
@@ -483,6 +484,7 @@ void player_fill(Player *player)
         fill_pane(player, i, &traces[i]);
     show->hover = hover;
     show->over = over;
+    show->held = held;
     show->chosen = chosen;
     show->paused = player_stands(player);
     snprintf(show->state, SHOW_VALUE, "%s", state[player->mode]);

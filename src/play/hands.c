@@ -35,17 +35,19 @@ static Under look(Player *player)
 {
     const Mouse *mouse = &player->mouse;
     const Paper *paper = view_paper(player->view);
-    Under under = {.layout = show_layout(&player->show,
-                                         paper ? paper->canvas.width : 1,
+    Show *show = &player->show;
+    Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
                                          paper ? paper->canvas.height : 1),
-                   .pane = player->active};
+                   .pane = show->held.on ? show->held.pane : player->active};
     under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
-    if (under.hit.zone == ZONE_STAGE &&
+    if (under.hit.zone == ZONE_STAGE && !show->held.on &&
         under.hit.index < past_panes(&player->past))
         under.pane = under.hit.index;
-    Camera camera = show_camera(&player->show, &under.layout, under.pane);
+    show->held.away = false;
+    Camera camera = show_camera(show, &under.layout, under.pane);
     camera_world(&camera, mouse->x, mouse->y, under.at);
-    under.pick = show_pick(&player->show, &under.layout, mouse->x, mouse->y);
+    under.pick = show_pick(show, &under.layout, mouse->x, mouse->y);
+    show->held.away = under.hit.zone != ZONE_STAGE;
     return under;
 }
 
@@ -290,6 +292,7 @@ static Status take(Player *player, const Under *under)
     bool stretches, paused = player->mode == MODE_PAUSE;
     int ball;
     mouse->index = under->pick.index;
+    show_hold(&player->show, under->pane);
     switch (under->pick.kind) {
     case PICK_NODE:
         mouse->drag = paused ? COMMAND_PLACE : COMMAND_GRAB;
@@ -320,6 +323,7 @@ static Status take(Player *player, const Under *under)
         mouse->drag = COMMAND_START;
         return ask_at(player, COMMAND_START, mouse->index, under->pick.point);
     default:
+        player->show.hover.kind = PICK_NONE; /* a spring beside the node */
         mouse->index = near_node(player, under);
         mouse->drag = mouse->index < 0 ? COMMAND_PAN
                       : paused         ? COMMAND_PLACE
@@ -537,6 +541,7 @@ static Status released(Player *player)
     Mouse *mouse = &player->mouse;
     CommandKind drag = mouse->drag;
     mouse->drag = COMMAND_NONE;
+    player->show.held.on = false;
     if (drag == COMMAND_GOTO)
         player->changed = true; /* now the cards know the step */
     if (drag == COMMAND_GRAB && player->holds) {

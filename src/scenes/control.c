@@ -193,7 +193,7 @@ static double hand_strength(const Simulation *simulation, int node)
 static Status use_hand(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
-    Pull wanted = {.node = control->hand, .reach = INFINITY};
+    Pull wanted = {.node = control->hand, .cell = INFINITY};
     if (wanted.node < 0) {
         system_remove_term(system, &hand_energy);
         return STATUS_OK;
@@ -203,7 +203,8 @@ static Status use_hand(Simulation *simulation, const Control *control)
            sizeof wanted.target);
     wanted.strength = hand_strength(simulation, wanted.node);
     if (simulation->mesh.nodes > 0)
-        wanted.reach = 0.5 * simulation->mesh.spacing;
+        wanted.cell = simulation->mesh.spacing;
+    wanted.side = simulation->mesh.side;
     return pull_set(system, &hand_energy, &wanted);
 }
 

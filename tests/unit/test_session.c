@@ -567,6 +567,12 @@ static const Session sessions[] = {
            "move m 0.3,0.4", "over node 24", "key Space", "mark a state",
            "key Ctrl+Z", "newest 2", "key Ctrl+Shift+Z", "same a state",
            "replays hang --segments 4")},
+    {"what is pulled stays under the mouse",
+     LINES("begin square --segments 2 --stretch 1 --paused", "key Space",
+           "press node 8", "move +150 +30", "go 60", "mark a state", /**/
+           "begin square --segments 2 --stretch 1 --paused", "key Space",
+           "press node 8", "move +150 +30", "go 30", "move +0 +0", "go 30",
+           "same a state")},
     {"grounds and balls: put by a double click, moved, stopped by the square",
      LINES("begin hang --segments 8 --paused", "key N", "mark a state",
            "double m 0,-0.66", "says a ball", "move +1 +0", "over obstacle 0",
