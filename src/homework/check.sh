@@ -1,8 +1,8 @@
 #!/bin/sh
 # Checks homework: check.sh FILE says what is right and what is wrong in it; of
 # several files it writes a table, a line each: file, how many of the twelve
-# checks are right, the first thing that is wrong.  CC, DEP_CFLAGS, LIBS and
-# CHECK, which is check.c as an object, come from make.
+# checks are right, the first thing that is wrong.  CC, DEP_CFLAGS and LIBS come
+# from make.
 set -u
 here=$(dirname "$0")
 work=$(mktemp -d) || exit 1
@@ -13,6 +13,29 @@ trap 'exit 1' INT TERM
 pattern=-ftrivial-auto-var-init=pattern
 echo 'int main(void) { return 0; }' >"$work/try.c"
 ${CC:-cc} $pattern "$work/try.c" -o "$work/try" 2>/dev/null || pattern=
+
+# lecture.c's functions again, each with a mistake of mistakes.txt, and their
+# list.
+write_mistakes() {
+    number=0
+    rows=
+    while IFS= read -r row; do
+        number=$((number + 1))
+        name=${row%% *}
+        change=${row#* | }
+        sed -n "/^static .*[ *]$name(/,/^}/{${change% | *}
+            s/$name(/${name}_$number(/
+            p
+            }" "$here/../lecture.c"
+        rows="$rows{TASK_$name, (Function *)${name}_$number, \"${row##* | }\"},
+"
+    done <"$here/mistakes.txt"
+    echo "static const Mistake mistakes[] = {${rows}{0, NULL, NULL}};"
+}
+write_mistakes >"$work/mistakes.h"
+# shellcheck disable=SC2086
+${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." -I"$work" $DEP_CFLAGS \
+    -c "$here/check.c" -o "$work/check.o" || exit 1
 
 # check FILE OBJECT [NAME]: with NAME a line of the table.  What the file itself
 # prints is not seen.
@@ -26,7 +49,7 @@ check() {
         -Werror=return-type -g1 -Og $pattern -DHOMEWORK="\"$name\"" \
         -fsanitize=address,undefined -fno-sanitize-recover=all $DEP_CFLAGS \
         -c "$here/student.c" -o "$object.o" 2>"$object.log" &&
-        ${CC:-cc} -fsanitize=address,undefined "$CHECK" "$object.o" \
+        ${CC:-cc} -fsanitize=address,undefined "$work/check.o" "$object.o" \
             -o "$object" $LIBS 2>>"$object.log"; then
         note=$(awk -F "'" '/: In function / { name = $2 ": " }
             / warning: .*uninit/ { n = split($1, at, ":")
