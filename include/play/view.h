@@ -1,6 +1,7 @@
 /* view.h - where frames are shown: the window, or a surface that nobody sees.
  *
- * Both work alike: draw on view_paper, then view_show.
+ * Both work alike: draw on view_paper, then view_show.  The window is that of
+ * window_sdl.c on a computer, of window_web.c in a page.
  */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
@@ -36,14 +37,28 @@ typedef struct Input {
     double amount;
 } Input;
 
-/* The window; there is one at a time.
- *   size    [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
- *   full    it fills the screen
- *   view    out; free it with view_free; NULL after a failure
- *   reason  [length] out, one line, why there is no window
- * Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
-Status view_create_window(const char *title, const int size[2], bool full,
-                          View **view, char *reason, size_t length);
+/* The paper for a surface in memory, or for the window: then its size is 0, 0.
+ *   view  out; free it with view_free
+ * Returns OK, OUT_OF_MEMORY. */
+Status view_create(int width, int height, View **view);
+
+/* Closes the window, too.  Accepts NULL. */
+void view_free(View *view);
+
+/* The paper, in the size that the view has now; NULL: not enough memory. */
+Paper *view_paper(View *view);
+
+/* Shows what is on the paper.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
+Status view_show(View *view);
+
+/* ---- the window --------------------------------------------------------- */
+
+/* There is one at a time; false: view_failure tells why there is none.
+ *   size  [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
+ *   full  it fills the screen
+ * window_close: in any case; a second time it does nothing. */
+bool window_open(const char *title, const int size[2], bool full);
+void window_close(void);
 
 /* From now on `lost` is called when the server of a window is gone; it must not
  * return. */
@@ -54,36 +69,30 @@ void view_when_lost(void (*lost)(void));
  * signals. */
 void view_let_go(void);
 
-/* A surface in memory; needs no screen.  Returns OK, OUT_OF_MEMORY. */
-Status view_create_surface(int width, int height, View **view);
-
-/* Accepts NULL. */
-void view_free(View *view);
-
-void view_set_title(View *view, const char *title);
+/* size  [2] out, pixels of a paper that fills it */
+void window_size(int size[2]);
 
 /* Pixels that a letter needs there, so that it can be read. */
-double view_letter(const View *view);
+double window_letter(void);
 
-/* The paper, in the size that the view has now; NULL: not enough memory. */
-Paper *view_paper(View *view);
+void window_set_title(const char *title);
 
 /* Why the last SCREEN_FAILED, in one line; empty where nobody knows.  reason
  * [size] out */
 void view_failure(char *reason, size_t size);
 
-/* Shows what is on the paper.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
-Status view_show(View *view);
+/* Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
+Status window_show(const Canvas *canvas);
 
 /* Full screen, or a window again; whether it is. */
-void view_set_full(View *view, bool full);
-bool view_is_full(const View *view);
+void window_set_full(bool full);
+bool window_is_full(void);
 
 /* The next input that waits, or INPUT_NONE.  Of several movements in a row only
  * the last is told. */
-Input view_input(View *view);
+Input window_input(void);
 
 /* Waits for an input, at most this long. */
-void view_wait(View *view, int milliseconds);
+void window_wait(int milliseconds);
 
 #endif

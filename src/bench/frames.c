@@ -10,7 +10,7 @@ static Status time_frames(const Show *show, int width, int height, double *ms)
 {
     double spent[FRAMES];
     View *view = NULL;
-    Status status = view_create_surface(width, height, &view);
+    Status status = view_create(width, height, &view);
     for (int i = 0; i < FRAMES && !status; i++) {
         double start = bench_cpu();
         Paper *paper = view_paper(view);

@@ -9,7 +9,8 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-static const double LONG_WORK = 0.3; /* s; then it is shown */
+static const double LONG_WORK = 0.3;  /* s; then it is shown */
+static const double SMALL_LETTER = 9; /* pixels, of a surface */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
@@ -503,7 +504,9 @@ void player_fill(Player *player)
     show->strain =
         player->strain != (show->pane[0].simulation->scene->strain > 0);
     show->bare = player->bare;
-    show->letter = player->view ? view_letter(player->view) : 0;
+    show->letter = player->window ? window_letter()
+                   : player->view ? SMALL_LETTER
+                                  : 0;
     if (player->column == COLUMN_KEYS)
         fill_help(show);
     if (player->column == COLUMN_OPTIONS)

@@ -249,8 +249,7 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
     options->steps = page->picture;
     Status status = player_create(options, 1, "elasto", stop, player);
     if (!status)
-        status =
-            view_create_surface(PICTURE_WIDTH, PICTURE_HEIGHT, &player->view);
+        status = view_create(PICTURE_WIDTH, PICTURE_HEIGHT, &player->view);
     if (!status)
         status = go_to_picture(player, page);
     if (status && status == player->past.machine[0].simulation.status)

@@ -164,7 +164,7 @@ static Status obey_inputs(Player *player)
 {
     Status status = STATUS_OK;
     while (player->window && !status && !player->quit) {
-        Input input = view_input(player->view);
+        Input input = window_input();
         if (input.kind == INPUT_NONE)
             break;
         status = player_input(player, &input);
@@ -293,7 +293,7 @@ Status player_run(Player *player)
         if (!player->window)
             show_progress(player);
         else if (!status && !player_ended(player))
-            view_wait(player->view, player_wait(player));
+            window_wait(player_wait(player));
     }
     return status;
 }
@@ -308,27 +308,27 @@ static Status open_view(Player *player)
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     Status status = STATUS_OK;
     if (!options->headless) {
-        status = view_create_window("elasto", size, options->fullscreen,
-                                    &player->view, reason, sizeof reason);
-        if (status == STATUS_OUT_OF_MEMORY)
-            return status;
-        player->window = status == STATUS_OK;
-        if (!player->window && !options->frames && !options->film)
+        player->window = window_open("elasto", size, options->fullscreen);
+        if (player->window)
+            status = view_create(0, 0, &player->view);
+        player_set_title(player);
+    }
+    if (!options->headless && !player->window) {
+        view_failure(reason, sizeof reason);
+        window_close();
+        if (!options->frames && !options->film)
             options->frames = "frames";
         one_line(options->frames ? options->frames : options->film, shown,
                  sizeof shown);
-        if (!player->window)
-            fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason,
-                    shown, options->frames ? "/" : "");
-        player_set_title(player);
+        fprintf(stderr, "no screen: %s; the frames go to %s%s\n", reason, shown,
+                options->frames ? "/" : "");
     }
     if (!player->window && options->steps < 0 && !options->script)
         options->steps = UNSEEN_STEPS;
     if (!player->window && (options->frames || options->film))
-        status = view_create_surface(size[0] > 0 ? size[0] : FRAME_SIZE,
-                                     size[1] > 0 ? size[1] : FRAME_SIZE,
-                                     &player->view);
-    return player->view ? STATUS_OK : status;
+        status = view_create(size[0] > 0 ? size[0] : FRAME_SIZE,
+                             size[1] > 0 ? size[1] : FRAME_SIZE, &player->view);
+    return status;
 }
 
 /* The commands of the command line's file. */

@@ -35,8 +35,8 @@ void player_set_title(Player *player)
     char title[128];
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              player->scene->name);
-    if (player->view)
-        view_set_title(player->view, title);
+    if (player->window)
+        window_set_title(title);
 }
 
 /* Twice or half as fast. */
@@ -62,8 +62,8 @@ Status obey_shown(Player *player, const Command *command)
 Status obey_full(Player *player, const Command *command)
 {
     (void)command;
-    if (player->view)
-        view_set_full(player->view, !view_is_full(player->view));
+    if (player->window)
+        window_set_full(!window_is_full());
     return STATUS_OK;
 }
 
@@ -99,8 +99,8 @@ Status obey_escape(Player *player, const Command *command)
         player_deselect(player);
     else if (player->column)
         player->column = COLUMN_CARDS;
-    else if (player->view && view_is_full(player->view))
-        view_set_full(player->view, false);
+    else if (player->window && window_is_full())
+        window_set_full(false);
     else if (asked)
         player->quit = true;
     else

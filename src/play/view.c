@@ -3,18 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "play/window.h"
-
-static const double SMALL_LETTER = 9; /* pixels */
-
 struct View {
     Paper paper;
-    bool window;   /* else nobody sees it */
-    int size[2];   /* then its own, pixels */
-    bool fontless; /* that there is no font was said */
+    int size[2]; /* pixels; 0: those of the window */
 };
 
-Status view_create_surface(int width, int height, View **view)
+Status view_create(int width, int height, View **view)
 {
     *view = calloc(1, sizeof **view);
     if (!*view)
@@ -24,61 +18,24 @@ Status view_create_surface(int width, int height, View **view)
     return STATUS_OK;
 }
 
-Status view_create_window(const char *title, const int size[2], bool full,
-                          View **view, char *reason, size_t length)
-{
-    Status status = view_create_surface(0, 0, view);
-    if (status)
-        return status;
-    (*view)->window = true;
-    if (window_open(title, size, full))
-        return STATUS_OK;
-    view_failure(reason, length);
-    view_free(*view);
-    *view = NULL;
-    return STATUS_SCREEN_FAILED;
-}
-
 void view_free(View *view)
 {
     if (!view)
         return;
     paper_free(&view->paper);
-    if (view->window)
-        window_close();
+    window_close();
     free(view);
 }
 
-void view_set_title(View *view, const char *title)
-{
-    if (view->window)
-        window_set_title(title);
-}
-
-void view_set_full(View *view, bool full)
-{
-    if (view->window && full != window_is_full())
-        window_set_full(full);
-}
-
-bool view_is_full(const View *view)
-{
-    return view->window && window_is_full();
-}
-
-double view_letter(const View *view)
-{
-    return view->window ? window_letter() : SMALL_LETTER;
-}
-
 /* Once: pictures without words are pictures, too. */
-static void tell_of_font(View *view)
+static void tell_of_font(const Paper *paper)
 {
+    static bool told;
     const char *given = getenv("ELASTO_FONT");
     bool wanted = !given || given[0] != '\0'; /* empty: no words, please */
-    if (view->paper.text || !wanted || view->fontless)
+    if (paper->text || !wanted || told)
         return;
-    view->fontless = true;
+    told = true;
     fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have no "
                     "words (ELASTO_FONT=FILE.ttf names another font)\n");
 }
@@ -86,21 +43,21 @@ static void tell_of_font(View *view)
 Paper *view_paper(View *view)
 {
     const Canvas *canvas = &view->paper.canvas;
-    if (view->window)
-        window_size(view->size);
+    int size[2] = {view->size[0], view->size[1]};
+    if (size[0] == 0)
+        window_size(size);
     for (int i = 0; i < 2; i++)
-        view->size[i] = view->size[i] < 1                 ? 1
-                        : view->size[i] > CANVAS_MAX_SIZE ? CANVAS_MAX_SIZE
-                                                          : view->size[i];
-    if (canvas->pixels && canvas->width == view->size[0] &&
-        canvas->height == view->size[1])
+        size[i] = size[i] < 1                 ? 1
+                  : size[i] > CANVAS_MAX_SIZE ? CANVAS_MAX_SIZE
+                                              : size[i];
+    if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])
         return &view->paper;
     paper_free(&view->paper);
-    if (paper_create(view->size[0], view->size[1], &view->paper)) {
+    if (paper_create(size[0], size[1], &view->paper)) {
         paper_free(&view->paper);
         return NULL;
     }
-    tell_of_font(view);
+    tell_of_font(&view->paper);
     return &view->paper;
 }
 
@@ -108,16 +65,5 @@ Status view_show(View *view)
 {
     if (!view->paper.canvas.pixels)
         return STATUS_SCREEN_FAILED;
-    return view->window ? window_show(&view->paper.canvas) : STATUS_OK;
-}
-
-Input view_input(View *view)
-{
-    return view->window ? window_input() : (Input){.kind = INPUT_NONE};
-}
-
-void view_wait(View *view, int milliseconds)
-{
-    if (view->window && milliseconds > 0)
-        window_wait(milliseconds);
+    return view->size[0] ? STATUS_OK : window_show(&view->paper.canvas);
 }

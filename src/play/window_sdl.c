@@ -14,7 +14,7 @@
 #include <unistd.h>
 #undef Status /* Xlib's */
 
-#include "play/window.h"
+#include "play/view.h"
 #include "scenes/one_line.h"
 
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };

@@ -2,7 +2,7 @@
  * mouse, touch and keys come from it into a line of inputs.  src/web/page.js
  * has the object Page.
  */
-#include "play/window.h"
+#include "play/view.h"
 
 #include <emscripten.h>
 #include <stdio.h>

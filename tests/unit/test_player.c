@@ -176,7 +176,7 @@ TEST(a_long_step_is_made_in_slices)
     simulation_from_line(line, NULL, NULL, &plain);
     CHECK_STATUS(simulation_step(&plain), STATUS_OK);
     begin(line);
-    CHECK_STATUS(view_create_surface(320, 200, &player.view), STATUS_OK);
+    CHECK_STATUS(view_create(320, 200, &player.view), STATUS_OK);
     player.window = true;
     CHECK_STATUS(player_draw(&player), STATUS_OK);
     uint64_t start = player_hash(&player);

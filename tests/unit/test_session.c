@@ -112,7 +112,7 @@ static void begin_session(const char *line)
     begin_script("0 pause\n", line);
     open_player = true;
     mouse[0] = mouse[1] = -1;
-    CHECK_STATUS(view_create_surface(SIDE, SIDE, &player.view), STATUS_OK);
+    CHECK_STATUS(view_create(SIDE, SIDE, &player.view), STATUS_OK);
     seen(""); /* a window shows the scene before anything is put in */
 }
 
