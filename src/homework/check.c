@@ -52,7 +52,7 @@ static jmp_buf gave_up;
 #define main       lecture_main
 int main(int argc, char **argv);
 #include "lecture.c"
-#include "mistakes.h" /* lecture.c's functions again, and Mistake mistakes[] */
+#include MISTAKES /* lecture.c's functions again, and Mistake mistakes[] */
 #undef main
 #undef exit
 

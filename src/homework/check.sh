@@ -34,7 +34,8 @@ write_mistakes() {
 }
 write_mistakes >"$work/mistakes.h"
 # shellcheck disable=SC2086
-${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." -I"$work" $DEP_CFLAGS \
+${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." \
+    -DMISTAKES="\"$work/mistakes.h\"" $DEP_CFLAGS \
     -c "$here/check.c" -o "$work/check.o" || exit 1
 
 # check FILE OBJECT [NAME]: with NAME a line of the table.  What the file itself
