@@ -116,6 +116,8 @@ typedef struct Past {
     Machine machine[OPTIONS_MAX_PANES];
     bool keeps;   /* somebody may go back, or looks at steps behind */
     bool goes_on; /* when one of several panes fails the others go on */
+    long same; /* what was told of later steps is no more so; whoever tells of
+                  them makes that good and sets LONG_MAX */
     size_t bytes, limit;
     /* Work that is under way, a Newton iteration at a time. */
     bool works;    /* the rest means nothing otherwise */
@@ -163,7 +165,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
 Status past_set_panes(Past *past, int panes, int gesture, const Command *edit);
 
 /* Wants this step shown, 0 ... newest + 1.
- *   again  it is made once more, to know its rounds and those before it */
+ *   again  it is made once more, to know its rounds and those before it, also
+ *          where that is long work */
 void past_aim(Past *past, long step, bool again);
 
 /* A piece of the work: one Newton iteration, or the beginning of a step; of a
@@ -172,15 +175,16 @@ void past_aim(Past *past, long step, bool again);
  * make.  A failure: the last whole step is shown. */
 Status past_iterate(Past *past);
 
+/* Iterates to the end of the work, and returns as past_iterate does there. */
+Status past_finish(Past *past);
+
 /* Gives up the work that is under way: past_iterate leads back to the step that
  * was shown before it. */
 void past_drop(Past *past);
 
-/* One gesture down (-1) or up (1), where past_iterate leads.
- *   fork  out: the step up to which the past is the same as before; -1: it is
- *         another run
- * Returns what was undone or done again; NULL: nothing was. */
-const Command *past_undo(Past *past, int way, long *fork);
+/* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
+ * undone or done again; NULL: nothing was. */
+const Command *past_undo(Past *past, int way);
 
 int past_panes(const Past *past);
 

@@ -78,7 +78,6 @@ typedef struct Side {
     double *ghost; /* [2n] m, the outcome with other settings, or NULL */
     char ghost_label[64];
     char label[64]; /* what is different here */
-    bool retried;   /* it was tried to know its rounds */
 } Side;
 
 /* Of a step that is taken again: what it was. */

@@ -14,8 +14,6 @@ Status player_change(Player *player, const Command *change, int from, int to,
                      bool again)
 {
     Past *past = &player->past;
-    long step = past->step;
-    player->changed = true;
     if (player->mode >= MODE_HELD || player->mode == MODE_DRIFT)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture,
@@ -23,7 +21,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
     if (status)
         return status;
     player->still = player->rigid = 0;
-    return player_fork(player, step - (again || past_moves(change)));
+    return player_follow(player);
 }
 
 /* In all panes; the picture of the present step is another one. */
@@ -458,7 +456,7 @@ Status obey_end_pane(Player *player, const Command *command)
         return player_refuse(player, "there is only one");
     Status status =
         past_set_panes(past, past_panes(past) - 1, player->gesture, command);
-    return status ? status : player_fork(player, past->step);
+    return status ? status : player_follow(player);
 }
 
 /* The pane whose numbers are shown. */

@@ -542,8 +542,6 @@ static Status released(Player *player)
     CommandKind drag = mouse->drag;
     mouse->drag = COMMAND_NONE;
     player->show.held.on = false;
-    if (drag == COMMAND_GOTO)
-        player->changed = true; /* now the cards know the step */
     if (drag == COMMAND_GRAB && player->holds) {
         Status status = ask(player, COMMAND_RELEASE, 0);
         return !status && mouse->pins ? ask(player, COMMAND_PIN, mouse->index)

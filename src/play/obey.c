@@ -118,19 +118,6 @@ static void tell_left(Player *player, long step, long newest)
              step + 1, newest);
 }
 
-/* A step that failed is shown, where somebody may go on from it. */
-static Status show_trouble(Player *player, Status status)
-{
-    bool fatal = status == STATUS_OUT_OF_MEMORY ||
-                 status == STATUS_INVALID_INPUT ||
-                 status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
-        return status;
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
-    return STATUS_OK;
-}
-
 Status player_obey(Player *player, const Command *asked)
 {
     Past *past = &player->past;
@@ -182,5 +169,5 @@ Status player_obey(Player *player, const Command *asked)
         forget_line(player, at, noted);
     else if (flags & KEPT)
         join_lines(player, at);
-    return show_trouble(player, status);
+    return player_bear(player, status);
 }

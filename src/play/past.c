@@ -709,6 +709,34 @@ Status past_iterate(Past *past)
     return goal < past->aim ? begin_making(past) : end_work(past);
 }
 
+Status past_finish(Past *past)
+{
+    Status status = STATUS_RUNNING;
+    while (status == STATUS_RUNNING)
+        status = past_iterate(past);
+    return status;
+}
+
+/* Whether it is short work to make the step that is aimed at once more, with
+ * the one before, where panes would only find its state. */
+static bool is_short(const Past *past)
+{
+    enum { SHORT = 400000 }; /* nodes times updates */
+    long work = 0;
+    for (int p = 0; p < past_panes(past); p++) {
+        const Machine *machine = &past->machine[p];
+        const Simulation *simulation = &machine->simulation;
+        const Entry *entry = past_entry(past, p, past->aim);
+        long behind = past->aim - machine->step;
+        bool knows =
+            machine->stands && (behind == 1 || (behind == 0 && machine->known));
+        if (!knows && simulation->run[0].newton && entry->substeps > 0 &&
+            simulation_is_handled(simulation))
+            work += 2 * simulation->system.nodes * (1 + entry->outcome.updates);
+    }
+    return 0 < work && work < SHORT;
+}
+
 void past_aim(Past *past, long step, bool again)
 {
     stop_work(past);
@@ -716,7 +744,8 @@ void past_aim(Past *past, long step, bool again)
     past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->from = past->aim < newest ? past->aim : newest;
     past->works = true;
-    if (!again || past->aim == 0 || past->aim > newest)
+    if (past->aim == 0 || past->aim > newest || !past->keeps ||
+        !(again || is_short(past)))
         return;
     past->from = past->aim > 2 ? past->aim - 2 : 0;
     for (int p = 0; p < past_panes(past); p++)
@@ -732,15 +761,17 @@ void past_drop(Past *past)
 
 /* ---- what is done -------------------------------------------------------- */
 
+/* What was told of later steps than this is no more so. */
+static void forget_behind(Past *past, long step)
+{
+    past->same = step < past->same ? step : past->same;
+}
+
 /* All machines stand at the step that is shown. */
 static Status settle(Past *past)
 {
-    Status status;
     past_aim(past, past->step, false);
-    do
-        status = past_iterate(past);
-    while (status == STATUS_RUNNING);
-    return status;
+    return past_finish(past);
 }
 
 /* The branch that could not begin goes, or the one that begins anew. */
@@ -790,8 +821,10 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     Status status = STATUS_OK;
     for (int p = 0; p < panes && !status; p++)
         status = begin_pane(past, p, &own[p]);
-    if (!status)
+    if (!status) {
+        forget_behind(past, -1);
         return status;
+    }
     pop_branch(past);
     if (past->now >= 0)
         past_aim(past, past->step, false);
@@ -916,6 +949,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
+    forget_behind(past, past->step - past_moves(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)
             status = change_entry(past, p, edit,
@@ -930,6 +964,7 @@ Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
         .first = past->step, .given = 1, .panes = panes, .gesture = gesture};
     if (!status && !push_branch(past, wanted, edit))
         status = STATUS_OUT_OF_MEMORY;
+    forget_behind(past, past->step);
     if (!status)
         past_aim(past, past->step, false);
     return status;
@@ -941,7 +976,7 @@ static bool is_continued(const Branch *branch)
     return branch->gesture && branch->gesture == branch[1].gesture;
 }
 
-const Command *past_undo(Past *past, int way, long *fork)
+const Command *past_undo(Past *past, int way)
 {
     int from = past->now, to = from + way;
     int last = way < 0 ? 0 : past->branches - 1;
@@ -950,13 +985,11 @@ const Command *past_undo(Past *past, int way, long *fork)
     while (to != last && is_continued(&past->branch[to]))
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
-    *fork = LONG_MAX;
     for (int b = low + 1; b <= high; b++) {
         const Branch *branch = &past->branch[b];
-        long same = branch->first - past_moves(&branch->edit);
-        if (branch->fresh)
-            same = -1;
-        *fork = same < *fork ? same : *fork;
+        forget_behind(past, branch->fresh
+                                ? -1
+                                : branch->first - past_moves(&branch->edit));
     }
     stop_work(past);
     leave_all(past);
@@ -969,8 +1002,11 @@ const Command *past_undo(Past *past, int way, long *fork)
 
 void past_create(bool keeps, bool goes_on, Past *past)
 {
-    *past = (Past){
-        .now = -1, .keeps = keeps, .goes_on = goes_on, .limit = PAST_BYTES};
+    *past = (Past){.now = -1,
+                   .keeps = keeps,
+                   .goes_on = goes_on,
+                   .same = LONG_MAX,
+                   .limit = PAST_BYTES};
 }
 
 void past_free(Past *past)

@@ -122,7 +122,6 @@ Status player_draw(Player *player)
     player->changed = false;
     if (!player->view)
         return STATUS_OK;
-    player_know_step(player);
     if (player->past.works && !player->past.making) {
         player->changed = true; /* as soon as it is there */
         return STATUS_OK;
@@ -360,7 +359,8 @@ Status player_create(const Options *options, int count, const char *line,
                        .left = options->page,
                        .lens = LENS_FITS,
                        .large = -1,
-                       .selected = -1};
+                       .selected = -1,
+                       .written = -1};
     snprintf(player->line, sizeof player->line, "%s", line);
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();

@@ -72,13 +72,12 @@ Status player_go_on(Player *player, Then then);
 /* What goes whenever another step is shown. */
 void player_leave_step(Player *player);
 
-/* The past is another one behind this step. */
-Status player_fork(Player *player, long step);
+/* The past is another one behind some step. */
+Status player_follow(Player *player);
 
-/* Before a picture: of a step that was gone to, the cards shall know every
- * update: it is made once more, unless that is long work; while the time line
- * is dragged, only if it is short. */
-void player_know_step(Player *player);
+/* Where somebody attends, a step that failed is only shown.  Returns OK, or the
+ * status of what ends the run. */
+Status player_bear(Player *player, Status status);
 
 /* What tables still lack of the past that is shown. */
 Status player_write_rest(Player *player);

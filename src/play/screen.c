@@ -193,7 +193,6 @@ Status obey_shot(Player *player, const Command *command)
     }
     free_name(player, ".png", name, sizeof name);
     if (!status) {
-        player_know_step(player);
         player_paint(player, paper);
         status = png_file_write(name, &paper->canvas, false);
     }

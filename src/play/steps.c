@@ -1,7 +1,7 @@
 /* steps.c - the work until a step is shown, what is recorded of it, and where
  * the past begins or forks.
  */
-#include <math.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,23 +70,16 @@ Status player_write_rest(Player *player)
         failed = failed || past->machine[p].failed;
     if (failed && shown == player->written) /* its iterations are told */
         status = record_updates(player, shown + 1);
-    if (past->keeps && past->branches > 0 &&
-        recording_has_tables(&player->recording)) {
-        while (player->written < past_newest(past) && !status &&
-               !*player->stop) {
-            long from = player->written > 0 ? player->written : 0;
-            past_aim(past, past->step == player->written ? from + 1 : from,
-                     false);
-            do
-                status = past_iterate(past);
-            while (status == STATUS_RUNNING);
-            if (!status || status_is_unconverged(status))
-                status = record_step(player);
-        }
-        past_aim(past, shown, false);
-        while (past_iterate(past) == STATUS_RUNNING)
-            continue;
+    if (!past->keeps || !recording_has_tables(&player->recording))
+        return status;
+    while (player->written < past_newest(past) && !status && !*player->stop) {
+        past_aim(past, player->written + 1, past->step != player->written);
+        status = past_finish(past);
+        if (!status || status_is_unconverged(status))
+            status = record_step(player);
     }
+    past_aim(past, shown, false);
+    past_finish(past);
     return status;
 }
 
@@ -119,7 +112,6 @@ void player_leave_step(Player *player)
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->side[p].ghost);
         player->side[p].ghost = NULL;
-        player->side[p].retried = false;
     }
 }
 
@@ -133,73 +125,46 @@ Status player_begin(Player *player, const Options *options, int count,
         return again ? player_refuse(player, status_text(status)) : status;
     player_leave_step(player);
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
-    player->sampled = player->written = -1;
+    player->sampled = -1;
     player->warned = player->holds = false;
     player->active = player->still = player->rigid = 0;
-    if (again)
-        status = recording_restart(&player->recording, options);
-    enter_scene(player);
+    status = player_follow(player);
     player_reset_speed(player);
     return status ? status : record_step(player);
 }
 
-Status player_fork(Player *player, long step)
+Status player_follow(Player *player)
 {
     Past *past = &player->past;
+    long same = past->same;
+    past->same = LONG_MAX;
     player->changed = true;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     enter_scene(player);
-    if (player->written <= step)
+    if (player->written <= same)
         return STATUS_OK;
-    player->written = step;
-    return step < 0 ? recording_restart(&player->recording,
+    player->written = same;
+    return same < 0 ? recording_restart(&player->recording,
                                         &past_start(past, 0)->options)
-                    : recording_cut(&player->recording, step);
+                    : recording_cut(&player->recording, same);
 }
 
 /* ---- what happens as a step is shown ------------------------------------- */
-
-void player_know_step(Player *player)
-{
-    enum { LONG = 800000, SOON = 20000 }; /* nodes times updates */
-    Past *past = &player->past;
-    long work = 0;
-    for (int p = 0; p < past_panes(past); p++) {
-        const Machine *machine = &past->machine[p];
-        const Simulation *simulation = &machine->simulation;
-        const Entry *entry = past_entry(past, p, past->step);
-        if (!machine->known && !machine->failed && !player->side[p].retried &&
-            simulation->run[0].newton && simulation_is_handled(simulation) &&
-            entry->substeps > 0) /* with the step before it */
-            work += 2 * simulation->system.nodes * (1 + entry->outcome.updates);
-    }
-    if (!player_stands(player) || !player->attended || past->works ||
-        past->step == 0 || work == 0 || work > LONG ||
-        (player->mouse.drag == COMMAND_GOTO && work > SOON))
-        return;
-    for (int p = 0; p < past_panes(past); p++)
-        player->side[p].retried = true;
-    past_aim(past, past->step, true);
-    player->then = THEN_NOTHING;
-    player_work(player);
-}
 
 /* A failure beyond all numbers: what is shown then is the last state that can
  * be seen, at most ten times as large as the first. */
 static Status show_last_good(Player *player)
 {
-    Past *past = &player->past;
-    long failed = past->step + 1, step = past->step;
-    for (int p = 0; p < past_panes(past); p++)
-        step = past_last_seen(past, p, step);
-    if (step == past->step)
+    long step = player->past.step;
+    long good = past_last_seen(&player->past, 0, step);
+    if (good == step)
         return STATUS_OK;
-    Status status = player_show(player, step, false, THEN_NOTHING);
+    Status status = player_show(player, good, false, THEN_NOTHING);
     player_note(player,
                 "step %ld ends beyond all numbers; shown is step %ld, the last "
                 "below ten times the size",
-                failed, step);
+                step + 1, good);
     player->warning = true;
     return status;
 }
@@ -220,18 +185,26 @@ static void tell_ended(Player *player)
     }
 }
 
-/* A failed step is shown, and somebody may go on from it. */
-static Status show_failure(Player *player, Status status, Then then)
+Status player_bear(Player *player, Status status)
 {
-    player->sampled = -1; /* draw the last frame again, and why it ends */
-    if (!player->attended || player->given[0].steps >= 0 ||
-        status == STATUS_OUT_OF_MEMORY)
+    bool fatal = status == STATUS_OUT_OF_MEMORY ||
+                 status == STATUS_INVALID_INPUT ||
+                 status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
+    if (!status || fatal || !player->attended || player->given[0].steps >= 0)
         return status;
     if (!player_stands(player))
         player->mode = MODE_PAUSE;
-    return then == THEN_JUDGE && status == STATUS_NOT_FINITE
+    return STATUS_OK;
+}
+
+/* A failed step is shown, and why the last frame is drawn again. */
+static Status show_failure(Player *player, Status failure, Then then)
+{
+    Status status = player_bear(player, failure);
+    player->sampled = -1;
+    return !status && then == THEN_JUDGE && failure == STATUS_NOT_FINITE
                ? show_last_good(player)
-               : STATUS_OK;
+               : status;
 }
 
 /* The work has come to its end. */

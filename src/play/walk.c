@@ -196,8 +196,7 @@ Status obey_undo(Player *player, const Command *command)
     Past *past = &player->past;
     char line[2 * COMMAND_TEXT_SIZE];
     int way = command->kind == COMMAND_UNDO ? -1 : 1;
-    long fork;
-    const Command *made = past_undo(past, way, &fork);
+    const Command *made = past_undo(past, way);
     if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
@@ -209,7 +208,7 @@ Status obey_undo(Player *player, const Command *command)
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
     player->still = player->rigid = 0;
     player->then = THEN_NOTHING;
-    Status status = player_fork(player, fork);
+    Status status = player_follow(player);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return status;

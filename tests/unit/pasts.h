@@ -31,14 +31,6 @@ static inline uint64_t hash_now(void)
     return hash;
 }
 
-static inline Status work(void)
-{
-    Status status = STATUS_RUNNING;
-    while (status == STATUS_RUNNING)
-        status = past_iterate(&past);
-    return status;
-}
-
 static inline void begin_past(const char *line)
 {
     const Command restart = {.kind = COMMAND_RESTART};
@@ -51,7 +43,7 @@ static inline void begin_past(const char *line)
 static inline uint64_t show(long step)
 {
     past_aim(&past, step, false);
-    Status status = work();
+    Status status = past_finish(&past);
     CHECK(!status || status_is_unconverged(status));
     CHECK(past.step == step);
     return hash_now();

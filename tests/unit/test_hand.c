@@ -174,7 +174,7 @@ static bool jerked_step(bool descends)
     long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
     past_aim(&past, before + 1, false);
-    Status status = work();
+    Status status = past_finish(&past);
     if (status && !status_is_unconverged(status)) {
         CHECK(!run->newton && status == STATUS_NOT_FINITE);
         CHECK_SAME_BITS(run->v, v, size);

@@ -12,8 +12,6 @@
 
 enum { STEPS = 48 };
 
-static long forked; /* by the last undo */
-
 /* hash [to + 1] out: of the steps from ... to. */
 static void run(long from, long to, uint64_t *hash)
 {
@@ -110,7 +108,7 @@ TEST(a_pane_that_has_ended_comes_back)
         past.limit = few ? 5 * past.bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
             past_aim(&past, step, false);
-            CHECK((work() == STATUS_NOT_FINITE) == (step == 12));
+            CHECK((past_finish(&past) == STATUS_NOT_FINITE) == (step == 12));
             CHECK(!few || hash[step] == hash_now());
             hash[step] = hash_now();
         }
@@ -158,16 +156,16 @@ TEST(a_gesture_is_undone_as_a_whole)
     CHECK(past.branches == 2);
     check_all_steps(8, hash);
     show(8);
-    past_undo(&past, -1, &forked);
-    CHECK_STATUS(work(), STATUS_OK);
+    past_undo(&past, -1);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     CHECK(past.step == 3 && hash_now() == hash[3] && past_newest(&past) == 3);
-    past_undo(&past, 1, &forked);
-    CHECK_STATUS(work(), STATUS_OK);
+    past_undo(&past, 1);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     CHECK(past.step == 8 && hash_now() == hash[8]);
     CHECK_STATUS(past_set_panes(&past, 2, 0, &grab), STATUS_OK);
-    past_undo(&past, -1, &forked);
+    past_undo(&past, -1);
     CHECK_STATUS(try_edit(&grab, false, 7), STATUS_OK); /* goes on with it: */
-    CHECK(!past_undo(&past, 1, &forked)); /* the panes were of another end */
+    CHECK(!past_undo(&past, 1)); /* the panes were of another end */
     past_free(&past);
     begin_past("arrows --integrator backward-euler");
     show(1);
@@ -204,7 +202,7 @@ static void visit(long step, bool again)
 {
     bool fresh = step > past_newest(&past);
     past_aim(&past, step, again);
-    CHECK_STATUS(work(), STATUS_OK);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     CHECK(past.step == step);
     look(fresh);
 }
@@ -218,7 +216,7 @@ static void visit_in_part(Random *random)
     for (int k = random_below(random, 9); k > 0 && past.works; k--)
         past_iterate(&past);
     past_drop(&past);
-    CHECK_STATUS(work(), STATUS_OK);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     look(past_newest(&past) > newest);
 }
 
@@ -276,7 +274,7 @@ static void change_at_random(Random *random, int gesture)
     if (past.now != now)
         memcpy(truth[past.now], truth[now], sizeof *truth);
     past_aim(&past, past.step, false);
-    CHECK_STATUS(work(), STATUS_OK);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     look(true); /* a node that was pinned has stopped */
     if (again)
         visit(past.step + 1, false);
@@ -289,7 +287,7 @@ static void change_panes(int panes)
     if (panes < 1 || panes > PANES)
         return;
     CHECK_STATUS(past_set_panes(&past, panes, 0, &edit), STATUS_OK);
-    CHECK_STATUS(work(), STATUS_OK);
+    CHECK_STATUS(past_finish(&past), STATUS_OK);
     memcpy(truth[past.now], truth[now], sizeof *truth);
     for (int step = 0; step <= LAST && panes > had; step++)
         truth[past.now][step][had] = truth[now][step][had - 1];
@@ -298,8 +296,8 @@ static void change_panes(int panes)
 
 static void undo_at_random(int way)
 {
-    if (past_undo(&past, way, &forked)) {
-        CHECK_STATUS(work(), STATUS_OK);
+    if (past_undo(&past, way)) {
+        CHECK_STATUS(past_finish(&past), STATUS_OK);
         look(false);
     }
 }
@@ -331,15 +329,15 @@ static void play_at_random(const char *line, uint64_t seed, size_t states)
         else if (step > 0)
             visit(step - 1, false);
     }
-    while (past_undo(&past, -1, &forked))
+    while (past_undo(&past, -1))
         continue;
     do {
-        CHECK_STATUS(work(), STATUS_OK);
+        CHECK_STATUS(past_finish(&past), STATUS_OK);
         for (long step = past_newest(&past); step >= 0; step--)
             visit(step, false);
         for (long step = 0; step <= past_newest(&past); step++)
             visit(step, false);
-    } while (past_undo(&past, 1, &forked));
+    } while (past_undo(&past, 1));
     past_free(&past);
 }
 
