@@ -11,22 +11,29 @@
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
+/* A minimisation; for how long walls have moved in this step, s; and whether
+ * the negative eigenvalues of blocks are cut. */
+typedef struct Moment {
+    IncrementalPotential E;
+    double moved;
+    bool clamped;
+} Moment;
+
 /* E at x_n + u, which is not rounded; J s^2.  All terms, by oracle.c. */
-long double wide_energy(const IncrementalPotential *E, const double *u);
+long double wide_energy(const Moment *moment, const double *u);
 
 /* P(x), J. */
 long double wide_potential(const System *system, const double *x);
 
 /* What rounding of coordinates, and of the slope on the way by `way`, can make
  * of E there. */
-long double wide_noise(const IncrementalPotential *E, const double *u,
+long double wide_noise(const Moment *moment, const double *u,
                        const double *way);
 
-/* q.(H p + grad E) there, of all terms, their Hessian H as it is: 0 if p is
- * Newton's direction; noise: what rounding can make of it.  p [2n] or NULL: 0,
- * q [2n] */
-long double wide_imbalance(const IncrementalPotential *E, const double *u,
-                           const double *p, const double *q,
+/* q.(H p + grad E) there, of all terms, less what is given: 0 if p is Newton's
+ * direction; noise: what rounding can make of it.  p [2n] or NULL: 0, q [2n] */
+long double wide_imbalance(const Moment *moment, const double *u,
+                           const double *p, const double *q, long double given,
                            long double *noise);
 
 /* Gradient [2n] and Hessian [2n 2n] of E of springs and the central field, 0

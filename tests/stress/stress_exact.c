@@ -26,21 +26,25 @@ static Wide wide_difference(const IncrementalPotential *E, const double *u,
     return (Wide)E->x_n[i] - E->x_n[j] + t * ((Wide)u[i] - u[j]);
 }
 
-/* E at x_n + u, not rounded, with its derivatives along `way` and q; size  out,
+/* E at x_n + u, not rounded, with its derivatives along `way` and q; size out,
  * or NULL: sum of the sizes of its parts. */
-static Jet energy(const IncrementalPotential *E, const double *u,
-                  const double *way, const double *q, Random *jitter, Jet *size)
+static Jet energy(const Moment *moment, const double *u, const double *way,
+                  const double *q, Random *jitter, Jet *size)
 {
+    const IncrementalPotential *E = &moment->E;
     const System *system = E->system;
     Place place = place_at(system, E->x_n, u, NULL);
     Spot spot = {.at = &place,
                  .h = sqrtl(E->weight),
                  .p = way,
                  .q = q,
+                 .moved = moment->moved,
                  .jitter = jitter,
                  .averaged = E->between};
     place.w = E->weight;
     Jet sum = oracle_energy(&spot, NULL);
+    if (moment->clamped)
+        sum.pq += oracle_clamping(&spot);
     for (int i = 0; i < 2 * system->nodes; i++) {
         Real away = (Real)u[i] - E->u_tilde[i];
         Real pull = system->m[i / 2] * away, p = way ? way[i] : 0;
@@ -56,19 +60,19 @@ static Jet energy(const IncrementalPotential *E, const double *u,
     return sum;
 }
 
-long double wide_energy(const IncrementalPotential *E, const double *u)
+long double wide_energy(const Moment *moment, const double *u)
 {
-    return energy(E, u, NULL, NULL, NULL, NULL).f;
+    return energy(moment, u, NULL, NULL, NULL, NULL).f;
 }
 
-long double wide_noise(const IncrementalPotential *E, const double *u,
-                       const double *way)
+long double wide_noise(const Moment *moment, const double *u, const double *way)
 {
+    const IncrementalPotential *E = &moment->E;
     Random jitter = {1};
-    Jet exact = energy(E, u, way, NULL, NULL, NULL);
+    Jet exact = energy(moment, u, way, NULL, NULL, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = energy(E, u, way, NULL, &jitter, NULL);
+        Jet rounded = energy(moment, u, way, NULL, &jitter, NULL);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
@@ -77,17 +81,20 @@ long double wide_noise(const IncrementalPotential *E, const double *u,
     return sum;
 }
 
-long double wide_imbalance(const IncrementalPotential *E, const double *u,
-                           const double *p, const double *q, long double *noise)
+long double wide_imbalance(const Moment *moment, const double *u,
+                           const double *p, const double *q, Real given,
+                           long double *noise)
 {
     Random jitter = {1};
-    Jet size, exact = energy(E, u, p, q, NULL, &size);
+    Jet size, exact = energy(moment, u, p, q, NULL, &size);
+    Real off = exact.q + exact.pq - given;
     *noise = DBL_EPSILON * (size.q + size.pq);
-    for (int round = 0; round < 10; round++) { /* some pass a barrier's edge */
-        Jet rounded = energy(E, u, p, q, &jitter, NULL);
+    /* some rounds pass a barrier's edge */
+    for (int round = 0; round < 10 && !(fabsl(off) <= *noise); round++) {
+        Jet rounded = energy(moment, u, p, q, &jitter, NULL);
         *noise += fabsl(rounded.q - exact.q) + fabsl(rounded.pq - exact.pq);
     }
-    return exact.q + exact.pq;
+    return off;
 }
 
 long double wide_potential(const System *system, const double *x)

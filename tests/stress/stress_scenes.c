@@ -56,6 +56,7 @@ static const struct Draw {
     {"mn", 2, " --self-friction [0 1.5]"},
     {"mn", 4, " --pin (0 left top-corners bottom)"},
     {"mn", 2, " --gravity 9.81"},
+    {"m", 3, " --tear <0.03 1>"},
     {"s", 2, " --tolerance <1e-9 1e3>"},
     {"f", 3, " --tolerance <1e-8 1e-2>"},
     {"ctbwmn", 1, " --tolerance <1e-8 1e-2>"},

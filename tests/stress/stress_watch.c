@@ -1,5 +1,4 @@
 /* Every step and every Newton iteration looked at from outside. */
-#include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/pull_energy.h"
 #include "stress.h"
@@ -48,6 +47,13 @@ static IncrementalPotential watch_potential(const Watch *watch)
     IncrementalPotential E = watch->run->newton->at.E;
     E.x_n = watch->x_n;
     return E;
+}
+
+/* Walls have gone a part of this step's way. */
+static Moment watch_moment(const Watch *watch)
+{
+    double moved = watch->run->moves ? watch->run->moved * watch->run->h : 0;
+    return (Moment){watch_potential(watch), moved, false};
 }
 
 static double residual_of_direction(const Watch *watch, const Wide *p)
@@ -143,37 +149,36 @@ static Real claimed_residual(const Newton *newton)
 }
 
 /* Of all terms: the direction passes the test, and H p = -grad E, as the oracle
- * has both, along a random way; or grad E is the solver's where no p was needed
- * or blocks were projected, whose Hessian is not known here. */
-static void judge_direction(Watch *watch, double limit)
+ * has both, along a random way; or, where no p was needed, grad E is the
+ * solver's. */
+static void judge_direction(Watch *watch, const double *u, double limit)
 {
-    IncrementalPotential E = watch_potential(watch);
+    Moment moment = watch_moment(watch);
     const Newton *newton = watch->run->newton;
     const unsigned char *pinned = newton->system->pinned;
-    bool solved =
-        newton->kind != RESIDUAL_BOUND && newton->record.projected == 0;
+    bool solved = newton->kind == RESIDUAL_VALUE;
     Random random = {(uint64_t)watch->run->steps + 1};
-    /* friction is of where the walls were, which the oracle does not know */
-    if (newton->working != SOLVER_NEWTON ||
-        (watch->run->moves &&
-         system_find_term(newton->system, &friction_energy)))
+    watch->judged++;
+    if (newton->working != SOLVER_NEWTON || newton->kind == RESIDUAL_ESTIMATE) {
+        watch->blurred++; /* p is no solution, but its error has a bound */
         return;
+    }
+    moment.clamped = newton->record.projected > 0;
     Real noise, residual = claimed_residual(newton);
     if (!(residual <= limit * (1 + 1e-9L)))
         blame(watch, "converged, but the residual is %Lg m/s", residual);
-    Real off = 0;
+    Real given = 0;
     for (int i = 0; i < watch_size(watch); i++) {
         bool held = pinned && pinned[i / 2];
         watch->way[i] = held ? 0 : 2 * random_below(&random, 2) - 1;
-        off -= solved ? 0 : watch->way[i] * (Real)newton->at.g[i];
+        given += solved ? 0 : watch->way[i] * (Real)newton->at.g[i];
     }
-    off += wide_imbalance(&E, newton->at.u, solved ? newton->at.p : NULL,
-                          watch->way, &noise);
+    Real off = wide_imbalance(&moment, u, solved ? newton->at.p : NULL,
+                              watch->way, given, &noise);
     /* once for the sums, once for the factor */
     if (!(fabsl(off) <= ROUNDINGS * ROUNDINGS * noise))
         blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
               noise);
-    watch->judged += solved;
 }
 
 /* Where a minimisation says it converged at u: once more, in wide numbers.
@@ -189,7 +194,7 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
     if (!watch->residuals || (!watch->springs && factor > 1))
         return;
     if (!watch->springs) {
-        judge_direction(watch, limit);
+        judge_direction(watch, u, limit);
         return;
     }
     limit *= factor;
@@ -215,35 +220,34 @@ static void judge_convergence(Watch *watch, const double *u, double factor)
 static long double allowed_rise(Watch *watch, const double *from,
                                 const double *to, long double energy)
 {
-    IncrementalPotential E = watch_potential(watch);
+    Moment moment = watch_moment(watch);
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = to[i] - from[i];
     return ROUNDINGS *
-           (DBL_EPSILON * energy + wide_noise(&E, from, watch->way) +
-            wide_noise(&E, to, watch->way));
+           (DBL_EPSILON * energy + wide_noise(&moment, from, watch->way) +
+            wide_noise(&moment, to, watch->way));
 }
 
-/* The first record of a minimisation: it starts at u = 0. */
+/* The first record of a minimisation: it starts at u = 0, or where the walls
+ * and pins of this step have moved nodes. */
 static void watch_begin(Watch *watch)
 {
     int n = watch_size(watch);
     const Newton *newton = watch->run->newton;
     memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
-    memset(watch->u, 0, (size_t)n * sizeof *watch->u);
+    for (int i = 0; i < n; i++)
+        watch->u[i] = watch->run->moves ? watch->run->new_x[i] : 0;
     watch->crossings = exact_crossings(watch->run->system, watch->x_n);
-    IncrementalPotential E = watch_potential(watch);
-    watch->start = watch->energy = wide_energy(&E, watch->u);
+    Moment moment = watch_moment(watch);
+    watch->start = watch->energy = wide_energy(&moment, watch->u);
     watch->updates = 0;
 }
 
-/* E at the present iterate must not be above that at the last one; where walls
- * are moved, minimisations do not start at u = 0, and are not judged. */
+/* E at the present iterate must not be above that at the last one. */
 static void watch_descent(Watch *watch, const double *u, const char *where)
 {
-    if (watch->run->moves)
-        return;
-    IncrementalPotential E = watch_potential(watch);
-    long double energy = wide_energy(&E, u);
+    Moment moment = watch_moment(watch);
+    long double energy = wide_energy(&moment, u);
     long double scale =
         fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
     if (!isfinite(energy))
@@ -274,18 +278,22 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
               status_name(record->status), record->slope, scale);
 }
 
-/* No node is behind a wall or in another body, and with cells on, or of a
- * solid, none is turned. */
+/* No node is behind a wall, and with cells on, or of a solid, none is turned.
+ */
 static void check_walls(Watch *watch, const double *x)
 {
     double gap = smallest_gap(watch->run->system, x);
     double J = smallest_cell(watch->run->system, x);
+    if (!(gap > 0) || !(J > 0))
+        blame(watch, "the smallest gap is %g, the smallest cell %g", gap, J);
+}
+
+/* No edges cross that did not as the step began. */
+static void check_edges(Watch *watch, const double *x)
+{
     long crossings = exact_crossings(watch->run->system, x);
-    if (!(gap > 0) || !(J > 0) || crossings > watch->crossings)
-        blame(watch,
-              "the smallest gap is %g, the smallest cell %g, %ld edges "
-              "cross",
-              gap, J, crossings);
+    if (crossings > watch->crossings)
+        blame(watch, "%ld edges cross, %ld did", crossings, watch->crossings);
 }
 
 /* Called after every Newton iteration. */
@@ -293,10 +301,15 @@ static bool watch_record(void *user, const NewtonRecord *record)
 {
     Watch *watch = user;
     const Newton *newton = watch->run->newton;
-    if (record->iteration < 0)
-        return true; /* seen as the step ends */
-    if (record->iteration == 0)
+    if (record->iteration <= 0 && newton->record.iteration <= 0)
         watch_begin(watch);
+    check_edges(watch, newton->at.x);
+    if (record->iteration < 0) { /* of springs it is seen as the step ends */
+        if (newton->record.iteration < 0 && record->status == STATUS_OK &&
+            !watch->springs)
+            judge_convergence(watch, watch->u, 1);
+        return true;
+    }
     if (record->iteration != watch->updates)
         blame(watch, "record %d after %d updates", record->iteration,
               watch->updates);
@@ -413,8 +426,8 @@ static void check_last_minimisation(Watch *watch, Status status)
     if (newton->record.iteration < 0) {
         memcpy(watch->x_n, watch->x, (size_t)n * sizeof *watch->x);
         memset(watch->u, 0, (size_t)n * sizeof *watch->u);
-        IncrementalPotential E = watch_potential(watch);
-        watch->start = watch->energy = wide_energy(&E, watch->u);
+        Moment moment = watch_moment(watch);
+        watch->start = watch->energy = wide_energy(&moment, watch->u);
         if (!status && watch->run->system->springs > 0)
             judge_convergence(watch, watch->u, 1);
     }

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "model/cells.h"
 #include "model/damping.h"
@@ -80,36 +81,33 @@ static Real strain_at(const System *system, int s, const double *x)
 }
 
 /* k l2 V(E): slides, plasticity.h, damping.h */
-static void springs(Spot *spot, Jet *sum, const void *data)
+static void spring(Spot *spot, Jet *sum, const void *data, int s)
 {
     const System *system = spot->at->system;
     const Plasticity *flow = data;
     const Damping *damped = spot->at->u ? damping_of(system) : NULL;
     Real theta = damped ? damped->eta / spot->h : 0;
-    for (int s = 0; s < system->springs; s++) {
-        Jet E = {.f = -1}, V;
-        for (int axis = 0; axis < 2; axis++) {
-            Jet d = between(spot, system->e[2 * s], system->e[2 * s + 1], axis,
-                            false);
-            E = plus(E, 1 / (Real)system->l2[s], times(d, d));
-        }
-        Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0, part = 0;
-        Real held = fabsl(e), over = 0; /* |e| = held + over */
-        if (flow) {
-            kappa = flow->kappa[s];
-            part = 1 / (1 + (Real)flow->hardening);
-            held = fminl(held, flow->yield + flow->hardening * kappa);
-            over = fabsl(e) - held;
-        }
-        V = chain(E, held * (held / 2 + over) + (1 - part) * over * over / 2,
-                  copysignl(held + (1 - part) * over, e),
-                  over > 0 ? 1 - part : 1);
-        Jet rate = E;
-        rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
-        V = plus(V, theta / 2, times(rate, rate));
-        V.f += flow ? flow->hardening * kappa * kappa / 2 : 0;
-        book(spot, sum, (Real)system->k[s] * system->l2[s], V);
+    Jet E = {.f = -1}, V;
+    for (int axis = 0; axis < 2; axis++) {
+        Jet d =
+            between(spot, system->e[2 * s], system->e[2 * s + 1], axis, false);
+        E = plus(E, 1 / (Real)system->l2[s], times(d, d));
     }
+    Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0, part = 0;
+    Real held = fabsl(e), over = 0; /* |e| = held + over */
+    if (flow) {
+        kappa = flow->kappa[s];
+        part = 1 / (1 + (Real)flow->hardening);
+        held = fminl(held, flow->yield + flow->hardening * kappa);
+        over = fabsl(e) - held;
+    }
+    V = chain(E, held * (held / 2 + over) + (1 - part) * over * over / 2,
+              copysignl(held + (1 - part) * over, e), over > 0 ? 1 - part : 1);
+    Jet rate = E;
+    rate.f -= theta > 0 ? strain_at(system, s, spot->at->x_n) : 0;
+    V = plus(V, theta / 2, times(rate, rate));
+    V.f += flow ? flow->hardening * kappa * kappa / 2 : 0;
+    book(spot, sum, (Real)system->k[s] * system->l2[s], V);
 }
 
 /* c f(s): barrier.h */
@@ -129,7 +127,8 @@ static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
     for (int axis = 0; axis < 2; axis++) {
         d[axis] = it->node >= 0 ? between(spot, i, it->node, axis, false)
                                 : coordinate(spot, 2 * i + axis, false);
-        d[axis].f -= it->node >= 0 ? 0 : jittered(spot, it->o[axis]);
+        Real o = it->o[axis] - spot->since * it->v[axis];
+        d[axis].f -= it->node >= 0 ? 0 : jittered(spot, o);
         n[axis] = it->n[axis];
     }
     if (it->kind == OBSTACLE_BALL) {
@@ -163,7 +162,7 @@ static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     if (!term || !spot->at->u || !(it->friction > 0))
         return;
     Place start = *spot->at;
-    Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
+    Spot before = {.at = &start, .jitter = spot->jitter, .since = spot->moved};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
     Real s = gap(&before, contact, i, k, n).f;
@@ -188,21 +187,96 @@ static void touch(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     barrier(spot, sum, contact->barrier.c, gap(spot, contact, i, k, n));
 }
 
-static void contacts(Spot *spot, Jet *sum, const void *data)
+static void at_a_wall(Spot *spot, Jet *sum, const void *data, int i)
 {
     const System *system = spot->at->system;
     const Contact *contact = contact_of(system);
-    for (int k = 0; contact && k < contact->obstacles; k++)
-        for (int i = 0; i < system->nodes; i++)
-            if (contact_has_pair(contact, system, i, k))
-                (data == contact ? touch : friction)(spot, sum, contact, i, k);
+    int node = i % system->nodes, k = i / system->nodes;
+    if (contact_has_pair(contact, system, node, k))
+        (data == contact ? touch : friction)(spot, sum, contact, node, k);
 }
 
-/* d^2/d_hat^2 of point p and edge s; where the edge is nearest, and n. */
-static Jet parted(Spot *spot, const SelfContact *self, int p, int s, Real *r,
-                  Real n[2])
+/* Edges and points of all that is solid, as boundary.h has it: of each spring,
+ * by its left or lower node and where it leads to (up, right, c, from d to b),
+ * whether it is whole, and triangles on it. */
+typedef struct Outline {
+    int edges, points, *point, (*edge)[2];
+    unsigned char (*whole)[4], (*sides)[4], *solid;
+} Outline;
+
+static void outline_triangle(Outline *outline, int a, int high, int corner)
 {
-    const int *end = spot->at->system->e + 2 * s;
+    const int node[4] = {a, a + high, a + high + 1, a + 1};
+    unsigned char(*sides)[4] = outline->sides;
+    ++*(corner / 2 ? &sides[node[3]][1] : &sides[a][1]);
+    ++*(corner % 3 ? &sides[node[1]][0] : &sides[a][0]);
+    ++*(corner % 2 ? &sides[a][2] : &sides[node[3]][3]);
+    for (int k = 0; k < 4; k++)
+        outline->solid[node[k]] |= k != (corner + 2) % 4;
+}
+
+static void outline_cell(Outline *outline, int a, int high)
+{
+    bool solid[4];
+    for (int corner = 0; corner < 4; corner++)
+        solid[corner] =
+            outline->whole[corner / 2 ? a + 1 : a][1] &&
+            outline->whole[corner % 3 ? a + high : a][0] &&
+            (corner % 2 ? outline->whole[a][2] : outline->whole[a + 1][3]);
+    bool both[2] = {solid[0] && solid[2], solid[1] && solid[3]};
+    for (int corner = 0, taken = 0; corner < 4; corner++)
+        if (solid[corner] && (both[0]   ? corner % 2 == 0
+                              : both[1] ? corner % 2
+                                        : !taken++))
+            outline_triangle(outline, a, high, corner);
+}
+
+static Outline outline_of(const System *system)
+{
+    static unsigned char *bytes;
+    const SquareMesh *shape = &self_contact_of(system)->boundary.shape;
+    int n = system->nodes, high = shape->rows + 1, wide = shape->segments + 1;
+    bytes = realloc(bytes, (size_t)n * (9 + 9 * sizeof(int)));
+    CHECK(bytes != NULL);
+    Outline it = {.point = (int *)bytes};
+    it.edge = (int(*)[2])(it.point + n);
+    it.whole = (unsigned char(*)[4])(it.edge + 4 * n);
+    it.sides = it.whole + n;
+    it.solid = (unsigned char *)(it.sides + n);
+    memset(it.whole, 0, 9 * (size_t)n);
+    for (int s = 0; s < system->springs; s++) {
+        int i = system->e[2 * s], j = system->e[2 * s + 1];
+        int low = i < j ? i : j, way = i + j - 2 * low;
+        bool up = way == 1 && low % high < high - 1;
+        it.whole[low][up            ? 0
+                      : way < high  ? 3
+                      : way == high ? 1
+                                    : 2] = system->k[s] != 0;
+    }
+    for (int i = 0; i < n; i++)
+        if (i % high < high - 1 && i / high % wide < wide - 1)
+            outline_cell(&it, i, high);
+    bool *ends = calloc((size_t)n, 1);
+    CHECK(ends != NULL);
+    for (int i = 0; i < 4 * n; i++)
+        if (it.sides[i / 4][i % 4] == 1) {
+            const int way[4] = {1, high, high + 1, high - 1};
+            int *edge = it.edge[it.edges++];
+            edge[0] = i / 4;
+            edge[1] = i / 4 + way[i % 4];
+            ends[edge[0]] = ends[edge[1]] = true;
+        }
+    for (int i = 0; i < n; i++)
+        if (!it.solid[i] || ends[i])
+            it.point[it.points++] = i;
+    free(ends);
+    return it;
+}
+
+/* d^2/d_hat^2 of point p and an edge; where the edge is nearest, and n. */
+static Jet parted(Spot *spot, const SelfContact *self, int p, const int end[2],
+                  Real *r, Real n[2])
+{
     Jet d[2], e[2], q[2], length2, along, d2;
     for (int axis = 0; axis < 2; axis++) {
         e[axis] = between(spot, end[1], end[0], axis, false);
@@ -228,18 +302,18 @@ static Jet parted(Spot *spot, const SelfContact *self, int p, int s, Real *r,
 }
 
 /* mu F f0(y), F and t of x_n: friction.h */
-static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p, int s)
+static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
+                    const int end[2])
 {
     const System *system = spot->at->system;
     const Term *term = system_find_term(system, &self_friction_energy);
-    const int *end = system->e + 2 * s;
     if (!term || !spot->at->u)
         return;
     Place start = *spot->at;
     Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
     Real n[2], r, e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
-    Real S = parted(&before, self, p, s, &r, n).f;
+    Real S = parted(&before, self, p, end, &r, n).f;
     Jet y = {0};
     if (!(S < 1))
         return;
@@ -256,44 +330,41 @@ static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p, int s)
 }
 
 /* Whether a point and an edge are so far from each other that there is nothing:
- * most of them are.  x [2n] m */
-static bool is_far(const double *x, int p, const int end[2], double d_hat)
+ * most of them are. */
+static bool is_far(const Spot *spot, int p, const int end[2], double most)
 {
-    const double *a = x + 2 * end[0], *b = x + 2 * end[1];
-    double most = 1.001 * d_hat;
+    const Place *at = spot->at;
     for (int c = 0; c < 2; c++) {
-        double y = x[2 * p + c];
-        if ((y > a[c] + most && y > b[c] + most) ||
-            (y < a[c] - most && y < b[c] - most))
+        const int i[3] = {2 * p + c, 2 * end[0] + c, 2 * end[1] + c};
+        double x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = (at->x ? at->x[i[k]] : at->x_n[i[k]] + at->u[i[k]]) +
+                   (spot->p ? (double)spot->alpha * spot->p[i[k]] : 0);
+        if ((x[0] > x[1] + most && x[0] > x[2] + most) ||
+            (x[0] < x[1] - most && x[0] < x[2] - most))
             return true;
     }
     return false;
 }
 
-/* c f(d^2/d_hat^2): self_contact.h */
-static void meetings(Spot *spot, Jet *sum, const void *data)
+/* c f(d^2/d_hat^2): self_contact.h; friction is of the step's start. */
+static void meeting(Spot *spot, Jet *sum, const void *data, int i)
 {
-    const System *system = spot->at->system;
-    const SelfContact *self = self_contact_of(system);
-    size_t size = 2 * (size_t)system->nodes;
-    double *x = malloc(size * sizeof *x);
+    const SelfContact *self = self_contact_of(spot->at->system);
+    const Outline *outline = spot->outline;
+    const int p = outline->point[i % outline->points];
+    const int *end = outline->edge[i / outline->points];
+    Place start = *spot->at;
+    Spot before = {.at = &start};
     Real n[2], r;
-    CHECK(x != NULL);
-    for (size_t i = 0; i < size; i++) /* friction is of the step's start */
-        x[i] = data == self ? (double)coordinate(spot, (int)i, false).f
-                            : spot->at->x_n[i];
-    for (int k = 0; k < self->boundary.edges; k++)
-        for (int i = 0; i < self->boundary.points; i++) {
-            int s = self->boundary.box[k].edge, p = self->boundary.point[i];
-            const int *end = system->e + 2 * s;
-            if (p == end[0] || p == end[1] || is_far(x, p, end, self->d_hat))
-                continue;
-            if (data == self)
-                barrier(spot, sum, self->c, parted(spot, self, p, s, &r, n));
-            else
-                rubbing(spot, sum, self, p, s);
-        }
-    free(x);
+    start.x = start.x_n;
+    if (p == end[0] || p == end[1] ||
+        is_far(data == self ? spot : &before, p, end, 1.001 * self->d_hat))
+        return;
+    if (data == self)
+        barrier(spot, sum, self->c, parted(spot, self, p, end, &r, n));
+    else
+        rubbing(spot, sum, self, p, end);
 }
 
 /* Whether triangle t of the cells has all its springs, and its area over that
@@ -314,79 +385,259 @@ static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
 }
 
 /* A0 k_c f(J/J_hat): cells.h */
-static void cells(Spot *spot, Jet *sum, const void *data)
+static void cell(Spot *spot, Jet *sum, const void *data, int t)
 {
     const Cells *cells = data;
     Jet J;
-    for (int t = 0; t < cells->triangles; t++)
-        if (triangle(spot, cells, t, &J))
-            barrier(spot, sum, cells->c, plus((Jet){0}, 1 / 0.4L, J));
+    if (triangle(spot, cells, t, &J))
+        barrier(spot, sum, cells->c, plus((Jet){0}, 1 / 0.4L, J));
 }
 
 /* A0 (mu/2 (|F|^2 - 2) - mu ln J + lambda/2 (ln J)^2): neo_hookean.h */
-static void solids(Spot *spot, Jet *sum, const void *data)
+static void solid(Spot *spot, Jet *sum, const void *data, int t)
 {
     const NeoHookean *solid = data;
-    for (int t = 0; t < solid->triangles; t++) {
-        Jet F[4] = {{0}}, size = {.f = -2}, J, L;
-        for (int c = 0; c < 4; c++)
-            for (int k = 0; k < 3; k++)
-                F[c] = plus(
-                    F[c], solid->weight[t][c / 2][k],
-                    coordinate(spot, 2 * solid->node[t][k] + c % 2, false));
-        for (int c = 0; c < 4; c++)
-            size = plus(size, 1, times(F[c], F[c]));
-        J = plus(times(F[0], F[3]), -1, times(F[1], F[2]));
-        if (!(J.f > 0)) {
-            book(spot, sum, 1, (Jet){.f = INFINITY});
-            continue;
-        }
-        L = chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
-        book(spot, sum, solid->area * (Real)solid->mu / 2, size);
-        book(spot, sum, -solid->area * (Real)solid->mu, L);
-        book(spot, sum, solid->area * (Real)solid->lambda / 2, times(L, L));
+    Jet F[4] = {{0}}, size = {.f = -2}, J, L;
+    for (int c = 0; c < 4; c++)
+        for (int k = 0; k < 3; k++)
+            F[c] = plus(F[c], solid->weight[t][c / 2][k],
+                        coordinate(spot, 2 * solid->node[t][k] + c % 2, false));
+    for (int c = 0; c < 4; c++)
+        size = plus(size, 1, times(F[c], F[c]));
+    J = plus(times(F[0], F[3]), -1, times(F[1], F[2]));
+    if (!(J.f > 0)) {
+        book(spot, sum, 1, (Jet){.f = INFINITY});
+        return;
+    }
+    L = chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
+    book(spot, sum, solid->area * (Real)solid->mu / 2, size);
+    book(spot, sum, -solid->area * (Real)solid->mu, L);
+    book(spot, sum, solid->area * (Real)solid->lambda / 2, times(L, L));
+}
+
+/* c/2 |x - o|^2: pull_energy.h */
+static void pull(Spot *spot, Jet *sum, const void *data, int c)
+{
+    const Pull *pull = data;
+    Jet d = coordinate(spot, c, false);
+    Real k =
+        pull->node < 0 ? (Real)pull->k * spot->at->system->m[c / 2] : pull->k;
+    d.f -= pull->target[c % 2];
+    if (pull->node < 0 || pull->node == c / 2)
+        book(spot, sum, k / 2, times(d, d));
+}
+
+/* Of what a term has parts. */
+typedef enum Parts { SPRINGS, COORDINATES, WALLS, CELLS, SOLIDS, PAIRS } Parts;
+
+static int count_parts(const Spot *spot, Parts parts, const void *data)
+{
+    const System *system = spot->at->system;
+    const Contact *contact = contact_of(system);
+    switch (parts) {
+    case SPRINGS:
+        return system->springs;
+    case COORDINATES:
+        return 2 * system->nodes;
+    case WALLS:
+        return contact->obstacles * system->nodes;
+    case CELLS:
+        return ((const Cells *)data)->triangles;
+    case SOLIDS:
+        return ((const NeoHookean *)data)->triangles;
+    default:
+        return spot->outline->edges * spot->outline->points;
     }
 }
 
-/* sum c/2 |x - o|^2: pull_energy.h */
-static void pulls(Spot *spot, Jet *sum, const void *data)
+/* ---- what clamping adds -------------------------------------------------- */
+
+/* n numbers that a part depends on: what each is of the displacements of three
+ * nodes, and displacements that change it alone. */
+typedef struct Frame {
+    int n, node[3];
+    Real read[4][6];
+    double move[4][6];
+} Frame;
+
+/* The difference of two nodes, or one alone. */
+static void frame_of_two(Frame *frame, int i, int j)
 {
-    const Pull *pull = data;
-    const System *system = spot->at->system;
-    for (int c = 0; c < 2 * system->nodes; c++) {
-        Jet d = coordinate(spot, c, false);
-        Real k = pull->node < 0 ? (Real)pull->k * system->m[c / 2] : pull->k;
-        d.f -= pull->target[c % 2];
-        if (pull->node < 0 || pull->node == c / 2)
-            book(spot, sum, k / 2, times(d, d));
+    *frame = (Frame){.n = 2, .node = {i, j < 0 ? i : j, i}};
+    for (int c = 0; c < 2; c++) {
+        frame->read[c][c] = frame->move[c][c] = 1;
+        frame->read[c][2 + c] = j < 0 ? 0 : -1;
     }
+}
+
+/* Two vectors, weighted sums of three nodes. */
+static void frame_of_three(Frame *frame, const int node[3],
+                           const double w[2][3])
+{
+    *frame = (Frame){.n = 4, .node = {node[0], node[1], node[2]}};
+    double det = w[0][1] * w[1][2] - w[0][2] * w[1][1];
+    for (int k = 0; k < 4; k++) {
+        int m = k / 2, c = k % 2;
+        for (int i = 0; i < 3; i++)
+            frame->read[k][2 * i + c] = w[m][i];
+        frame->move[k][2 + c] = (m ? -w[0][2] : w[1][2]) / det;
+        frame->move[k][4 + c] = (m ? w[0][1] : -w[1][1]) / det;
+    }
+}
+
+/* How far p goes along the edge, and how far its ends are turned: what is left
+ * of them beside W'', which is never negative. */
+static void frame_of_pair(Spot *spot, Frame *frame, int i)
+{
+    const SelfContact *self = self_contact_of(spot->at->system);
+    const Outline *outline = spot->outline;
+    const int p = outline->point[i % outline->points];
+    const int *end = outline->edge[i / outline->points];
+    Real n[2], r;
+    if (p == end[0] || p == end[1] || is_far(spot, p, end, self->d_hat))
+        return;
+    parted(spot, self, p, end, &r, n);
+    *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
+    for (int c = 0; c < 2; c++) {
+        Real t = c ? n[0] : -n[1];
+        const Real read[2][6] = {{t, 0, (r - 1) * t, 0, -r * t, 0},
+                                 {0, 0, -n[c], 0, n[c], 0}};
+        for (int k = 0; k < 6; k += 2)
+            for (int m = 0; m < 2; m++)
+                frame->read[m][k + c] = read[m][k];
+        frame->move[0][c] = (double)t;
+        frame->move[1][c] = (double)(r * n[c]);
+        frame->move[1][4 + c] = (double)n[c];
+    }
+}
+
+/* n = 0: it bends up anyway. */
+static Frame frame_of(Spot *spot, Parts parts, const void *data, int i)
+{
+    static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
+    const System *system = spot->at->system;
+    const NeoHookean *solid = data;
+    Frame frame = {0};
+    if (parts == SPRINGS)
+        frame_of_two(&frame, system->e[2 * i], system->e[2 * i + 1]);
+    else if (parts == WALLS)
+        frame_of_two(&frame, i % system->nodes,
+                     ((const Contact *)data)->obstacle[i / system->nodes].node);
+    else if (parts == CELLS)
+        frame_of_three(&frame, ((const Cells *)data)->node + 3 * i, edges);
+    else if (parts == SOLIDS)
+        frame_of_three(&frame, solid->node[i], solid->weight[i]);
+    else if (parts == PAIRS)
+        frame_of_pair(spot, &frame, i);
+    return frame;
 }
 
 /* A new term is a row here; data: the term's. */
 static const struct {
     const TermKind *kind;
-    void (*formula)(Spot *spot, Jet *sum, const void *data);
-} formulas[] = {{&mass_spring_energy, springs},
-                {&plastic_energy, springs},
-                {&contact_energy, contacts},
-                {&friction_energy, contacts},
-                {&cell_energy, cells},
-                {&central_field, pulls},
-                {&hand_energy, pulls},
-                {&neo_hookean_energy, solids},
-                {&self_contact_energy, meetings},
-                {&self_friction_energy, meetings}};
+    Parts parts;
+    void (*part)(Spot *spot, Jet *sum, const void *data, int i);
+} formulas[] = {{&mass_spring_energy, SPRINGS, spring},
+                {&plastic_energy, SPRINGS, spring},
+                {&contact_energy, WALLS, at_a_wall},
+                {&friction_energy, WALLS, at_a_wall},
+                {&cell_energy, CELLS, cell},
+                {&central_field, COORDINATES, pull},
+                {&hand_energy, COORDINATES, pull},
+                {&neo_hookean_energy, SOLIDS, solid},
+                {&self_contact_energy, PAIRS, meeting},
+                {&self_friction_energy, PAIRS, meeting}};
+
+/* The row of a term, or -1. */
+static int formula_of(const TermKind *kind)
+{
+    int row = (int)(sizeof formulas / sizeof *formulas) - 1;
+    while (row >= 0 && formulas[row].kind != kind)
+        row--;
+    return row;
+}
+
+/* p [2n] += sign times the displacement of number k. */
+static void move(const Frame *frame, int k, double sign, double *p)
+{
+    for (int i = 0; i < 6; i++)
+        p[2 * frame->node[i / 2] + i % 2] += sign * frame->move[k][i];
+}
+
+/* What clamping one part adds to q H p.  p, q [2n] all 0 */
+static Real clamping(const Spot *spot, int row, const void *data, int part,
+                     double *p, double *q)
+{
+    Spot own = *spot;
+    Frame frame = frame_of(&own, formulas[row].parts, data, part);
+    Real A[16], v[16], sum = 0;
+    int n = frame.n;
+    own.p = p;
+    own.q = q;
+    for (int i = 0; i < n * n; i++) {
+        Jet W = {0};
+        move(&frame, i / n, 1, p);
+        move(&frame, i % n, 1, q);
+        formulas[row].part(&own, &W, data, part);
+        move(&frame, i / n, -1, p);
+        move(&frame, i % n, -1, q);
+        A[i] = W.pq;
+    }
+    exact_eigen(n, A, v);
+    for (int k = 0; k < n; k++) {
+        Real along_p = 0, along_q = 0;
+        for (int i = 0; i < 6 * n; i++) {
+            int c = 2 * frame.node[i % 6 / 2] + i % 2;
+            Real weight = v[n * (i / 6) + k] * frame.read[i / 6][i % 6];
+            along_p += weight * spot->p[c];
+            along_q += weight * spot->q[c];
+        }
+        sum -= fminl(A[(n + 1) * k], 0) * along_p * along_q;
+    }
+    return sum;
+}
+
+static Outline outline_or_none(const System *system)
+{
+    return self_contact_of(system) ? outline_of(system) : (Outline){0};
+}
+
+Real oracle_clamping(Spot *spot)
+{
+    const System *system = spot->at->system;
+    double *zero = calloc(4 * (size_t)system->nodes, sizeof *zero);
+    Outline outline = outline_or_none(system);
+    Real sum = 0;
+    CHECK(zero != NULL);
+    spot->outline = &outline;
+    for (int t = 0; t < system->terms; t++) {
+        int row = formula_of(system->term[t].kind);
+        const void *data = system->term[t].data;
+        if (row < 0 || system->term[t].kind->place == PLACE_FRICTION)
+            continue;
+        int count = count_parts(spot, formulas[row].parts, data);
+        for (int i = 0; i < count; i++)
+            sum += clamping(spot, row, data, i, zero, zero + 2 * system->nodes);
+    }
+    free(zero);
+    return spot->at->w * sum;
+}
 
 static Jet energy_there(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
+    Outline outline = outline_or_none(system);
     Jet sum = {0};
+    spot->outline = &outline;
     spot->size = (Jet){0};
-    for (int i = 0; i < system->terms; i++) {
-        const TermKind *kind = system->term[i].kind;
-        for (size_t f = 0; f < sizeof formulas / sizeof *formulas; f++)
-            if (formulas[f].kind == kind && (!only || kind == only))
-                formulas[f].formula(spot, &sum, system->term[i].data);
+    for (int t = 0; t < system->terms; t++) {
+        int row = formula_of(system->term[t].kind);
+        const void *data = system->term[t].data;
+        if (row < 0 || (only && only != formulas[row].kind))
+            continue;
+        int count = count_parts(spot, formulas[row].parts, data);
+        for (int i = 0; i < count; i++)
+            formulas[row].part(spot, &sum, data, i);
     }
     spot->size = plus((Jet){0}, spot->at->w, spot->size);
     return plus((Jet){0}, spot->at->w, sum);
@@ -469,7 +720,8 @@ void exact_eigen(int n, Real *a, Real *v)
         v[i] = i % (n + 1) == 0;
     for (int k = 0; k < 30 * n * n; k++) {
         int r = k / n % n, c = k % n;
-        if (r >= c || a[n * r + c] == 0)
+        Real size = fabsl(a[n * r + r]) + fabsl(a[n * c + c]);
+        if (r >= c || fabsl(a[n * r + c]) <= 1e-25L * size)
             continue;
         Real theta = (a[n * c + c] - a[n * r + r]) / (2 * a[n * r + c]);
         Real t = copysignl(1, theta) / (fabsl(theta) + hypotl(1, theta));
@@ -498,12 +750,11 @@ static Real area_of(const double *x, int a, int b, int c)
 
 long exact_crossings(const System *system, const double *x)
 {
-    const SelfContact *self = self_contact_of(system);
+    Outline outline = outline_or_none(system);
     long count = 0;
-    for (int k = 0; self && k < self->boundary.edges; k++)
+    for (int k = 0; k < outline.edges; k++)
         for (int l = 0; l < k; l++) {
-            const int *e = system->e + 2 * self->boundary.box[k].edge;
-            const int *f = system->e + 2 * self->boundary.box[l].edge;
+            const int *e = outline.edge[k], *f = outline.edge[l];
             count +=
                 area_of(x, e[0], e[1], f[0]) * area_of(x, e[0], e[1], f[1]) <
                     0 &&

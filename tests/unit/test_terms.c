@@ -458,8 +458,8 @@ static void limit(Case *c, const TermKind *kind)
         near("what the limit leaves", part_left(c, x), 0.1, 1e-8);
 }
 
-/* The matrix is the products' one, and filtered it has the eigenvalues cut or
- * mirrored: of single elements all, of many that none is below 0. */
+/* The matrix is the products' one, and filtered it has the blocks' negative
+ * eigenvalues cut or mirrored. */
 static void projection(Case *c, Random *random)
 {
     double between[2 * SIZE];
@@ -468,7 +468,7 @@ static void projection(Case *c, Random *random)
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
     static double plain[SIZE * SIZE], H[SIZE * SIZE];
     int n = c->size, *slot;
-    Real a[16], v[16], largest = 0;
+    Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
     Sparse A;
     bool grown;
     CHECK_STATUS(incremental_potential_grow(&iterate, &grown), STATUS_OK);
@@ -499,23 +499,12 @@ static void projection(Case *c, Random *random)
                 value += y[i / n] * H[i] * y[i % n];
             CHECK(value >= -1e-12 * scale);
         }
-        if (n > 4 || row->rubs || row->shape == CORNER) /* several blocks */
-            continue;
+        Real more = 0;
         for (int i = 0; i < n * n; i++)
-            a[i] = plain[i] - (i % (n + 1) ? 0 : c->system.m[i / n / 2]);
-        exact_eigen(n, a, v);
-        for (int i = 0; i < n; i++)
-            largest = fmaxl(largest, fabsl(a[(n + 1) * i]));
-        for (int i = 0; i < n * n; i++) {
-            Real sum = i % (n + 1) ? 0 : c->system.m[i / n / 2];
-            for (int k = 0; k < n; k++) {
-                Real l = a[(n + 1) * k];
-                sum += (filter == FILTER_ABS ? fabsl(l) : fmaxl(l, 0)) *
-                       v[n * (i / n) + k] * v[n * (i % n) + k];
-            }
-            near("projection", H[i], sum,
-                 1e-14L * (largest + c->system.m[0] + c->system.m[1]));
-        }
+            more += c->p[i / n] * ((Real)H[i] - plain[i]) * c->q[i % n];
+        if (!row->averaged)
+            near("projection", more, (1 + f) * oracle_clamping(&spot),
+                 1e-14L * n * scale);
     }
     sparse_free(&A);
     free(slot);
