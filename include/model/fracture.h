@@ -35,4 +35,7 @@ extern const TermKind fracture;
 /* The system's, or NULL. */
 Fracture *fracture_of(const System *system);
 
+/* The strain at which spring s breaks. */
+double fracture_strength(const Fracture *fracture, int s);
+
 #endif

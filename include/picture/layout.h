@@ -24,7 +24,7 @@
 
 enum {
     LAYOUT_PANES = 6,
-    LAYOUT_CARDS = 12,
+    LAYOUT_CARDS = 14,
     LAYOUT_SETTINGS = 16,
     LAYOUT_CHIPS = 16,
     LAYOUT_CELLS = 32,

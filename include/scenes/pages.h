@@ -23,6 +23,7 @@ typedef struct LecturePage {
                             NULL: a place, or words */
     const char *veils; /* cards that wait for the guess, with blanks between */
     const char *star;  /* the card that is enlarged, or NULL */
+    const char *law;   /* that the card of it draws (card_law.c), or NULL */
     const char *notes; /* what to say, for whoever presents it */
     double minutes;    /* that it takes */
     const char *file;  /* where its code is: a file that listing.h knows */

@@ -25,8 +25,7 @@ static double scatter_of(int s)
     return (double)(z >> 11) * 0x1p-52 - 1;
 }
 
-/* The strain at which spring s breaks. */
-static double strength_of(const Fracture *fracture, int s)
+double fracture_strength(const Fracture *fracture, int s)
 {
     return fracture->strength * (1 + SCATTER * scatter_of(s));
 }
@@ -48,7 +47,7 @@ static int find_candidates(Fracture *fracture, const System *system,
     for (int s = 0; s < system->springs; s++) {
         double d[2];
         double strain = spring_strain(system->e + 2 * s, system->l2[s], x, d);
-        double load = strain / strength_of(fracture, s);
+        double load = strain / fracture_strength(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
             fracture->candidate[count++] = (Candidate){load, s};
     }

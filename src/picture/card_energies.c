@@ -208,8 +208,8 @@ static int write_legend(Paper *paper, Box inside, int curves,
 static Box draw_legend(Paper *paper, Box inside, int curves, const Curve *curve,
                        double time)
 {
-    double size = 0.85, most = LEGEND_PART * inside.height;
-    while (size > 0.5 &&
+    double size = fmax(0.85, paper->least), most = LEGEND_PART * inside.height;
+    while (size > fmax(0.5, paper->least) &&
            write_legend(paper, inside, curves, curve, time, size, false) > most)
         size -= 0.05;
     int used = write_legend(paper, inside, curves, curve, time, size, true);

@@ -21,7 +21,7 @@ static const double GAP = 0.35;      /* lines, between two texts */
 static const double LETTERS = 1.2;   /* ems, on every page */
 static const double FORMULA = 1.25;  /* times that, a formula */
 static const double SMALLEST = 0.9;  /* ems, where the window is too small */
-static const double NARROW = 0.92;   /* a letter of a guessed one */
+static const double NARROW = 0.88;   /* a letter of a guessed one */
 static const double GUESSED_EM = 20; /* pixels */
 
 /* One text with its head in bold; facts NULL: its lines as they are written,

@@ -23,6 +23,11 @@ extern const Card card_line;
 /* Residual of each Newton update on a logarithmic axis. */
 extern const Card card_residual;
 
+/* The law that a page is about, and where the scene is on it; what its title
+ * and a page's words know of that. */
+extern const Card card_law;
+void law_facts(const Simulation *simulation, Facts *facts);
+
 /* What the history keeps, over time: energies; radii in the circle. */
 extern const Card card_energies;
 extern const Card card_radius;

@@ -296,9 +296,12 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
 void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
                 const void *data, double width, Colour colour)
 {
-    double at[PLOT_POINTS + 1], value[PLOT_POINTS + 1], low = plot->x.low;
+    double at[PLOT_POINTS + 1], value[PLOT_POINTS + 1];
+    double low = plot->x.low, high = plot->x.high;
     for (int i = 0; i <= PLOT_POINTS; i++) {
-        at[i] = low + (plot->x.high - low) * i / PLOT_POINTS;
+        double part = (double)i / PLOT_POINTS;
+        at[i] = plot->x.log ? low * pow(high / low, part)
+                            : low + (high - low) * part;
         value[i] = y(data, at[i]);
     }
     plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);

@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "model/contact.h"
 #include "model/friction.h"
@@ -122,6 +123,8 @@ static void draw_words(const SpringPen *pen)
     char words[64];
     if (!square_contact_words(pen, words, sizeof words))
         return;
+    if (pen->show->veiled) /* what it does is asked for */
+        words[strcspn(words, ":")] = '\0';
     const Obstacle *wall = &pen->contact->obstacle[0];
     double slope = slope_of(wall);
     camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);

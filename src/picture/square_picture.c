@@ -371,6 +371,7 @@ static void square_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "newest", lecture_spring(simulation));
     fact(facts, "from", e[0]);
     fact(facts, "to", e[1]);
+    law_facts(simulation, facts);
     if (page->modes) {
         double omega = simulation_fastest(simulation, mode);
         fact(facts, "fastest", omega);
@@ -424,10 +425,19 @@ static int square_sample(const Simulation *simulation, Energy *row)
     return rows;
 }
 
-static const Card *const square_cards[] = {
-    &card_page,     &card_listing, &card_line,     &card_residual,
-    &card_energies, &card_spy,     &card_equation, &card_parameters,
-    &card_search,   &card_prints,  &card_assembly, NULL};
+static const Card *const square_cards[] = {&card_page,
+                                           &card_listing,
+                                           &card_line,
+                                           &card_residual,
+                                           &card_energies,
+                                           &card_spy,
+                                           &card_equation,
+                                           &card_parameters,
+                                           &card_search,
+                                           &card_prints,
+                                           &card_assembly,
+                                           &card_law,
+                                           NULL};
 
 const Picture square_picture = {
     .name = "square",

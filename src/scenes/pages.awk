@@ -62,6 +62,7 @@ BEGIN {
     texts["answer"] = "answer"
     texts["veils"] = "veils"
     texts["star"] = "star"
+    texts["law"] = "law"
     texts["notes"] = "notes"
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["minutes"]

@@ -12,8 +12,10 @@
 #include <math.h>
 
 #include "model/cells.h"
+#include "model/fracture.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/pull_energy.h"
 #include "picture/cards.h"
@@ -384,6 +386,115 @@ static void tell_page(const Simulation *simulation)
         top = fmaxl(top, H[i * size + i]);
     near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
     near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
+}
+
+/* The triangle with the smallest area over its area at rest, or with less, and
+ * its energy over that area; two sides make a rhombus twice as large. */
+static Real flattest(const Simulation *simulation, Real *energy)
+{
+    const NeoHookean *solid = solid_of(&simulation->system);
+    const double *at[2] = {simulation->mesh.x, simulation->run[0].x};
+    Real least = INFINITY, nu = simulation->options.poisson;
+    Real mu = simulation->options.young / (2 * (1 + nu));
+    Real lambda = 2 * mu * nu / (1 - 2 * nu);
+    for (int t = 0; t < solid->triangles; t++) {
+        Real e[2][4], det[2], F2 = 0; /* of both: two sides */
+        for (int k = 0; k < 8; k++) {
+            const double *x = at[k / 4];
+            e[k / 4][k % 4] =
+                (Real)x[2 * solid->node[t][1 + k / 2 % 2] + k % 2] -
+                x[2 * solid->node[t][0] + k % 2];
+        }
+        for (int k = 0; k < 2; k++)
+            det[k] = e[k][0] * e[k][3] - e[k][1] * e[k][2];
+        for (int k = 0; k < 2; k++) /* rows of F times det */
+            F2 += powl(e[1][k] * e[0][3] - e[1][2 + k] * e[0][1], 2) +
+                  powl(e[1][2 + k] * e[0][0] - e[1][k] * e[0][2], 2);
+        if (det[1] / det[0] > least - 1e-13L)
+            continue;
+        least = det[1] / det[0];
+        *energy = mu / 2 * (F2 / (det[0] * det[0]) - 2) - mu * logl(least) +
+                  lambda / 2 * powl(logl(least), 2);
+    }
+    return least;
+}
+
+/* The nearest point and edge of which it is no end; how fast it slides along
+ * it.  Every pair is tried. */
+static Real nearest(const Simulation *simulation, Real *slip)
+{
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
+    Real least = INFINITY;
+    for (int k = 0; k < system->nodes * system->springs; k++) {
+        int p = k % system->nodes, s = k / system->nodes;
+        int a = system->e[2 * s], b = system->e[2 * s + 1];
+        Real q[2], e[2], w[2], n[2];
+        for (int c = 0; c < 2; c++) {
+            q[c] = (Real)x[2 * p + c] - x[2 * a + c];
+            e[c] = (Real)x[2 * b + c] - x[2 * a + c];
+        }
+        Real r = (q[0] * e[0] + q[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
+        r = fminl(fmaxl(r, 0), 1);
+        for (int c = 0; c < 2; c++) {
+            n[c] = q[c] - r * e[c];
+            w[c] = v[2 * p + c] - (1 - r) * v[2 * a + c] - r * v[2 * b + c];
+        }
+        Real d = hypotl(n[0], n[1]);
+        if (p == a || p == b || !(d < least))
+            continue;
+        least = d;
+        *slip = fabsl(n[0] * w[1] - n[1] * w[0]) / d;
+    }
+    return least;
+}
+
+/* Where the scene is on the law that its page draws. */
+static void tell_law(const Simulation *simulation)
+{
+    const System *system = &simulation->system;
+    const Options *o = &simulation->options;
+    const char *law = o->page->law ? o->page->law : "";
+    const double *x = simulation->run[0].x;
+    const Plasticity *flow = plasticity_of(system);
+    Real at = INFINITY, value = 0, slip = 0, s, most = -1;
+    Real reach = o->barrier[0] > 0 ? o->barrier[0] : o->side / 100;
+    Real kappa = o->barrier[1] > 0 ? o->barrier[1] : 4 * o->stiffness;
+    Real c = o->side / o->segments * reach * kappa / 2;
+    if (strcmp(law, "barrier") == 0) {
+        const Contact *contact = contact_of(system);
+        for (int k = 0; k < contact->obstacles * system->nodes; k++)
+            at = fminl(
+                at, exact_gap(system, x, k % system->nodes, k / system->nodes));
+        s = at / reach;
+        value = c * (s - 1) * logl(s);
+    } else if (strcmp(law, "near") == 0) {
+        at = nearest(simulation, &slip);
+        s = powl(at / reach, 2);
+        value = c / 8 * (s - 1) * logl(s);
+    } else if (strcmp(law, "rub") == 0) {
+        nearest(simulation, &at);
+        s = fminl(at / o->slip_speed, 1);
+        value = s * (2 - s);
+    } else if (strcmp(law, "triangle") == 0) {
+        at = flattest(simulation, &value);
+    }
+    bool springs = strcmp(law, flow ? "yield" : "break") == 0;
+    for (int i = 0; i < system->springs && springs; i++) {
+        const int *e = system->e + 2 * i;
+        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
+                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
+        Real strain = d * d / system->l2[i] - 1, ep = flow ? flow->ep[i] : 0;
+        Real load = flow ? fabsl(ep) + 1e-3L * fabsl(strain)
+                         : strain / fracture_strength(fracture_of(system), i);
+        if (system->k[i] == 0 || load <= most)
+            continue;
+        most = load;
+        at = strain;
+        value = strain - ep;
+    }
+    near("law x", at, 1e-12L * (1 + fabsl(at)));
+    near("law y", value, 1e-10L * (1 + fabsl(value)));
 }
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -925,8 +1036,10 @@ static void tell_all(const Show *show)
     if (kind == PICTURE_CURVE || kind == PICTURE_TANGENT ||
         kind == PICTURE_LANDSCAPE)
         tell_search(simulation);
-    if (kind == PICTURE_SQUARE && o->page)
+    if (kind == PICTURE_SQUARE && o->page) {
         tell_page(simulation);
+        tell_law(simulation);
+    }
     if (kind == PICTURE_DIAL)
         tell_dial(simulation);
     if (kind == PICTURE_RACE)
@@ -1235,6 +1348,8 @@ TEST(numbers_of_pages)
         open_scene("square");
         snprintf(command, sizeof command, "page %s", page->name);
         tell(command);
+        if (page->law) /* until something touches, flows, nearly breaks */
+            run(page->picture);
         play(page->name);
     }
     CHECK(faults == 0);

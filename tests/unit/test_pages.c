@@ -667,7 +667,7 @@ static void check_ledger(const Simulation *simulation, double start)
 
 TEST(claim_contact)
 {
-    says("contact", "300 1");
+    says("contact", "0 300 1");
     double nearest = 1;
     Simulation *simulation = open_page("contact", "");
     for (int step = 0; step < 300; step++) {
@@ -793,7 +793,7 @@ static Simulation *bodies_after(const char *name, const char *more, int steps)
 
 TEST(claim_bodies)
 {
-    says("bodies", "200");
+    says("bodies", "0 200");
     bodies_after("bodies", "", 200);
 }
 
@@ -820,7 +820,7 @@ TEST(claim_gap)
 
 TEST(claim_fracture)
 {
-    says("fracture", "20 100 100");
+    says("fracture", "0 20 100 100");
     Simulation *simulation = open_page("fracture", "");
     double start = simulation_energies(simulation, 0).total;
     const Fracture *broken = fracture_of(&simulation->system);

@@ -1,0 +1,253 @@
+/* card_law.c - the law of a term as a curve, and a dot where the gap, the
+ * triangle, the contact or the spring is now that feels it most.
+ *
+ * The curve is the term's own function, asked for this one element while one
+ * number of it goes from end to end of the axis: so the dot is on the curve.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "model/fracture.h"
+#include "model/friction.h"
+#include "model/mass_spring_energy.h"
+#include "model/neo_hookean.h"
+#include "model/plasticity.h"
+#include "model/self_contact.h"
+#include "picture/cards.h"
+#include "picture/colour_map.h"
+
+/* One element, and what its law needs. */
+typedef struct LawNow {
+    Place at;
+    Element element;
+    SpringLaw spring;
+    double ep, breaks; /* strains, of the spring: plastic; where it breaks */
+    double reach;      /* the unit of the axis */
+    double x, y;       /* the dot */
+} LawNow;
+
+typedef struct Law {
+    const char *name, *none, *now, *unit, *across, *upwards;
+    const TermKind *kind, *source; /* the term; whose elements, or springs */
+    double (*value)(const void *now, double x);
+    double low, high; /* ends of the axis, in units of reach */
+} Law;
+
+static double energy_at(const LawNow *now, double s)
+{
+    LawNow there = *now;
+    there.element.s = s;
+    return now->at.term->kind->element->value(&there.at, &there.element);
+}
+
+static double gap_value(const void *now, double d)
+{
+    return energy_at(now, d);
+}
+
+static double near_value(const void *data, double d)
+{
+    const LawNow *now = data;
+    return energy_at(now, d / now->reach * (d / now->reach));
+}
+
+/* W/A of the triangle when it is pressed flatter, or let out, in the direction
+ * in which it is flattest. */
+static double triangle_value(const void *data, double J)
+{
+    LawNow there = *(const LawNow *)data;
+    double *f = there.element.v, factor = J / there.element.s - 1;
+    double turn =
+        0.5 * atan2(2 * (f[0] * f[1] + f[2] * f[3]),
+                    f[0] * f[0] + f[2] * f[2] - f[1] * f[1] - f[3] * f[3]);
+    const double n[2] = {-sin(turn), cos(turn)};
+    for (int i = 0; i < 4; i += 2) {
+        double part = factor * (n[0] * f[i] + n[1] * f[i + 1]);
+        f[i] += part * n[0];
+        f[i + 1] += part * n[1];
+    }
+    return energy_at(&there, J) / solid_of(there.at.system)->area;
+}
+
+static double slip_value(const void *now, double v)
+{
+    return friction_slope(v, ((const LawNow *)now)->reach);
+}
+
+static double spring_value(const void *data, double s)
+{
+    const LawNow *now = data;
+    return s > now->breaks ? 0 : spring_law_slope(now->spring, s - now->ep);
+}
+
+#define GAPS   "gap d in m", "W in J"
+#define SLIPS  "slip in m/s", "f/(\u03bc N)"
+#define SPRING "strain s", "f/(2k|d|)"
+
+static const Law laws[] = {
+    {"barrier", "nothing is near a wall", "the smallest gap, d = ", " m", GAPS,
+     &contact_energy, &contact_energy, gap_value, 0, 1.2},
+    {"near", "no point is near an edge", "point and edge, d = ", " m", GAPS,
+     &self_contact_energy, &self_contact_energy, near_value, 0, 1.2},
+    {"friction", "friction over slip", "where it is pressed most: ", " m/s",
+     SLIPS, &friction_energy, &contact_energy, slip_value, 1e-2, 1e4},
+    {"rub", "friction over slip", "where it is pressed most: ", " m/s", SLIPS,
+     &self_friction_energy, &self_contact_energy, slip_value, 1e-2, 1e4},
+    {"triangle", "", "the flattest triangle, J = ", "", "J", "W/A in J/m\u00b2",
+     &neo_hookean_energy, &neo_hookean_energy, triangle_value, 0, 1.5},
+    {"yield", "", "the spring that flowed most, s = ", "", SPRING,
+     &plastic_energy, NULL, spring_value, -1, 1},
+    {"break", "", "the spring nearest to breaking, s = ", "", SPRING, &fracture,
+     NULL, spring_value, 0, 1.3},
+};
+
+/* A spring and its dot; returns how much it feels. */
+static double find_spring(LawNow *now, int s)
+{
+    const System *system = now->at.system;
+    const Plasticity *flow = plasticity_of(system);
+    const Fracture *tear = fracture_of(system);
+    double d[2];
+    now->ep = flow ? flow->ep[s] : 0;
+    now->spring.yield =
+        flow ? flow->yield + flow->hardening * flow->kappa[s] : INFINITY;
+    now->spring.flow = flow ? 1 / (1 + flow->hardening) : 0;
+    now->breaks = tear ? fracture_strength(tear, s) : INFINITY;
+    now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
+    now->y = spring_value(now, now->x);
+    now->reach =
+        flow ? fmax(4 * now->spring.yield, 1.2 * fabs(now->x)) : now->breaks;
+    return spring_is_broken(system, s) ? -INFINITY
+           : flow                      ? fabs(now->ep) + 1e-3 * fabs(now->x)
+                                       : now->x / now->breaks;
+}
+
+/* The same of an element. */
+static double find_element(LawNow *now, const Law *law, const double *v)
+{
+    const Element *element = &now->element;
+    double t[4], w[4], slip, felt = -element->s;
+    now->x =
+        law->value == near_value ? sqrt(element->s) * now->reach : element->s;
+    if (law->value == slip_value) {
+        felt = now->at.term->kind->element->rub(&now->at, element, t, &slip);
+        element_vectors(element, v, w);
+        for (int i = 0; i < 2 * element->vectors; i++)
+            slip -= t[i] * w[i];
+        now->x = fabs(slip);
+    }
+    return felt;
+}
+
+/* The law that the page is about, and where a run is on it.  NULL: the scene
+ * has none; *found: something feels it. */
+static const Law *law_now(const Simulation *simulation, int run, LawNow *now,
+                          bool *found)
+{
+    const LecturePage *page = simulation->options.page;
+    const System *system = simulation->run[run].system;
+    const double *x = simulation->run[run].x, *v = simulation->run[run].v;
+    const Law *law = page && page->law ? laws : NULL;
+    const Contact *contact = contact_of(system);
+    const SelfContact *self = self_contact_of(system);
+    double most = -INFINITY, felt;
+    while (law && strcmp(law->name, page->law) != 0)
+        law++;
+    const Term *term = law ? system_find_term(system, law->kind) : NULL;
+    if (!term)
+        return NULL;
+    LawNow best = {.at = place_at(system, x, NULL, x), .reach = 1};
+    if (law->value == slip_value)
+        best.reach = ((const Friction *)term->data)->slip_speed;
+    else if (law->source == &contact_energy)
+        best.reach = contact->barrier.d_hat;
+    else if (law->source == &self_contact_energy)
+        best.reach = self->d_hat;
+    if (law->source)
+        best.at.term = system_find_term(system, law->source);
+    *now = best;
+    for (int s = 0; s < system->springs && !law->source; s++)
+        if ((felt = find_spring(now, s)) > most) {
+            most = felt;
+            best = *now;
+        }
+    ElementWalk walk = {0};
+    if (law->source)
+        walk = elements_from(&now->at, NULL, 0);
+    while (law->source && elements_next(&walk)) {
+        now->element = walk.element;
+        if ((felt = find_element(now, law, v)) > most) {
+            most = felt;
+            best = *now;
+        }
+    }
+    *found = most > -INFINITY;
+    *now = best;
+    now->y = *found ? law->value(now, now->x) : 0;
+    return law;
+}
+
+void law_facts(const Simulation *simulation, Facts *facts)
+{
+    LawNow now;
+    bool found;
+    const Law *law = law_now(simulation, 0, &now, &found);
+    fact_words(facts, "law", law ? law->none : NULL);
+    if (!law || !found || simulation->runs > 1)
+        return;
+    fact_words(facts, "law now", law->now);
+    fact_words(facts, "law unit", law->unit);
+    fact(facts, "law x", now.x);
+    fact(facts, "law y", now.y);
+}
+
+/* The curve for the element of the first run; of springs all others are there,
+ * small; a dot for each run, beyond the axis at its end. */
+static void draw_law(Paper *paper, Box inside, const Show *show)
+{
+    static const double dot = 6, small_dot = 2; /* units */
+    static const char *const names[] = {"upper", "middle", "lower"};
+    const Simulation *simulation = show->pane[show->active].simulation;
+    LawNow now;
+    bool found;
+    const Law *law = law_now(simulation, 0, &now, &found);
+    if (!law)
+        return;
+    bool log = law->value == slip_value, both = law->low < 0;
+    double low = law->low * now.reach, high = law->high * now.reach;
+    double most = both ? 1.4 * now.spring.yield
+                       : fmax(law->value(&now, 0.9 * low + 0.1 * high),
+                              law->value(&now, 0.25 * low + 0.75 * high));
+    most = plot_round_axis(1.1 * fmax(most, fabs(now.y)));
+    Plot plot = plot_create(
+        paper, inside, (Axis){low, high, log, false, law->across},
+        (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
+    plot_graph(&plot, law->value, &now, 2.4, COLOUR_X);
+    for (int s = 0; s < now.at.system->springs && !law->source; s++) {
+        LawNow other = now;
+        if (find_spring(&other, s) > -INFINITY)
+            plot_disc(&plot, (double[2]){other.x, other.y}, small_dot,
+                      COLOUR_GHOST);
+    }
+    for (int i = 0; i < 2 * simulation->runs; i++) { /* dots, then words */
+        int run = i % simulation->runs;
+        law_now(simulation, run, &now, &found);
+        double at[1][2] = {{fmin(fmax(now.x, low), high), now.y}};
+        if (found && i == run) {
+            plot_disc(&plot, at[0], dot, COLOUR_P);
+            plot_keep_disc(&plot, at[0], dot);
+        } else if (found && simulation->runs > 1) {
+            plot_words(&plot, 1, at, 0.6, 1, FACE_REGULAR, COLOUR_P,
+                       names[run]);
+        }
+    }
+}
+
+const Card card_law = {
+    .name = "law",
+    .title = "{law now}{law x:3}{law unit}\n{law}",
+    .least = 11,
+    .weight = 2,
+    .lecture = true,
+    .draw = draw_law,
+};
