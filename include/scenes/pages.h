@@ -40,6 +40,8 @@ typedef struct LecturePage {
     bool forces;          /* that on each node is an arrow */
     bool modes;           /* so is the fastest oscillation, or eigenvectors */
     bool writes;          /* the spring is lit whose number is the step's */
+    bool kinds;           /* so are those of its kind; each kind is a switch */
+    bool cuts;            /* before the guess there are cells, no springs */
 } LecturePage;
 
 /* Text, formulas, look and touch are texts of facts.h: live numbers stand in

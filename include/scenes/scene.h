@@ -103,6 +103,11 @@ int exhibit_handles(const struct Simulation *simulation,
 int exhibit_switches(const struct Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES]);
 
+/* On a page that has them as switches: the kind of a spring, 0 ... 3. */
+bool exhibit_has_kinds(const struct Simulation *simulation);
+int exhibit_kind(const struct Simulation *simulation, int spring);
+
+
 /* Moves one of the points, and all that hangs on it, to (x, y), which may be no
  * place for it; switches a part.  The number is below how many there are. */
 void exhibit_drag(struct Simulation *simulation, int handle, double x,

@@ -1,8 +1,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/picture.h"
+#include "picture/cards.h"
 #include "scenes/listing.h"
+#include "scenes/scene.h"
 
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {
@@ -20,10 +21,16 @@ static const char *const line_texts[LINE_COUNT] = {
  * through, else the page's. */
 static const char *lit_text(const Show *show, const LecturePage *page)
 {
+    static const char *const kinds[SCENE_MAX_SWITCHES] = {
+        "j, (i + 1) * row + j, k)", "(&solid, i * row + j, i * row + j + 1",
+        "j, (i + 1) * row + j + 1", "1) * row + j, i * row + j + 1"};
+    const Simulation *simulation = show->pane[show->active].simulation;
     const Trace *trace = show_pane(show)->trace;
     if (strcmp(page->function, "step_forward") == 0 && trace &&
         trace->line != LINE_NONE && line_texts[trace->line])
         return line_texts[trace->line];
+    if (page->kinds)
+        return kinds[exhibit_kind(simulation, lecture_spring(simulation))];
     return page->lit;
 }
 

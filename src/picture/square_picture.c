@@ -127,6 +127,13 @@ static void draw_hover(const SpringPen *pen)
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? lecture_spring(pen->simulation)
                                          : -1;
+    bool kinds = page && page->kinds && !pen->show->veiled;
+    for (int s = 0; s < system->springs && lit >= 0 && kinds; s++)
+        if (exhibit_kind(pen->simulation, s) ==
+                exhibit_kind(pen->simulation, lit) &&
+            !spring_is_broken(system, s))
+            plot_line(pen->stage, pen->x + 2 * system->e[2 * s],
+                      pen->x + 2 * system->e[2 * s + 1], 3, COLOUR_P);
     if (lit >= 0 && lit < system->springs)
         plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * lit],
                   pen->x + 2 * (size_t)system->e[2 * lit + 1], 4.5,
@@ -286,6 +293,17 @@ static void draw_page_arrows(const SpringPen *pen)
     draw_arrows(pen, arrow, COLOUR_FORCE, "force on each node");
 }
 
+/* A solid, cut along the edges of its cells: all springs but the diagonals. */
+static void draw_cuts(const SpringPen *pen)
+{
+    const System *system = pen->system;
+    for (int s = 0; s < system->springs; s++)
+        if (exhibit_kind(pen->simulation, s) < 2)
+            plot_line(pen->stage, pen->x + 2 * system->e[2 * s],
+                      pen->x + 2 * system->e[2 * s + 1], 3, COLOUR_WHITE);
+    square_outline(pen, pen->x, false, COLOUR_X);
+}
+
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
 static void square_draw(Plot *stage, const Show *show)
@@ -295,6 +313,7 @@ static void square_draw(Plot *stage, const Show *show)
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
     double most = 0; /* of all forces: they have one scale */
+    const LecturePage *page = show->lecture;
     for (int r = 0; r < runs; r++) {
         pen[r] = square_pen(stage, show, r);
         square_contact_obstacles(&pen[r]);
@@ -307,11 +326,16 @@ static void square_draw(Plot *stage, const Show *show)
     }
     if (!show->bare)
         folded = draw_ground(pen);
-    if (pen->spacing >= LEAST_CELL || fracture_of(system))
+    if (page && page->cuts)
+        square_cells(pen, true);
+    if (page && page->cuts && show->veiled)
+        draw_cuts(pen);
+    else if (pen->spacing >= LEAST_CELL || fracture_of(system))
         square_springs(pen);
     else
         square_faces(pen);
-    square_nodes(pen);
+    if (!page || !page->cuts || !show->veiled)
+        square_nodes(pen);
     if (show->bare)
         return;
     for (int r = 0; r < runs; r++)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scenes/pages.h"
 #include "scenes/simulation.h"
 
 int exhibit_handles(const Simulation *simulation,
@@ -58,15 +59,48 @@ void exhibit_drag(Simulation *simulation, int handle, double x, double y)
         descent_restart(simulation);
 }
 
+bool exhibit_has_kinds(const Simulation *simulation)
+{
+    return simulation->options.page && simulation->options.page->kinds;
+}
+
+/* In the order of the mesh: n (n + 1) that lie, as many that stand, and the
+ * diagonals of each cell. */
+int exhibit_kind(const Simulation *simulation, int spring)
+{
+    int n = simulation->system.segments, half = n * (n + 1);
+    return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
+}
+
+/* Kinds of springs are there until they are switched off. */
 int exhibit_switches(const Simulation *simulation,
                      Switch out[SCENE_MAX_SWITCHES])
 {
-    const char *const *part = simulation->scene->parts;
+    static const char *const kinds[SCENE_MAX_SWITCHES] = {
+        "horizontal", "vertical", "diagonal /", "diagonal \\"};
+    bool has_kinds = exhibit_has_kinds(simulation);
+    const char *const *part = has_kinds ? kinds : simulation->scene->parts;
     int count = 0;
     for (; count < SCENE_MAX_SWITCHES && part[count]; count++)
-        out[count] =
-            (Switch){part[count], simulation->exhibit.parts >> count & 1};
+        out[count] = (Switch){
+            part[count], (simulation->exhibit.parts >> count & 1) != has_kinds};
     return count;
+}
+
+/* What its springs had stored is the work of whoever takes them away. */
+static void flip_kind(Simulation *simulation, int kind)
+{
+    System *system = &simulation->system;
+    double before = simulation_energies(simulation, 0).total;
+    simulation->exhibit.parts ^= 1U << kind;
+    for (int s = 0; s < system->springs; s++)
+        if (exhibit_kind(simulation, s) == kind)
+            system->k[s] = simulation->exhibit.parts >> kind & 1
+                               ? 0
+                               : simulation->options.stiffness;
+    system->breaks = true;
+    system_changed(system, false);
+    simulation->work[0] += simulation_energies(simulation, 0).total - before;
 }
 
 /* Of two parts one stays.  What was minimised before is another function: its
@@ -74,6 +108,10 @@ int exhibit_switches(const Simulation *simulation,
 void exhibit_flip(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;
+    if (exhibit_has_kinds(simulation)) {
+        flip_kind(simulation, number);
+        return;
+    }
     unsigned parts = simulation->exhibit.parts ^ (1U << number);
     bool none = parts == 0 && scene->parts[1];
     simulation->exhibit.parts = none ? PART_BOTH ^ (1U << number) : parts;

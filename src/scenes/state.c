@@ -101,6 +101,11 @@ static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
+    if (exhibit_has_kinds(simulation)) {
+        PASS(simulation->exhibit.parts);
+        pass(cursor, simulation->system.k,
+             (size_t)simulation->system.springs * sizeof(double));
+    }
     if (!scene->step && !scene->grips)
         return;
     PASS(simulation->exhibit);

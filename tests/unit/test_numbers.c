@@ -332,62 +332,6 @@ static void tell_energies(const Simulation *simulation)
 
 /* ---- what pages say of the square ---------------------------------------- */
 
-/* Its mesh, its fastest oscillation, and the force on its last node. */
-static void tell_page(const Simulation *simulation)
-{
-    static Real H[UNKNOWNS * UNKNOWNS], v[UNKNOWNS * UNKNOWNS];
-    const System *system = &simulation->system;
-    const Options *o = &simulation->options;
-    const double *x = simulation->run[0].x;
-    int size = 2 * system->nodes, shorter = 0;
-    Real n = o->segments, nodes = (n + 1) * (n + 1), top = 0, g[UNKNOWNS];
-    Real side = simulation->mesh.side;
-    Real mass = o->density * side * side;
-    const IncrementalPotential E = {.system = system, .weight = 1, .x_n = x};
-    for (int s = 0; s < system->springs; s++) {
-        const int *e = system->e + 2 * s;
-        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
-                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
-        shorter += d < (1 - 5e-10L) * sqrtl(system->l2[s]);
-    }
-    if (o->bodies > 0 || o->scene->create != scene_find("square")->create)
-        nodes = system->nodes;
-    is("masses", nodes);
-    near("mass", system->nodes * (Real)system->m[0], 1e-9L * mass);
-    is("node mass", system->m[0]);
-    is("middle", floorl((nodes - 1) / 2));
-    is("places", 4 * (nodes + 2 * (Real)system->springs));
-    is("short", shorter);
-    int newest = (int)(simulation->steps % system->springs);
-    is("newest", newest);
-    is("from", system->e[2 * newest]);
-    is("to", system->e[2 * newest + 1]);
-    is("segments", n);
-    is("side", side);
-    is("rho", o->density);
-    is("k", o->stiffness);
-    is("stretch", o->stretch);
-    is("h", o->timestep);
-    is("epsilon", o->tolerance);
-    is("last", system->nodes - 1);
-    if (size > UNKNOWNS)
-        return;
-    exact_derivatives(&E, NULL, x, g, H);
-    for (int i = size - 2; i < size; i++) {
-        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
-        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
-    }
-    if (!o->page->modes)
-        return;
-    for (int i = 0; i < size * size; i++) /* masses are equal */
-        H[i] /= system->m[0];
-    exact_eigen(size, H, v);
-    for (int i = 0; i < size; i++)
-        top = fmaxl(top, H[i * size + i]);
-    near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
-    near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
-}
-
 /* The triangle with the smallest area over its area at rest, or with less, and
  * its energy over that area; two sides make a rhombus twice as large. */
 static Real flattest(const Simulation *simulation, Real *energy)
@@ -495,6 +439,63 @@ static void tell_law(const Simulation *simulation)
     }
     near("law x", at, 1e-12L * (1 + fabsl(at)));
     near("law y", value, 1e-10L * (1 + fabsl(value)));
+}
+
+/* Its mesh, its fastest oscillation, and the force on its last node. */
+static void tell_page(const Simulation *simulation)
+{
+    static Real H[UNKNOWNS * UNKNOWNS], v[UNKNOWNS * UNKNOWNS];
+    const System *system = &simulation->system;
+    const Options *o = &simulation->options;
+    const double *x = simulation->run[0].x;
+    int size = 2 * system->nodes, shorter = 0;
+    Real n = o->segments, nodes = (n + 1) * (n + 1), top = 0, g[UNKNOWNS];
+    Real side = simulation->mesh.side;
+    Real mass = o->density * side * side;
+    const IncrementalPotential E = {.system = system, .weight = 1, .x_n = x};
+    tell_law(simulation);
+    for (int s = 0; s < system->springs; s++) {
+        const int *e = system->e + 2 * s;
+        Real d = hypotl((Real)x[2 * e[0]] - x[2 * e[1]],
+                        (Real)x[2 * e[0] + 1] - x[2 * e[1] + 1]);
+        shorter += d < (1 - 5e-10L) * sqrtl(system->l2[s]);
+    }
+    if (o->bodies > 0 || o->scene->create != scene_find("square")->create)
+        nodes = system->nodes;
+    is("masses", nodes);
+    near("mass", system->nodes * (Real)system->m[0], 1e-9L * mass);
+    is("node mass", system->m[0]);
+    is("middle", floorl((nodes - 1) / 2));
+    is("places", 4 * (nodes + 2 * (Real)system->springs));
+    is("short", shorter);
+    int newest = (int)(simulation->steps % system->springs);
+    is("newest", newest);
+    is("from", system->e[2 * newest]);
+    is("to", system->e[2 * newest + 1]);
+    is("segments", n);
+    is("side", side);
+    is("rho", o->density);
+    is("k", o->stiffness);
+    is("stretch", o->stretch);
+    is("h", o->timestep);
+    is("epsilon", o->tolerance);
+    is("last", system->nodes - 1);
+    if (size > UNKNOWNS)
+        return;
+    exact_derivatives(&E, NULL, x, g, H);
+    for (int i = size - 2; i < size; i++) {
+        near("f", -g[i], 1e-9L * (1 + fabsl(g[i])));
+        near("a", -g[i] / system->m[i / 2], 1e-11L * (1 + fabsl(g[i])));
+    }
+    if (!o->page->modes)
+        return;
+    for (int i = 0; i < size * size; i++) /* masses are equal */
+        H[i] /= system->m[0];
+    exact_eigen(size, H, v);
+    for (int i = 0; i < size; i++)
+        top = fmaxl(top, H[i * size + i]);
+    near("fastest", sqrtl(top), 1e-4L * sqrtl(top));
+    near("h limit", 2 / sqrtl(top), 2e-4L / sqrtl(top));
 }
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -1036,10 +1037,8 @@ static void tell_all(const Show *show)
     if (kind == PICTURE_CURVE || kind == PICTURE_TANGENT ||
         kind == PICTURE_LANDSCAPE)
         tell_search(simulation);
-    if (kind == PICTURE_SQUARE && o->page) {
+    if (kind == PICTURE_SQUARE && o->page)
         tell_page(simulation);
-        tell_law(simulation);
-    }
     if (kind == PICTURE_DIAL)
         tell_dial(simulation);
     if (kind == PICTURE_RACE)

@@ -117,6 +117,34 @@ TEST(claim_mesh)
         CHECK(level == (s < 6 ? s + 1 : 6));
     }
     CHECK(level == 6 && system->springs == 12 + 8);
+    double sheared[18], turn = 0.4;
+    for (int i = 0; i < 18; i += 2) {
+        sheared[i] = x[i] + sin(turn) * (x[i + 1] + 0.5);
+        sheared[i + 1] = cos(turn) * (x[i + 1] + 0.5);
+    }
+    simulation->options.page = lecture_find("mesh");
+    CHECK(system_potential(system, sheared) > 1e3);
+    exhibit_flip(simulation, 2);
+    exhibit_flip(simulation, 3);
+    CHECK_NEAR(system_potential(system, sheared), 0, 1e-20);
+    for (int s = 0; s < 20; s++) { /* the line of code that writes it is lit */
+        Show show;
+        int lit = 0, from = -1;
+        show_create(simulation, &show);
+        simulation->steps = s;
+        show_lecture(LECTURE_CODE, NULL, &show);
+        for (int i = 0; i < show.page.lines; i++)
+            if (show.page.lit[i]) {
+                lit++;
+                from = i;
+            }
+        static const char *const texts[] = {"(i + 1) * row + j, k", "j + 1, k",
+                                            "j + 1, k"};
+        CHECK(lit == 1);
+        CHECK(strstr(show.page.line[from], texts[s / 6 < 2 ? s / 6 : 2]));
+        CHECK((strstr(show.page.line[from - 1], "(i + 1) * row + j + 1") !=
+               NULL) == (s > 12 && s % 2));
+    }
 }
 
 /* The place of the middle, m. */
