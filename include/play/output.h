@@ -29,19 +29,11 @@ Status output_open(const char *name, Output *output);
 /* Why a file failed, after FILE_FAILED: what errno means here. */
 const char *output_reason(int reason);
 
-/* FILE_FAILED if something could not be written so far, else OK. */
-Status output_check(const Output *output);
-
-/* Cuts off the lines that begin with a number above `last`, and all behind
- * them; headers stay, unless last is below 0: then all goes.  Where nothing can
- * be taken back the new text follows the old.  Returns OK, FILE_FAILED. */
-Status output_cut(Output *output, long last);
-
 /* Flushes, closes, renames; OK too if it is not open.  After FILE_FAILED what
  * stood under the name before still does, and NAME.part as far as it got. */
 Status output_close(Output *output);
 
-/* Closes it; what stood under the name stays.  errno stays, too.
+/* Closes it, if it is open; what stood under the name stays.  errno stays, too.
  *   keep  NAME.part stays; else it is removed */
 void output_discard(Output *output, bool keep);
 

@@ -20,6 +20,7 @@ typedef struct Table {
     Output output;
     const struct TableFormat *format; /* NULL: CSV */
     FILE *rows; /* with a format: [columns] doubles each */
+    long head;  /* where the names of CSV end, in a file */
     int columns;
     struct {
         char name[TABLE_LETTERS];
@@ -49,7 +50,8 @@ void table_add(Table *table, const double *value);
 Status table_check(const Table *table);
 
 /* Takes back the rows of later steps; of all, and the names, where last is
- * below 0: then the columns may be others.  Returns OK, FILE_FAILED. */
+ * below 0: then the columns may be others.  From a pipe nothing can be taken
+ * back, and new rows follow.  Returns OK, FILE_FAILED. */
 Status table_cut(Table *table, long last);
 
 /* Writes the rest and gives the file its name (output_close), or leaves it as

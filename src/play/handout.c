@@ -309,8 +309,6 @@ Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
         status = play_page(&of_page, stop, player, name);
         if (!status)
             status = write_page(output.file, page, &player->show, name);
-        if (!status)
-            status = output_check(&output);
         player_free(player);
     }
     int reason = errno;

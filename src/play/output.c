@@ -53,17 +53,6 @@ const char *output_reason(int reason)
 
 /* ---- opening ------------------------------------------------------------ */
 
-/* Forgets the names; keeps errno. */
-static void output_forget(Output *output)
-{
-    int reason = errno;
-    free(output->name);
-    free(output->target);
-    free(output->temporary);
-    *output = (Output){0};
-    errno = reason;
-}
-
 /* NAME.part as a stream that this run alone has, with the permissions of the
  * file whose place it will take (info, or NULL: there is none). */
 static Status open_temporary(Output *output, const struct stat *info)
@@ -117,40 +106,11 @@ Status output_open(const char *name, Output *output)
         output->file = stdout;
     Status status = standard ? STATUS_OK : open_named(name, output);
     if (status)
-        output_forget(output);
+        output_discard(output, true);
     return status;
 }
 
-/* ---- while it is open, and its end -------------------------------------- */
-
-/* The stream remembers that a write failed. */
-Status output_check(const Output *output)
-{
-    bool failed = output->file && ferror(output->file);
-    return failed ? STATUS_FILE_FAILED : STATUS_OK;
-}
-
-Status output_cut(Output *output, long last)
-{
-    char *line = NULL, *end;
-    size_t size = 0;
-    long at = 0;
-    FILE *file = output->file;
-    if (!file || !output->temporary)
-        return STATUS_OK;
-    if (fseek(file, 0, SEEK_SET))
-        return STATUS_FILE_FAILED;
-    for (ssize_t length;
-         last >= 0 && (length = getline(&line, &size, file)) >= 0;) {
-        long number = strtol(line, &end, 10);
-        if (end != line && number > last)
-            break;
-        at += length;
-    }
-    free(line);
-    bool failed = fseek(file, at, SEEK_SET) || ftruncate(fileno(file), at);
-    return failed ? STATUS_FILE_FAILED : STATUS_OK;
-}
+/* ---- its end ------------------------------------------------------------ */
 
 /* Every call that can tell of a failed write is asked; errno tells why.  A
  * second descriptor holds the lock until the file has its name. */
@@ -169,19 +129,21 @@ Status output_close(Output *output)
     if (lock >= 0)
         close(lock);
     errno = reason;
-    output_forget(output);
+    output->file = NULL;
+    output_discard(output, true);
     return whole ? STATUS_OK : STATUS_FILE_FAILED;
 }
 
 void output_discard(Output *output, bool keep)
 {
     int reason = errno;
-    if (!output->file)
-        return;
     if (output->temporary && !keep)
         remove(output->temporary);
-    if (output->file != stdout)
+    if (output->file && output->file != stdout)
         fclose(output->file);
+    free(output->name);
+    free(output->target);
+    free(output->temporary);
+    *output = (Output){0};
     errno = reason;
-    output_forget(output);
 }

@@ -12,19 +12,19 @@
 #include "scenes/one_line.h"
 #include "scenes/scene.h"
 
-/* Tells of the first failure; returns status.
- *   why  it failed, if errno does not say it; or NULL */
-static Status note(Recording *recording, Status status, const char *name,
-                   const char *why)
+/* Tells of the first failure; returns status. */
+static Status note(Recording *recording, Status status, const char *name)
 {
-    if (status && !recording->message[0]) {
-        char shown[256];
-        one_line(name, shown, sizeof shown);
-        snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
-                 why                              ? why
-                 : status == STATUS_OUT_OF_MEMORY ? output_reason(ENOMEM)
-                                                  : output_reason(errno));
-    }
+    char shown[256];
+    const char *why = recording->film.reason;
+    if (!status || recording->message[0])
+        return status;
+    if (!why)
+        why = output_reason(status == STATUS_OUT_OF_MEMORY ? ENOMEM : errno);
+    one_line(name, shown, sizeof shown);
+    snprintf(recording->message, sizeof recording->message, "%s: %s", shown,
+             why);
+    recording->film.reason = NULL;
     return status;
 }
 
@@ -53,7 +53,7 @@ typedef struct Moment {
 
 static void add_states(Table *table, const Moment *at)
 {
-    for (int i = 0; i < at->run->system->nodes && !table_check(table); i++) {
+    for (int i = 0; i < at->run->system->nodes; i++) {
         const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
         const double row[] = {at->step, at->time, at->nodes + i, x[0],
                               x[1],     v[0],     v[1],          at->pane};
@@ -64,25 +64,18 @@ static void add_states(Table *table, const Moment *at)
 static void add_springs(Table *table, const Moment *at)
 {
     const System *system = at->run->system;
-    const Plasticity *plasticity = plasticity_of(system);
+    const Plasticity *flow = plasticity_of(system);
     double d[2];
-    for (int s = 0; s < system->springs && !table_check(table); s++) {
+    for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
-        double strain = spring_strain(e, system->l2[s], at->run->x, d);
-        double ep = plasticity ? plasticity->ep[s] : 0;
-        double kappa = plasticity ? plasticity->kappa[s] : 0;
-        bool whole = !spring_is_broken(system, s);
-        const double row[] = {at->step,
-                              at->time,
-                              at->springs + s,
-                              at->nodes + e[0],
-                              at->nodes + e[1],
-                              whole,
-                              sqrt(system->l2[s]),
-                              strain,
-                              ep,
-                              kappa,
-                              at->pane};
+        double l2 = system->l2[s], strain = spring_strain(e, l2, at->run->x, d);
+        double spring = at->springs + s, i = at->nodes + e[0];
+        double j = at->nodes + e[1], whole = !spring_is_broken(system, s);
+        double plastic = flow ? flow->ep[s] : 0;
+        double flowed = flow ? flow->kappa[s] : 0;
+        const double row[] = {at->step, at->time, spring,   i,
+                              j,        whole,    sqrt(l2), strain,
+                              plastic,  flowed,   at->pane};
         table_add(table, row);
     }
 }
@@ -188,11 +181,11 @@ static void set_columns(const Options *options, Recording *recording)
 
 Status recording_film(Recording *recording, const char *name)
 {
-    Film *film = &recording->film;
     recording->message[0] = '\0';
-    Status status =
-        film_open(name, film, recording->message, sizeof recording->message);
-    return note(recording, status, name, film->reason);
+    return note(recording,
+                film_open(name, &recording->film, recording->message,
+                          sizeof recording->message),
+                name);
 }
 
 Status recording_end_film(Recording *recording)
@@ -208,7 +201,7 @@ Status recording_end_film(Recording *recording)
         recording->films++;
         memcpy(recording->film_told, told, sizeof told);
     }
-    return note(recording, status, name, film->reason);
+    return note(recording, status, name);
 }
 
 /* Opens a table, if there is one; `list` is that of a folder's steps. */
@@ -223,7 +216,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         name = list;
     }
     recording->standard = recording->standard || output_is_standard(name);
-    return note(recording, table_open(name, &recording->table[t]), name, NULL);
+    return note(recording, table_open(name, &recording->table[t]), name);
 }
 
 /* Folders, film, tables. */
@@ -237,7 +230,7 @@ Status recording_open(const Options *options, int panes, Recording *recording)
     Status status = STATUS_OK;
     for (int i = 0; i < 2 && !status; i++)
         if (folder[i])
-            status = note(recording, make_folder(folder[i]), folder[i], NULL);
+            status = note(recording, make_folder(folder[i]), folder[i]);
     if (!status && options->film)
         status = recording_film(recording, options->film);
     set_columns(options, recording);
@@ -312,7 +305,7 @@ static Status write_frame(Recording *recording, const Canvas *canvas, long step)
     if (!status && recording->last_frame != step)
         recording->frames++;
     recording->last_frame = step;
-    return note(recording, status, name, NULL);
+    return note(recording, status, name);
 }
 
 Status recording_frame(Recording *recording, const Canvas *canvas, long step,
@@ -321,8 +314,8 @@ Status recording_frame(Recording *recording, const Canvas *canvas, long step,
     Film *film = &recording->film;
     Status status = STATUS_OK;
     if (film_runs(film))
-        status = note(recording, film_add(film, canvas, shown),
-                      film->output.name, film->reason);
+        status =
+            note(recording, film_add(film, canvas, shown), film->output.name);
     if (!status && recording->folder)
         status = write_frame(recording, canvas, step);
     return status;
@@ -336,7 +329,7 @@ static Status write_vtk(Recording *recording,
     char name[RECORDING_NAME_SIZE], file[VTK_NAME_SIZE];
     vtk_name(step, file);
     snprintf(name, sizeof name, "%s/%s", recording->vtk, file);
-    return note(recording, vtk_write(name, simulation, count), name, NULL);
+    return note(recording, vtk_write(name, simulation, count), name);
 }
 
 /* Whether all tables so far were written. */
@@ -345,7 +338,7 @@ static Status check_tables(Recording *recording)
     Status status = STATUS_OK;
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = note(recording, table_check(&recording->table[t]),
-                      recording->table[t].output.name, NULL);
+                      recording->table[t].output.name);
     return status;
 }
 
@@ -380,23 +373,31 @@ Status recording_states(Recording *recording,
 Status recording_update(Recording *recording, const NewtonRecord *record,
                         int pane)
 {
+    enum { FROM = 12, SOLVER = FROM + 4 };
     Table *log = &recording->table[RECORDING_LOG];
-    const double head[] = {
-        (double)record->step, record->iteration, record->residual,
-        record->alpha,        record->trials,    record->slope,
-        record->change,       record->projected, record->factorised,
-        record->shift,        record->status,    record->seconds};
-    const double points[] = {record->from[0], record->from[1], record->to[0],
-                             record->to[1]};
-    const double tail[] = {record->solver, record->kind, pane};
-    double row[TABLE_COLUMNS], *at = row;
+    double row[] = {(double)record->step,
+                    record->iteration,
+                    record->residual,
+                    record->alpha,
+                    record->trials,
+                    record->slope,
+                    record->change,
+                    record->projected,
+                    record->factorised,
+                    record->shift,
+                    record->status,
+                    record->seconds,
+                    record->from[0],
+                    record->from[1],
+                    record->to[0],
+                    record->to[1],
+                    record->solver,
+                    record->kind,
+                    pane};
     if (!table_is_open(log))
         return STATUS_OK;
-    memcpy(at, head, sizeof head);
-    at += sizeof head / sizeof *head;
-    memcpy(at, points, sizeof points);
-    at += recording->points ? 4 : 0;
-    memcpy(at, tail, sizeof tail);
+    if (!recording->points)
+        memmove(row + FROM, row + SOLVER, sizeof row - SOLVER * sizeof *row);
     errno = 0;
     table_add(log, row);
     return check_tables(recording);
@@ -414,8 +415,7 @@ Status recording_cut(Recording *recording, long step)
     Status status = STATUS_OK;
     for (int t = 0; t < RECORDING_TABLES && !status; t++) {
         Table *table = &recording->table[t];
-        status =
-            note(recording, table_cut(table, step), table->output.name, NULL);
+        status = note(recording, table_cut(table, step), table->output.name);
     }
     return status;
 }
@@ -438,7 +438,7 @@ Status recording_close(Recording *recording)
         if (table->output.name)
             snprintf(name, sizeof name, "%s", table->output.name);
         Status status =
-            note(recording, table_close(table, recording->aside), name, NULL);
+            note(recording, table_close(table, recording->aside), name);
         first = first ? first : status;
     }
     return first;

@@ -30,11 +30,13 @@ void table_columns(Table *table, const char *names)
 }
 
 /* The line of names, in CSV. */
-static void put_names(const Table *table)
+static void put_names(Table *table)
 {
+    FILE *file = table->output.file;
     for (int c = 0; c < table->columns && !table->rows; c++)
-        fprintf(table->output.file, "%s%c", table->column[c].name,
+        fprintf(file, "%s%c", table->column[c].name,
                 c + 1 < table->columns ? ',' : '\n');
+    table->head = table->output.temporary ? ftell(file) : 0;
 }
 
 Status table_open(const char *name, Table *table)
@@ -79,8 +81,10 @@ void table_add(Table *table, const double *value)
 /* The streams remember that a write failed. */
 Status table_check(const Table *table)
 {
-    bool failed = table->rows && ferror(table->rows);
-    return failed ? STATUS_FILE_FAILED : output_check(&table->output);
+    FILE *file = table->output.file;
+    bool failed =
+        (file && ferror(file)) || (table->rows && ferror(table->rows));
+    return failed ? STATUS_FILE_FAILED : STATUS_OK;
 }
 
 bool table_next(const Table *table, double *row)
@@ -89,28 +93,33 @@ bool table_next(const Table *table, double *row)
     return fread(row, sizeof *row, columns, table->rows) == columns;
 }
 
-/* Of the rows without a name. */
-static Status cut_rows(const Table *table, long last)
+/* Where the rows of steps up to the last one end, in either kind of rows. */
+static long find_end(const Table *table, FILE *file, long last)
 {
     double row[TABLE_COLUMNS];
-    off_t end = 0;
-    rewind(table->rows);
-    while (table_next(table, row) && row[0] <= (double)last)
-        end += (off_t)sizeof *row * table->columns;
-    bool failed = fseeko(table->rows, end, SEEK_SET) ||
-                  ftruncate(fileno(table->rows), end);
-    return failed ? STATUS_FILE_FAILED : STATUS_OK;
+    long end = table->rows ? 0 : table->head;
+    if (last < 0 || fseek(file, end, SEEK_SET))
+        return 0;
+    while ((table->rows ? table_next(table, row)
+                        : fscanf(file, "%lf%*[^\n]%*c", row) == 1) &&
+           row[0] <= (double)last)
+        end = ftell(file);
+    return end;
 }
 
 Status table_cut(Table *table, long last)
 {
-    if (!table_is_open(table))
+    FILE *file = table->rows ? table->rows : table->output.file;
+    if (!file)
         return STATUS_OK;
-    Status status =
-        table->rows ? cut_rows(table, last) : output_cut(&table->output, last);
-    if (status == STATUS_OK && last < 0)
+    if (table->rows || table->output.temporary) {
+        long end = find_end(table, file, last);
+        if (fseek(file, end, SEEK_SET) || ftruncate(fileno(file), end))
+            return STATUS_FILE_FAILED;
+    }
+    if (last < 0)
         put_names(table);
-    return status ? status : table_check(table);
+    return table_check(table);
 }
 
 Status table_close(Table *table, bool aside)

@@ -1,5 +1,6 @@
 #include "play/vtk.h"
 
+#include "model/area.h"
 #include "model/mass_spring_energy.h"
 #include "play/table.h"
 
@@ -40,12 +41,12 @@ static bool get_cell(const Part *part, int corners, int i, int node[3],
         *strain = spring_strain(node, system->l2[i], part->x, d);
         return true;
     }
-    const double *a = part->x + 2 * node[0], *b = part->x + 2 * node[1];
-    const double *c = part->x + 2 * node[2];
-    double spacing = part->mesh->spacing;
-    *strain = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) /
-                  (spacing * spacing) -
-              1;
+    double e[2], f[2], spacing = part->mesh->spacing;
+    for (int k = 0; k < 2; k++) {
+        e[k] = part->x[2 * node[1] + k] - part->x[2 * node[0] + k];
+        f[k] = part->x[2 * node[2] + k] - part->x[2 * node[0] + k];
+    }
+    *strain = cross(e, f) / (spacing * spacing) - 1;
     return square_mesh_is_half(part->mesh, i);
 }
 
