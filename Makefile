@@ -155,9 +155,10 @@ $(B)/bench/%.o: private CPPFLAGS += -DBENCH_FLAGS='"$(strip $(CFLAGS))"'
 -include $(wildcard $(B)/*.d $(B)/*/*.d $(B)/tests/*/*.d)
 
 # ---- the lecture's listings -------------------------------------------------
-# The text of these sources is compiled into the program as a table of lines.
+# The text of these sources, and how the handout begins, is compiled into the
+# program as a table of lines.
 PAGES = src/scenes/pages.txt
-LISTED = $(sort $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
+LISTED = $(sort src/play/handout.html $(shell sed -n 's/^code \([^ ]*\).*/\1/p' $(PAGES)))
 
 LISTED_TEXT = static const char *const text_$$n[] = {
 LISTED_ROW = {\"$$file\", sizeof text_$$n / sizeof *text_$$n, text_$$n},

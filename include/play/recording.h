@@ -97,9 +97,10 @@ Status recording_close(Recording *recording);
 /* Closes all tables without a trace: for a run that did not begin. */
 void recording_discard(Recording *recording);
 
-/* One picture as a PNG file, whole or not at all (output.h).  small: the file
- * is worth more than the time it takes.
+/* One picture as a PNG file, whole or not at all (output.h); or into a stream.
+ *   small  the file is worth more than the time it takes
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
-Status png_file_write(const char *name, const Canvas *canvas, bool small);
+Status png_file_write(const char *name, const Canvas *canvas);
+Status png_write(FILE *file, const Canvas *canvas, bool small);
 
 #endif

@@ -1,16 +1,15 @@
 /* handout.c - the lecture as one HTML file, to be printed, two pages a sheet:
  * words, formulas, a picture drawn for print, a question with room to write.
  * Everything stands in the file itself: it has no scripts and asks no network.
+ * How it begins stands in handout.html.
  */
-#include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "picture/picture.h"
 #include "play/playing.h"
+#include "scenes/listing.h"
 #include "scenes/pages.h"
 #include "scenes/scene.h"
 
@@ -21,51 +20,6 @@ enum {
     INKS = 5, /* steps between white and a colour's darkest */
     WORDS = 1024
 };
-
-static const char handout_head[] =
-    "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-    "<meta name=\"viewport\" content=\"width=device-width\">\n"
-    "<title>Reliable simulation of elastodynamics: handout</title>\n"
-    "<style>\n"
-    "@page { size: A4; margin: 8mm 10mm; }\n"
-    "body { font: 9.5pt/1.35 \"DejaVu Sans\", Verdana, sans-serif; color: "
-    "#1c1c1c;\n"
-    "  max-width: 190mm; margin: 0 auto; }\n"
-    "h1 { font-size: 14pt; margin: 0; } h1 + p { margin: 1mm 0 2mm; }\n"
-    "h2 { font-size: 12pt; margin: 0 0 1mm; }\n"
-    "section { display: flex; flex-direction: column; height: 132mm;\n"
-    "  overflow: hidden; border-top: .3mm solid #9c9c9c; padding-top: 1.5mm;\n"
-    "  box-sizing: border-box; break-inside: avoid; }\n"
-    "section:nth-of-type(2n) { break-after: page; }\n"
-    "section p { margin: 0 0 1mm; }\n"
-    ".say { display: flex; gap: 6mm; align-items: center; }\n"
-    ".say p { flex: 1; }\n"
-    ".say div { font-size: 11pt; white-space: nowrap; }\n"
-    "img { width: 190mm; height: 72mm; flex-shrink: 1; min-height: 50mm;\n"
-    "  object-fit: contain; margin: 1mm 0; }\n"
-    ".room { flex: 1 0 20mm; display: flex; flex-direction: column;\n"
-    "  justify-content: space-evenly; }\n"
-    "hr { border: 0; border-top: .2mm solid #9c9c9c; width: 100%; margin: 0; }"
-    "\n"
-    ".small { font-size: 8pt; color: #444; line-height: 1.25; }\n"
-    "a { color: inherit; text-decoration: none; } code { font-size: 7pt; }\n"
-    "sup, sub { font-size: .7em; line-height: 0; }\n"
-    ".frac { display: inline-flex; flex-direction: column; text-align: center;"
-    "\n  vertical-align: middle; padding: 0 .15em; }\n"
-    ".frac span:first-child { border-bottom: .25mm solid; }\n"
-    ".root { border-top: .25mm solid; }\n"
-    "table { display: inline-table; vertical-align: middle; margin: .3mm;\n"
-    "  position: relative; border-collapse: collapse; }\n"
-    "table::before, table::after { content: \"\"; position: absolute; top: 0;\n"
-    "  bottom: 0; width: .25em; border: .3mm solid; }\n"
-    "table::before { left: 0; border-right: 0; }\n"
-    "table::after { right: 0; border-left: 0; }\n"
-    "td { padding: 0 .4em; text-align: right; }\n"
-    "</style>\n</head>\n<body>\n"
-    "<h1>Reliable simulation of elastodynamics</h1>\n"
-    "<p class=\"small\">Every picture is a scene of the program elasto, which "
-    "the line below it opens, to be touched. What a page says is held by a "
-    "test.</p>\n";
 
 /* ---- text --------------------------------------------------------------- */
 
@@ -181,28 +135,22 @@ static void write_said(FILE *file, Show *show, const char *element,
 
 /* ---- pictures ----------------------------------------------------------- */
 
-/* A file in base 64 (RFC 4648): four letters for each three bytes, '=' where
- * bytes lack. */
-static Status write_base64(FILE *file, const char *name)
+/* Bytes in base 64 (RFC 4648): four letters for each three bytes, '=' where
+ * bytes lack; 76 letters a line. */
+static void write_base64(FILE *file, const char *bytes, size_t size)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                   "abcdefghijklmnopqrstuvwxyz0123456789+/";
-    FILE *picture = fopen(name, "rb");
-    if (!picture)
-        return STATUS_FILE_FAILED;
-    for (size_t count = 3, row = 0; count == 3; row++) {
-        unsigned char byte[3] = {0};
-        count = fread(byte, 1, 3, picture);
-        unsigned bits =
-            (unsigned)byte[0] << 16 | (unsigned)byte[1] << 8 | byte[2];
-        for (size_t i = 0; i < 4 && count > 0; i++)
-            fputc(i <= count ? letters[bits >> (18 - 6 * i) & 63] : '=', file);
-        if (row % 19 == 18) /* 76 letters a line */
+    for (size_t at = 0; at < size; at += 3) {
+        unsigned bits = 0;
+        for (size_t i = at; i < at + 3; i++)
+            bits = bits << 8 | (i < size ? (unsigned char)bytes[i] : 0);
+        for (size_t i = 0; i < 4; i++)
+            fputc(at + i <= size ? letters[bits >> (18 - 6 * i) & 63] : '=',
+                  file);
+        if (at / 3 % 19 == 18)
             fputc('\n', file);
     }
-    Status status = ferror(picture) ? STATUS_FILE_FAILED : STATUS_OK;
-    fclose(picture);
-    return status;
 }
 
 /* Goes to what the page's picture shows: what it opens with, and so many lines
@@ -219,12 +167,14 @@ static Status go_to_picture(Player *player, const LecturePage *page)
 }
 
 /* Stage and cards alone, in few shades, so that the file is small. */
-static Status draw_picture(Player *player, const char *name)
+static Status draw_picture(Player *player, FILE *file)
 {
+    char *bytes = NULL;
+    size_t size = 0;
     Paper *paper = view_paper(player->view);
-    if (!paper)
+    FILE *picture = paper ? open_memstream(&bytes, &size) : NULL;
+    if (!picture)
         return STATUS_OUT_OF_MEMORY;
-    player_fill(player);
     player->show.print = true;
     player->show.letter = PICTURE_EM;
     show_draw(paper, &player->show);
@@ -237,12 +187,16 @@ static Status draw_picture(Player *player, const char *name)
         }
         canvas->pixels[i] = shade;
     }
-    return png_file_write(name, canvas, true);
+    Status status = png_write(picture, canvas, true);
+    if (fclose(picture) == 0)
+        write_base64(file, bytes, size);
+    free(bytes);
+    return status;
 }
 
-/* Plays the page without a screen.  name in, of the file with its picture */
+/* Plays the page without a screen. */
 static Status play_page(Options *options, const volatile sig_atomic_t *stop,
-                        Player *player, const char *name)
+                        Player *player)
 {
     const LecturePage *page = options->page;
     options->headless = options->quiet = true;
@@ -254,17 +208,16 @@ static Status play_page(Options *options, const volatile sig_atomic_t *stop,
         status = go_to_picture(player, page);
     if (status && status == player->past.machine[0].simulation.status)
         status = STATUS_OK; /* the end of the run is what the page shows */
-    if (!status)
-        status = *stop ? STATUS_INTERRUPTED : draw_picture(player, name);
-    return status;
+    return *stop && !status ? STATUS_INTERRUPTED : status;
 }
 
 /* ---- pages -------------------------------------------------------------- */
 
 /* The page that the player shows. */
-static Status write_page(FILE *file, const LecturePage *page, Show *show,
-                         const char *name)
+static Status write_page(FILE *file, const LecturePage *page, Player *player)
 {
+    Show *show = &player->show;
+    player_fill(player);
     fprintf(file, "<section>\n<h2 id=\"%s\">%d. ", page->name,
             (int)(page - lecture_pages) + 1);
     write_text(file, page->topic);
@@ -274,7 +227,7 @@ static Status write_page(FILE *file, const LecturePage *page, Show *show,
     fputs("</div>\n<img alt=\"", file);
     write_text(file, page->topic);
     fputs("\" src=\"data:image/png;base64,\n", file);
-    Status status = write_base64(file, name);
+    Status status = draw_picture(player, file);
     fputs("\n\">\n", file);
     write_said(file, show, "p class=\"small\"", "Look:", page->look);
     write_said(file, show, "p class=\"small\"", "Try:", page->touch);
@@ -288,32 +241,28 @@ static Status write_page(FILE *file, const LecturePage *page, Show *show,
     return status;
 }
 
-/* Pictures are made beside the handout and go when they stand in it. */
 Status handout_write(const Options *options, const volatile sig_atomic_t *stop,
                      Player *player, char *message, size_t size)
 {
     Output output;
-    char name[PATH_MAX];
+    const Listing *head = listing_find("src/play/handout.html");
     message[0] = '\0';
-    snprintf(name, sizeof name, "%s.png", options->handout);
     Status status = output_open(options->handout, &output);
     if (status)
         return status;
-    fputs(handout_head, output.file);
+    for (int i = 0; i < head->lines; i++)
+        fprintf(output.file, "%s\n", head->line[i]);
     for (const LecturePage *page = lecture_pages; page->name && !status;
          page++) {
         Options of_page;
         status = lecture_options(page, &of_page, message, size);
         if (status)
             break; /* which a test rules out */
-        status = play_page(&of_page, stop, player, name);
+        status = play_page(&of_page, stop, player);
         if (!status)
-            status = write_page(output.file, page, &player->show, name);
+            status = write_page(output.file, page, player);
         player_free(player);
     }
-    int reason = errno;
-    unlink(name);
-    errno = reason;
     if (status) {
         output_discard(&output, false);
         return status;

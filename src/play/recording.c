@@ -301,7 +301,7 @@ static Status write_frame(Recording *recording, const Canvas *canvas, long step)
     errno = ENAMETOOLONG;
     Status status = STATUS_FILE_FAILED;
     if (length > 0 && (size_t)length < sizeof name)
-        status = png_file_write(name, canvas, false);
+        status = png_file_write(name, canvas);
     if (!status && recording->last_frame != step)
         recording->frames++;
     recording->last_frame = step;

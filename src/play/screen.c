@@ -194,7 +194,7 @@ Status obey_shot(Player *player, const Command *command)
     free_name(player, ".png", name, sizeof name);
     if (!status) {
         player_paint(player, paper);
-        status = png_file_write(name, &paper->canvas, false);
+        status = png_file_write(name, &paper->canvas);
     }
     paper_free(&own);
     if (status)
