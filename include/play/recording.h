@@ -39,8 +39,7 @@ typedef struct Recording {
     long frames;                    /* written */
     long last_frame;                /* its step; -1: none */
     Film film;                      /* of the frames */
-    long films;                     /* that ended with a frame; the last one: */
-    char film_told[RECORDING_TOLD]; /* frames and name */
+    char film_told[RECORDING_TOLD]; /* the last that ended: frames, name; "" */
     const char *vtk;                /* folder of steps, or NULL */
     bool points;                    /* the log tells of points */
     int panes;                      /* when it was opened */

@@ -5,7 +5,6 @@
 #include <SDL_version.h>
 #include <cholmod.h>
 #include <errno.h>
-#include <getopt.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,12 +25,11 @@ static const Table tables[] = {
     {"steps", "milliseconds a step: the slides' program, newton, multigrid",
      bench_steps,
      "segments,solver,starts,median_ms,least_ms,most_ms,updates,smooth_ms,"
-     "buckling_ms,energy_end_percent,"
-     "unconverged"},
+     "buckling_ms,energy_end_percent,unconverged"},
     {"frames", "milliseconds a frame", bench_frames,
      "segments,bare_ms,full_ms"},
-    {NULL, NULL, NULL, NULL},
 };
+enum { TABLES = sizeof tables / sizeof *tables };
 
 double bench_cpu(void)
 {
@@ -120,50 +118,37 @@ static int print_help(void)
          "  --output DIR    where the CSV files go     [build/bench]\n"
          "  --help\n"
          "tables (all, if none is named):");
-    for (const Table *table = tables; table->name; table++)
-        printf("  %-8s %s\n", table->name, table->sentence);
+    for (int t = 0; t < TABLES; t++)
+        printf("  %-8s %s\n", tables[t].name, tables[t].sentence);
     return 0;
-}
-
-/* The one line about a wrong command line. */
-static int misused(const char *word)
-{
-    fprintf(stderr,
-            "elasto-bench: '%s' is no option and no table; see --help\n", word);
-    return 2;
-}
-
-static bool is_table(const char *word)
-{
-    for (const Table *table = tables; table->name; table++)
-        if (strcmp(word, table->name) == 0)
-            return true;
-    return false;
 }
 
 int main(int argc, char **argv)
 {
-    static const struct option rows[] = {
-        {"quick", no_argument, NULL, 'q'},
-        {"output", required_argument, NULL, 'o'},
-        {"help", no_argument, NULL, 'h'},
-        {NULL, 0, NULL, 0}};
     Bench bench = {.folder = "build/bench"};
-    int code;
-    opterr = 0;
+    int from = 0, to = TABLES;
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line when it is measured */
     setenv("ELASTO_THREADS", "1", 0); /* unless it is set: one thread */
-    while ((code = getopt_long(argc, argv, ":", rows, NULL)) != -1)
-        if (code == 'h')
+    for (int i = 1, t; i < argc; i++) {
+        for (t = 0; t < TABLES && strcmp(argv[i], tables[t].name); t++)
+            continue;
+        if (strcmp(argv[i], "--help") == 0)
             return print_help();
-        else if (code == 'q')
+        if (strcmp(argv[i], "--quick") == 0) {
             bench.quick = true;
-        else if (code == 'o')
-            bench.folder = optarg;
-        else
-            return misused(argv[optind - 1]);
-    if (argc - optind > 1 || (optind < argc && !is_table(argv[optind])))
-        return misused(argv[argc - 1]);
+        } else if (strcmp(argv[i], "--output") == 0 && i + 1 < argc) {
+            bench.folder = argv[++i];
+        } else if (t < TABLES) {
+            from = t;
+            to = t + 1;
+        } else {
+            fprintf(stderr,
+                    "elasto-bench: '%s' is no option and no table; see "
+                    "--help\n",
+                    argv[i]);
+            return 2;
+        }
+    }
     if (mkdir(bench.folder, 0777) && errno != EEXIST) {
         fprintf(stderr, "elasto-bench: %s: %s\n", bench.folder,
                 strerror(errno));
@@ -171,8 +156,7 @@ int main(int argc, char **argv)
     }
     describe_machine(&bench, stdout);
     Status status = STATUS_OK;
-    for (const Table *table = tables; table->name && !status; table++)
-        if (optind == argc || strcmp(argv[optind], table->name) == 0)
-            status = run_table(&bench, table);
+    for (int t = from; t < to && !status; t++)
+        status = run_table(&bench, &tables[t]);
     return status || fflush(stdout) || ferror(stdout);
 }

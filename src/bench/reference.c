@@ -7,14 +7,13 @@
 /* Results that are extrapolated from. */
 enum { REFERENCE_COLUMNS = 6 };
 
-/* Gershgorin: omega^2 <= 2 max over nodes of (sum of the stiffnesses of its
- * springs) / m, each at most 2 k (3 |d|^2 / l2 - 1), or 2 k where it is
- * compressed. */
-long reference_intervals(const System *system, const double *x, double time)
+/* The angular frequency of the fastest oscillation, at most.  Gershgorin:
+ * omega^2 <= 2 max over nodes of (sum of the stiffnesses of its springs) / m,
+ * each at most 2 k (3 |d|^2 / l2 - 1), or 2 k where it is compressed.
+ *   sum  [n] zeros */
+static double fastest(const System *system, const double *x, long double *sum)
 {
-    double *sum = calloc((size_t)system->nodes, sizeof *sum), largest = 0;
-    if (!sum)
-        return 1;
+    double largest = 0;
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
         double dx = x[2 * i] - x[2 * j], dy = x[2 * i + 1] - x[2 * j + 1];
@@ -24,9 +23,8 @@ long reference_intervals(const System *system, const double *x, double time)
         sum[j] += stiffness;
     }
     for (int i = 0; i < system->nodes; i++)
-        largest = fmax(largest, sum[i] / system->m[i]);
-    free(sum);
-    return 1 + (long)(time * sqrt(2 * largest) / 2);
+        largest = fmax(largest, (double)sum[i] / system->m[i]);
+    return sqrt(2 * largest);
 }
 
 /* v += h a(x): each spring pulls with 2 k (|d|^2/l2 - 1) d. */
@@ -92,11 +90,11 @@ static void reference_interval(const System *system, long double H,
 }
 
 Status reference_create(const System *system, const double *x, const double *v,
-                        double time, long intervals, Reference *out)
+                        double time, int times, Reference *out)
 {
     size_t size = 2 * (size_t)system->nodes;
     *out = (Reference){.system = system};
-    long double *work = malloc(4 * size * sizeof *work);
+    long double *work = calloc(4 * size, sizeof *work);
     out->x = malloc(size * sizeof *out->x);
     out->v = malloc(size * sizeof *out->v);
     if (!work || !out->x || !out->v) {
@@ -107,6 +105,8 @@ Status reference_create(const System *system, const double *x, const double *v,
         out->x[i] = x[i];
         out->v[i] = v[i];
     }
+    long intervals = 1 + (long)(time * fastest(system, x, work) / 2);
+    intervals *= times;
     for (long i = 0; i < intervals; i++)
         reference_interval(system, (long double)time / intervals, out, work);
     free(work);
@@ -115,8 +115,6 @@ Status reference_create(const System *system, const double *x, const double *v,
 
 void reference_free(Reference *reference)
 {
-    if (!reference)
-        return;
     free(reference->x);
     free(reference->v);
     *reference = (Reference){0};

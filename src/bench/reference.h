@@ -17,16 +17,13 @@ typedef struct Reference {
     long double *x, *v;   /* [2n] m, m/s at the end */
 } Reference;
 
-/* Intervals that resolve the fastest oscillation of these springs: H times its
- * angular frequency is 2.
- *   x  [2n] m, in; time  s */
-long reference_intervals(const System *system, const double *x, double time);
-
 /* The state after `time` from x [2n] m, v [2n] m/s.
- *   out  free it with reference_free in any case
+ *   times  so many intervals more than those with which H times the angular
+ *          frequency of the fastest oscillation is 2
+ *   out    free it with reference_free in any case
  * Returns OK, OUT_OF_MEMORY. */
 Status reference_create(const System *system, const double *x, const double *v,
-                        double time, long intervals, Reference *out);
+                        double time, int times, Reference *out);
 void reference_free(Reference *reference);
 
 /* sqrt(sum m |x - reference|^2 / sum m), m.  x [2n] in. */

@@ -81,8 +81,7 @@ static Status create_problem(const Motion *motion, int segments,
     }
     problem->energy =
         system_potential(system, x) + system_kinetic(system, problem->v);
-    return reference_create(system, x, problem->v, motion->time,
-                            2 * reference_intervals(system, x, motion->time),
+    return reference_create(system, x, problem->v, motion->time, 2,
                             &problem->exact);
 }
 

@@ -197,10 +197,8 @@ Status recording_end_film(Recording *recording)
     one_line(film->output.name, name, sizeof name);
     snprintf(told, sizeof told, "%ld frames, in %s", film->frames, name);
     Status status = film_close(film);
-    if (!status) {
-        recording->films++;
+    if (!status)
         memcpy(recording->film_told, told, sizeof told);
-    }
     return note(recording, status, name);
 }
 

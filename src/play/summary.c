@@ -96,30 +96,10 @@ static void print_frames(FILE *file, const Recording *recording)
     one_line(recording->folder, name, sizeof name);
     if (recording->folder)
         print(file, "frames written", "%ld, in %s/", recording->frames, name);
-    else if (recording->films == 0)
+    else if (!recording->film_told[0])
         print(file, "frames written", "0");
-    if (recording->films == 1)
+    if (recording->film_told[0])
         print(file, "film", "%s", recording->film_told);
-    if (recording->films > 1)
-        print(file, "film", "%s; the last of %ld films", recording->film_told,
-              recording->films);
-}
-
-/* How far it came. */
-static void print_steps(FILE *file, const Simulation *simulation)
-{
-    print(file, "steps", "%ld", simulation->steps);
-    if (simulation->scene->needs & NEEDS_TIME)
-        print(file, "simulated time", "%g s", simulation_time(simulation));
-}
-
-/* What it took, and where that led. */
-static void print_work(FILE *file, const Player *player, int pane)
-{
-    const Simulation *simulation = &player->past.machine[pane].simulation;
-    print_newton(file, simulation);
-    if (simulation->scene->needs & NEEDS_TIME)
-        print_energies(file, player, pane);
 }
 
 static void print_unconverged(FILE *file, const Simulation *simulation)
@@ -134,28 +114,33 @@ static void print_unconverged(FILE *file, const Simulation *simulation)
     fputc('\n', file);
 }
 
+/* How far a pane came, what it took, and where that led. */
+static void print_pane(FILE *file, const Player *player, int pane)
+{
+    const Simulation *simulation = &player->past.machine[pane].simulation;
+    bool in_time = simulation->scene->needs & NEEDS_TIME;
+    print(file, "steps", "%ld", simulation->steps);
+    if (in_time)
+        print(file, "simulated time", "%g s", simulation_time(simulation));
+    print_newton(file, simulation);
+    if (in_time)
+        print_energies(file, player, pane);
+    print_unconverged(file, simulation);
+}
+
 /* One quantity a line; of several panes those of each, one after the other. */
 void summary_print(FILE *file, const Player *player)
 {
     int panes = past_panes(&player->past);
-    for (int i = 0; i < panes && panes > 1; i++) {
-        const Machine *machine = &player->past.machine[i];
-        fprintf(file, "pane %-14d %s\n", i + 1, player->side[i].label);
-        print_steps(file, &machine->simulation);
-        print_work(file, player, i);
-        print_unconverged(file, &machine->simulation);
-        fputc('\n', file);
+    for (int i = 0; i < panes; i++) {
+        if (panes > 1)
+            fprintf(file, "pane %-14d %s\n", i + 1, player->side[i].label);
+        print_pane(file, player, i);
+        if (panes > 1)
+            fputc('\n', file);
     }
-    const Simulation *simulation = &player->past.machine[0].simulation;
-    bool one = panes == 1;
-    if (one)
-        print_steps(file, simulation);
     print(file, "wall time", "%.3f s", clock_now() - player->started);
-    if (one)
-        print_work(file, player, 0);
     print_frames(file, &player->recording);
-    if (one)
-        print_unconverged(file, simulation);
     print(file, "state hash", "%016llx",
           (unsigned long long)player_hash(player));
 }

@@ -39,7 +39,7 @@ verdict what_is_refused_loses_and_makes_nothing "$(refusals <<END
 2|'circle'|circle --lecture
 2|ends in .html, .htm|--handout x.pdf
 1|missing/x.html|--handout missing/x.html
-2|line 1.*'jump'.* pause .* set .* escape$|--headless --script jump
+2|line 1.*'jump'.*--help commands$|--headless --script jump
 2|nowhere: No such file|--headless --script nowhere
 2|one file|--states k.csv --log k.csv
 2|one file|--states k.csv --log ./k.csv
