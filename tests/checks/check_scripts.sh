@@ -6,93 +6,34 @@
 work_apart
 table=$root/include/play/command_rows.def
 
-# Each command of the table, on the way through a scene and back.
-cat >commands <<'END'
-0 page-on
-0 page-back
-0 page solid
-0 pages
-0 code
-0 escape
-0 scene SCENE
-0 colours
-0 keys
-0 keys
-0 bare
-0 bare
-0 faster
-0 slower
-0 card 0
-0 enlarge 1
-0 fit
-0 zoom 150 0.1 0.2
-0 pan 0.1 -0.1
-0 blank
-0 blank
-0 sheet
-0 sheet
-0 full-screen
-0 full-screen
-0 select
-0 raise
-0 lower
-0 default stretch
-0 start 0.3 0.2
-0 set timestep 0.005
-0 handle 0 0.2 0.1
-0 flip 0
-0 predict 0.5 0.2
-0 cell 3
-0 options
-0 options
-0 add gravity
-0 place 1 0.1 0.1
-0 obstacle 0 0 -2
-0 grab 2
-0 play
+# Each command of the table, on the way through a scene and back: the step, and
+# what is given there.
+awk '{ step = $1; sub("[0-9]* ", ""); n = split($0, all, "; ")
+    for (i = 1; i <= n; i++) print step, all[i] }' >commands <<'END'
+0 page-on; page-back; page solid; pages; code; escape; scene SCENE; colours
+0 keys; keys; bare; bare; faster; slower; card 0; enlarge 1; fit
+0 zoom 150 0.1 0.2; pan 0.1 -0.1; blank; blank; sheet; sheet; full-screen
+0 full-screen; select; raise; lower; default stretch; start 0.3 0.2
+0 set timestep 0.005; handle 0 0.2 0.1; flip 0; predict 0.5 0.2; cell 3
+0 options; options; add gravity; place 1 0.1 0.1; obstacle 0 0 -2; grab 2; play
 2 drag 0.6 -0.5
 3 drag 0.7 -0.2
-4 release
-4 pin 1
-5 projection
-5 play
-6 projection
-6 play
-7 line-search
-7 play
-8 line-search
-8 pause
-8 back
+4 release; pin 1
+5 projection; play
+6 projection; play
+7 line-search; play
+8 line-search; pause; back
 7 back
 6 next
-7 finer
-7 next
-7 finer
-7 next
-7 next
-7 back
-7 finer
-7 home
+7 finer; next; finer; next; next; back; finer; home
 0 end
 9 goto 3
-3 shot
-3 film
-3 step
-4 film
-4 hash
-4 add-pane
-4 step
-5 pane 1
-5 set tolerance 0.001
-5 method
-5 step
+3 shot; film; step
+4 film; hash; add-pane; step
+5 pane 1; set tolerance 0.001; method; step
 6 undo
-5 undo
-5 redo
-5 redo
-6 step
-6 end-pane
-6 step
+5 undo; redo; redo
+6 step; end-pane; step
 7 restart
 0 step
 1 step
