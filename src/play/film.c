@@ -12,28 +12,21 @@
 
 #include "scenes/one_line.h"
 
-enum { KIND_WORDS = 10, WORDS = 32 };
-
-/* What ffmpeg is told behind its input. */
 struct FilmKind {
-    const char *end; /* of the name; without its dot the name of the format */
-    int rate;        /* frames a second */
-    const char *words[KIND_WORDS];
+    const char *end;   /* of the name; without its dot the name of the format */
+    int rate;          /* frames a second */
+    const char *words; /* what ffmpeg is told behind its input */
 };
 
 static const FilmKind film_kinds[] = {
-    {".mp4",
-     FILM_RATE,
-     {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p"}},
-    {".webm",
-     FILM_RATE,
-     {"-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-deadline", "realtime",
-      "-cpu-used", "5"}},
-    {".gif", /* each frame with colours of its own */
-     50,
-     {"-vf", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]"
-             "paletteuse=new=1"}},
-    {".apng", FILM_RATE, {"-pix_fmt", "rgb24", "-plays", "0"}},
+    {".mp4", FILM_RATE,
+     "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"},
+    {".webm", FILM_RATE,
+     "-c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 5"},
+    {".gif", 50, /* each frame with colours of its own */
+     "-vf 'split[a][b];[a]palettegen=stats_mode=single[p];"
+     "[b][p]paletteuse=new=1'"},
+    {".apng", FILM_RATE, "-pix_fmt rgb24 -plays 0"},
 };
 
 /* The kind that the end of the name says, or NULL. */
@@ -87,26 +80,16 @@ bool film_runs(const Film *film)
  * the pipe does. */
 static void run_ffmpeg(const Film *film, int from)
 {
-    char size[32], rate[32], file[4096];
-    snprintf(size, sizeof size, "%dx%d", film->width, film->height);
-    snprintf(rate, sizeof rate, "%d", film->kind->rate);
-    snprintf(file, sizeof file, "file:%s", film->output.temporary);
-    const char *words[WORDS] = {
-        "ffmpeg",      "-loglevel", "quiet",         "-y",
-        "-f",          "rawvideo",  "-pixel_format", "bgr0",
-        "-video_size", size,        "-framerate",    rate,
-        "-i",          "pipe:0"};
-    int count = 14;
-    for (int i = 0; i < KIND_WORDS && film->kind->words[i]; i++)
-        words[count++] = film->kind->words[i];
-    words[count++] = "-f";
-    words[count++] = film->kind->end + 1;
-    words[count] = file;
-    int nowhere = open("/dev/null", O_WRONLY);
+    char line[512];
+    snprintf(line, sizeof line,
+             "exec ffmpeg -loglevel quiet -y -f rawvideo -pixel_format bgr0 "
+             "-video_size %dx%d -framerate %d -i pipe:0 %s -f %s \"file:$0\" "
+             ">/dev/null 2>&1",
+             film->width, film->height, film->kind->rate, film->kind->words,
+             film->kind->end + 1);
     setpgid(0, 0);
-    if (dup2(from, STDIN_FILENO) >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0 &&
-        dup2(nowhere, STDERR_FILENO) >= 0)
-        execvp(words[0], (char *const *)words);
+    if (dup2(from, STDIN_FILENO) >= 0)
+        execl("/bin/sh", "sh", "-c", line, film->output.temporary, NULL);
     _exit(127);
 }
 

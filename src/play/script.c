@@ -9,8 +9,6 @@
 #include "play/output.h"
 #include "scenes/one_line.h"
 
-enum { SCRIPT_LINE_SIZE = 512 };
-
 Status script_add(Script *script, long step, const Command *command)
 {
     if (script->count == script->size) {
@@ -48,7 +46,8 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
 
 Status script_read(const char *name, Script *script, char *message, size_t size)
 {
-    char text[SCRIPT_LINE_SIZE], why[600] = "";
+    char *text = NULL, why[600] = "";
+    size_t room = 0;
     *script = (Script){0};
     message[0] = '\0';
     FILE *file = fopen(name, "r");
@@ -56,22 +55,15 @@ Status script_read(const char *name, Script *script, char *message, size_t size)
         return STATUS_FILE_FAILED;
     Status status = STATUS_OK;
     long number = 0;
-    while (!status && fgets(text, sizeof text, file)) {
-        number++;
-        if (!strchr(text, '\n') && !feof(file)) {
-            snprintf(why, sizeof why, "a line of more than %d letters",
-                     SCRIPT_LINE_SIZE - 2);
-            status = STATUS_INVALID_INPUT;
-        } else {
-            status = read_line(text, script, why, sizeof why);
-        }
-    }
+    for (; !status && getline(&text, &room, file) >= 0; number++)
+        status = read_line(text, script, why, sizeof why);
     if (status == STATUS_INVALID_INPUT)
         snprintf(message, size, "line %ld: %s", number, why);
     one_line(message, message, size);
-    if (!status && ferror(file))
+    if (!status && !feof(file))
         status = STATUS_FILE_FAILED;
     int reason = errno;
+    free(text);
     fclose(file);
     errno = reason;
     return status;
@@ -85,7 +77,7 @@ Status script_write(const char *name, const Script *script)
         return status;
     errno = 0;
     for (size_t i = 0; i < script->count; i++) {
-        char line[SCRIPT_LINE_SIZE];
+        char line[512];
         command_format(&script->line[i].command, line, sizeof line);
         fprintf(output.file, "%ld %s\n", script->line[i].step, line);
     }
