@@ -5,6 +5,8 @@
 
 #include <stddef.h>
 
+#include "base/status.h"
+
 /* Copies a text: each control character, those that turn the direction of
  * writing, and each byte that is no UTF-8 become '?', so that a message stays
  * one line, says what it seems to say, and a terminal obeys nothing.
@@ -12,5 +14,15 @@
  *   text  in, or NULL: ""
  *   line  [size] out, ends with '\0'; may be the text itself */
 void one_line(const char *text, char *line, size_t size);
+
+/* Where the line goes that says why something is refused, [size]. */
+typedef struct Refusal {
+    char *message;
+    size_t size;
+} Refusal;
+
+/* Writes it.  Returns INVALID_INPUT. */
+Status refuse(Refusal told, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 #endif

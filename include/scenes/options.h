@@ -42,8 +42,8 @@ typedef struct Options {
             double barrier[2]; /* 0: side/100, 4 k */
             double friction, slip_speed, cells;
             double self_contact, self_friction; /* -1: as friction */
-            double material, young, poisson; /* 0: springs, 1: triangles */
-            double yield, hardening, tear;   /* 0: never */
+            double material, young, poisson;    /* 0: springs, 1: triangles */
+            double yield, hardening, tear;      /* 0: never */
             double damping;
             double terms[8]; /* of terms that nobody else asks for */
             double timestep, tolerance, minimum;
@@ -199,10 +199,7 @@ Status options_of_line(const char *line, Options *options, char *message,
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size);
 
-/* The chosen integrator; NULL: the scene's choice. */
-const IntegratorMethod *options_integrator(const Options *options);
-
-/* The same, or the first of the table. */
+/* The chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);
 
 /* The text of --help, 80 columns wide; the same memory each time. */

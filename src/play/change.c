@@ -225,7 +225,7 @@ static Status put_value(Player *player, const Command *command,
     Status status = options_set(options, row->name, value, player->message,
                                 sizeof player->message);
     if (!status && row->slot == OPTION_SLOT(integrator) &&
-        integrator_method_refuses(options_integrator(options),
+        integrator_method_refuses(options_method(options),
                                   &player_simulation(player)->system))
         return player_refuse(player, "a term of this scene refuses it");
     return status;

@@ -89,23 +89,6 @@ SquareMesh body_shape(const Options *options)
                              options->side, (int)fmax(options->bodies, 1));
 }
 
-/* The order of elimination, with the nodes that are not in the mesh last. */
-static Status take_order(SquareMesh *mesh, System *system)
-{
-    system->order = mesh->order; /* the system owns it now */
-    mesh->order = NULL;
-    if (system->nodes == mesh->nodes)
-        return STATUS_OK;
-    int *longer =
-        realloc(system->order, (size_t)system->nodes * sizeof *system->order);
-    if (!longer)
-        return STATUS_OUT_OF_MEMORY;
-    system->order = longer;
-    for (int i = mesh->nodes; i < system->nodes; i++)
-        longer[i] = i;
-    return STATUS_OK;
-}
-
 /* Mesh, masses, springs and rest lengths (slide simulator.py): the mass of all
  * cells shared out evenly over the nodes; l2 = |d|^2 in the rest positions.
  * Gravity and pins.
@@ -138,33 +121,15 @@ static Status create_system(const Options *options, int more, SquareMesh *mesh,
     if (mesh->rows == mesh->segments && more == 0 && mesh->bodies == 1)
         system->segments = mesh->segments;
     system->gravity[1] = -options->gravity;
-    status = take_order(mesh, system);
-    if (status || !options->pin)
-        return status;
+    system->order = malloc((size_t)system->nodes * sizeof *system->order);
+    if (!system->order)
+        return STATUS_OUT_OF_MEMORY;
+    for (int i = 0; i < system->nodes; i++)
+        system->order[i] = i < mesh->nodes ? mesh->order[i] : i;
+    if (!options->pin)
+        return STATUS_OK;
     status = system_create_pins(system);
     return status ? status : pins_read(options->pin, mesh, system->pinned);
-}
-
-/* Where a body begins, as --body has it. */
-static void body_start(const Options *options, int body,
-                       double start[BODY_NUMBERS])
-{
-    const double *at = options->at, *v = options->velocity;
-    const double only[BODY_NUMBERS] = {
-        at[0], at[1], options->turn, v[0], v[1], options->stretch, 1};
-    memcpy(start, options->bodies > 0 ? options->body[body] : only,
-           sizeof only);
-}
-
-/* Stretched, turned, moved; 0 degrees leave every bit. */
-static void place_node(const double start[BODY_NUMBERS], const double rest[2],
-                       double x[2])
-{
-    double angle = start[2] * DEGREE;
-    double c = cos(angle), s = sin(angle);
-    double x0 = start[5] * rest[0], x1 = start[6] * rest[1];
-    x[0] = c * x0 - s * x1 + start[0];
-    x[1] = s * x0 + c * x1 + start[1];
 }
 
 _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
@@ -184,21 +149,12 @@ static Obstacle ceiling_of(const Options *options)
         .motion = {1, {steps * options->timestep}, {{0, ceiling[1]}}}};
 }
 
-/* Of all obstacles but the ceiling. */
-static void set_friction(const Options *options, int count, Obstacle *list)
-{
-    int ceiling = (int)(options->grounds + options->balls);
-    for (int i = 0; i < count; i++)
-        list[i].friction =
-            i == ceiling && options->ceiling[1] != 0 ? 0 : options->friction;
-}
-
 /* The obstacles of the options, normals made units, and after them the scene's
  * own; returns how many. */
 static int list_obstacles(const Options *options,
                           Obstacle list[CONTACT_MAX_OBSTACLES])
 {
-    int count = 0;
+    int count = 0, ceiling = -1;
     for (int i = 0; i < options->grounds; i++) {
         const double *ground = options->ground[i];
         double length = math_hypot(ground[0], ground[1]);
@@ -213,12 +169,13 @@ static int list_obstacles(const Options *options,
             .kind = OBSTACLE_BALL, .o = {ball[0], ball[1]}, .radius = ball[2]};
     }
     if (options->ceiling[1] != 0)
-        list[count++] = ceiling_of(options);
+        list[ceiling = count++] = ceiling_of(options);
     if (options->scene->own)
         list[count++] = options->scene->own(options);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         list[i].node = -1;
-    set_friction(options, count, list);
+        list[i].friction = i == ceiling ? 0 : options->friction;
+    }
     return count;
 }
 
@@ -248,10 +205,9 @@ static Status set_obstacles(const Options *options, const SquareMesh *mesh,
     int had = contact ? contact->obstacles : 0;
     Status status = STATUS_OK;
     for (int k = 1; k <= count - fixed && k <= had; k++)
-        list[count - k] = contact->obstacle[had - k];
-    if (had == 0 && count > 0 && system->nodes > mesh->nodes)
+        memcpy(list[count - k].o, contact->obstacle[had - k].o, sizeof list->o);
+    if (count > 0 && system->nodes > mesh->nodes)
         list[count - 1].node = mesh->nodes;
-    set_friction(options, count, list);
     if (count != had) {
         system_remove_term(system, &friction_energy);
         system_remove_term(system, &contact_energy);
@@ -312,24 +268,30 @@ static bool has_ball(const Scene *scene, const Options *options)
 }
 
 /* Where the body of a run begins, x and v [2 nodes] out: in the last step of a
- * table, or where the options put it, and the scene's ball where it is.
- *   message  [size] out, one line, if the table is none of this body */
+ * table, or stretched, turned and moved as the options say, 0 degrees leave
+ * every bit; and the scene's ball where it is. */
 static Status place_body(const Options *options, const SquareMesh *shape,
-                         int run, double *x, double *v, char *message,
-                         size_t size)
+                         int run, double *x, double *v, Refusal told)
 {
+    const double *at = options->at, *speed = options->velocity;
+    const double only[BODY_NUMBERS] = {
+        at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
     int more = has_ball(options->scene, options);
     if (options->state)
         return start_table_read(
             options->state, options->state_step, shape->nodes + more, run,
             options->scene->create == create_slope ? SIMULATION_MAX_RUNS : 1, x,
-            v, message, size);
+            v, told);
     for (int i = 0; i < shape->nodes; i++) {
-        double rest[2], start[BODY_NUMBERS];
-        int node = i;
+        double rest[2];
+        int node = i, body = square_mesh_body(shape, &node);
+        const double *start = options->bodies > 0 ? options->body[body] : only;
+        double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
         square_mesh_place(shape, i, rest);
-        body_start(options, square_mesh_body(shape, &node), start);
-        place_node(start, rest, x + 2 * i);
+        rest[0] *= start[5];
+        rest[1] *= start[6];
+        x[2 * i] = c * rest[0] - s * rest[1] + start[0];
+        x[2 * i + 1] = s * rest[0] + c * rest[1] + start[1];
         memcpy(v + 2 * i, start + 3, sizeof rest);
     }
     if (more) {
@@ -346,7 +308,7 @@ static Status start_run(Simulation *simulation, int run, const Options *options,
 {
     size_t size = 2 * (size_t)system->nodes;
     double *x = malloc(size * sizeof *x), *v = malloc(size * sizeof *v);
-    Status status = x && v ? place_body(options, mesh, run, x, v, NULL, 0)
+    Status status = x && v ? place_body(options, mesh, run, x, v, (Refusal){0})
                            : STATUS_OUT_OF_MEMORY;
     for (int i = 0; !status && system->pinned && i < system->nodes; i++)
         if (system->pinned[i])
@@ -436,13 +398,6 @@ static void name_obstacle(const Options *options, int i, char *text,
                  value[2], value[3]);
 }
 
-/* A normal has a length, a ball a radius. */
-static bool obstacle_is_sound(const Obstacle *obstacle)
-{
-    return obstacle->kind == OBSTACLE_BALL ? obstacle->radius > 0
-                                           : isfinite(obstacle->n[0]);
-}
-
 /* The gap of the body when it begins, m, and the node that has it; infinite
  * where all are pinned. */
 static double nearest_node(const Options *options, const double *x,
@@ -466,19 +421,17 @@ static double nearest_node(const Options *options, const double *x,
  * free, the last one. */
 static Status check_obstacle(const Options *options, const double *x,
                              const unsigned char *pinned, const Obstacle list[],
-                             int count, int i, char *message, size_t size)
+                             int count, int i, Refusal told)
 {
     const Obstacle *it = &list[i], *own = &list[count - 1];
     char name[128], who[64];
     int node = 0;
     name_obstacle(options, i, name, sizeof name);
-    if (!obstacle_is_sound(it)) {
-        snprintf(message, size, "%s: %s", name,
-                 it->kind == OBSTACLE_WALL
-                     ? "the normal is 0,0; it must point somewhere"
-                     : "the radius must be above 0");
-        return STATUS_INVALID_INPUT;
-    }
+    if (it->kind == OBSTACLE_WALL && !isfinite(it->n[0]))
+        return refuse(told, "%s: the normal is 0,0; it must point somewhere",
+                      name);
+    if (it->kind == OBSTACLE_BALL && !(it->radius > 0))
+        return refuse(told, "%s: the radius must be above 0", name);
     double d = nearest_node(options, x, pinned, it, &node);
     snprintf(who, sizeof who, "node %d", node);
     if (d > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
@@ -486,12 +439,11 @@ static Status check_obstacle(const Options *options, const double *x,
         d = contact_gap(it, it->o, own->o, own->radius).d;
         snprintf(who, sizeof who, "%s", options->scene->own_name);
     }
-    if (d > 0)
-        return STATUS_OK;
-    snprintf(message, size,
-             "%s: %s would begin at a distance of %g m; it must be above 0",
-             name, who, d);
-    return STATUS_INVALID_INPUT;
+    return d > 0 ? STATUS_OK
+                 : refuse(told,
+                          "%s: %s would begin at a distance of %g m; it must "
+                          "be above 0",
+                          name, who, d);
 }
 
 bool simulation_has_room(const Simulation *simulation, const Options *options,
@@ -504,16 +456,21 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
         int count = list_obstacles(&own, list);
         for (int k = 0; k < own.grounds + own.balls; k++)
             if (check_obstacle(&own, simulation->run[run].x, system->pinned,
-                               list, count, k, message, size))
+                               list, count, k, (Refusal){message, size}))
                 return false;
     }
     return true;
 }
 
+/* Which side of the line from a to b p is on: twice the area of abp. */
+static double side_of(const double *a, const double *b, const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
 /* Cells keep their sides, and of a solid its triangles: none begins turned
  * over. */
-static Status check_cells(const Options *options, const double *x,
-                          char *message, size_t size)
+static Status check_cells(const Options *options, const double *x, Refusal told)
 {
     const SquareMesh shape = body_shape(options);
     int node[3], side[3];
@@ -522,29 +479,19 @@ static Status check_cells(const Options *options, const double *x,
         if (!options->cells && !square_mesh_is_half(&shape, t))
             continue;
         square_mesh_triangle(&shape, t, node, side);
-        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
-        const double *c = x + 2 * node[2];
-        double part =
-            ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) /
-            (shape.spacing * shape.spacing);
-        if (part > 0)
-            continue;
-        snprintf(message, size,
-                 "%s: cell %d begins turned over (%.3g of its area); it must "
-                 "not%s",
-                 options->state        ? "--state"
-                 : options->bodies > 0 ? "--body"
-                                       : "--stretch",
-                 t / 4, part, options->cells ? ", or --cells off" : "");
-        return STATUS_INVALID_INPUT;
+        double twice =
+            side_of(x + 2 * node[0], x + 2 * node[1], x + 2 * node[2]);
+        if (!(twice > 0))
+            return refuse(told,
+                          "%s: cell %d begins turned over (%.3g of its area); "
+                          "it must not%s",
+                          options->state        ? "--state"
+                          : options->bodies > 0 ? "--body"
+                                                : "--stretch",
+                          t / 4, twice / (shape.spacing * shape.spacing),
+                          options->cells ? ", or --cells off" : "");
     }
     return STATUS_OK;
-}
-
-/* Which side of the line from a to b, with its distance times |b - a|. */
-static double side_of(const double *a, const double *b, const double *p)
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
 /* Whether two edges have a point in common. */
@@ -560,63 +507,41 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
            side_of(c, d, a) * side_of(c, d, b) <= 0;
 }
 
-/* Whether a line to the right from a body's first node passes an edge of
- * another body: inside, it passes an odd number of them. */
-static bool is_passed(const double *x, int node, const int edge[2])
-{
-    const double *p = x + 2 * node;
-    const double *a = x + 2 * edge[0], *b = x + 2 * edge[1];
-    return (a[1] > p[1]) != (b[1] > p[1]) &&
-           (side_of(a, b, p) > 0) == (b[1] > a[1]);
-}
-
-/* No outline begins across another or itself, and none inside another. */
+/* No outline begins across another or itself. */
 static Status check_overlap(const Options *options, const double *x,
-                            char *message, size_t size)
+                            Refusal told)
 {
     const SquareMesh shape = body_shape(options);
-    int edge[2], other[2], each = shape.nodes / shape.bodies;
-    int bodies = shape.bodies, inside[SQUARE_MESH_MAX_BODIES] = {0};
+    int edge[2], other[2];
     for (int k = 0; k < shape.outline && options->self_contact; k++) {
         square_mesh_outline(&shape, k, edge);
-        for (int body = 0; body < bodies; body++)
-            if (body != edge[0] / each && is_passed(x, body * each, edge))
-                inside[body] ^= 1 << edge[0] / each;
         for (int l = 0; l < k; l++) {
             square_mesh_outline(&shape, l, other);
             bool neighbours = other[1] == edge[0] || other[0] == edge[1];
-            if (neighbours || !edges_cross(x, edge, other))
-                continue;
-            snprintf(message, size,
-                     "%s: at the start the edge of nodes %d, %d would cross "
-                     "that of nodes %d, %d; move one, or --self-contact off",
-                     options->bodies > 0 ? "--body" : "--self-contact",
-                     other[0], other[1], edge[0], edge[1]);
-            return STATUS_INVALID_INPUT;
+            if (!neighbours && edges_cross(x, edge, other))
+                return refuse(told,
+                              "%s: at the start the edge of nodes %d, %d would "
+                              "cross that of nodes %d, %d; move one, or "
+                              "--self-contact off",
+                              options->bodies > 0 ? "--body" : "--self-contact",
+                              other[0], other[1], edge[0], edge[1]);
         }
     }
-    for (int body = 0; body < bodies; body++)
-        if (inside[body]) {
-            snprintf(message, size,
-                     "--body: number %d would begin inside another; move one, "
-                     "or --self-contact off",
-                     body + 1);
-            return STATUS_INVALID_INPUT;
-        }
     return STATUS_OK;
 }
 
-Status body_check(const Options *options, char *message, size_t size)
+Status body_check(const Options *options, Refusal told)
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
     const SquareMesh shape = body_shape(options);
     int count = list_obstacles(options, list);
     const double *ceiling = options->ceiling;
-    if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2]))) {
-        snprintf(message, size, "--ceiling: V is %g; it must be below 0",
-                 ceiling[1]);
-        return STATUS_INVALID_INPUT;
-    }
+    if (ceiling[1] > 0 || (ceiling[1] == 0 && (ceiling[0] || ceiling[2])))
+        return refuse(told, "--ceiling: V is %g; it must be below 0",
+                      ceiling[1]);
+    if (ceiling[2] > ceiling[0])
+        return refuse(told, "--ceiling: STOP is %g; it must not be above Y",
+                      ceiling[2]);
     if (count == 0 && !options->cells && !options->state &&
         options->material == 0 && !options->self_contact)
         return STATUS_OK;
@@ -624,17 +549,16 @@ Status body_check(const Options *options, char *message, size_t size)
     double *x = malloc(4 * ((size_t)shape.nodes + 1) * sizeof *x);
     Status status = x && pinned ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     if (!status)
-        status = place_body(options, &shape, 0, x, x + 2 * shape.nodes + 2,
-                            message, size);
+        status =
+            place_body(options, &shape, 0, x, x + 2 * shape.nodes + 2, told);
     if (!status)
-        status = check_cells(options, x, message, size);
+        status = check_cells(options, x, told);
     if (!status)
-        status = check_overlap(options, x, message, size);
+        status = check_overlap(options, x, told);
     if (!status && options->pin)
         status = pins_read(options->pin, &shape, pinned);
     for (int i = 0; i < count && !status; i++)
-        status =
-            check_obstacle(options, x, pinned, list, count, i, message, size);
+        status = check_obstacle(options, x, pinned, list, count, i, told);
     free(pinned);
     free(x);
     return status;

@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "model/contact.h"
+#include "scenes/one_line.h"
 #include "scenes/simulation.h"
 
 /* The square, or of its rows the part that the scene has; without arrays. */
@@ -61,8 +62,7 @@ Status create_bend(Simulation *simulation);
 const char *body_needs_end_of_step(const Options *options);
 
 /* Whether the body can begin where the options put it: obstacles make sense,
- * all gaps and cells are > 0.
- *   message  [size] out, one line after INVALID_INPUT */
-Status body_check(const Options *options, char *message, size_t size);
+ * all gaps and cells are > 0.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+Status body_check(const Options *options, Refusal told);
 
 #endif

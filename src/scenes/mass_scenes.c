@@ -17,7 +17,8 @@ static Status create_orbit(Simulation *simulation, double omega2,
 {
     static const char *const names[SIMULATION_MAX_RUNS] = {
         "forward-euler", "symplectic-euler", "backward-euler"};
-    const IntegratorMethod *chosen = options_integrator(&simulation->options);
+    const Options *options = &simulation->options;
+    bool chosen = options->integrator >= 0;
     Status status = system_create(1, 0, &simulation->system);
     if (status)
         return status;
@@ -29,7 +30,8 @@ static Status create_orbit(Simulation *simulation, double omega2,
     memcpy(simulation->exhibit.began + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = simulation_start(simulation, i,
-                                  chosen ? chosen : integrator_method(names[i]),
+                                  chosen ? options_method(options)
+                                         : integrator_method(names[i]),
                                   &simulation->system, x, v);
     return status;
 }

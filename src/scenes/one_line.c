@@ -1,6 +1,8 @@
 #include "scenes/one_line.h"
 
+#include <stdarg.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char CUT[] = "...";
@@ -81,4 +83,13 @@ void one_line(const char *text, char *line, size_t size)
         memmove(line + left + sizeof CUT - 1, rest, right + 1);
     }
     hide_controls(line);
+}
+
+Status refuse(Refusal told, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(told.message, told.size, format, arguments);
+    va_end(arguments);
+    return STATUS_INVALID_INPUT;
 }

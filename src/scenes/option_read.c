@@ -3,7 +3,6 @@
  */
 #include <ctype.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,25 +114,13 @@ typedef struct Word {
 
 enum { WORDS_MOST = 256 };
 
-/* A line while it is read: into what, its words, and where the one line goes
- * that explains a refusal. */
+/* A line while it is read: into what, who is told what is wrong, its words. */
 typedef struct Line {
     Options *options;
-    char *message;
-    size_t size;
+    Refusal told;
     int words;
     Word word[WORDS_MOST];
 } Line;
-
-/* Writes that line. */
-static Status refuse(const Line *line, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line->message, line->size, format, arguments);
-    va_end(arguments);
-    return STATUS_INVALID_INPUT;
-}
 
 /* ---- values ------------------------------------------------------------- */
 
@@ -235,12 +222,12 @@ static Status refuse_value(const Line *line, const OptionRow *row, int count,
     if (row->kind == OPTION_NAME)
         list = list_text(row->names);
     if (row->names.table)
-        return refuse(line, "--%s: '%s' is none of: %s%s", row->name,
+        return refuse(line->told, "--%s: '%s' is none of: %s%s", row->name,
                       typed(text).text, list.text,
                       meant(text, "", row->names).text);
-    return refuse(line, "--%s: '%s' is not %s%s from %s to %s%s%s", row->name,
-                  typed(text).text, count > 1 ? row->value : "", what,
-                  number_text(row->low).text, number_text(row->high).text,
+    return refuse(line->told, "--%s: '%s' is not %s%s from %s to %s%s%s",
+                  row->name, typed(text).text, count > 1 ? row->value : "",
+                  what, number_text(row->low).text, number_text(row->high).text,
                   row->unit[0] ? ", in " : "", row->unit);
 }
 
@@ -259,8 +246,8 @@ static Status apply_numbers(const Line *line, const OptionRow *row,
                                  : !read_numbers(row, count, text, number))
         return refuse_value(line, row, count, text);
     if (row->times && *given >= row->times)
-        return refuse(line, "--%s: '%s' is one too many: at most %d", row->name,
-                      typed(text).text, row->times);
+        return refuse(line->told, "--%s: '%s' is one too many: at most %d",
+                      row->name, typed(text).text, row->times);
     if (row->times)
         used = (int)(*given)++;
     memcpy(&options->number[row->slot + used * most], number,
@@ -279,8 +266,9 @@ static Status apply(const Line *line, const OptionRow *row, const char *text)
         return STATUS_OK;
     case OPTION_TEXT:
         memcpy((char *)options + row->offset, &text, sizeof text);
-        return text[0] ? STATUS_OK
-                       : refuse(line, "--%s: the name is empty", row->name);
+        return text[0]
+                   ? STATUS_OK
+                   : refuse(line->told, "--%s: the name is empty", row->name);
     case OPTION_PAGE:
         options->page = lecture_find(text[0] ? text : "1");
         return options->page ? STATUS_OK : refuse_value(line, row, 1, text);
@@ -302,18 +290,18 @@ static Status check_scene(const Line *line, const OptionRow *row)
                                                      : "minimum to find";
     return !row->needs || (row->needs & scene->needs)
                ? STATUS_OK
-               : refuse(line, "--%s: the scene '%s' has no %s", row->name,
+               : refuse(line->told, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, lacks);
 }
 
-/* What the body has is right with the integrator, where one was chosen. */
+/* What the body has is right with the integrator. */
 static Status check_integrator(const Line *line)
 {
     const char *end = body_needs_end_of_step(line->options);
-    const IntegratorMethod *method = options_integrator(line->options);
-    return !end || !method || method->at_end
+    const IntegratorMethod *method = options_method(line->options);
+    return !end || method->at_end
                ? STATUS_OK
-               : refuse(line,
+               : refuse(line->told,
                         "--integrator: '%s' has no %s; of all methods only "
                         "backward-euler has",
                         method->name, end);
@@ -322,10 +310,10 @@ static Status check_integrator(const Line *line)
 Status options_set(Options *options, const char *name, const char *value,
                    char *message, size_t size)
 {
-    const Line line = {.options = options, .message = message, .size = size};
+    const Line line = {.options = options, .told = {message, size}};
     const OptionRow *row = option_find(name);
     if (!row || row->kind == OPTION_SWITCH)
-        return refuse(&line, "there is no option '%s' with a value",
+        return refuse(line.told, "there is no option '%s' with a value",
                       typed(name).text);
     if (check_scene(&line, row) || apply(&line, row, value))
         return STATUS_INVALID_INPUT;
@@ -347,7 +335,7 @@ static const OptionRow *find_option(const Line *line, const char *word)
             found = row;
     if (found && (name == shown.text + 2) == (name[1] != '\0'))
         return found;
-    refuse(line, "no option %s; see elasto --help%s", shown.text,
+    refuse(line->told, "no option %s; see elasto --help%s", shown.text,
            meant(name, "--", NAMES_OF(option_rows)).text);
     return NULL;
 }
@@ -359,8 +347,8 @@ static Status read_words(int argc, char **argv, Line *line)
         const char *next = i < argc ? argv[i] : "--";
         Word word = {NULL, text, 0};
         if (line->words == WORDS_MOST)
-            return refuse(line, "'%s': more than %d words", typed(text).text,
-                          WORDS_MOST);
+            return refuse(line->told, "'%s': more than %d words",
+                          typed(text).text, WORDS_MOST);
         if (text[0] == '-' && text[1]) {
             const OptionRow *row = word.row = find_option(line, text);
             if (!row)
@@ -369,10 +357,10 @@ static Status read_words(int argc, char **argv, Line *line)
             bool bare = row->kind == OPTION_PAGE && next[0] == '-';
             bool follows = !equals && !alone && !bare;
             if (equals && alone)
-                return refuse(line, "%s: --%s takes no value", typed(text).text,
-                              row->name);
+                return refuse(line->told, "%s: --%s takes no value",
+                              typed(text).text, row->name);
             if (follows && strncmp(next, "--", 2) == 0)
-                return refuse(line, "--%s: the value is missing: --%s %s",
+                return refuse(line->told, "--%s: the value is missing: --%s %s",
                               row->name, row->name, row->value);
             word.text = equals ? equals + 1 : follows ? next : "";
             i += follows;
@@ -409,42 +397,34 @@ static Status find_scene(Line *line, const char *text)
 {
     const Scene **scene = &line->options->scene;
     if (*scene)
-        return refuse(line, "'%s': one scene at a time, please",
+        return refuse(line->told, "'%s': one scene at a time, please",
                       typed(text).text);
     *scene = scene_find(text);
     return *scene ? STATUS_OK
-                  : refuse(line, "there is no scene '%s'; see elasto --list%s",
+                  : refuse(line->told,
+                           "there is no scene '%s'; see elasto --list%s",
                            typed(text).text,
                            meant(text, "", NAMES_OF(scenes)).text);
 }
 
 /* The scene or the page, and what cannot be said in one line whatever they are:
- * of two files only one would be written, and beside a handout nothing has a
- * meaning. */
+ * of two files only one would be written. */
 static Status check_words(Line *line)
 {
     Options *options = line->options;
-    const OptionRow *handout = option_find("handout");
-    for (const Word *word = line->word; word < line->word + line->words;
-         word++) {
+    for (int i = 0; i < line->words; i++) {
+        const Word *word = &line->word[i], *last = given(line, word->row);
         const OptionRow *row = word->row;
-        const Word *last = given(line, row);
         if (row && row->kind == OPTION_TEXT && last != word)
-            return refuse(line, "--%s: '%s' and '%s': one at a time, please",
-                          row->name, typed(word->text).text,
-                          typed(last->text).text);
-        if (row != handout && given(line, handout))
-            return refuse(line,
-                          "--handout: the program writes the file and ends, "
-                          "%s%s says nothing there",
-                          row ? "--" : "",
-                          row ? row->name : typed(word->text).text);
+            return refuse(
+                line->told, "--%s: '%s' and '%s': one at a time, please",
+                row->name, typed(word->text).text, typed(last->text).text);
         if (!row ? find_scene(line, word->text)
                  : row->kind == OPTION_PAGE && apply(line, row, word->text))
             return STATUS_INVALID_INPUT;
     }
     if (options->scene && options->page)
-        return refuse(line,
+        return refuse(line->told,
                       "--lecture: its pages have scenes of their own, '%s' "
                       "cannot be asked for",
                       options->scene->name);
@@ -459,10 +439,10 @@ static Status begin_options(Line *line)
 {
     Options *options = line->options;
     char copy[512];
-    Line own = {options, line->message, line->size, 0, {{0}}};
+    Line own = {options, line->told, 0, {{0}}};
     if (options->page)
-        return lecture_options(options->page, options, line->message,
-                               line->size);
+        return lecture_options(options->page, options, line->told.message,
+                               line->told.size);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->standard != 0)
             options->number[row->slot] = row->standard;
@@ -496,9 +476,9 @@ static Status pick_values(Line *line, int pane)
         pane /= count;
         line->options->panes *= count;
         if (line->options->panes > OPTIONS_MAX_PANES)
-            return refuse(line, "--%s: '%s' makes more than %d side by side",
-                          word->row->name, typed(word->text).text,
-                          OPTIONS_MAX_PANES);
+            return refuse(
+                line->told, "--%s: '%s' makes more than %d side by side",
+                word->row->name, typed(word->text).text, OPTIONS_MAX_PANES);
     }
     return STATUS_OK;
 }
@@ -514,7 +494,8 @@ static Status apply_word(const Line *line, const Word *word)
         text = strchr(text, ',') + 1;
     snprintf(value, sizeof value, "%.*s", (int)strcspn(text, ","), text);
     if (line->options->page && word->row->needs)
-        return refuse(line, "--%s: the lecture's pages say that themselves",
+        return refuse(line->told,
+                      "--%s: the lecture's pages say that themselves",
                       word->row->name);
     if (check_scene(line, word->row))
         return STATUS_INVALID_INPUT;
@@ -531,7 +512,7 @@ static Status check_body(Line *line)
     if (!(options->scene->needs & NEEDS_BODY))
         return STATUS_OK;
     if (options->pin && pins_read(options->pin, &shape, NULL))
-        return refuse(line,
+        return refuse(line->told,
                       "--pin: '%s' is no list of node numbers from 0 to %d, "
                       "or of: " PINS_WORDS,
                       typed(options->pin).text, shape.nodes - 1);
@@ -540,7 +521,8 @@ static Status check_body(Line *line)
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
         if (row && row->idle && row->idle(options))
-            return refuse(line, "--%s: %s", row->name, row->idle(options));
+            return refuse(line->told, "--%s: %s", row->name,
+                          row->idle(options));
     }
     if (check_integrator(line))
         return STATUS_INVALID_INPUT;
@@ -548,14 +530,14 @@ static Status check_body(Line *line)
         options->cells = 0; /* triangles keep their sides anyway */
     if (options->material != 0 &&
         (options->yield > 0 || options->tear > 0 || options->damping > 0))
-        return refuse(line,
+        return refuse(line->told,
                       "--material: the scene '%s' is about springs; triangles "
                       "do not flow or tear, and are not damped",
                       options->scene->name);
     if ((options->cells || options->material != 0 || options->self_contact) &&
         !given(line, option_find("filter")))
         options->filter = FILTER_ON_DEMAND;
-    return body_check(options, line->message, line->size);
+    return body_check(options, line->told);
 }
 
 /* The words that were read, into the options. */
@@ -573,7 +555,7 @@ static Status apply_words(Line *line, int pane)
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      char *message, size_t size)
 {
-    Line line = {options, message, size, 0, {{0}}};
+    Line line = {options, {message, size}, 0, {{0}}};
     Status status = read_words(argc, argv, &line);
     return status ? status : apply_words(&line, pane);
 }
@@ -582,91 +564,71 @@ Status options_of_line(const char *text, Options *options, char *message,
                        size_t size)
 {
     char copy[512];
-    Line line = {options, message, size, 0, {{0}}};
+    Line line = {options, {message, size}, 0, {{0}}};
     Status status = split_words(text, copy, sizeof copy, &line);
     return status ? status : apply_words(&line, 0);
 }
 
 /* ---- help --------------------------------------------------------------- */
 
-enum { HELP_SIZE = 8192, HELP_COLUMNS = 80, HELP_INDENT = 21 };
+enum { HELP_COLUMNS = 80, HELP_INDENT = 21 };
 
-/* A text under construction. */
-typedef struct Help {
-    char text[HELP_SIZE];
-    size_t used;
-    int column;
-} Help;
-
-/* A new line that begins with this. */
-static void help_line(Help *help, const char *start)
+/* A line that begins with `start`; words stand from the column of the texts on,
+ * in more lines where they do not fit. */
+static void help_line(FILE *help, const char *start, const char *words)
 {
-    help->column = snprintf(help->text + help->used, HELP_SIZE - help->used,
-                            "%s\n", start);
-    help->used += (size_t)help->column--;
-}
-
-/* Adds words to the last line from the column of the texts on, and to new lines
- * where they do not fit. */
-static void help_words(Help *help, const char *words)
-{
-    while (*words) {
+    int column = fprintf(help, "%s", start);
+    for (words += strspn(words, " "); *words; words += strspn(words, " ")) {
         int length = (int)strcspn(words, " ");
-        if (help->column + 1 + length > HELP_COLUMNS)
-            help_line(help, "");
-        int blanks =
-            help->column < HELP_INDENT ? HELP_INDENT - help->column : 0;
-        help->used--; /* the end of the line */
-        help->used +=
-            (size_t)snprintf(help->text + help->used, HELP_SIZE - help->used,
-                             "%*s %.*s\n", blanks, "", length, words);
-        help->column += blanks + 1 + length;
-        words += length + (words[length] == ' ');
+        if (column + 1 + length > HELP_COLUMNS) {
+            fputc('\n', help);
+            column = 0;
+        }
+        int blanks = column < HELP_INDENT ? HELP_INDENT - column : 0;
+        column += fprintf(help, "%*s %.*s", blanks, "", length, words);
+        words += length;
     }
+    fputc('\n', help);
 }
 
 /* One option: its name, what it is, unit, names or range, default. */
-static void help_option(Help *help, const OptionRow *row)
+static void help_option(FILE *help, const OptionRow *row)
 {
-    Text start, text;
+    Text start, range = {""}, standard = {""};
+    char words[3 * sizeof(Text)];
     snprintf(start.text, sizeof start.text, "  --%s%s%s%s%.1s", row->name,
              row->value ? " " : "", row->value ? row->value : "",
              row->letter ? ", -" : "", &row->letter);
-    help_line(help, start.text);
-    snprintf(text.text, sizeof text.text, "%s%s%s", row->help,
-             row->unit[0] ? ", " : "", row->unit);
-    help_words(help, text.text);
     if (row->kind == OPTION_NAME)
-        help_words(help, list_text(row->names).text);
-    snprintf(text.text, sizeof text.text, "%.31s ... %.31s",
-             number_text(row->low).text, number_text(row->high).text);
+        range = list_text(row->names);
     if (row->kind == OPTION_WHOLE && row->high <= 4096)
-        help_words(help, text.text);
-    snprintf(text.text, sizeof text.text, "[%.31s]",
-             number_text(row->standard).text);
+        snprintf(range.text, sizeof range.text, "%.31s ... %.31s",
+                 number_text(row->low).text, number_text(row->high).text);
     if (row->high > row->low && !row->count && row->standard >= row->low)
-        help_words(help, text.text);
+        snprintf(standard.text, sizeof standard.text, "[%.31s]",
+                 number_text(row->standard).text);
+    snprintf(words, sizeof words, "%s%s%s %s %s", row->help,
+             row->unit[0] ? ", " : "", row->unit, range.text, standard.text);
+    help_line(help, start.text, words);
 }
 
 /* The scenes with their numbers, a line each; the options. */
 const char *options_help(void)
 {
-    static Help help;
-    Text start;
-    help.used = 0;
-    help_line(&help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
-                     "number, else square");
-    help_line(&help, "scenes:");
-    for (int i = 0; scenes[i].name; i++) {
-        snprintf(start.text, sizeof start.text, "  %2d %s", i + 1,
-                 scenes[i].name);
-        help_line(&help, start.text);
-        help_words(&help, scenes[i].sentence);
-    }
+    static char text[8192];
+    FILE *help = fmemopen(text, sizeof text, "w");
+    if (!help)
+        return text;
+    fprintf(help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
+                  "number, else square\nscenes:\n");
+    for (int i = 0; scenes[i].name; i++)
+        fprintf(help, "  %2d %-15s  %s\n", i + 1, scenes[i].name,
+                scenes[i].sentence);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->name[0])
-            help_option(&help, row);
+            help_option(help, row);
         else
-            help_line(&help, row->help);
-    return help.text;
+            help_line(help, row->help, "");
+    fclose(help);
+    return text;
 }

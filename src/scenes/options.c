@@ -38,62 +38,34 @@ const char *solver_name(int solver)
     return solvers[solver];
 }
 
-static const char *nothing_to_touch(const Options *options)
+static bool touches(const Options *options)
 {
-    return options->grounds + options->balls > 0 || options->ceiling[1] != 0
-               ? NULL
-               : "there is nothing to touch; --ground or --ball put it there";
-}
-
-static const char *nothing_meets(const Options *options)
-{
-    return options->self_contact != 0 ? NULL : nothing_to_touch(options);
-}
-
-static const char *no_self_contact(const Options *options)
-{
-    return options->self_contact != 0
-               ? NULL
-               : "bodies do not see each other; --self-contact on";
-}
-
-static const char *bodies_say_it(const Options *options)
-{
-    return options->bodies > 0 ? "each --body says its own" : NULL;
-}
-
-static const char *has_its_own(const Options *options)
-{
-    return options->scene->create == create_square
-               ? NULL
-               : "the scene has bodies of its own";
+    return options->grounds + options->balls > 0 || options->ceiling[1] != 0;
 }
 
 /* Of a body: no turn, no velocity, no stretch. */
 static const double body_rest[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
-static const char *no_springs(const Options *options)
-{
-    return options->material == 0 ? NULL
-                                  : "triangles have none; --material springs";
-}
-
-static const char *no_triangles(const Options *options)
-{
-    return options->material != 0 ? NULL
-                                  : "springs have none; --material neo-hookean";
-}
-
-static const char *no_state(const Options *options)
-{
-    return options->state ? NULL : "of which table? --state says it";
-}
-
-static const char *nothing_flows(const Options *options)
-{
-    return options->yield > 0 ? NULL
-                              : "the springs do not flow; --yield lets them";
-}
+/* What an option has to find to have a meaning, and what is said if not. */
+#define REASON(name, found, why)                                               \
+    static const char *name(const Options *options)                            \
+    {                                                                          \
+        return (found) ? NULL : (why);                                         \
+    }
+REASON(nothing_meets, options->self_contact != 0 || touches(options),
+       "there is nothing to touch; --ground or --ball put it there")
+REASON(no_self_contact, options->self_contact != 0,
+       "bodies do not see each other; --self-contact on")
+REASON(bodies_say_it, options->bodies == 0, "each --body says its own")
+REASON(has_its_own, options->scene->create == create_square,
+       "the scene has bodies of its own")
+REASON(no_springs, options->material == 0,
+       "triangles have none; --material springs")
+REASON(no_triangles, options->material != 0,
+       "springs have none; --material neo-hookean")
+REASON(no_state, options->state, "of which table? --state says it")
+REASON(nothing_flows, options->yield > 0,
+       "the springs do not flow; --yield lets them")
 
 /* What a row begins with: its kind, its field, mostly its name too, what stands
  * for the value, what it is; then, of numbers, the unit, the slides' number,
@@ -309,11 +281,6 @@ int names_count(Names names)
     while (name_at(names, count))
         count++;
     return count;
-}
-
-const IntegratorMethod *options_integrator(const Options *options)
-{
-    return options->integrator < 0 ? NULL : options_method(options);
 }
 
 const IntegratorMethod *options_method(const Options *options)

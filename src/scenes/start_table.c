@@ -171,43 +171,40 @@ static bool read_arrays(Start *start)
 /* ------------------------------------------------------------------------- */
 
 Status start_table_read(const char *name, double step, int nodes, int run,
-                        int runs, double *x, double *v, char *message,
-                        size_t size)
+                        int runs, double *x, double *v, Refusal told)
 {
     Start start = {fopen(name, "rb"), step, nodes, run, x, v, .line = 0};
     char shown[64];
     const char *end = strrchr(name, '.');
     bool arrays = end && strcasecmp(end, ".npz") == 0;
     bool whole = start.file && (arrays ? read_arrays : read_lines)(&start);
-    Status status = STATUS_INVALID_INPUT;
+    const char *error =
+        !start.file || ferror(start.file) ? strerror(errno) : NULL;
     one_line(name, shown, sizeof shown);
-    if (!start.file || ferror(start.file))
-        snprintf(message, size, "--state '%s': %s", shown, strerror(errno));
-    else if (!whole && arrays)
-        snprintf(message, size,
-                 "--state '%s': it has no arrays x, y, vx, vy as --states "
-                 "writes them, and numpy.savez",
-                 shown);
-    else if (!whole)
-        snprintf(message, size,
-                 "--state '%s': line %ld is not one that --states writes, "
-                 "step,time,node,x,y,vx,vy",
-                 shown, start.line);
-    else if (!start.has_step)
-        snprintf(message, size, "--state '%s': step %.0f is not in it", shown,
-                 step);
-    else if (start.count == 0 || start.count % nodes != 0 ||
-             (!start.has_panes && start.count / nodes > runs))
-        snprintf(message, size,
-                 "--state '%s': its %sstep has %d nodes, the body %d", shown,
-                 step < 0 ? "last " : "", start.count, nodes);
-    else if (run >= start.count / nodes)
-        snprintf(message, size,
-                 "--state '%s': body %d of the scene is not in it", shown,
-                 run + 1);
-    else
-        status = STATUS_OK;
     if (start.file)
         fclose(start.file);
-    return status;
+    if (error)
+        return refuse(told, "--state '%s': %s", shown, error);
+    if (!whole && arrays)
+        return refuse(told,
+                      "--state '%s': it has no arrays x, y, vx, vy as --states "
+                      "writes them, and numpy.savez",
+                      shown);
+    if (!whole)
+        return refuse(told,
+                      "--state '%s': line %ld is not one that --states writes, "
+                      "step,time,node,x,y,vx,vy",
+                      shown, start.line);
+    if (!start.has_step)
+        return refuse(told, "--state '%s': step %.0f is not in it", shown,
+                      step);
+    if (start.count == 0 || start.count % nodes != 0 ||
+        (!start.has_panes && start.count / nodes > runs))
+        return refuse(told,
+                      "--state '%s': its %sstep has %d nodes, the body %d",
+                      shown, step < 0 ? "last " : "", start.count, nodes);
+    if (run >= start.count / nodes)
+        return refuse(told, "--state '%s': body %d of the scene is not in it",
+                      shown, run + 1);
+    return STATUS_OK;
 }

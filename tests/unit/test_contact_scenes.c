@@ -91,8 +91,6 @@ TEST(starts_that_make_no_sense_are_refused)
          "--body: at the start the edge of nodes ", " would cross that of"},
         {"return --body 0,0 --body 1,0 --segments 1", "would cross", "nodes"},
         {"return --body 0,0 --body 1.001,1 --segments 1", NULL, NULL},
-        {"return --body 0,0,0,0,0,0.5,0.5 --body 5,5 --body 0.01,0",
-         "--body: number 1 would begin inside another", "move one"},
         {"return --body 0,0 --body 0,0.5 --self-contact off", NULL, NULL},
         {"--stretch 0 --cells on", "--stretch: cell 0 begins turned over",
          "it must not, or --cells off"},
