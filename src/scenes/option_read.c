@@ -315,9 +315,12 @@ Status options_set(Options *options, const char *name, const char *value,
     if (!row || row->kind == OPTION_SWITCH)
         return refuse(line.told, "there is no option '%s' with a value",
                       typed(name).text);
-    if (check_scene(&line, row) || apply(&line, row, value))
+    if (check_scene(&line, row) || apply(&line, row, value) ||
+        check_integrator(&line))
         return STATUS_INVALID_INPUT;
-    return check_integrator(&line);
+    bool begins = row->effect == EFFECT_START && (row->needs & NEEDS_SQUARE) &&
+                  (options->scene->needs & NEEDS_BODY);
+    return begins ? body_check(options, line.told) : STATUS_OK;
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -449,7 +452,8 @@ static Status begin_options(Line *line)
     Status status = split_words(options->scene->line, copy, sizeof copy, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply(&own, own.word[i].row, own.word[i].text);
-    options->pin = options->scene->pin;
+    if (!given(line, option_find("body"))) /* they are of the scene's own */
+        options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->times && given(line, row))
             options->number[row->counter] = 0;

@@ -20,11 +20,11 @@ static Options parse_good(const char *line)
     return options;
 }
 
-/* One option of a square that has all there is.  message [512] */
+/* One option of a square.  message [512] */
 static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
-    *options = parse_good("square --ground 0,1,0,-1 --yield 1");
+    *options = parse_good("square");
     return options_set(options, name, value, message, 512);
 }
 
@@ -84,6 +84,11 @@ TEST(numbers_have_ranges)
     check_refused("barrier", "0,1", "DHAT,KAPPA, each from 1e-12 to 1e18");
     check_refused("size", "1200", "WxH, each from 16 to 8192");
     check_refused("size", "16x8193", "WxH");
+    char message[512];
+    Options solid = parse_good("return"); /* a start that makes no sense */
+    CHECK_STATUS(options_set(&solid, "stretch", "0", message, sizeof message),
+                 STATUS_INVALID_INPUT);
+    CHECK(strstr(message, "--stretch: cell 0 begins turned over") != NULL);
 }
 
 /* What is read stands in the option's own field. */
@@ -313,7 +318,7 @@ TEST(the_row_has_its_places_and_paces)
         {"solver", "auto", "newton", "multigrid"},
     };
     const OptionRow *found[OPTIONS_MOST];
-    Options options = parse_good("drop --damping 1");
+    Options options = parse_good("--ground 0,1,0,-9 --damping 1");
     const size_t count = sizeof paces / sizeof *paces;
     char text[64], message[512], names[256] = "";
     CHECK(options_row(&options, found) == (int)count - 1);
