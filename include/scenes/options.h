@@ -7,6 +7,7 @@
 #define ELASTO_OPTIONS_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "model/square_mesh.h"
 #include "step/time_integrator.h"
@@ -202,8 +203,8 @@ Status options_set(Options *options, const char *name, const char *value,
 /* The chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);
 
-/* The text of --help, 80 columns wide; the same memory each time. */
-const char *options_help(void);
+/* Writes the text of --help, 80 columns wide. */
+void options_help(FILE *help);
 
 /* The name of a solver as on the command line. */
 const char *solver_name(int solver);

@@ -52,7 +52,7 @@ static int print_information(const Options *options)
 {
     errno = 0;
     if (options->help)
-        fputs(options_help(), stdout);
+        options_help(stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
     else if (options->notes)

@@ -617,12 +617,8 @@ static void help_option(FILE *help, const OptionRow *row)
 }
 
 /* The scenes with their numbers, a line each; the options. */
-const char *options_help(void)
+void options_help(FILE *help)
 {
-    static char text[8192];
-    FILE *help = fmemopen(text, sizeof text, "w");
-    if (!help)
-        return text;
     fprintf(help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
                   "number, else square\nscenes:\n");
     for (int i = 0; scenes[i].name; i++)
@@ -633,6 +629,4 @@ const char *options_help(void)
             help_option(help, row);
         else
             help_line(help, row->help, "");
-    fclose(help);
-    return text;
 }

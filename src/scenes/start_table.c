@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -97,7 +98,7 @@ static bool find_array(FILE *file, const char *name, const char *kind,
 {
     unsigned char head[30], rest[512];
     char text[256] = "";
-    for (off_t at = 0; !fseeko(file, at, SEEK_SET);) {
+    for (long at = 0; !fseek(file, at, SEEK_SET);) {
         if (fread(head, 1, sizeof head, file) < sizeof head ||
             memcmp(head, "PK\3\4", 4) != 0)
             return false;
@@ -109,9 +110,9 @@ static bool find_array(FILE *file, const char *name, const char *kind,
             return false;
         if (size == UINT32_MAX) /* it stands behind the name */
             size = number_at(rest + letters + 4, 8);
-        if (size > INT64_MAX / 2)
+        if (size > LONG_MAX / 2)
             return false;
-        at += (off_t)(sizeof head + letters + more + size);
+        at += (long)(sizeof head + letters + more + size);
         if (letters != strlen(name) + 4 || memcmp(rest, name, letters - 4) != 0)
             continue;
         size_t length =
@@ -158,7 +159,7 @@ static bool read_arrays(Start *start)
             return false;
         row = start->step < 0 ? shape[0] - 1 : row;
         start->count = (int)shape[1];
-        if (fseeko(start->file, (off_t)row * shape[1] * 8, SEEK_CUR))
+        if (fseek(start->file, row * shape[1] * 8, SEEK_CUR))
             return false;
         for (int i = 0; i < start->count; i++)
             if (fread(&value, sizeof value, 1, start->file) < 1 ||

@@ -114,7 +114,7 @@ Status watch_restart(TimeIntegrator *run, double finer);
 Verdict watch_step(Watch *watch);
 
 typedef struct Tally {
-    long cases, wrong, steps[VERDICTS], judged, blurred;
+    long cases, wrong, updates, steps[VERDICTS], judged, blurred;
     long statuses[STATUS_COUNT];
 } Tally;
 
@@ -144,17 +144,14 @@ void stress_line(const char *kinds, uint64_t seed, long number,
  * in/out. */
 Verdict stress_run(const char *line, int steps, Tally *tally, char *reason);
 
-/* So many of them; the first that is WRONG ends them, shrunk, in
- * stress_present, which always holds the line that runs. */
+/* So many of them; the first that is WRONG ends them.  stress_present always
+ * holds the line that runs. */
 extern char stress_present[STRESS_LINE];
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
                    Tally *tally, char *reason);
 
 /* Processor time that is left until SIGPROF; 0: as much as it takes. */
 void stress_limit(long seconds);
-
-/* Options go, numbers become round, while it still fails. */
-void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *));
 
 /* ---- the list of cases (stress_cases.c) -------------------------------- */
 
@@ -166,58 +163,5 @@ typedef struct StressCase {
 } StressCase;
 
 extern const StressCase stress_cases[]; /* ends with a NULL name */
-
-/* One watched simulation of a case. */
-typedef struct Case {
-    Tally *tally;
-    char *reason; /* [512] */
-    bool wrong;
-    Simulation simulation;
-    TimeIntegrator *run;
-    Watch watch;
-} Case;
-
-/* The first complaint is kept; returns false. */
-bool case_wrong(Case *c, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* Sets this command line up; close it in any case. */
-bool case_open(Case *c, const char *line);
-
-/* After a change of the system: the integrator made anew, with x, v and h of
- * the old one, its tolerance times `finer`. */
-bool case_restart(Case *c, double finer);
-
-/* Steps that must not be WRONG; that must converge. */
-bool case_steps(Case *c, int steps);
-bool case_converges(Case *c, int steps);
-
-/* Frees all but the verdict, which it returns. */
-bool case_close(Case *c);
-
-/* Coordinates of all nodes. */
-int case_size(const Case *c);
-
-/* ---- the envelope (stress_envelope.c) ---------------------------------- */
-
-enum { ENVELOPE_H = 25, ENVELOPE_K = 22, ENVELOPE_STRETCH = 8 };
-
-/* Verdicts of the default square, three steps, at every place of the grid. */
-typedef struct Envelope {
-    char verdict[SOLVER_COUNT][ENVELOPE_STRETCH][ENVELOPE_K][ENVELOPE_H];
-} Envelope;
-
-double envelope_h(int i);       /* 1e-9 ... 1e3, half decades */
-double envelope_k(int i);       /* 1e-6 ... 1e15 */
-double envelope_stretch(int i); /* 1e-6 ... 1e6 */
-
-/* One cell: 'c' converged; 'n' the stretched start passed the test of every
- * step, and nothing was done; 'r' reported otherwise; 'w' wrong. */
-char envelope_cell(Solver solver, int stretch, int k, int h, Tally *tally,
-                   char *reason);
-
-/* Share of verdict c where the stretch is at least 0.1, and something was done.
- */
-double envelope_share(const Envelope *envelope, Solver solver);
 
 #endif

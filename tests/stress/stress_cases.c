@@ -9,75 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool case_wrong(Case *c, const char *format, ...)
-{
-    va_list arguments;
-    if (!c->wrong) {
-        va_start(arguments, format);
-        vsnprintf(c->reason, 512, format, arguments);
-        va_end(arguments);
-    }
-    c->wrong = true;
-    return false;
-}
-
-bool case_open(Case *c, const char *line)
-{
-    simulation_from_line(line, NULL, NULL, &c->simulation);
-    c->run = &c->simulation.run[0];
-    if (watch_create(c->run, &c->watch))
-        return true;
-    return case_wrong(c, "no memory");
-}
-
-bool case_restart(Case *c, double finer)
-{
-    Status status = watch_restart(c->run, finer);
-    watch_free(&c->watch);
-    if (status)
-        return case_wrong(c, "restart: %s", status_name(status));
-    return watch_create(c->run, &c->watch) || case_wrong(c, "no memory");
-}
-
-bool case_steps(Case *c, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        Verdict verdict = watch_step(&c->watch);
-        c->tally->statuses[c->watch.status]++;
-        if (verdict == VERDICT_WRONG)
-            return case_wrong(c, "%s", c->watch.reason);
-    }
-    return true;
-}
-
-bool case_converges(Case *c, int steps)
-{
-    for (int i = 0; i < steps; i++)
-        if (case_steps(c, 1) && c->watch.status)
-            return case_wrong(c, "step %d: %s", i + 1,
-                              status_name(c->watch.status));
-    return !c->wrong;
-}
-
-bool case_close(Case *c)
-{
-    bool good = !c->wrong;
-    if (c->run) {
-        tally_add(&c->watch, c->tally);
-        watch_free(&c->watch);
-        simulation_free(&c->simulation);
-    }
-    c->run = NULL;
-    c->tally->cases++;
-    c->tally->wrong += !good;
-    return good;
-}
-
-int case_size(const Case *c)
-{
-    return 2 * c->run->system->nodes;
-}
-
 /* So many steps of a command line, with one solver or the other; where it
  * begins with '!' all must converge. */
 typedef struct Line {
@@ -88,15 +19,17 @@ typedef struct Line {
 static bool run_line(Tally *tally, char *reason, Line row, int solver)
 {
     char line[STRESS_LINE];
-    Case c = {.tally = tally, .reason = reason};
-    bool converge = row.line[0] == '!';
-    snprintf(line, sizeof line, " %s --solver %s", row.line + converge,
+    bool converges = row.line[0] == '!';
+    snprintf(line, sizeof line, "%s --solver %s", row.line + converges,
              solver_name(solver));
-    if (case_open(&c, line + 1))
-        converge ? case_converges(&c, row.steps) : case_steps(&c, row.steps);
-    if (c.wrong)
-        strncat(reason, line, 511 - strlen(reason));
-    return case_close(&c);
+    Verdict verdict = stress_run(line, row.steps, tally, reason);
+    if (verdict == VERDICT_REPORTED && converges)
+        snprintf(reason, 512, "it does not converge");
+    if (verdict == VERDICT_WRONG || (verdict && converges)) {
+        strncat(strncat(reason, ": ", 3), line, 511 - strlen(reason));
+        return false;
+    }
+    return true;
 }
 
 static bool extreme_squares(Tally *tally, char *reason)
@@ -183,19 +116,50 @@ static bool every_integrator(Tally *tally, char *reason)
     return true;
 }
 
+/* So many steps of a run, judged as they are or, every so often, by their
+ * residuals too.  Returns whether no promise was broken. */
+static bool watch_steps(Watch *watch, int steps, bool residuals, Tally *tally,
+                        char *reason)
+{
+    watch->residuals = residuals;
+    for (int i = 0; i < steps; i++) {
+        Verdict verdict = watch_step(watch);
+        tally->statuses[watch->status]++;
+        if (verdict != VERDICT_WRONG)
+            continue;
+        memcpy(reason, watch->reason, sizeof watch->reason);
+        return false;
+    }
+    return true;
+}
+
+/* Counts a run and frees it; returns whether it was good. */
+static bool end_run(Simulation *simulation, Watch *watch, bool good,
+                    Tally *tally)
+{
+    tally_add(watch, tally);
+    watch_free(watch);
+    simulation_free(simulation);
+    tally->cases++;
+    tally->wrong += !good;
+    return good;
+}
+
 /* A default square that is kicked at random every 50 steps. */
 static bool many_steps(Tally *tally, char *reason)
 {
     Random random = {7};
-    Case c = {.tally = tally, .reason = reason};
-    if (case_open(&c, "--stretch 1.4"))
-        for (long step = 0; step < 300000 && !c.wrong; step++) {
-            for (int i = 0; step % 50 == 0 && i < case_size(&c); i++)
-                c.run->v[i] += random_uniform(&random, -3, 3);
-            c.watch.residuals = step % 500 < 3;
-            case_steps(&c, 1);
-        }
-    return case_close(&c);
+    Simulation simulation;
+    Watch watch;
+    simulation_from_line("--stretch 1.4", NULL, NULL, &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    bool good = watch_create(run, &watch);
+    for (long step = 0; step < 300000 && good; step++) {
+        for (size_t i = 0; step % 50 == 0 && i < run->size; i++)
+            run->v[i] += random_uniform(&random, -3, 3);
+        good = watch_steps(&watch, 1, step % 500 < 3, tally, reason);
+    }
+    return end_run(&simulation, &watch, good, tally);
 }
 
 /* ---- answers known beforehand ------------------------------------------- */
@@ -204,32 +168,35 @@ static bool many_steps(Tally *tally, char *reason)
 static bool fly(Tally *tally, char *reason, double h, double offset)
 {
     char line[80];
-    Case c = {.tally = tally, .reason = reason};
+    Simulation simulation;
+    Watch watch;
     snprintf(line, sizeof line,
              "--segments 3 --stretch 1 --tolerance 1e-10 --timestep %.17g", h);
-    if (case_open(&c, line)) {
-        System *system = &c.simulation.system;
-        for (int i = 0; i < case_size(&c); i++) {
-            c.run->x[i] += offset;
-            c.run->v[i] = i % 2 ? -2 : 3;
-        }
-        for (int s = 0; s < system->springs; s++) {
-            int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
-            double dx = c.run->x[i] - c.run->x[j];
-            double dy = c.run->x[i + 1] - c.run->x[j + 1];
-            system->l2[s] = dx * dx + dy * dy;
-        }
-        if (case_restart(&c, 1))
-            case_converges(&c, 3);
-        /* x + h v is rounded, which strains the springs a little */
-        double strain = (offset + 10 * h) * DBL_EPSILON;
-        double allowed = 1e-10 + 1e4 * fmin(strain * h, strain / h);
-        for (int i = 0; i < case_size(&c); i++)
-            if (!(fabs(c.run->v[i] - (i % 2 ? -2 : 3)) <= allowed))
-                case_wrong(&c, "h %g: velocity is off by %g", h,
-                           c.run->v[i] - (i % 2 ? -2 : 3));
+    simulation_from_line(line, NULL, NULL, &simulation);
+    TimeIntegrator *run = &simulation.run[0];
+    System *system = run->system;
+    for (size_t i = 0; i < run->size; i++) {
+        run->x[i] += offset;
+        run->v[i] = i % 2 ? -2 : 3;
     }
-    return case_close(&c);
+    for (int s = 0; s < system->springs; s++) {
+        int i = 2 * system->e[2 * s], j = 2 * system->e[2 * s + 1];
+        double dx = run->x[i] - run->x[j];
+        double dy = run->x[i + 1] - run->x[j + 1];
+        system->l2[s] = dx * dx + dy * dy;
+    }
+    bool good = !watch_restart(run, 1) && watch_create(run, &watch) &&
+                watch_steps(&watch, 3, true, tally, reason);
+    /* x + h v is rounded, which strains the springs a little */
+    double strain = (offset + 10 * h) * DBL_EPSILON, off = 0;
+    for (size_t i = 0; i < run->size; i++)
+        off = fmax(off, fabs(run->v[i] - (i % 2 ? -2 : 3)));
+    if (good && (watch.steps[VERDICT_CONVERGED] < 3 ||
+                 !(off <= 1e-10 + 1e4 * fmin(strain * h, strain / h)))) {
+        snprintf(reason, 512, "%s: velocity is off by %g", line, off);
+        good = false;
+    }
+    return end_run(&simulation, &watch, good, tally);
 }
 
 static bool free_flight(Tally *tally, char *reason)

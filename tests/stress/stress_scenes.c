@@ -1,5 +1,4 @@
-/* stress_scenes.c - random scenes, each a command line that can be run again,
- * and how one that fails is made smaller.
+/* stress_scenes.c - random scenes, each a command line that can be run again.
  */
 #include "stress.h"
 
@@ -228,48 +227,6 @@ Verdict stress_run(const char *line, int steps, Tally *tally, char *reason)
     return verdict;
 }
 
-/* Behind the option that begins at this space, and its value. */
-static char *behind(const char *option)
-{
-    for (int word = 0; word < 2 && *option; word++)
-        option += 1 + strcspn(option + 1, " ");
-    return (char *)option;
-}
-
-/* What is left of a line without this option, or with its number rounded to
- * one digit. */
-static void simplify(const char *line, const char *option, bool rounded,
-                     char shorter[STRESS_LINE])
-{
-    const char *value = option + 1 + strcspn(option + 1, " ");
-    const char *end = behind(option);
-    char *rest;
-    double number = strtod(value, &rest);
-    if (!rounded)
-        snprintf(shorter, STRESS_LINE, "%.*s%s", (int)(option - line), line,
-                 end);
-    else if (rest == end && rest != value)
-        snprintf(shorter, STRESS_LINE, "%.*s %.0e%s", (int)(value - line), line,
-                 number, end);
-}
-
-void stress_shrink(char line[STRESS_LINE], bool (*fails)(const char *))
-{
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (int pass = 0; pass < 2; pass++)
-            for (char *at = strchr(line, ' '); at && *at && !changed;
-                 at = behind(at)) {
-                char shorter[STRESS_LINE];
-                memcpy(shorter, line, STRESS_LINE);
-                simplify(line, at, pass == 1, shorter);
-                changed = strcmp(shorter, line) != 0 && fails(shorter);
-                if (changed)
-                    memcpy(line, shorter, STRESS_LINE);
-            }
-    }
-}
-
 char stress_present[STRESS_LINE];
 
 void stress_limit(long seconds)
@@ -278,29 +235,15 @@ void stress_limit(long seconds)
     setitimer(ITIMER_PROF, &limit, NULL);
 }
 
-static int present_steps; /* of the scenes of the present kinds */
-
-static bool is_wrong(const char *line)
-{
-    Tally tally = {0};
-    char reason[512];
-    return stress_run(line, present_steps, &tally, reason) == VERDICT_WRONG;
-}
-
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
                    Tally *tally, char *reason)
 {
-    for (long i = 0; i < count; i++) {
+    Verdict verdict = VERDICT_CONVERGED;
+    for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
         stress_line(kinds, seed, i, stress_present);
         stress_limit(SCENE_LIMIT);
-        if (stress_run(stress_present, steps, tally, reason) != VERDICT_WRONG)
-            continue;
-        stress_limit(0);
-        present_steps = steps;
-        stress_shrink(stress_present, is_wrong);
-        stress_run(stress_present, steps, &(Tally){0}, reason);
-        return false;
+        verdict = stress_run(stress_present, steps, tally, reason);
     }
     stress_limit(0);
-    return true;
+    return verdict != VERDICT_WRONG;
 }

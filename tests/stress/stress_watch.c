@@ -461,6 +461,8 @@ void tally_add(const Watch *watch, Tally *tally)
         tally->steps[i] += watch->steps[i];
     tally->judged += watch->judged;
     tally->blurred += watch->blurred;
+    if (watch->run->newton)
+        tally->updates += watch->run->newton->counters.iterations;
 }
 
 Verdict watch_step(Watch *watch)
