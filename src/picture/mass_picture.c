@@ -164,6 +164,36 @@ static const Formula formulas[] = {
      "stays on the circle, hardly late"},
 };
 
+/* The matrix of a step of (x, v/omega), t = h omega, and its eigenvalues: real
+ * ones, or a pair. */
+static void add_matrix(const char *method, double t, Facts *facts)
+{
+    double k = 1 / (1 + t * t);
+    const struct {
+        const char *method;
+        double xx, xv, vx, vv;
+    } rows[] = {{"forward-euler", 1, t, -t, 1},
+                {"symplectic-euler", 1 - t * t, t, -t, 1},
+                {"backward-euler", k, k * t, -k * t, k}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (strcmp(rows[i].method, method) != 0)
+            continue;
+        fact(facts, "Sxx", rows[i].xx);
+        fact(facts, "Sxv", rows[i].xv);
+        fact(facts, "Svx", rows[i].vx);
+        fact(facts, "Svv", rows[i].vv);
+        double re = 0.5 * (rows[i].xx + rows[i].vv);
+        double square =
+            re * re - rows[i].xx * rows[i].vv + rows[i].xv * rows[i].vx;
+        double root = sqrt(fabs(square));
+        fact(facts, "re", square < 0 ? re : NAN);
+        fact(facts, "im", root);
+        fact(facts, "least", square < 0 ? NAN : re - root);
+        fact(facts, "most", re + root);
+        fact(facts, "size", math_hypot(re, root));
+    }
+}
+
 /* What each run knows of itself; colour and name are the method's. */
 static void add_runs(const Simulation *simulation, Facts *facts)
 {
@@ -180,8 +210,9 @@ static void add_runs(const Simulation *simulation, Facts *facts)
                      simulation->scene->picture == PICTURE_CIRCLE;
         facts->run = 0;
         fact(facts, "doubling", grows ? 2 * log(2) / log1p(turn * turn) : NAN);
-        fact(facts, "growth", grows ? math_hypot(1, turn) : NAN);
         facts->run = r + 1;
+        if (simulation->scene->picture == PICTURE_CIRCLE)
+            add_matrix(run->method->name, turn, facts);
         for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
             if (strcmp(formulas[i].method, run->method->name) == 0) {
                 fact_words(facts, "first", formulas[i].first);
@@ -202,10 +233,23 @@ static const Card card_methods = {
              "#run* {name}\n{first}\n{second}\n#faint {growth}",
 };
 
+static const Card card_matrix = {
+    .name = "matrix",
+    .title = "each step of (x, v/\u03c9) as a matrix",
+    .least = 11,
+    .weight = 0.4,
+    .lecture = true,
+    .words = "@\n"
+             "#run matrix{{Sxx:4} & {Sxv:4}; {Svx:4} & {Svv:4}}  "
+             "\u03bb = {re:3} \u00b1 {im:3} i, |\u03bb| = {size:6}\n"
+             "#run matrix{{Sxx:4} & {Sxv:4}; {Svx:4} & {Svv:4}}  "
+             "\u03bb = {least:4}, {most:4}",
+};
+
 const Picture circle_picture = {
     .name = "circle",
-    .cards =
-        (const Card *const[]){&card_page, &card_radius, &card_methods, NULL},
+    .cards = (const Card *const[]){&card_page, &card_radius, &card_methods,
+                                   &card_matrix, NULL},
     .bounds = circle_bounds,
     .draw = circle_draw,
     .facts = add_runs,

@@ -130,6 +130,31 @@ static void add_hessian(const Simulation *simulation, const SpringFacts *now,
     }
 }
 
+/* On a page its force and Hessian once more, by differences of the energy and
+ * of the force at two places. */
+static void add_differences(const Simulation *simulation, Facts *facts)
+{
+    static const double step = 1e-4; /* m */
+    static const char *const names[] = {"Dxx", "Dxy", "Dyy"};
+    const System *system = &simulation->system;
+    double force[2];
+    for (int i = 0; i < 2; i++) {
+        SpringFacts at[2];
+        for (int side = 0; side < 2; side++) {
+            double d[2];
+            memcpy(d, simulation->run[0].x, sizeof d);
+            d[i] += side ? step : -step;
+            spring_facts(d, system->l2[0], system->k[0], &at[side]);
+        }
+        force[i] = (at[0].energy - at[1].energy) / (2 * step);
+        for (int k = 0; k <= i; k++)
+            fact(facts, names[i + k],
+                 (at[0].force[k] - at[1].force[k]) / (2 * step));
+    }
+    fact(facts, "apart", 1e3 * step);
+    fact_point(facts, "force too", force);
+}
+
 static void add_facts(const Simulation *simulation, Facts *facts)
 {
     SpringFacts now = facts_of_spring(simulation);
@@ -146,6 +171,8 @@ static void add_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "across", now.across);
     fact(facts, "negative", fmin(2 * fmin(now.along, now.across), 0));
     add_hessian(simulation, &now, facts);
+    if (simulation->options.page)
+        add_differences(simulation, facts);
     fact_when(facts, "root", both);
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
@@ -243,6 +270,9 @@ static const Card card_spring_numbers = {
              "#x P = l\u00b2 k/2 s\u00b2 = {l2} \u00b7 {k}/2 \u00b7 "
              "{strain:4'}\u00b2 = {energy:5} J\n"
              "#force f = \u22122 k s d = {force:4} N\n"
+             "#faint by differences over \u00b1{apart} mm:\n"
+             "#faint f = {force too:4} N,  H = matrix{{Dxx:4} & {Dxy:4}; "
+             "{Dxy:4} & {Dyy:4}}\n"
              "curvature along {along:4}, across {across:4} J/m\u00b2\n"
              "{root}\n"
              "#ghost with the root: 2k (|d| \u2212 l)\u00b2 = "

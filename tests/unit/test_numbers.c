@@ -542,9 +542,25 @@ static void tell_masses(const Simulation *simulation)
             is("half", h * h / 2 * hypotl(x[0], x[1]));
             is("h limit", 2); /* cos(turn) = 1 - h^2/2 is above -1 */
         }
-        Real turn = 8 * atanl(1) * h;
+        Real turn = 8 * atanl(1) * h, S[4]; /* a step from (1, 0), (0, 1) */
         is("doubling", logl(4) / logl(1 + turn * turn));
-        is("growth", sqrtl(1 + turn * turn));
+        for (int k = 0; k < 2; k++) {
+            Real d = backward ? 1 + turn * turn : 1, at = k == 0, w = k == 1;
+            S[2 + k] = (w - turn * at) / d;
+            S[k] = at + turn * (by[0] == v[0] ? w : S[2 + k]);
+        }
+        run_now = r + 1;
+        static const char *const names[] = {"Sxx", "Sxv", "Svx", "Svv"};
+        for (int k = 0; k < 4; k++)
+            near(names[k], S[k], 1e-15L);
+        Real trace = S[0] + S[3], det = S[0] * S[3] - S[1] * S[2];
+        Real square = trace * trace / 4 - det;
+        near("re", trace / 2, 1e-15L);
+        near("im", sqrtl(fabsl(square)), 1e-7L);
+        near("least", trace / 2 - sqrtl(fabsl(square)), 1e-7L);
+        near("most", trace / 2 + sqrtl(fabsl(square)), 1e-7L);
+        near("size", sqrtl(det), 1e-15L); /* of a pair */
+        run_now = 0;
     }
 }
 
@@ -578,6 +594,12 @@ static void tell_spring(const Simulation *simulation)
     for (int i = 0; i < 12; i++)
         near(names[i / 3][i % 3], (i < 6 ? 1 : -1) * H[i / 3 % 2][i % 3],
              1e-12L * k);
+    static const char *const differences[] = {"Dxx", "Dxy", "Dyy"};
+    for (int i = 0; i < 3; i++) /* the third derivatives times 1e-8/6 m^2 */
+        near(differences[i], H[0][i], 1e-6L * k);
+    near("force too", -2 * k * s * x, 1e-6L * k);
+    near("force too", -2 * k * s * y, 1e-6L * k);
+    is("apart", 0.1L);
     near("root energy", 2 * k * (r - l) * (r - l), 1e-15L * k);
     is("root along", 4 * k);
     near("root across", 4 * k * (1 - l / r), 1e-14L * k);
