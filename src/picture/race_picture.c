@@ -6,6 +6,8 @@
 #include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 
+static const double NAMED = 30; /* ems, for names beside the lines */
+
 /* Across: run time, or h where that is switched on. */
 static double place_of(const Simulation *simulation, const RacePoint *point)
 {
@@ -53,13 +55,14 @@ static void race_draw(Plot *stage, const Show *show)
     static const PlotRoom room = {4, 5, 1.6, 3.6};
     const RacePoint *last[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
+    bool wide = stage->text && stage->box.width > NAMED * stage->em;
     Plot plot = plot_on(
         stage, &room,
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)
         last[i] = draw_method(&plot, simulation, i);
-    for (int i = 0; i < RACE_METHODS && stage->text; i++)
+    for (int i = 0; i < RACE_METHODS && wide; i++)
         if (last[i])
             plot_words(&plot, 1,
                        &(const double[2]){place_of(simulation, last[i]),
@@ -113,57 +116,61 @@ static const Card card_race_numbers = {
         "#grey     {no implicit}no implicit method {yet}",
 };
 
-/* A method a row: its order, the longest stable step, what is left of the
- * energy and how long it took with the third step. */
+/* A number of a row of the table; "" where it is not known. */
+static void put_cell(char *cell, size_t size, double value, int digits,
+                     const char *unit)
+{
+    if (isfinite(value))
+        snprintf(cell, size, "%s%s", number_with(value, digits).text, unit);
+}
+
+/* A method a row: its errors with h, h/2 and h/4, its order, the longest stable
+ * step; with h what is left of the energy after a second, and how long it took.
+ */
 static void draw_table(Paper *paper, Box inside, const Show *show)
 {
-    static const char *const heads[] = {"", "order", "stable to", "energy",
-                                        "time"};
-    static const double columns[] = {0, 0.49, 0.68, 0.84, 1};
-    enum { COLUMNS = sizeof columns / sizeof *columns, THIRD = 2 };
+    static const char *const heads[] = {"",          "4 ms",   "2 ms", "1 ms",
+                                        "stable to", "energy", "time"};
+    static const double columns[] = {0, 0.38, 0.5, 0.62, 0.75, 0.88, 1};
+    enum { COLUMNS = sizeof columns / sizeof *columns, CELL = 64 };
     const Race *race = &show_pane(show)->simulation->exhibit.race;
-    double line = fmin(1.5 * paper->em, inside.height / (RACE_METHODS + 1.0));
-    double size = fmin(0.9, line / (1.35 * paper->em));
+    double line = fmin(3 * paper->em, inside.height / (RACE_METHODS + 1.0));
     for (int row = 0; row <= RACE_METHODS; row++) {
-        int method = row - 1, at = THIRD * RACE_METHODS + method;
-        char cell[COLUMNS][64] = {""};
-        for (int c = 0; c < COLUMNS && row == 0; c++)
-            snprintf(cell[c], sizeof cell[c], "%s", heads[c]);
-        if (row > 0) {
-            const RacePoint *third = at < race->count ? &race->point[at] : NULL;
-            double order = race_order(race, method);
-            double stable = 1e3 * race_stable(race, method);
-            snprintf(cell[0], sizeof cell[0], "%s", race_method(method)->label);
-            if (isfinite(order))
-                snprintf(cell[1], sizeof cell[1], "%.1f", order);
-            if (race_method(method)->implicit)
-                snprintf(cell[2], sizeof cell[2], "any h");
-            else if (isfinite(stable))
-                snprintf(cell[2], sizeof cell[2], "%s ms",
-                         number_of(stable).text);
-            else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
-                snprintf(cell[2], sizeof cell[2], "none");
-            if (third && isfinite(third->error))
-                snprintf(cell[3], sizeof cell[3], "\u00d7 %s",
-                         number_with(third->kept, 3).text);
-            if (third)
-                snprintf(cell[4], sizeof cell[4], "%s ms",
-                         number_with(1e3 * third->seconds, 2).text);
+        char cell[COLUMNS][CELL] = {""};
+        int method = row > 0 ? row - 1 : 0;
+        const IntegratorMethod *shown = race_method(method);
+        snprintf(cell[0], CELL, "%s", shown->label);
+        for (int k = 0; k < 3; k++) {
+            int at = (RACE_SHOWN + k) * RACE_METHODS + method;
+            const RacePoint *point = &race->point[at];
+            put_cell(cell[1 + k], CELL, at < race->count ? point->error : NAN,
+                     2, "");
+            if (k > 0 || at >= race->count)
+                continue;
+            snprintf(cell[5], CELL, "explodes");
+            put_cell(cell[5], CELL, point->later, 3, "");
+            put_cell(cell[6], CELL, 1e3 * point->seconds, 2, " ms");
         }
+        if (shown->implicit)
+            snprintf(cell[4], CELL, "any h");
+        else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
+            snprintf(cell[4], CELL, "none");
+        put_cell(cell[4], CELL,
+                 shown->implicit ? NAN : 1e3 * race_stable(race, method), 3,
+                 " ms");
         for (int c = 0; c < COLUMNS; c++)
             paper_write(
-                paper, row ? FACE_REGULAR : FACE_BOLD, size,
-                row && c == 0 ? colour_of_method(race_method(method)->name)
-                              : COLOUR_TEXT,
+                paper, row ? FACE_REGULAR : FACE_BOLD, 1,
+                row && c == 0 ? colour_of_method(shown->name) : COLOUR_TEXT,
                 inside.x + columns[c] * inside.width, inside.y + row * line,
-                c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", cell[c]);
+                c ? ALIGN_RIGHT : ALIGN_LEFT, "%s", row ? cell[c] : heads[c]);
     }
 }
 
 static const Card card_race_table = {
     .name = "table",
-    .title = "six methods; energy and time with h = 2 ms",
-    .least = 12.5,
+    .title = "errors in m; energy left after 1 s and run time with the first h",
+    .least = 15,
     .weight = 0.6,
     .lecture = true,
     .draw = draw_table,

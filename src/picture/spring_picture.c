@@ -263,7 +263,7 @@ static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
 static const Card card_spring_numbers = {
     .name = "numbers",
     .title = "the spring in numbers",
-    .least = 9.6,
+    .least = 11,
     .weight = 1.1,
     .words = "d = {d} m   |d| = {distance:4} m   l = {l} m\n"
              "s = |d|\u00b2/l\u00b2 \u2212 1 = {strain:4}\n"
