@@ -46,9 +46,10 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 }
 
 /* LANES (or WIDE_LANES) nodes from `first` on, of which none changes what
- * another one reads; e counts them. */
+ * another one reads; e counts them.  A loop that is unrolled first is not
+ * vectorised. */
 #ifdef __clang__
-#define AT_ONCE _Pragma("clang loop vectorize(assume_safety)")
+#define AT_ONCE _Pragma("clang loop vectorize(assume_safety) unroll(disable)")
 #else
 #define AT_ONCE _Pragma("GCC unroll 1") _Pragma("GCC ivdep")
 #endif

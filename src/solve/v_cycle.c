@@ -5,6 +5,10 @@
 
 #include "solve/grid_loops.h"
 
+#ifdef __wasm_simd128__
+#include <wasm_simd128.h>
+#endif
+
 /* The coarsest level has at most so many nodes a side, and is smoothed so many
  * times each way; the others once. */
 enum { COARSEST = 5, COARSEST_TIMES = 2 };
@@ -92,6 +96,22 @@ static void run_stages(CrewWork *loop, Stages s)
 
 /* ---- tensors ---- */
 
+/* WIDE_LANES numbers in single precision. */
+INLINE void narrow(const double *from, float *to)
+{
+#ifdef __wasm_simd128__ /* clang makes no use of this instruction */
+    for (int e = 0; e < WIDE_LANES; e += 4) {
+        v128_t low = wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e));
+        v128_t high =
+            wasm_f32x4_demote_f64x2_zero(wasm_v128_load(from + e + 2));
+        wasm_v128_store(to + e, wasm_i32x4_shuffle(low, high, 0, 1, 4, 5));
+    }
+#else
+    EACH_OF (WIDE_LANES)
+        to[e] = (float)from[e];
+#endif
+}
+
 /* Those of springs that start in a row: iso and along clamped (psd.h). */
 INLINE void tensor_row(const VCycle *cycle, int i)
 {
@@ -101,24 +121,32 @@ INLINE void tensor_row(const VCycle *cycle, int i)
     const double unit = cycle->mass / length2;
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
-             at.first += WIDE_LANES)
-            EACH_OF (WIDE_LANES) {
-                const int q = at.first + e;
+             at.first += WIDE_LANES) {
+            double far[4][WIDE_LANES];
+            float near[4][WIDE_LANES];
 #define ADD(kind, to, numbers)                                                 \
-    {                                                                          \
-        Spring s = spring_of(&grid, kind, q, to, numbers);                     \
-        float dx = (float)(length * s.dx), dy = (float)(length * s.dy);        \
-        float c = (float)(unit * s.c), t = (float)(length2 * s.s);             \
-        float iso = t > 0 ? t : 0;                                             \
+    EACH_OF (WIDE_LANES) {                                                     \
+        Spring s = spring_of(&grid, kind, at.first + e, to, numbers);          \
+        far[0][e] = length * s.dx;                                             \
+        far[1][e] = length * s.dy;                                             \
+        far[2][e] = length2 * s.s;                                             \
+        far[3][e] = unit * s.c;                                                \
+    }                                                                          \
+    for (int n = 0; n < 4; n++)                                                \
+        narrow(far[n], near[n]);                                               \
+    EACH_OF (WIDE_LANES) {                                                     \
+        const int q = at.first + e;                                            \
+        float dx = near[0][e], dy = near[1][e], t = near[2][e];                \
+        float c = near[3][e], iso = t > 0 ? t : 0;                             \
         float along = 2 + (t - iso) / (dx * dx + dy * dy + 1e-35f);            \
         along = along > 0 ? along : 0;                                         \
         level.K[kind][0][q] = c * (iso + along * dx * dx);                     \
         level.K[kind][1][q] = c * along * dx * dy;                             \
         level.K[kind][2][q] = c * (iso + along * dy * dy);                     \
     }
-                OWN_SPRINGS(ADD, at)
+            OWN_SPRINGS(ADD, at)
 #undef ADD
-            }
+        }
 }
 
 INLINE void invert_row(const Level *of, int i)
