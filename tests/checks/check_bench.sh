@@ -26,9 +26,11 @@ table() {
 "$program" --quick --output "$temporary/csv" >"$temporary/out" \
     2>"$temporary/err"
 verdict quick_run_ends_well "$([ $? -eq 0 ] || head -n 3 "$temporary/err")"
-verdict work_csv_is_whole "$(table work error_m)"
-verdict steps_csv_is_whole "$(table steps median_ms)"
-verdict frames_csv_is_whole "$(table frames bare_ms)"
+verdict tables_are_whole "$(
+    table work error_m
+    table steps median_ms
+    table frames bare_ms
+)"
 verdict nothing_unfinished_stays "$(find "$temporary/csv" -name '*.part')"
 verdict the_terminal_says_where_implicit_loses \
     "$(grep -q 'implicit loses' "$temporary/out" || echo 'it does not')"
@@ -65,13 +67,14 @@ misuse() { # code options...
     shift
     "$program" "$@" >"$temporary/out" 2>"$temporary/err" </dev/null
     code=$?
-    [ $code -eq "$want" ] || echo "exit $code"
-    [ "$(wc -l <"$temporary/err")" -eq 1 ] || echo "not one line"
+    [ $code -eq "$want" ] && [ "$(wc -l <"$temporary/err")" -eq 1 ] ||
+        echo "$*: exit $code: $(cat "$temporary/err")"
 }
-verdict unknown_option_is_refused "$(misuse 2 --fast)"
-verdict unknown_table_is_refused "$(misuse 2 solvers)"
-verdict missing_value_is_refused "$(misuse 2 --output)"
-verdict unwritable_folder_is_reported \
-    "$(misuse 1 --quick --output "$temporary/none/csv")"
+verdict bad_usage_is_one_line "$(
+    misuse 2 --fast
+    misuse 2 solvers
+    misuse 2 --output
+    misuse 1 --quick --output "$temporary/none/csv"
+)"
 
 exit $failed

@@ -33,26 +33,8 @@ void *REAL_MEMORY(malloc)(size_t size);
 void *REAL_MEMORY(calloc)(size_t count, size_t size);
 void *REAL_MEMORY(realloc)(void *old, size_t size);
 
-/* The declarations of these have other names with -DFAULT_WRAP. */
-void *FAULTY(malloc)(size_t size);
-void *FAULTY(calloc)(size_t count, size_t size);
-void *FAULTY(realloc)(void *old, size_t size);
-FILE *FAULTY(fopen)(const char *name, const char *mode);
-FILE *FAULTY(fdopen)(int file, const char *mode);
-int FAULTY(open)(const char *name, int flags, ...);
-int FAULTY(rename)(const char *from, const char *to);
-int FAULTY(mkdir)(const char *name, mode_t mode);
-
-/* A function of the C library, of this type. */
-#define REAL(type, name) ((type)real_function(name))
-
-static void (*real_function(const char *name))(void)
-{
-    void (*function)(void);
-    void *symbol = dlsym(RTLD_NEXT, name);
-    memcpy(&function, &symbol, sizeof function);
-    return function;
-}
+/* A function of the C library. */
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
 static const char *fault_kind;
 static long fault_at, fault_count;
@@ -117,17 +99,16 @@ static FILE *fault_stream(FILE *file, const char *mode)
 
 FILE *FAULTY(fopen)(const char *name, const char *mode)
 {
-    FILE *(*real)(const char *, const char *) =
-        REAL(FILE * (*)(const char *, const char *), "fopen");
     if (mode[0] != 'w')
-        return real(name, mode);
-    return fails("open", EMFILE) ? NULL : fault_stream(real(name, mode), mode);
+        return REAL(fopen)(name, mode);
+    if (fails("open", EMFILE))
+        return NULL;
+    return fault_stream(REAL(fopen)(name, mode), mode);
 }
 
 FILE *FAULTY(fdopen)(int file, const char *mode)
 {
-    return fault_stream(
-        REAL(FILE * (*)(int, const char *), "fdopen")(file, mode), mode);
+    return fault_stream(REAL(fdopen)(file, mode), mode);
 }
 
 /* Only of files that may be new. */
@@ -139,7 +120,7 @@ int FAULTY(open)(const char *name, int flags, ...)
     va_end(arguments);
     if ((flags & O_CREAT) && fails("open", EMFILE))
         return -1;
-    return REAL(int (*)(const char *, int, ...), "open")(name, flags, mode);
+    return REAL(open)(name, flags, mode);
 }
 
 int FAULTY(rename)(const char *from, const char *to)
@@ -148,14 +129,14 @@ int FAULTY(rename)(const char *from, const char *to)
         pause();
     if (fails("rename", EIO))
         return -1;
-    return REAL(int (*)(const char *, const char *), "rename")(from, to);
+    return REAL(rename)(from, to);
 }
 
 int FAULTY(mkdir)(const char *name, mode_t mode)
 {
     if (fails("folder", ENOSPC))
         return -1;
-    return REAL(int (*)(const char *, mode_t), "mkdir")(name, mode);
+    return REAL(mkdir)(name, mode);
 }
 
 /* How many calls there were. */
@@ -202,7 +183,7 @@ int __libc_start_main(Main *function, int argc, char **argv, void (*init)(void),
                       void *stack_end)
 {
     real_main = function;
-    return REAL(Start *, "__libc_start_main")(fault_main, argc, argv, init,
-                                              fini, rtld_fini, stack_end);
+    return REAL(__libc_start_main)(fault_main, argc, argv, init, fini,
+                                   rtld_fini, stack_end);
 }
 #endif

@@ -96,10 +96,6 @@ const launch = async () => {
     };
     tab.downloads = (folder) =>
       send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
-    tab.picture = async (file) => {
-      const { data } = await ask('Page.captureScreenshot');
-      fs.writeFileSync(file, Buffer.from(data, 'base64'));
-    };
     tab.close = () => send('Target.closeTarget', { targetId });
     await tab.until('typeof stats !== "undefined" && (stats.first > 0 || $("said").textContent)');
     return tab;
