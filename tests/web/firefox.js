@@ -25,7 +25,8 @@ const launch = async () => {
       const colon = rest.indexOf(':');
       const end = colon + 1 + Number(rest.subarray(0, Math.max(colon, 0)));
       if (colon < 0 || rest.length < end) return;
-      const [, number, error, result] = JSON.parse(rest.subarray(colon + 1, end));
+      const message = JSON.parse(rest.subarray(colon + 1, end)); // a greeting comes first
+      const [, number, error, result] = [].concat(message);
       rest = rest.subarray(end);
       const { done, fail } = waiting.get(number) || {};
       if (error) fail(new Error(error.message));
