@@ -23,7 +23,8 @@
 #include "play/table.h"
 #include "scenes/simulation.h"
 
-enum { RECORDING_NAME_SIZE = 4096, RECORDING_TOLD = 320 };
+/* Room for the longest path, and for a file's name behind it. */
+enum { RECORDING_NAME_SIZE = 4096 + 64, RECORDING_TOLD = 320 };
 
 typedef enum RecordingTable {
     RECORDING_STATES,

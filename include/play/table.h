@@ -14,20 +14,26 @@
 
 #include "play/output.h"
 
+typedef struct Table Table;
+
 enum { TABLE_COLUMNS = 32, TABLE_LETTERS = 16 }; /* at most */
 
-typedef struct Table {
+/* Writes all rows of a table as a file of another kind. */
+typedef void TableFormat(const Table *table, FILE *file);
+TableFormat npz_write, pvd_write;
+
+struct Table {
     Output output;
-    const struct TableFormat *format; /* NULL: CSV */
-    FILE *rows; /* with a format: [columns] doubles each */
-    long head;  /* where the names of CSV end, in a file */
+    TableFormat *format; /* NULL: CSV */
+    FILE *rows;          /* with a format: [columns] doubles each */
+    long head;           /* where the names of CSV end, in a file */
     int columns;
     struct {
         char name[TABLE_LETTERS];
         char kind; /* 'w'hole, 'p'lace, 't'ext; 0: a number */
     } column[TABLE_COLUMNS];
     const char *(*text)(const char *column, int place); /* the texts */
-} Table;
+};
 
 /* Adds columns: names with commas between them.  Behind one there may be :whole
  * (a whole number, below 0: CSV has nothing there), :place (the same, of a node
@@ -64,15 +70,5 @@ void table_discard(Table *table);
 /* Goes through the rows of a table with a format: row [columns] out, from the
  * first one after `rewind(table->rows)`.  Returns false behind the last. */
 bool table_next(const Table *table, double *row);
-
-/* ---- formats ------------------------------------------------------------ */
-
-typedef struct TableFormat {
-    const char *end; /* of the name */
-    void (*write)(const Table *table, FILE *file);
-} TableFormat;
-
-void npz_write(const Table *table, FILE *file);
-void pvd_write(const Table *table, FILE *file);
 
 #endif

@@ -294,12 +294,8 @@ Status recording_check(const Options *options, char *message, size_t size)
 static Status write_frame(Recording *recording, const Canvas *canvas, long step)
 {
     char name[RECORDING_NAME_SIZE];
-    int length = snprintf(name, sizeof name, "%s/frame_%06ld.png",
-                          recording->folder, step);
-    errno = ENAMETOOLONG;
-    Status status = STATUS_FILE_FAILED;
-    if (length > 0 && (size_t)length < sizeof name)
-        status = png_file_write(name, canvas);
+    snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
+    Status status = png_file_write(name, canvas);
     if (!status && recording->last_frame != step)
         recording->frames++;
     recording->last_frame = step;

@@ -4,19 +4,6 @@
 #include <strings.h>
 #include <unistd.h>
 
-static const TableFormat formats[] = {{".npz", npz_write}, {".pvd", pvd_write}};
-enum { FORMATS = sizeof formats / sizeof *formats };
-
-/* What the end of the name says, or NULL. */
-static const TableFormat *format_of(const char *name)
-{
-    const char *end = strrchr(name, '.');
-    for (int i = 0; i < FORMATS && end; i++)
-        if (strcasecmp(end, formats[i].end) == 0)
-            return &formats[i];
-    return NULL;
-}
-
 void table_columns(Table *table, const char *names)
 {
     for (const char *at = names; *at && table->columns < TABLE_COLUMNS;) {
@@ -41,7 +28,11 @@ static void put_names(Table *table)
 
 Status table_open(const char *name, Table *table)
 {
-    table->format = format_of(name);
+    const char *end = strrchr(name, '.');
+    table->format = !end                           ? NULL
+                    : strcasecmp(end, ".npz") == 0 ? npz_write
+                    : strcasecmp(end, ".pvd") == 0 ? pvd_write
+                                                   : NULL;
     Status status = output_open(name, &table->output);
     if (status)
         return status;
@@ -127,7 +118,7 @@ Status table_close(Table *table, bool aside)
     Status status = table_check(table);
     if (table->rows) {
         if (status == STATUS_OK && fflush(table->rows) == 0)
-            table->format->write(table, table->output.file);
+            table->format(table, table->output.file);
         status = table_check(table);
         fclose(table->rows);
         table->rows = NULL;

@@ -4,6 +4,7 @@
 #include <SDL.h>
 #include <SDL_opengl.h>
 #include <SDL_syswm.h>
+#include <ctype.h>
 #include <dlfcn.h>
 #include <poll.h>
 #include <signal.h>
@@ -365,9 +366,8 @@ static void name_tab(const SDL_KeyboardEvent *event, Input *input)
 /* Signs and digits. */
 static void name_text(const char *text, Input *input)
 {
-    bool letter = (text[0] >= 'a' && text[0] <= 'z') ||
-                  (text[0] >= 'A' && text[0] <= 'Z') || text[0] == ' ';
-    if (letter || (unsigned char)text[0] < ' ' || text[1] != '\0')
+    if (!isgraph((unsigned char)text[0]) || isalpha((unsigned char)text[0]) ||
+        text[1] != '\0')
         return;
     input->kind = INPUT_KEY;
     snprintf(input->key, sizeof input->key, "%s", text);
