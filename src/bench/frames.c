@@ -1,30 +1,22 @@
 #include "bench/bench.h"
 #include "picture/picture.h"
-#include "play/view.h"
 
 enum { FRAMES = 31 };
 
-/* Median processor time of a frame of this size, from an empty paper until it
- * is shown, in ms. */
+/* Median processor time of a frame of this size, in ms. */
 static Status time_frames(const Show *show, int width, int height, double *ms)
 {
     double spent[FRAMES];
-    View *view = NULL;
-    Status status = view_create(width, height, &view);
+    Paper paper;
+    Status status = paper_create(width, height, &paper);
     for (int i = 0; i < FRAMES && !status; i++) {
         double start = bench_cpu();
-        Paper *paper = view_paper(view);
-        if (!paper) {
-            status = STATUS_OUT_OF_MEMORY;
-            break;
-        }
-        show_draw(paper, show);
-        status = view_show(view);
+        show_draw(&paper, show);
         spent[i] = 1e3 * (bench_cpu() - start);
     }
     if (!status)
         *ms = bench_median(spent, FRAMES);
-    view_free(view);
+    paper_free(&paper);
     return status;
 }
 

@@ -87,10 +87,7 @@ static void begin_array(FILE *file, const char *type, const char *name,
             type, name, components);
 }
 
-static void end_array(FILE *file)
-{
-    fputs("</DataArray>\n", file);
-}
+static const char array_end[] = "</DataArray>\n";
 
 /* Positions or velocities of all nodes. */
 static void put_vectors(FILE *file, const Part *part, int parts,
@@ -102,7 +99,7 @@ static void put_vectors(FILE *file, const Part *part, int parts,
         for (int i = 0; i < part[p].system->nodes; i++)
             fprintf(file, "%.17g %.17g 0\n", at[2 * i], at[2 * i + 1]);
     }
-    end_array(file);
+    fputs(array_end, file);
 }
 
 /* The nodes of all lines or triangles. */
@@ -112,10 +109,10 @@ static void put_corners(FILE *file, const Part *part, int parts,
     fprintf(file, "<%s>\n", what);
     begin_array(file, "Int32", "connectivity", 1);
     put_cells(file, part, parts, corners, NODES);
-    end_array(file);
+    fputs(array_end, file);
     begin_array(file, "Int32", "offsets", 1);
     put_cells(file, part, parts, corners, ENDS);
-    end_array(file);
+    fputs(array_end, file);
     fprintf(file, "</%s>\n", what);
 }
 
@@ -140,7 +137,7 @@ static void put_polydata(FILE *file, const Part *part, int parts, double time)
     for (int p = 0; p < parts; p++)
         for (int i = 0; i < part[p].system->nodes; i++)
             fprintf(file, "%d\n", p);
-    end_array(file);
+    fputs(array_end, file);
     fputs("</PointData>\n", file);
     put_corners(file, part, parts, "Lines", LINE);
     put_corners(file, part, parts, "Polys", TRIANGLE);
@@ -148,7 +145,7 @@ static void put_polydata(FILE *file, const Part *part, int parts, double time)
     begin_array(file, "Float64", "strain", 1);
     put_cells(file, part, parts, LINE, STRAIN);
     put_cells(file, part, parts, TRIANGLE, STRAIN);
-    end_array(file);
+    fputs(array_end, file);
     fputs("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n", file);
 }
 
