@@ -20,12 +20,20 @@ else
         -o "$preload" -ldl || preload=
 fi
 
+begin_files() {
+    rm -rf frames s.csv.part l.csv.part
+    echo old >s.csv
+    echo old >l.csv
+}
+
 # run_faulty KIND NUMBER ALL ARGUMENTS...: code in $code, lines in "error".
 run_faulty() {
     kind=$1 at=$2 every=$3
     shift 3
+    begin_files
     timeout 60 env ${every:+FAULT_ALL=1} FAULT="$kind" FAULT_AT="$at" \
-        FAULT_FILE="$work/count" LD_PRELOAD="$preload" "$faulty" "$@" \
+        FAULT_FILE="$work/count" LD_PRELOAD="$preload" "$faulty" --headless \
+        --steps 2 --segments 2 --quiet --states s.csv --log l.csv "$@" \
         >out 2>error
     code=$?
 }
@@ -61,32 +69,20 @@ check_files() {
     check_pictures
 }
 
-begin_files() {
-    rm -rf frames s.csv.part l.csv.part
-    echo old >s.csv
-    echo old >l.csv
-}
-
 # Failure NUMBER of KIND: exit 1 and one line; and if what failed was not
 # needed, exit 0 and silence.
 check_fault() { # kind number all words arguments...
-    what="$1 $2${3:+ and on}"
-    words=$4
-    begin_files
+    what="$1 $2${3:+ and on}" words=$4
     kind=$1 number=$2 every=$3
     shift 4
-    run_faulty "$kind" "$number" "$every" --headless --steps 2 --segments 2 \
-        --quiet --states s.csv --log l.csv "$@"
-    if [ "$code" -eq 1 ] && grep -q '^libgomp: Out of memory' error; then
-        : # its own line
-    elif [ "$code" -eq 1 ]; then
-        [ "$(wc -l <error)" -eq 1 ] ||
-            echo "$what: $(wc -l <error) lines: $(head -n 2 error)"
-        grep -qE "^elasto: .*($words)" error ||
-            echo "$what: $(head -n 1 error)"
-    elif [ "$code" -ne 0 ] || [ -s error ]; then
-        echo "$what: exit $code: $(tail -n 1 error)"
-    fi
+    run_faulty "$kind" "$number" "$every" "$@"
+    case $code-$(wc -l <error) in
+    0-0) ;;
+    1-1) grep -qE "^elasto: .*($words)|^libgomp: Out of memory" error ||
+        echo "$what: $(cat error)" ;;
+    *) grep -q '^libgomp: Out of memory' error || # its own lines
+        echo "$what: exit $code: $(head -n 2 error)" ;;
+    esac
     check_files | sed "s|^|$what: |"
 }
 
@@ -100,9 +96,7 @@ faults_of() { # name kind all words step arguments...
         verdict "$name" 'the library of faults was not built'
         return
     fi
-    begin_files
-    run_faulty "$kind" 0 '' --headless --steps 2 --segments 2 --quiet \
-        --states s.csv --log l.csv "$@"
+    run_faulty "$kind" 0 '' "$@"
     total=$(cat count)
     most=12
     [ -z "$long" ] || most=150
