@@ -222,7 +222,7 @@ fi
 # ---- screens ----------------------------------------------------------------
 # Libraries below SDL leak when it looks for a screen.
 screens() {
-    for setting in A=1 DISPLAY=:77 SDL_VIDEODRIVER=dummy \
+    for setting in A=1 DISPLAY=:9977 SDL_VIDEODRIVER=dummy \
         SDL_VIDEODRIVER=nonsense; do
         rm -rf frames
         env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" \

@@ -261,6 +261,7 @@ static void replay(const char *line)
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
     fclose(file);
+    remove(found.gl_pathv[0]); /* it may be asked again */
     globfree(&found);
     uint64_t hash = player_hash(&player);
     finish_session();
