@@ -1,5 +1,6 @@
 /* layout.h - where everything in the window is: a function of its size alone
  * and of what is open, never of the numbers shown, so that zones stay put.
+ * show_layout (show.h) fills it.
  *
  *     +------------------------------------------------------+
  *     | strip: topic, sentence                  method, state |
@@ -30,30 +31,6 @@ enum {
     LAYOUT_CELLS = 32,
     LAYOUT_ROWS = 128 /* of a list */
 };
-
-/* What is to be placed. */
-typedef struct LayoutWish {
-    bool bare;     /* the stage alone */
-    double letter; /* pixels that an em has at least; 0: 9 */
-    bool print;    /* stage and cards alone */
-    int panes;     /* 1 ... LAYOUT_PANES pictures side by side */
-    int cards;
-    double least[LAYOUT_CARDS];  /* ems, the height a card needs */
-    double weight[LAYOUT_CARDS]; /* share of the height that is left, > 0 */
-    unsigned half;   /* bit c: card c shares a row with its neighbour, if both
-                        are open, both want it, and the column is wide */
-    unsigned closed; /* bit c: card c is closed */
-    unsigned hidden; /* bit c: card c is not there */
-    int large;       /* this card has most of the column; -1: none */
-    bool page;       /* the column is one page instead of cards */
-    int settings;    /* letters: room for name and longest value */
-    int setting_letters[LAYOUT_SETTINGS];
-    int chips;
-    int chip_letters[LAYOUT_CHIPS];
-    int cells;      /* of the sheet; more than 0: it takes the place of all
-                       between strip and last line */
-    unsigned heads; /* bit c: a group begins with cell c, below a heading */
-} LayoutWish;
 
 /* A box without width is not there. */
 typedef struct Layout {
@@ -90,10 +67,6 @@ typedef struct Hit {
     int index;
     double at[2]; /* pixels, where the mouse is */
 } Hit;
-
-/* Places everything; chips beyond the room are left out, but not the last one,
- * which tells of all keys.  width, height >= 1. */
-Layout layout_create(int width, int height, const LayoutWish *wish);
 
 /* What is at this pixel: of things above each other the upper one. */
 Hit layout_hit(const Layout *layout, double x, double y);

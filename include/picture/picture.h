@@ -9,7 +9,7 @@
 #include "picture/paper.h"
 #include "picture/show.h"
 
-typedef struct Plot Plot; /* plot.h: where a pane is drawn, and how */
+typedef struct Plot Plot; /* plot.h: where it is drawn, of which pane */
 
 /* A card in the column. */
 typedef struct Card {
@@ -27,7 +27,7 @@ typedef struct Card {
     /* What is inside, below the title: a text, all lines that are known; or a
      * function draws it. */
     const char *words;
-    void (*draw)(Paper *paper, Box inside, const Show *show);
+    void (*draw)(const Plot *card);
 } Card;
 
 typedef struct Picture {
@@ -36,19 +36,20 @@ typedef struct Picture {
     bool stretched;           /* x and y have scales of their own */
     bool own_handles;         /* it draws and picks the scene's handles */
     bool places;              /* a click is a place to start from, or a guess */
-    /* The part of the world that fits the stage: left, bottom, right, top;
-     * NULL: always the same. */
-    void (*bounds)(const Show *show, int pane, double bounds[4]);
+    /* The part of the world that fits the stage, which has no camera yet: left,
+     * bottom, right, top; NULL: always the same. */
+    void (*bounds)(const Plot *stage, double bounds[4]);
     double around[4];
-    void (*draw)(Plot *stage, const Show *show);
+    void (*draw)(Plot *stage);
     /* Adds what its texts know of a simulation; may be NULL. */
     void (*facts)(const Simulation *simulation, Facts *facts);
     const char *legend; /* a text, from the upper left corner; or NULL */
     bool scale;         /* a line with its length in the lower left one */
-    /* What is under pixel (x, y); NULL: nothing but handles and places. */
-    Pick (*pick)(const Show *show, const Plot *stage, double x, double y);
+    /* What is under pixel (x, y) into pick, whose point is known; NULL: nothing
+     * but handles and places. */
+    void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* The small card beside what the mouse is over; may be NULL. */
-    void (*hover)(Plot *stage, const Show *show);
+    void (*hover)(Plot *stage);
     /* What is kept of each state for plots; may be NULL. */
     int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;

@@ -266,7 +266,8 @@ typedef struct Show {
 /* Nothing selected, everything fits, one pane that shows the simulation. */
 void show_create(const Simulation *simulation, Show *show);
 
-/* Where everything of it is on a paper of this size. */
+/* Where everything of it is on a paper of this size, 1 or more; chips beyond
+ * the room are left out, but not the last one, which tells of all keys. */
 Layout show_layout(const Show *show, int width, int height);
 
 /* The camera of a pane. */

@@ -187,8 +187,8 @@ Axis energies_axis(const Show *show, double *joule, double *last)
 
 /* Names with their values in the colours of the curves, or with `draw` false
  * only measured; returns the pixels that they are high. */
-static int write_legend(Paper *paper, Box inside, int curves,
-                        const Curve *curve, double time, double size, bool draw)
+static int write_legend(const Plot *card, int curves, const Curve *curve,
+                        double time, double size, bool draw)
 {
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < curves; c++) {
@@ -199,21 +199,25 @@ static int write_legend(Paper *paper, Box inside, int curves,
         snprintf(line.words, sizeof line.words, "%s %s %s",
                  curve[c].name ? curve[c].name : "",
                  number_of(value / unit.joule).text, unit.name);
-        used = words_flow(paper, inside, at, size, 1.05 * size, &line, draw);
+        used = words_flow(card, at, size, 1.05 * size, &line, draw);
     }
     return used;
 }
 
 /* In letters that leave the curves most of the card.  Returns their room. */
-static Box draw_legend(Paper *paper, Box inside, int curves, const Curve *curve,
-                       double time)
+static Plot draw_legend(const Plot *card, int curves, const Curve *curve,
+                        double time)
 {
-    double size = fmax(0.85, paper->least), most = LEGEND_PART * inside.height;
-    while (size > fmax(0.5, paper->least) &&
-           write_legend(paper, inside, curves, curve, time, size, false) > most)
+    Plot rest = *card;
+    double least = card->paper->least, size = fmax(0.85, least);
+    double most = LEGEND_PART * card->box.height;
+    while (size > fmax(0.5, least) &&
+           write_legend(card, curves, curve, time, size, false) > most)
         size -= 0.05;
-    int used = write_legend(paper, inside, curves, curve, time, size, true);
-    return (Box){inside.x, inside.y + used, inside.width, inside.height - used};
+    int used = write_legend(card, curves, curve, time, size, true);
+    rest.box.y += used;
+    rest.box.height -= used;
+    return rest;
 }
 
 /* A vertical line at the time that is shown, if it is not the last one. */
@@ -236,16 +240,17 @@ static void draw_curves(const Plot *plot, int curves, const Curve *curve)
                    curve[c].total ? 1.8 : 1.4, curve[c].colour);
 }
 
-static void draw_energies(Paper *paper, Box inside, const Show *show)
+static void draw_energies(const Plot *card)
 {
+    const Show *show = card->show;
     Curve curve[HISTORY_SERIES];
     double joule, last;
-    double now = simulation_time(show_pane(show)->simulation);
+    double now = simulation_time(card->simulation);
     int curves = find_curves(show, curve);
-    Box rest = draw_legend(paper, inside, curves, curve, now);
+    Plot rest = draw_legend(card, curves, curve, now);
     Axis energy = energies_axis(show, &joule, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
-    Plot plot = plot_create(paper, rest, time, energy);
+    Plot plot = plot_create(&rest, time, energy);
     plot_unit(&plot, joule);
     draw_now(&plot, now);
     draw_curves(&plot, curves, curve);
@@ -263,9 +268,9 @@ const Card card_energies = {
 
 /* One curve a run, on an axis of powers of ten: what is multiplied by the same
  * number in every step is a straight line. */
-static void draw_radius(Paper *paper, Box inside, const Show *show)
+static void draw_radius(const Plot *card)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
+    const Simulation *simulation = card->simulation;
     Curve curve[HISTORY_SERIES];
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
@@ -275,9 +280,9 @@ static void draw_radius(Paper *paper, Box inside, const Show *show)
         most = fmax(most, ceil(fabs(log10(math_hypot(x[0], x[1])))));
     }
     Plot plot = plot_create(
-        paper, inside, (Axis){0, plot_round_up(last), false, false, "t in s"},
+        card, (Axis){0, plot_round_up(last), false, false, "t in s"},
         (Axis){pow(10, -most), pow(10, most), true, false, NULL});
-    draw_curves(&plot, find_curves(show, curve), curve);
+    draw_curves(&plot, find_curves(card->show, curve), curve);
 }
 
 const Card card_radius = {

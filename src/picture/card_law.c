@@ -203,11 +203,11 @@ void law_facts(const Simulation *simulation, Facts *facts)
 
 /* The curve for the element of the first run; of springs all others are there,
  * small; a dot for each run, beyond the axis at its end. */
-static void draw_law(Paper *paper, Box inside, const Show *show)
+static void draw_law(const Plot *card)
 {
     static const double dot = 6, small_dot = 2; /* units */
     static const char *const names[] = {"upper", "middle", "lower"};
-    const Simulation *simulation = show->pane[show->active].simulation;
+    const Simulation *simulation = card->simulation;
     LawNow now;
     bool found;
     const Law *law = law_now(simulation, 0, &now, &found);
@@ -220,7 +220,7 @@ static void draw_law(Paper *paper, Box inside, const Show *show)
                               law->value(&now, 0.25 * low + 0.75 * high));
     most = plot_round_axis(1.1 * fmax(most, fabs(now.y)));
     Plot plot = plot_create(
-        paper, inside, (Axis){low, high, log, false, law->across},
+        card, (Axis){low, high, log, false, law->across},
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
     plot_graph(&plot, law->value, &now, 2.4, COLOUR_X);
     for (int s = 0; s < now.at.system->springs && !law->source; s++) {

@@ -73,8 +73,11 @@ static void draw_trial(const Plot *plot, double alpha, double value,
 /* What the curves are, and the last trial, above the plot: nothing of it lies
  * on a curve.  Returns the room for the plot, which does not depend on what
  * there is to say. */
-static Box draw_words(Paper *paper, Box inside, const Show *show)
+static Plot draw_words(const Plot *card)
 {
+    Paper *paper = card->paper;
+    Plot rest = *card;
+    Box inside = card->box;
     static const char words[] =
         "#x exact\n"
         "#p quadratic model\n"
@@ -83,26 +86,25 @@ static Box draw_words(Paper *paper, Box inside, const Show *show)
         "#warning* {uphill}{p} points uphill";
     int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
-    TextLine line = text_of(&show_pane(show)->facts, words);
+    TextLine line = text_of(&show_pane(card->show)->facts, words);
     Box before = canvas_clip(&paper->canvas,
                              (Box){inside.x, inside.y, inside.width, high});
     while (text_next(&line))
-        words_flow(paper, inside, at, WORD_SIZE, 1, &line, true);
+        words_flow(card, at, WORD_SIZE, 1, &line, true);
     canvas_clip(&paper->canvas, before);
-    inside.y += high;
-    inside.height -= high;
-    return inside;
+    rest.box.y += high;
+    rest.box.height -= high;
+    return rest;
 }
 
-static void draw_curves(Paper *paper, Box inside, const Show *show,
-                        const Trace *trace)
+static void draw_curves(const Plot *card, const Trace *trace)
 {
     static const char *const alpha = "{alpha}";
     Curves curves;
     fill_curves(trace, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, alpha};
     Axis y = {curves.low, curves.high, false, false, NULL};
-    Plot plot = plot_create(paper, draw_words(paper, inside, show), x, y);
+    Plot rest = draw_words(card), plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
@@ -114,21 +116,20 @@ static void draw_curves(Paper *paper, Box inside, const Show *show,
     }
 }
 
-static void draw_line(Paper *paper, Box inside, const Show *show)
+static void draw_line(const Plot *card)
 {
-    const Trace *trace = show_pane(show)->update;
+    const Trace *trace = show_pane(card->show)->update;
     if (trace && trace->difference && isfinite(trace->slope) &&
         trace->slope != 0) {
-        draw_curves(paper, inside, show, trace);
+        draw_curves(card, trace);
         return;
     }
-    cards_hint(paper, inside, show,
-               "{explicit}an explicit method solves nothing\n"
-               "{no step}N makes a step\n"
-               "{walking}{passed}no {p} was needed\n"
-               "{walking}from line 4 on, where {p} is known\n"
-               "{updated}it was not kept\n"
-               "no update: the start passes the test");
+    cards_hint(card, "{explicit}an explicit method solves nothing\n"
+                     "{no step}N makes a step\n"
+                     "{walking}{passed}no {p} was needed\n"
+                     "{walking}from line 4 on, where {p} is known\n"
+                     "{updated}it was not kept\n"
+                     "no update: the start passes the test");
 }
 
 const Card card_line = {

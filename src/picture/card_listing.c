@@ -170,29 +170,30 @@ const char *show_listing_purpose(const Show *show, const Layout *layout,
     return known ? purposes[shown[row]->line] : NULL;
 }
 
-static void draw_rows(Paper *paper, Box inside, const Pane *pane, int count,
-                      const Row *const *shown, bool inside_line)
+static void draw_rows(const Plot *card, int count, const Row *const *shown,
+                      bool inside_line)
 {
+    const Pane *pane = show_pane(card->show);
+    Box inside = card->box;
     const Trace *trace = pane->update;
-    int pitch = find_pitch(inside, paper->em, count);
+    int pitch = find_pitch(inside, card->em, count);
     for (int i = 0; i < count; i++) {
         bool lit = inside_line ? text_is_known(&pane->facts, shown[i]->of)
                                : trace && trace->line == shown[i]->line;
-        draw_row(paper,
+        draw_row(card->paper,
                  (Box){inside.x, inside.y + i * pitch, inside.width, pitch},
                  pane, shown[i], lit, i + 1);
     }
 }
 
-static void draw_listing(Paper *paper, Box inside, const Show *show)
+static void draw_listing(const Plot *card)
 {
     const Row *shown[ROWS];
-    int count = find_rows(show, shown);
-    draw_rows(paper, inside, show_pane(show), count, shown, false);
+    draw_rows(card, find_rows(card->show, shown), shown, false);
 }
 
 /* Line 5 from inside. */
-static void draw_search(Paper *paper, Box inside, const Show *show)
+static void draw_search(const Plot *card)
 {
     static const Row search_rows[] = {
         {"{line 4}", LINE_SEARCH, 0, NULL, "{alpha} \u2190 1", NULL},
@@ -208,18 +209,20 @@ static void draw_search(Paper *paper, Box inside, const Show *show)
     const Row *shown[COUNT];
     for (int i = 0; i < COUNT; i++)
         shown[i] = &search_rows[i];
-    draw_rows(paper, inside, show_pane(show), COUNT, shown, true);
+    draw_rows(card, COUNT, shown, true);
 }
 
 /* The newest updates, as many as there is room for. */
-static void draw_prints(Paper *paper, Box inside, const Show *show)
+static void draw_prints(const Plot *card)
 {
-    const Trace *trace = show_pane(show)->update;
+    Paper *paper = card->paper;
+    Box inside = card->box;
+    const Trace *trace = show_pane(card->show)->update;
     int pitch = paper_pixels(paper, 1.45), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
     if (count == 0) {
-        cards_hint(paper, inside, show, "N makes a step");
+        cards_hint(card, "N makes a step");
         return;
     }
     for (int i = first; i < count && i - first < room; i++)

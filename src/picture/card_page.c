@@ -88,10 +88,12 @@ double page_letters(Paper *paper, Box inside, const Show *show)
 }
 
 /* The same letters on every page; smaller ones where they do not fit. */
-static void draw_lecture(Paper *paper, Box inside, const Show *show)
+static void draw_lecture(const Plot *card)
 {
+    const Show *show = card->show;
     if (show->lecture)
-        put_page(paper, inside, page_letters(paper, inside, show), show,
+        put_page(card->paper, card->box,
+                 page_letters(card->paper, card->box, show), show,
                  &show_pane(show)->facts, true);
 }
 

@@ -96,14 +96,13 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
 
 /* The last record of the trace is the update whose p is known; its point is
  * larger. */
-static void draw_residual(Paper *paper, Box inside, const Show *show)
+static void draw_residual(const Plot *card)
 {
-    const Trace *trace = show_pane(show)->update;
+    const Trace *trace = show_pane(card->show)->update;
     if (!trace || (trace->updates == 0 && trace->updates_before == 0 &&
                    !(trace->residual > 0))) {
-        cards_hint(paper, inside, show,
-                   "{explicit}an explicit method solves nothing\n"
-                   "a point for each Newton update");
+        cards_hint(card, "{explicit}an explicit method solves nothing\n"
+                         "a point for each Newton update");
         return;
     }
     double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
@@ -123,12 +122,11 @@ static void draw_residual(Paper *paper, Box inside, const Show *show)
     Axis x = {0.5, fmax(most, 4) + 0.5, false, true, "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
               false, NULL};
-    Plot plot = plot_create(paper, inside, x, y);
+    Plot plot = plot_create(card, x, y);
     draw_updates(&plot, trace->record_before, trace->updates_before, 1, 2.5,
                  COLOUR_BORDER);
-    const Scene *scene = show_pane(show)->simulation->scene;
     draw_tolerance(&plot, trace->tolerance,
-                   scene->needs & NEEDS_TIME ? trace->h : 0);
+                   card->simulation->scene->needs & NEEDS_TIME ? trace->h : 0);
     draw_updates(&plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
     draw_kinds(&plot, trace);
     if (counted && trace->line)

@@ -93,13 +93,14 @@ static void light_spring(Paper *paper, const System *system, int spring,
 
 /* Made once for a mesh and so many springs, then copied; the spring under the
  * mouse is lit, or the newest one. */
-static void draw_matrix(Paper *paper, Box square, const Show *show,
-                        bool natural, int springs)
+static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
 {
-    const System *system = &show_pane(show)->simulation->system;
+    Paper *paper = card->paper;
+    const System *system = &card->simulation->system;
+    const Pick *hover = &card->show->hover;
     const int facts[3] = {system->nodes, system->springs, springs};
     uint64_t key = paper_key(natural, facts, sizeof facts);
-    bool drawn = false, over = show->hover.kind == PICK_SPRING;
+    bool drawn = false, over = hover->kind == PICK_SPRING;
     Canvas *kept = paper_keep(paper, natural ? KEEP_NATURAL : KEEP_SPY, key,
                               square.width, square.width, &drawn);
     unsigned char *block =
@@ -111,7 +112,7 @@ static void draw_matrix(Paper *paper, Box square, const Show *show,
         return;
     canvas_copy(&paper->canvas, kept, square.x, square.y);
     light_spring(paper, system,
-                 over      ? show->hover.index
+                 over      ? hover->index
                  : natural ? springs - 1
                            : -1,
                  natural, square);
@@ -140,36 +141,39 @@ static void draw_words(Paper *paper, Box words, int side)
                     "below the diagonal: the factor L with its fill");
 }
 
-static void draw_spy(Paper *paper, Box inside, const Show *show)
+static void draw_spy(const Plot *card)
 {
-    const System *system = &show_pane(show)->simulation->system;
+    const System *system = &card->simulation->system;
+    Box inside = card->box;
     int side = inside.width < inside.height ? inside.width : inside.height;
-    int line = paper_pixels(paper, 1.3);
+    int line = paper_pixels(card->paper, 1.3);
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
-        cards_hint(paper, inside, show,
+        cards_hint(card,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
         return;
     }
-    draw_matrix(paper, (Box){inside.x, inside.y, side, side}, show, false,
+    draw_matrix(card, (Box){inside.x, inside.y, side, side}, false,
                 system->springs);
-    draw_words(paper, inside, side);
+    draw_words(card->paper, inside, side);
 }
 
 /* Beside each other: as the springs write it, one a step, and as a whole in the
  * order of elimination. */
-static void draw_assembly(Paper *paper, Box inside, const Show *show)
+static void draw_assembly(const Plot *card)
 {
+    Paper *paper = card->paper;
+    Box inside = card->box;
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
     if (side > inside.height - line)
         side = inside.height - line;
-    int springs = lecture_spring(show_pane(show)->simulation) + 1;
+    int springs = lecture_spring(card->simulation) + 1;
     for (int k = 0; k < 2 && side > 4 * line; k++) {
         int x = inside.x + k * (side + gap);
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
-        draw_matrix(paper, (Box){x, inside.y + line, side, side}, show, !k,
-                    k ? show_pane(show)->simulation->system.springs : springs);
+        draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
+                    k ? card->simulation->system.springs : springs);
     }
 }
 

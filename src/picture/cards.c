@@ -79,9 +79,11 @@ double fitting_size(Paper *paper, Face face, double size, double least,
     return width > room ? size * fmax(least, room / width) : size;
 }
 
-void cards_hint(Paper *paper, Box inside, const Show *show, const char *text)
+void cards_hint(const Plot *card, const char *text)
 {
-    TextLine line = text_first(&show_pane(show)->facts, text);
+    TextLine line = text_first(&show_pane(card->show)->facts, text);
+    Paper *paper = card->paper;
+    Box inside = card->box;
     double size =
         fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, line.words);
     paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
@@ -245,7 +247,8 @@ static void draw_page(Paper *paper, Box column, const Show *show)
 
 void cards_draw(Paper *paper, const Layout *layout, const Show *show)
 {
-    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const Simulation *simulation = show_pane(show)->simulation;
+    const Picture *picture = picture_of(simulation->scene);
     if (show->page.kind != PAGE_NONE && layout->column.width > 0) {
         draw_page(paper, layout->column, show);
         return;
@@ -256,16 +259,22 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (box.width < 1)
             continue; /* hidden */
         bool closed = box.height <= paper_pixels(paper, TITLE) + 1;
-        Box inside = draw_frame(paper, box, card, show, closed);
-        if (closed || inside.width < 1 || inside.height < 1)
+        const Plot inside = {.paper = paper,
+                             .show = show,
+                             .simulation = simulation,
+                             .box = draw_frame(paper, box, card, show, closed),
+                             .pane = show->active,
+                             .text = true,
+                             .em = paper->em};
+        if (closed || inside.box.width < 1 || inside.box.height < 1)
             continue;
         Box before = canvas_clip(&paper->canvas, box_inset(box, 1));
         if (show->veils >> i & 1)
-            cards_hint(paper, inside, show, "after your guess");
+            cards_hint(&inside, "after your guess");
         else if (card->words)
-            text_in_card(paper, inside, show, card->words);
+            text_in_card(&inside, card->words);
         else
-            card->draw(paper, inside, show);
+            card->draw(&inside);
         canvas_clip(&paper->canvas, before);
     }
 }

@@ -63,7 +63,7 @@ double fitting_size(Paper *paper, Face face, double size, double least,
 
 /* In the middle of a card that has nothing to show yet: the first line of a
  * text that is known. */
-void cards_hint(Paper *paper, Box inside, const Show *show, const char *text);
+void cards_hint(const Plot *card, const char *text);
 
 /* All cards of the layout, or the page in their place. */
 void cards_draw(Paper *paper, const Layout *layout, const Show *show);

@@ -53,9 +53,9 @@ static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
 }
 
 /* The cells lie on the axes' lines. */
-static void envelope_draw(Plot *stage, const Show *show)
+static void envelope_draw(Plot *stage)
 {
-    const EnvelopeMap *map = &show->pane[stage->pane].simulation->exhibit.map;
+    const EnvelopeMap *map = &stage->simulation->exhibit.map;
     plot_on(stage, &plot_room, (Axis){.log = true, .label = "h in s"},
             (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
@@ -69,20 +69,16 @@ static void envelope_draw(Plot *stage, const Show *show)
                    2.4, COLOUR_TEXT);
 }
 
-static Pick envelope_pick(const Show *show, const Plot *stage, double x,
-                          double y)
+static void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    (void)show;
-    camera_world(&stage->camera, x, y, pick.point);
-    double column = round(2 * (pick.point[0] + 9));
-    double row = round(pick.point[1] + 6);
+    double column = round(2 * (pick->point[0] + 9));
+    double row = round(pick->point[1] + 6);
+    (void)stage, (void)x, (void)y; /* the point says it */
     if (column >= 0 && column < ENVELOPE_COLUMNS && row >= 0 &&
         row < ENVELOPE_ROWS) {
-        pick.kind = PICK_CELL;
-        pick.index = (int)row * ENVELOPE_COLUMNS + (int)column;
+        pick->kind = PICK_CELL;
+        pick->index = (int)row * ENVELOPE_COLUMNS + (int)column;
     }
-    return pick;
 }
 
 /* ---- cards -------------------------------------------------------------- */
@@ -119,26 +115,23 @@ static void envelope_facts(const Simulation *simulation, Facts *facts)
 }
 
 /* The square of the cell after its steps, fitted into the card. */
-static void envelope_draw_cell(Paper *paper, Box inside, const Show *show)
+static void envelope_draw_cell(const Plot *card)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
-    const System *system = &simulation->system;
-    const double *x = simulation->run[0].x;
+    const System *system = &card->simulation->system;
+    const double *x = card->simulation->run[0].x;
     double bounds[4] = {-0.5, -0.5, 0.5, 0.5};
-    for (int i = 0; i < system->nodes && x; i++)
+    Plot stage = *card;
+    if (!x)
+        return;
+    for (int i = 0; i < system->nodes; i++)
         for (int k = 0; k < 2; k++) {
             bounds[k] = fmin(bounds[k], x[2 * i + k]);
             bounds[2 + k] = fmax(bounds[2 + k], x[2 * i + k]);
         }
-    Plot stage = {.paper = paper,
-                  .box = box_inset(inside, paper_pixels(paper, 0.6)),
-                  .text = true,
-                  .em = paper->em};
+    stage.box = box_inset(card->box, paper_pixels(card->paper, 0.6));
     stage.camera = camera_create(stage.box, bounds, false, &LENS_FITS);
-    for (int s = 0; s < system->springs && x; s++)
-        plot_line(&stage, x + 2 * system->e[2 * s],
-                  x + 2 * system->e[2 * s + 1], 1.2, COLOUR_X);
-    for (int i = 0; i < system->nodes && x; i++)
+    plot_springs(&stage, system, x, 1.2, COLOUR_X);
+    for (int i = 0; i < system->nodes; i++)
         plot_disc(&stage, x + 2 * i, 3, COLOUR_X);
 }
 

@@ -354,10 +354,12 @@ static double line_height(Paper *paper, const TextLine *line, double size,
                           : empty * style.size;
 }
 
-void text_in_card(Paper *paper, Box inside, const Show *show, const char *text)
+void text_in_card(const Plot *card, const char *text)
 {
+    Paper *paper = card->paper;
+    Box inside = card->box;
     double height = 0, size = 1, y = inside.y, above;
-    const TextLine begin = text_of(&show_pane(show)->facts, text);
+    const TextLine begin = text_of(&show_pane(card->show)->facts, text);
     for (TextLine line = begin; text_next(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
         height += line_height(paper, &line, 1, NULL);
@@ -373,17 +375,18 @@ void text_in_card(Paper *paper, Box inside, const Show *show, const char *text)
     }
 }
 
-int words_flow(Paper *paper, Box inside, int at[2], double size, double gap,
+int words_flow(const Plot *card, int at[2], double size, double gap,
                const TextLine *line, bool draw)
 {
+    Paper *paper = card->paper;
     int width = paper_width(paper, line->face, size, line->words);
-    if (at[0] > 0 && at[0] + width > inside.width) {
+    if (at[0] > 0 && at[0] + width > card->box.width) {
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);
     }
     if (draw)
-        paper_write(paper, line->face, size, line->colour, inside.x + at[0],
-                    inside.y + at[1], ALIGN_LEFT, "%s", line->words);
+        paper_write(paper, line->face, size, line->colour, card->box.x + at[0],
+                    card->box.y + at[1], ALIGN_LEFT, "%s", line->words);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }

@@ -51,13 +51,13 @@ bool text_is_known(const Facts *facts, const char *text);
 
 /* All known lines in a card, one below the other, as large as fits but no
  * larger than plain text.  An empty line is half as high. */
-void text_in_card(Paper *paper, Box inside, const Show *show, const char *text);
+void text_in_card(const Plot *card, const char *text);
 
-/* Words in a row from the left edge of a box, on the next line where there is
+/* Words in a row from the left edge of a card, on the next line where there is
  * no room, `gap` ems apart; without `draw` only their room is measured.
  *   at  [2] in/out, pixels from the corner, where they go; at first 0, 0
  * Returns the pixels that are used up to here, downwards. */
-int words_flow(Paper *paper, Box inside, int at[2], double size, double gap,
+int words_flow(const Plot *card, int at[2], double size, double gap,
                const TextLine *line, bool draw);
 
 #endif

@@ -9,14 +9,14 @@ static const double HANDLE_REACH = 14; /* pixels, a handle is hit within */
 static const double SWITCH_WIDE = 13;  /* ems */
 static const double SWITCH_HIGH = 1.8;
 
-void stage_handles(const Plot *stage, const Show *show)
+void stage_handles(const Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
     double at[SCENE_MAX_HANDLES][2];
-    int count = exhibit_handles(simulation, at);
-    for (int i = 0; i < count && !show->bare; i++) {
-        bool over = show->hover.kind == PICK_HANDLE &&
-                    show->hover.pane == stage->pane && show->hover.index == i;
+    int count = exhibit_handles(stage->simulation, at);
+    const Pick *hover = &stage->show->hover;
+    for (int i = 0; i < count && !stage->show->bare; i++) {
+        bool over = hover->kind == PICK_HANDLE && hover->pane == stage->pane &&
+                    hover->index == i;
         plot_ring(stage, at[i], (over ? 13 : 10), over ? 3 : 1.8, COLOUR_HAND);
     }
 }
@@ -30,13 +30,12 @@ Box stage_switch_box(const Plot *stage, int i)
                  box->y + 3 * gap + i * (high + gap) + high, wide, high};
 }
 
-void stage_switches(const Plot *stage, const Show *show)
+void stage_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;
-    const Simulation *simulation = show->pane[stage->pane].simulation;
     Switch out[SCENE_MAX_SWITCHES];
-    int count = exhibit_switches(simulation, out);
-    for (int i = 0; i < count && !show->bare && stage->text; i++) {
+    int count = exhibit_switches(stage->simulation, out);
+    for (int i = 0; i < count && stage->text; i++) {
         Box box = stage_switch_box(stage, i);
         double x = box.x + 0.5 * paper->em, size = 0.8 * paper->em;
         double y = box.y + 0.5 * (box.height - size);
@@ -51,15 +50,13 @@ void stage_switches(const Plot *stage, const Show *show)
     }
 }
 
-bool handles_pick(const Show *show, const Plot *stage, double x, double y,
-                  Pick *pick)
+bool handles_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
     double at[SCENE_MAX_HANDLES][2], best = HANDLE_REACH;
     Switch out[SCENE_MAX_SWITCHES];
     bool found = false;
-    int switches = exhibit_switches(simulation, out);
-    int handles = exhibit_handles(simulation, at);
+    int switches = exhibit_switches(stage->simulation, out);
+    int handles = exhibit_handles(stage->simulation, at);
     for (int i = 0; i < switches && stage->text; i++)
         if (box_contains(stage_switch_box(stage, i), x, y)) {
             pick->kind = PICK_SWITCH;
@@ -81,18 +78,17 @@ bool handles_pick(const Show *show, const Plot *stage, double x, double y,
 }
 
 /* The guess is a cross; along x alone a line from top to bottom, too. */
-void stage_prediction(const Plot *stage, const Show *show)
+void stage_prediction(const Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    const Prediction *guess = &simulation->prediction;
+    const Prediction *guess = &stage->simulation->prediction;
     const Box *box = &stage->box;
     Paper *paper = stage->paper;
     double arm = 7 * paper->unit, at[2], came[2], point[2];
-    if (!guess->made || show->bare)
+    if (!guess->made || stage->show->bare)
         return;
     plot_place(stage, guess->at, at);
     plot_place(stage, guess->came, came);
-    if (simulation_point(simulation, point) == 1) {
+    if (simulation_point(stage->simulation, point) == 1) {
         const double low[2] = {at[0], box->y + box->height};
         const double high[2] = {at[0], box->y};
         paper_line(paper, low, high, 1.5, COLOUR_HAND);

@@ -14,7 +14,6 @@
 /* J s^2; both valleys have their bottom below 1. */
 static const double map_levels[] = {0.4, 0.6, 1,  1.5, 2,  3,
                                     5,   7,   10, 15,  30, 50};
-enum { MODEL_CORNERS = 90 };
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
 /* Units between two numbers of contours, and from the last one to its end. */
@@ -44,8 +43,9 @@ static double contour_distance(double value)
 /* Where E is not convex, and contours of the parts that are switched on: two by
  * two pixels at a time, in which E is a plane.  A contour is as many pixels
  * away as E is from its level over the slope. */
-static void draw_ground(const Plot *plot, const Simulation *simulation)
+static void draw_ground(const Plot *plot)
 {
+    const Simulation *simulation = plot->simulation;
     Canvas *canvas = &plot->paper->canvas;
     double metre = 1 / plot->camera.scale[0], e = level_factor(simulation);
     double reach = 0.5 + 0.5 * fmax(1, 0.6 * plot->paper->unit);
@@ -89,9 +89,9 @@ static void draw_level_number(const Plot *plot, const double at[2],
 
 /* Numbers where contours cross a level line from x0 to x1, as far as they do
  * not get into each other's way. */
-static void draw_level_numbers(const Plot *plot, const Simulation *simulation,
-                               double x0, double x1, double y)
+static void draw_level_numbers(const Plot *plot, double x0, double x1, double y)
 {
+    const Simulation *simulation = plot->simulation;
     double unit = plot->paper->unit / plot->camera.scale[0], last = x0;
     double factor = level_factor(simulation), before = NAN;
     int count = (int)(fabs(x1 - x0) / unit) - MAP_NUMBER_ROOM;
@@ -109,8 +109,10 @@ static void draw_level_numbers(const Plot *plot, const Simulation *simulation,
 }
 
 /* The map as it was kept, or drawn and kept; the key is all it depends on. */
-static void show_map(const Plot *plot, const Simulation *simulation, bool text)
+static void show_map(const Plot *plot)
 {
+    const Simulation *simulation = plot->simulation;
+    bool text = plot->text;
     const System *system = &simulation->system;
     const Exhibit *exhibit = &simulation->exhibit;
     const double settings[] = {system->k[0], system->l2[0], system->m[0],
@@ -133,19 +135,18 @@ static void show_map(const Plot *plot, const Simulation *simulation, bool text)
         map.box.x = map.box.y = 0;
         map.camera.origin[0] -= plot->box.x;
         map.camera.origin[1] -= plot->box.y;
-        draw_ground(&map, simulation);
-        draw_level_numbers(&map, simulation, 0, text ? plot->x.low : 0, 1.07);
-        draw_level_numbers(&map, simulation, 0, text ? plot->x.high : 0, -1.03);
-        draw_level_numbers(&map, simulation, 0.6, text ? plot->x.high : 0.6,
-                           0.25);
+        draw_ground(&map);
+        draw_level_numbers(&map, 0, text ? plot->x.low : 0, 1.07);
+        draw_level_numbers(&map, 0, text ? plot->x.high : 0, -1.03);
+        draw_level_numbers(&map, 0.6, text ? plot->x.high : 0.6, 0.25);
     }
     canvas_copy(&plot->paper->canvas, kept, plot->box.x, plot->box.y);
 }
 
 /* x_tilde with its name, off the ring of its handle. */
-static void name_target(Plot *plot, const Simulation *simulation)
+static void name_target(Plot *plot)
 {
-    const double(*target)[2] = &simulation->exhibit.target;
+    const double(*target)[2] = &plot->simulation->exhibit.target;
     plot_keep_disc(plot, *target, 11);
     if (plot->text)
         plot_words(plot, 1, target, 0.9, 1.1, FACE_BOLD, COLOUR_X_TILDE,
@@ -153,17 +154,15 @@ static void name_target(Plot *plot, const Simulation *simulation)
 }
 
 /* The map, the springs, the pins and x_tilde. */
-static Plot draw_map(const Plot *stage, const Show *show)
+static Plot draw_map(const Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_on(stage, &plot_room, (Axis){.label = "x in m"}, (Axis){0});
-    show_map(&plot, simulation, stage->text);
-    for (int s = 0; s < system->springs; s++)
-        plot_line(&plot, x + 2 * system->e[2 * s], x + 2 * system->e[2 * s + 1],
-                  3.5, COLOUR_REST);
+    show_map(&plot);
+    plot_springs(&plot, system, x, 3.5, COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
         plot_pin(&plot, x + 2 * i, 5);
     plot_disc(&plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
@@ -210,8 +209,9 @@ static void draw_named_direction(Plot *plot, const double from[2],
 /* The direction that the run does not take: projected where its own is not, as
  * it is where its own is projected.  With a single part on the map: the
  * direction in that part. */
-static void draw_other_direction(Plot *plot, const Simulation *simulation)
+static void draw_other_direction(Plot *plot)
 {
+    const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.parts;
     bool raw = simulation->options.filter == FILTER_NONE, up;
@@ -236,8 +236,9 @@ static void draw_other_direction(Plot *plot, const Simulation *simulation)
 
 /* Words keep off the springs, the iterate, its direction and x_tilde, which
  * gets its own. */
-static void keep_places(Plot *plot, const Simulation *simulation)
+static void keep_places(Plot *plot)
 {
+    const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
     const double tip[2] = {descent->point[0] + descent->direction[0],
                            descent->point[1] + descent->direction[1]};
@@ -250,7 +251,7 @@ static void keep_places(Plot *plot, const Simulation *simulation)
         plot_keep_disc(plot, x + 2 * i, 14);
     plot_keep_line(plot, descent->point, tip);
     plot_keep_disc(plot, descent->point, 11);
-    name_target(plot, simulation);
+    name_target(plot);
 }
 
 static void landscape_facts(const Simulation *simulation, Facts *facts)
@@ -280,8 +281,9 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
 
 /* Level lines of the quadratic model at the iterate, around x + p: where H is
  * positive definite, p of the run, ellipses through the iterate and inside. */
-static void draw_model(const Plot *plot, const Simulation *simulation)
+static void draw_model(const Plot *plot)
 {
+    const Simulation *simulation = plot->simulation;
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &simulation->descent;
     const double *x = descent->point, *p = descent->direction;
@@ -292,37 +294,32 @@ static void draw_model(const Plot *plot, const Simulation *simulation)
     double height = low * q * q + rest * p[1] * p[1];
     if (!(low > 0 && rest > 0))
         return;
+    const double middle[2] = {x[0] + p[0], x[1] + p[1]};
     for (int k = 0; k < 3; k++) {
-        double from[2], radius = levels[k] * sqrt(height);
-        for (int i = 0; i <= MODEL_CORNERS; i++) {
-            double t = 6.283185307179586 * i / MODEL_CORNERS;
-            double v = radius * sin(t) / sqrt(rest);
-            double u = radius * cos(t) / sqrt(low) - lift * v;
-            const double to[2] = {x[0] + p[0] + u, x[1] + p[1] + v};
-            if (i > 0)
-                plot_line(plot, from, to, 1.6, COLOUR_P);
-            memcpy(from, to, sizeof from);
-        }
+        double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
+        const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
+        plot_ellipse(plot, middle, a, b, 1.6, NULL, COLOUR_P);
     }
 }
 
 /* From the ground up. */
-static void landscape_draw(Plot *stage, const Show *show)
+static void landscape_draw(Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Simulation *simulation = stage->simulation;
+    const Show *show = stage->show;
     const Descent *descent = &simulation->descent;
     const double *p = descent->direction;
-    Plot plot = draw_map(stage, show);
+    Plot plot = draw_map(stage);
     draw_updates(&plot, descent);
     bool raw = simulation->options.filter == FILTER_NONE;
     if (show->lecture && raw && !show->veiled && !simulation->done)
-        draw_model(&plot, simulation);
+        draw_model(&plot);
     for (int i = 0; i < 2; i++)
         plot_keep_box(&plot, stage_switch_box(stage, i));
     if (plot.text)
-        keep_places(&plot, simulation);
+        keep_places(&plot);
     if (plot.text && !show->veiled)
-        draw_other_direction(&plot, simulation);
+        draw_other_direction(&plot);
     if (!show->veiled && simulation->exhibit.parts == PART_BOTH &&
         (p[0] != 0 || p[1] != 0))
         plot_arrow(&plot, descent->point, p, 1, 2.2,
@@ -370,18 +367,19 @@ static void draw_walk(Plot *plot, const Walk *walk)
         plot_disc(plot, walk->point[i], 4.5, COLOUR_X);
 }
 
-static void dial_draw(Plot *stage, const Show *show)
+static void dial_draw(Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Simulation *simulation = stage->simulation;
+    const Show *show = stage->show;
     const Walk *walk = &simulation->exhibit.walk;
-    Plot plot = draw_map(stage, show);
+    Plot plot = draw_map(stage);
     if (!show->veiled)
         draw_walk(&plot, walk);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     if (!stage->text)
         return;
     plot_keep_disc(&plot, simulation->run[0].x, 9);
-    name_target(&plot, simulation);
+    name_target(&plot);
     for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10) {
         char words[32];
         snprintf(words, sizeof words, "h = %g s",

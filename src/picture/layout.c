@@ -1,7 +1,8 @@
 #include "picture/layout.h"
 
 #include <math.h>
-#include <stddef.h>
+
+#include "picture/cards.h"
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
@@ -86,19 +87,33 @@ static int place_row(Box room, int lines, int gap, int count, const int *width,
     return count;
 }
 
+/* Characters of UTF-8, markup and marks not counted apart. */
+static int count_letters(const char *text)
+{
+    int letters = 0;
+    for (; text && *text; text++)
+        letters += (*text & 0xc0) != 0x80;
+    return letters;
+}
+
 /* The settings in a strip off the rest, in one line or up to three. */
-static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
+static void place_settings(const Show *show, Layout *layout, Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = pixels(layout, GAP + 0.5);
     double letter = layout->em < 11 ? SMALL_LETTER : SETTING_LETTER;
-    for (int i = 0; i < wish->settings; i++)
-        width[i] = pixels(layout, wish->setting_letters[i] * letter + 0.6);
+    for (int i = 0; i < show->settings; i++) {
+        const Setting *one = &show->setting[i];
+        int value = count_letters(one->value);
+        value = value > one->letters ? value : one->letters;
+        value += count_letters(one->name) + 1;
+        width[i] = pixels(layout, value * letter + 0.6);
+    }
     Box room = {left, pixels(layout, 0.2),
                 layout->width - pixels(layout, GAP) - left,
                 pixels(layout, ROW - 0.4)};
     Box *box = layout->setting;
     layout->settings = place_row(room, 3, pixels(layout, SETTING_GAP),
-                                 wish->settings, width, box);
+                                 show->settings, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->row = cut(rest, true, pixels(layout, ROW + more * (ROW - 0.4)));
     for (int i = 0; i < layout->settings; i++)
@@ -107,14 +122,17 @@ static void place_settings(const LayoutWish *wish, Layout *layout, Box *rest)
 
 /* Chips with this room beside their letters: as many of the first ones as fit,
  * and the last one, which tells of all keys; the others have no width. */
-static void place_chips(const LayoutWish *wish, Layout *layout, double padding)
+static void place_chips(const Show *show, Layout *layout, double padding)
 {
-    int gap = pixels(layout, 0.6), last = wish->chips - 1;
+    int gap = pixels(layout, 0.6), last = show->chips - 1;
     int width[LAYOUT_CHIPS];
     Box room = box_inset(layout->last, pixels(layout, 0.35));
-    for (int i = 0; i <= last; i++)
-        width[i] =
-            pixels(layout, wish->chip_letters[i] * LETTER * 0.92 + padding);
+    for (int i = 0; i <= last; i++) {
+        int letters = count_letters(show->chip[i].key) +
+                      count_letters(show->chip[i].label) +
+                      (show->lecture ? 2 : 1);
+        width[i] = pixels(layout, letters * LETTER * 0.92 + padding);
+    }
     room.x = pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
     int fit = place_row(room, 1, gap, last, width, layout->chip);
@@ -122,30 +140,30 @@ static void place_chips(const LayoutWish *wish, Layout *layout, double padding)
     for (int i = fit; i < last; i++)
         layout->chip[i] = (Box){0};
     layout->chip[last] = (Box){end, room.y, width[last], room.height};
-    layout->chips = wish->chips;
+    layout->chips = show->chips;
     layout->chips_left_out = last - fit;
 }
 
 /* Strip, row, time line, last line off the whole; what is left is returned. */
-static Box place_zones(const LayoutWish *wish, Layout *layout)
+static Box place_zones(const Show *show, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height};
     double high = layout->height / layout->em;
-    if (wish->bare || wish->print || high < 16)
+    if (show->bare || show->print || high < 16)
         return rest;
     bool roomy = high >= 40;
     layout->strip = cut(&rest, false, pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->last = cut(&rest, true, pixels(layout, roomy ? LAST : 2.5));
-    if (layout->last.width > 0 && wish->chips > 0)
-        place_chips(wish, layout, CHIP_PADDING);
+    if (layout->last.width > 0 && show->chips > 0)
+        place_chips(show, layout, CHIP_PADDING);
     if (layout->chips_left_out > 0) /* closer together */
-        place_chips(wish, layout, CHIP_PADDING_LEAST);
-    if (wish->cells > 0)
+        place_chips(show, layout, CHIP_PADDING_LEAST);
+    if (show->cells > 0)
         return rest;
     layout->time = cut(&rest, true, pixels(layout, roomy ? TIME : 2));
-    if (roomy && wish->settings > 0)
-        place_settings(wish, layout, &rest);
+    if (roomy && show->settings > 0)
+        place_settings(show, layout, &rest);
     layout->bars = layout->time;
     layout->bars.x += pixels(layout, GAP);
     layout->bars.width -= 2 * pixels(layout, GAP);
@@ -162,61 +180,77 @@ static Box place_zones(const LayoutWish *wish, Layout *layout)
 /* What is seen of a card: only its title, or all. */
 typedef enum Seen { HIDDEN, BAR, OPEN } Seen;
 
+typedef struct Slot {
+    Seen seen;
+    double least, weight; /* ems it needs; share of what is left */
+    bool half;            /* it shares a row with a neighbour that wants it */
+} Slot;
+
 /* What shall be seen; and, with one card a row, cards from the last one on
  * become bars where there is no room for all, but never the first that is open.
- *   room  ems */
-static void see_cards(const LayoutWish *wish, bool pairs, double room,
-                      Seen *seen)
+ * Returns how many there are. */
+static int see_cards(const Show *show, Box inner, double em, bool pairs,
+                     Slot *place)
 {
-    int count = wish->cards, open = 0;
-    bool large = wish->large >= 0 && wish->large < count;
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    double room = inner.height / em, wide = cards_inside(inner, em).width / em;
     double least = -GAP;
+    int count = picture_cards(picture), open = 0;
+    unsigned hidden = show->hidden | show->print;
+    bool large = show->large >= 0 && show->large < count;
     for (int i = 0; i < count; i++) {
-        bool bar = (wish->closed >> i & 1) || (large && i != wish->large);
-        seen[i] = wish->hidden >> i & 1 ? HIDDEN : bar ? BAR : OPEN;
-        open += seen[i] == OPEN;
-        if (seen[i] != HIDDEN)
-            least += GAP + (bar ? TITLE_BAR : wish->least[i]);
+        const Card *card = picture->cards[i];
+        bool bar = (show->closed >> i & 1) || (large && i != show->large);
+        place[i] = (Slot){hidden >> i & 1 ? HIDDEN
+                          : bar           ? BAR
+                                          : OPEN,
+                          card->needs ? card->needs(show, wide) : card->least,
+                          card->weight,
+                          card->half || (card->half_on_page && show->lecture)};
+        open += place[i].seen == OPEN;
+        if (place[i].seen != HIDDEN)
+            least += GAP + (bar ? TITLE_BAR : place[i].least);
     }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (least > FOLDS * room && seen[i] == OPEN) {
-            seen[i] = BAR;
-            least -= wish->least[i] - TITLE_BAR;
+        if (least > FOLDS * room && place[i].seen == OPEN) {
+            place[i].seen = BAR;
+            least -= place[i].least - TITLE_BAR;
             open--;
         }
+    return count;
 }
 
 /* Rows of one or two cards: each has what it needs, and what is left is shared
  * by weight; if there is not enough, what they need shrinks alike. */
-static void place_cards(const LayoutWish *wish, Layout *layout)
+static void place_cards(const Show *show, Layout *layout)
 {
-    Seen seen[LAYOUT_CARDS + 1] = {HIDDEN}; /* one more that is not there */
+    Slot place[LAYOUT_CARDS + 1] = {{0}}; /* one more that is not there */
     int gap = pixels(layout, GAP * 0.75), bar = pixels(layout, TITLE_BAR);
     Box inner = box_inset(layout->column, pixels(layout, GAP)), rest = inner;
     bool pairs = layout->column.width >= PAIR_LEAST * layout->em;
     bool paired[LAYOUT_CARDS] = {false}; /* with the next one */
     double room = inner.height + gap, least = 0, weights = 0;
-    see_cards(wish, pairs, inner.height / layout->em, seen);
-    layout->cards = wish->cards;
-    for (int i = 0; i < wish->cards; i++) {
-        room -= seen[i] == HIDDEN ? 0 : gap;
-        room -= seen[i] == BAR ? bar : 0;
-        if (seen[i] != OPEN)
+    layout->cards = see_cards(show, inner, layout->em, pairs, place);
+    for (int i = 0; i < layout->cards; i++) {
+        const Slot *one = &place[i];
+        room -= one->seen == HIDDEN ? 0 : gap;
+        room -= one->seen == BAR ? bar : 0;
+        if (one->seen != OPEN)
             continue;
-        least += wish->least[i] * layout->em;
-        weights += wish->weight[i];
-        paired[i] = pairs && (wish->half >> i & 3) == 3 && seen[i + 1] == OPEN;
+        least += one->least * layout->em;
+        weights += one->weight;
+        paired[i] = pairs && one->half && one[1].half && one[1].seen == OPEN;
         i += paired[i];
     }
     double shrink = least > room ? room / least : 1;
     double more = least < room ? (room - least) / weights : 0;
-    for (int i = 0; i < wish->cards; i++) {
+    for (int i = 0; i < layout->cards; i++) {
         double height =
-            shrink * wish->least[i] * layout->em + more * wish->weight[i];
-        if (seen[i] == HIDDEN)
+            shrink * place[i].least * layout->em + more * place[i].weight;
+        if (place[i].seen == HIDDEN)
             continue;
         Box row = cut(&rest, false,
-                      seen[i] == BAR || height < bar ? bar : (int)height);
+                      place[i].seen == BAR || height < bar ? bar : (int)height);
         cut(&rest, false, gap);
         layout->card[i] = row;
         if (paired[i]) {
@@ -227,10 +261,8 @@ static void place_cards(const LayoutWish *wish, Layout *layout)
 }
 
 /* One beside the other, in one, two or three columns. */
-static void place_panes(const LayoutWish *wish, Layout *layout)
+static void place_panes(int count, Layout *layout)
 {
-    int count = wish->panes < 1 ? 1 : wish->panes;
-    count = count > LAYOUT_PANES ? LAYOUT_PANES : count;
     int columns = 1, gap = pixels(layout, 0.3);
     double best = 0;
     for (int c = 1; c <= count; c++) { /* the most room for squares */
@@ -256,13 +288,12 @@ static void place_panes(const LayoutWish *wish, Layout *layout)
 
 /* The sheet's squares of this side, so many in a row; returns the height of all
  * of them, pixels. */
-static int place_cells(const LayoutWish *wish, Layout *layout, int columns,
-                       int side)
+static int place_cells(const Show *show, Layout *layout, int columns, int side)
 {
     int gap = pixels(layout, GAP), name = pixels(layout, NAME), column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
-    for (int i = 0; i < wish->cells; i++) {
-        bool heads = wish->heads >> i & 1;
+    for (int i = 0; i < show->cells; i++) {
+        bool heads = show->cell[i].group;
         if (i > 0 && (heads || column == columns)) {
             y += side + name;
             column = 0;
@@ -276,12 +307,12 @@ static int place_cells(const LayoutWish *wish, Layout *layout, int columns,
 }
 
 /* As many in a row as make them large. */
-static void place_sheet(const LayoutWish *wish, Layout *layout)
+static void place_sheet(const Show *show, Layout *layout)
 {
     int gap = pixels(layout, GAP), best = 0, wide = 1;
-    for (int columns = 1; columns <= wish->cells; columns++) {
-        int least = place_cells(wish, layout, columns, 0);
-        int rows = place_cells(wish, layout, columns, 1) - least;
+    for (int columns = 1; columns <= show->cells; columns++) {
+        int least = place_cells(show, layout, columns, 0);
+        int rows = place_cells(show, layout, columns, 1) - least;
         int side = (layout->stage.width - gap) / columns - gap;
         int high = (layout->stage.height - gap - least) / rows;
         side = side < high ? side : high;
@@ -290,35 +321,67 @@ static void place_sheet(const LayoutWish *wish, Layout *layout)
             wide = columns;
         }
     }
-    place_cells(wish, layout, wide, best);
-    layout->cells = wish->cells;
+    place_cells(show, layout, wide, best);
+    layout->cells = show->cells;
 }
 
-Layout layout_create(int width, int height, const LayoutWish *wish)
+/* Pixels that letters have at least: on a page a 55th of the height, in large
+ * type a 35th, on a page or not, where that leaves room for words beside the
+ * stage. */
+static double least_letter(const Show *show, int width, int height)
+{
+    bool big = show_pane(show)->simulation->options.big;
+    double least = show->letter > 0 ? show->letter : EM_LEAST;
+    double letter = big ? fmin(height / 35.0, width / 54.0)
+                        : fmin(height / 55.0, width / 64.0);
+    return show->lecture || big ? fmax(show->letter, letter) : least;
+}
+
+/* The card that a page wants large stands on the stage, and the picture in the
+ * card's place, if both are there. */
+static void place_star(const Show *show, Layout *layout)
+{
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
+    const LecturePage *page = show->lecture;
+    int star = page && page->star ? picture_card(picture, page->star) : -1;
+    double bar = 3 * layout->em; /* more than a card that is closed has */
+    if (star < 0 || star >= layout->cards || layout->panes != 1 ||
+        layout->card[star].height < bar || layout->stage.height < bar)
+        return;
+    Box stage = box_inset(layout->pane[0], (int)(0.9 * layout->em));
+    layout->pane[0] = layout->card[star];
+    layout->card[star] = stage;
+}
+
+Layout show_layout(const Show *show, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
+    const Picture *picture = picture_of(show_pane(show)->simulation->scene);
     double size = EM_PIXELS * fmin(height / EM_HEIGHT, width / EM_WIDTH);
-    layout.em = fmax(size, wish->letter > 0 ? wish->letter : EM_LEAST);
-    layout.stage = place_zones(wish, &layout);
-    if (wish->cells > 0) {
-        place_sheet(wish, &layout);
+    bool page = show->page.kind != PAGE_NONE;
+    layout.em = fmax(size, least_letter(show, width, height));
+    layout.stage = place_zones(show, &layout);
+    if (show->cells > 0) {
+        place_sheet(show, &layout);
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
-    bool low = wish->page && high < 50; /* a page needs all of the width */
-    if (!wish->bare && wide >= 53 && (high >= 34 || wish->print) && !low &&
-        (wish->page || wish->hidden != (1u << wish->cards) - 1)) {
+    bool low = page && high < 50; /* a page needs all of the width */
+    unsigned hidden = show->hidden | show->print;
+    if (!show->bare && wide >= 53 && (high >= 34 || show->print) && !low &&
+        (page || hidden != (1u << picture_cards(picture)) - 1)) {
         int column = pixels(&layout, fmax(COLUMN_PART * wide, COLUMN_LEAST));
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
         layout.stage.width -= column;
-        if (!wish->page)
-            place_cards(wish, &layout);
-    } else if (!wish->bare && wish->page) { /* over the stage */
+        if (!page)
+            place_cards(show, &layout);
+    } else if (!show->bare && page) { /* over the stage */
         layout.column = layout.stage;
     }
-    place_panes(wish, &layout);
+    place_panes(show->panes, &layout);
+    place_star(show, &layout);
     return layout;
 }
 

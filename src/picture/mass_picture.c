@@ -7,34 +7,31 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { MASS_CORNERS = 120, TRAIL = 256, MASS_GUESSES = 6 };
+enum { TRAIL = 256, MASS_GUESSES = 6 };
 
 static const double MASS_REACH = 1.9; /* m, seen at least */
 static const double CIRCLE_REACH = 1.75;
 static const double CIRCLE_MOST = 20; /* and at most */
 static const double MASS_TURN = 6.283185307179586;
+static const double origin[2] = {0, 0};
 
-static Colour circle_colour(const Simulation *simulation, int run)
+/* Runs have the colours of their methods, the only one of arrows that of x. */
+static Colour run_colour(const Simulation *simulation, int run)
 {
-    return colour_of_method(simulation->run[run].method->name);
-}
-
-/* Runs side by side have the colours of their methods. */
-static Colour run_colour(const Simulation *simulation, int run, Colour alone)
-{
-    return simulation->runs > 1 ? circle_colour(simulation, run) : alone;
+    return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
+               ? COLOUR_X
+               : colour_of_method(simulation->run[run].method->name);
 }
 
 /* Where the runs have been in the newest steps; with a disc for each. */
-static void draw_trails(const Plot *stage, const Pane *pane, bool steps)
+static void draw_trails(const Plot *stage, bool steps)
 {
-    const History *history = pane->history;
-    int runs = pane->simulation->runs;
+    const History *history = stage->show->pane[stage->pane].history;
+    int runs = stage->simulation->runs;
     for (int r = 0; history && history->series && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
         const double *y = history->value[runs + 2 * r + 1];
-        Colour colour = steps ? run_colour(pane->simulation, r, COLOUR_X)
-                              : circle_colour(pane->simulation, r);
+        Colour colour = run_colour(stage->simulation, r);
         int first = history->count > TRAIL ? history->count - TRAIL : 0;
         for (int i = first; i < history->count; i++) {
             const double at[2] = {x[i], y[i]};
@@ -70,34 +67,27 @@ static int mass_sample(const Simulation *simulation, Energy *row)
 
 /* ---- the circle ---------------------------------------------------------- */
 
-/* The exact path and its radius. */
-static void draw_exact_circle(Plot *stage)
+/* The exact path and its radius, trails, and a disc where each run is now. */
+static void circle_draw(Plot *stage)
 {
-    const double middle[2] = {0, 0}, start[2] = {1, 0};
-    plot_ring(stage, middle, stage->camera.scale[0] / stage->paper->unit, 5,
+    const Simulation *simulation = stage->simulation;
+    const double start[2] = {1, 0}, half[2] = {0.5, 0};
+    plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
-    plot_line(stage, middle, start, 1.2, COLOUR_GREY);
-    plot_disc(stage, middle, 3.5, COLOUR_GREY);
+    plot_line(stage, origin, start, 1.2, COLOUR_GREY);
+    plot_disc(stage, origin, 3.5, COLOUR_GREY);
     if (stage->text)
-        plot_text(stage, (double[2]){0.5, 0}, 0, 0.2, 0.9, ALIGN_CENTRE,
-                  FACE_REGULAR, COLOUR_FAINT, "1 m");
-}
-
-/* Trails, and a disc where each run is now. */
-static void circle_draw(Plot *stage, const Show *show)
-{
-    const Pane *pane = &show->pane[stage->pane];
-    const Simulation *simulation = pane->simulation;
-    draw_exact_circle(stage);
-    draw_trails(stage, pane, false);
+        plot_text(stage, half, 0, 0.2, 0.9, ALIGN_CENTRE, FACE_REGULAR,
+                  COLOUR_FAINT, "1 m");
+    draw_trails(stage, false);
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, simulation->run[r].x, 7, circle_colour(simulation, r));
+        plot_disc(stage, simulation->run[r].x, 7, run_colour(simulation, r));
 }
 
 /* It grows with the runs, as far as a circle can be seen in it. */
-static void circle_bounds(const Show *show, int pane, double bounds[4])
+static void circle_bounds(const Plot *stage, double bounds[4])
 {
-    const Simulation *simulation = show->pane[pane].simulation;
+    const Simulation *simulation = stage->simulation;
     double most = 0;
     for (int r = 0; r < simulation->runs; r++) {
         const double *x = simulation->run[r].x;
@@ -107,23 +97,19 @@ static void circle_bounds(const Show *show, int pane, double bounds[4])
 }
 
 /* The node of the nearest run. */
-static Pick circle_pick(const Show *show, const Plot *stage, double x, double y)
+static void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
     double best = 16;
-    camera_world(&stage->camera, x, y, pick.point);
-    for (int r = 0; r < simulation->runs; r++) {
+    for (int r = 0; r < stage->simulation->runs; r++) {
         double at[2];
-        plot_place(stage, simulation->run[r].x, at);
+        plot_place(stage, stage->simulation->run[r].x, at);
         double distance = math_hypot(at[0] - x, at[1] - y);
-        if (distance < best) {
-            best = distance;
-            pick.kind = PICK_NODE;
-            pick.index = r;
-        }
+        if (!(distance < best))
+            continue;
+        best = distance;
+        pick->kind = PICK_NODE;
+        pick->index = r;
     }
-    return pick;
 }
 
 /* The two lines of a method, in the order in which they are done, and what they
@@ -200,7 +186,7 @@ static void add_runs(const Simulation *simulation, Facts *facts)
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
-        facts->colour[r + 1] = circle_colour(simulation, r);
+        facts->colour[r + 1] = colour_of_method(run->method->name);
         fact_when(facts, "after", r > 0);
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
@@ -264,9 +250,9 @@ const Picture circle_picture = {
 
 /* What is farthest from the middle, in steps of sqrt(2), so that the view does
  * not move all the time. */
-static void mass_bounds(const Show *show, int pane, double bounds[4])
+static void mass_bounds(const Plot *stage, double bounds[4])
 {
-    const Simulation *simulation = show->pane[pane].simulation;
+    const Simulation *simulation = stage->simulation;
     const double *began = simulation->exhibit.began;
     double most = math_hypot(math_hypot(began[0], began[1]),
                              math_hypot(began[2], began[3]));
@@ -280,23 +266,11 @@ static void mass_bounds(const Show *show, int pane, double bounds[4])
     bounds_around(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* The exact path: a circle where v is across and as long as x. */
-static void draw_mass_exact(Plot *stage, const Simulation *simulation)
-{
-    for (int i = 0; i < MASS_CORNERS; i++) {
-        double s = MASS_TURN * i / MASS_CORNERS;
-        double t = MASS_TURN * (i + 1) / MASS_CORNERS;
-        double a[2], b[2];
-        mass_exact(simulation, s, a);
-        mass_exact(simulation, t, b);
-        plot_line(stage, a, b, 4, COLOUR_GRID);
-    }
-}
-
 /* The arrows of one method in the order in which it makes them; then their
  * words, unless an arrow is short, the most important ones first. */
-static void draw_mass_step(Plot *stage, const Simulation *simulation)
+static void draw_mass_step(Plot *stage)
 {
+    const Simulation *simulation = stage->simulation;
     static const int order[] = {0, 1, 3, 2, 4};
     static const double part[] = {0.55, 0.8, 0.35, 0.7};
     MassStep step;
@@ -354,11 +328,12 @@ static void exact_step(const MassStep *step, double h, double end[2])
 /* The exact end of the step; of backward Euler x' as it is found: x + h v, then
  * with the force there, and so on; all points of symplectic Euler lie on an
  * ellipse. */
-static void draw_mass_lesson(Plot *stage, const Simulation *simulation)
+static void draw_mass_lesson(Plot *stage)
 {
     MassStep step;
-    double h = simulation->run[0].h, end[2], from[2], guess[2];
-    if (!mass_next_step(simulation, 0, &step))
+    double h = stage->simulation->run[0].h, end[2], from[2], guess[2];
+    bool implicit = stage->simulation->run[0].method->implicit;
+    if (!mass_next_step(stage->simulation, 0, &step))
         return;
     exact_step(&step, h, end);
     plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
@@ -366,8 +341,7 @@ static void draw_mass_lesson(Plot *stage, const Simulation *simulation)
         plot_words(stage, 1, (const double(*)[2])end, 0.8, 1, FACE_REGULAR,
                    COLOUR_FAINT, "exact");
     memcpy(guess, step.x, sizeof guess);
-    bool implicit = simulation->run[0].method->implicit && h < 1;
-    for (int k = 0; k < MASS_GUESSES && implicit; k++) {
+    for (int k = 0; k < MASS_GUESSES && implicit && h < 1; k++) {
         for (int i = 0; i < 2; i++) {
             double force = k > 0 ? -h * guess[i] : 0;
             from[i] = guess[i];
@@ -378,64 +352,53 @@ static void draw_mass_lesson(Plot *stage, const Simulation *simulation)
         plot_hollow(stage, guess, 5, 3, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
-    if (step.by_old_v || implicit || simulation->run[0].method->implicit ||
-        !(h < 2))
-        return;
-    for (int i = 0; i <= MASS_CORNERS; i++) {
-        double t = MASS_TURN * i / MASS_CORNERS, now[2];
-        for (int k = 0; k < 2; k++)
-            now[k] = step.x[k] * cos(t) +
-                     (step.new_x[k] - turn * step.x[k]) / reach * sin(t);
-        if (i > 0)
-            plot_line(stage, from, now, 1.6, COLOUR_GREY);
-        memcpy(from, now, sizeof from);
-    }
+    const double across[2] = {(step.new_x[0] - turn * step.x[0]) / reach,
+                              (step.new_x[1] - turn * step.x[1]) / reach};
+    if (!step.by_old_v && !implicit && h < 2)
+        plot_ellipse(stage, origin, step.x, across, 1.6, NULL, COLOUR_GREY);
 }
 
 /* All three: the way that each goes next. */
-static void draw_mass_ways(Plot *stage, const Simulation *simulation)
+static void draw_mass_ways(Plot *stage)
 {
-    for (int r = 0; r < simulation->runs; r++) {
+    for (int r = 0; r < stage->simulation->runs; r++) {
         MassStep step;
-        mass_next_step(simulation, r, &step);
+        Colour colour = run_colour(stage->simulation, r);
+        mass_next_step(stage->simulation, r, &step);
         const double way[2] = {step.new_x[0] - step.x[0],
                                step.new_x[1] - step.x[1]};
-        plot_arrow(stage, step.x, way, 1, 3, circle_colour(simulation, r));
-        plot_ring(stage, step.new_x, 8, 2.2, circle_colour(simulation, r));
+        plot_arrow(stage, step.x, way, 1, 3, colour);
+        plot_ring(stage, step.new_x, 8, 2.2, colour);
     }
 }
 
 /* Before a guess, and until what it was about is shown, arrows would tell. */
-static bool mass_is_hidden(const Show *show, const Simulation *simulation)
+static void mass_draw(Plot *stage)
 {
+    const Show *show = stage->show;
+    const Simulation *simulation = stage->simulation;
+    const TimeIntegrator *run = simulation->run;
+    double start[2], across[2]; /* the axes of the exact path */
     const Prediction *guess = &simulation->prediction;
-    return show->lecture && show->lecture->predict && guess->made &&
-           !guess->shown;
-}
-
-static void mass_draw(Plot *stage, const Show *show)
-{
-    const Pane *pane = &show->pane[stage->pane];
-    const Simulation *simulation = pane->simulation;
-    const double origin[2] = {0, 0};
-    draw_mass_exact(stage, simulation);
+    mass_exact(simulation, 0, start);
+    mass_exact(simulation, 0.25 * MASS_TURN, across);
+    plot_ellipse(stage, origin, start, across, 4, NULL, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
-        plot_line(stage, origin, simulation->run[r].x, 1.4, COLOUR_REST);
+        plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
     plot_pin(stage, origin, 5);
-    draw_trails(stage, pane, true);
+    draw_trails(stage, true);
     if (simulation->runs > 1)
-        draw_mass_ways(stage, simulation);
+        draw_mass_ways(stage);
     else if (show->veiled)
-        plot_arrow(stage, simulation->run[0].x, simulation->run[0].v, 1, 2.6,
-                   COLOUR_VELOCITY);
-    else if (!mass_is_hidden(show, simulation)) {
-        draw_mass_step(stage, simulation);
+        plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
+    else if (!show->lecture || !show->lecture->predict || !guess->made ||
+             guess->shown) {
+        draw_mass_step(stage);
         if (show->lecture)
-            draw_mass_lesson(stage, simulation);
+            draw_mass_lesson(stage);
     }
     for (int r = 0; r < simulation->runs; r++)
-        plot_disc(stage, simulation->run[r].x, 8,
-                  run_colour(simulation, r, COLOUR_X));
+        plot_disc(stage, run[r].x, 8, run_colour(simulation, r));
 }
 
 /* ---- the formula with its numbers --------------------------------------- */

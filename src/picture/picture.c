@@ -53,61 +53,49 @@ static void draw_rules(Paper *paper, const Box *box)
 }
 
 /* Over a pane that is not alone: its label in the colour of its curve. */
-static void draw_label(Paper *paper, const Layout *layout, const Show *show,
-                       int pane)
+static void draw_label(const Plot *stage)
 {
-    const Box *box = &layout->pane[pane];
-    if (!show->pane[pane].label)
+    Paper *paper = stage->paper;
+    const char *label = stage->show->pane[stage->pane].label;
+    const Box *box = &stage->box;
+    int wide = label ? paper_width(paper, FACE_BOLD, 1, label) : 0;
+    if (!label)
         return;
-    Box before = canvas_clip(&paper->canvas, *box);
-    int wide = paper_width(paper, FACE_BOLD, 1, show->pane[pane].label);
     canvas_rectangle(&paper->canvas,
                      box->x + (box->width - wide) / 2 -
                          paper_pixels(paper, 0.4),
                      box->y + box->height - paper_pixels(paper, 1.7),
                      wide + paper_pixels(paper, 0.8), paper_pixels(paper, 1.4),
                      COLOUR_PANEL);
-    paper_write(paper, FACE_BOLD, 1, colour_of_run(pane),
+    paper_write(paper, FACE_BOLD, 1, colour_of_run(stage->pane),
                 box->x + 0.5 * box->width,
                 box->y + box->height - 1.7 * paper->em, ALIGN_CENTRE, "%s",
-                show->pane[pane].label);
-    canvas_clip(&paper->canvas, before);
+                label);
 }
 
-/* The words of a picture. */
-static void draw_legend(Plot *stage, const Show *show, const Picture *picture)
-{
-    const Facts *facts = &show->pane[stage->pane].facts;
-    for (TextLine line = text_of(facts, picture->legend); text_next(&line);)
-        plot_legend(stage, line.colour, "%s", line.words);
-    if (picture->scale)
-        plot_scale(stage);
-}
-
-/* One pane and what the mouse is over in it. */
+/* One pane, its words, and what the mouse is over in it. */
 static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                       int pane)
 {
-    const Picture *picture = picture_of(show->pane[pane].simulation->scene);
-    Plot stage = {.paper = paper,
-                  .box = layout->pane[pane],
-                  .camera = show_camera(show, layout, pane),
-                  .pane = pane,
-                  .text = !show->bare,
-                  .em = paper->em};
+    Plot stage = show_stage(paper, show, layout, pane);
+    const Picture *picture = picture_of(stage.simulation->scene);
+    const Pick *hover = &show->hover;
     Box before = canvas_clip(&paper->canvas, stage.box);
-    picture->draw(&stage, show);
-    if (stage.text)
-        draw_legend(&stage, show, picture);
+    picture->draw(&stage);
+    TextLine line = text_of(&show->pane[pane].facts, picture->legend);
+    while (stage.text && text_next(&line))
+        plot_legend(&stage, line.colour, "%s", line.words);
+    if (stage.text && picture->scale)
+        plot_scale(&stage);
     if (!picture->own_handles)
-        stage_handles(&stage, show);
-    stage_switches(&stage, show);
-    stage_prediction(&stage, show);
+        stage_handles(&stage);
+    stage_switches(&stage);
+    stage_prediction(&stage);
     if (layout->panes > 1)
-        draw_label(paper, layout, show, pane);
-    if (picture->hover && stage.text && show->hover.pane == pane &&
-        show->hover.kind != PICK_NONE && !show->hand.on)
-        picture->hover(&stage, show);
+        draw_label(&stage);
+    if (picture->hover && stage.text && hover->pane == pane &&
+        hover->kind != PICK_NONE && !show->hand.on)
+        picture->hover(&stage);
     canvas_clip(&paper->canvas, before);
 }
 

@@ -9,8 +9,11 @@
 enum {
     PLOT_INTERVALS = 4,   /* between numbers, upwards */
     PLOT_MOST_LINES = 40, /* of any axis */
-    PLOT_POINTS = 400     /* of a graph */
+    PLOT_POINTS = 400,    /* of a graph */
+    PLOT_CORNERS = 120    /* of an ellipse */
 };
+
+static const double TURN = 6.283185307179586; /* 2 pi */
 
 static const double TICK_SIZE = 0.82;    /* ems, letters at the axes */
 static const double TICK_ROOM = 5;       /* ems, a number to the right needs */
@@ -155,9 +158,13 @@ static int number_room(Paper *paper, const Axis *axis, int height)
     return most;
 }
 
-Plot plot_create(Paper *paper, Box outer, Axis x, Axis y)
+Plot plot_create(const Plot *card, Axis x, Axis y)
 {
-    Plot plot = {.paper = paper, .x = x, .y = y, .text = true, .em = paper->em};
+    Plot plot = *card;
+    Paper *paper = card->paper;
+    Box outer = card->box;
+    plot.x = x;
+    plot.y = y;
     int left = number_room(paper, &y, outer.height);
     int above = paper_pixels(paper, 0.5);
     int width = outer.width - left - paper_pixels(paper, 0.6);
@@ -251,6 +258,29 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     canvas_dashes(canvas, p[0], p[1], q[0], q[1], fmax(1, width * unit),
                   5 * unit, 4 * unit, phase, colour);
     canvas_clip(canvas, before);
+}
+
+void plot_ellipse(const Plot *plot, const double *middle, const double *a,
+                  const double *b, double width, double *phase, Colour colour)
+{
+    double from[2];
+    for (int i = 0; i <= PLOT_CORNERS; i++) {
+        double t = TURN * i / PLOT_CORNERS;
+        const double to[2] = {middle[0] + a[0] * cos(t) + b[0] * sin(t),
+                              middle[1] + a[1] * cos(t) + b[1] * sin(t)};
+        if (i > 0 && phase)
+            plot_dashes(plot, from, to, width, phase, colour);
+        else if (i > 0)
+            plot_line(plot, from, to, width, colour);
+        memcpy(from, to, sizeof from);
+    }
+}
+
+void plot_springs(const Plot *plot, const System *system, const double *x,
+                  double width, Colour colour)
+{
+    for (const int *e = system->e; e < system->e + 2 * system->springs; e += 2)
+        plot_line(plot, x + 2 * e[0], x + 2 * e[1], width, colour);
 }
 
 void plot_face(const Plot *plot, const double *const corner[4], Colour colour)

@@ -1,17 +1,18 @@
 /* plot.h - drawing in metres, or in the units of two axes.
  *
  * The stage of a pane is a plot whose axes have no numbers: both in metres, of
- * one scale unless the picture is stretched.  So there is one line, one disc,
- * one arrow, one word for all pictures and cards.  Points are [2] in the units
- * of the axes; widths and radii in units of the paper, other sizes in ems.
- * Where there are axes, lines and arrows are cut at their box, discs and rings
- * whose centre is beyond it are left out; a stage is cut by its canvas.
+ * one scale unless the picture is stretched; the inside of a card is one, too,
+ * before it has axes.  So there is one line, one disc, one arrow, one word for
+ * all pictures and cards, and each knows what it is of.  Points are [2] in the
+ * units of the axes; widths and radii in units of the paper, other sizes in
+ * ems. Where there are axes, lines and arrows are cut at their box, discs and
+ * rings whose centre is beyond it are left out; a stage is cut by its canvas.
  */
 #ifndef ELASTO_PLOT_H
 #define ELASTO_PLOT_H
 
-#include "picture/layout.h"
 #include "picture/paper.h"
+#include "picture/show.h"
 
 typedef struct Axis {
     double low, high;  /* high > low; > 0 where it is logarithmic */
@@ -24,14 +25,17 @@ typedef struct Axis {
 enum { PLOT_LINES = 64, PLOT_BOXES = 48 };
 
 typedef struct Plot {
-    Paper *paper;  /* NULL: it only tells where things are */
-    Box box;       /* pixels; inside the numbers of the axes */
-    Camera camera; /* of the logarithm, where an axis is logarithmic */
-    Axis x, y;     /* 0 ... 0: a stage in metres */
-    int pane;      /* of a stage: index in the show */
-    bool text;     /* there is room for words */
-    double em;     /* pixels */
-    int flow[2];   /* pixels, where the next words of the legend go */
+    Paper *paper; /* NULL: it only tells where things are */
+    const Show *show;
+    const Simulation
+        *simulation; /* of the pane; in a card, of the active one */
+    Box box;         /* pixels; inside the numbers of the axes */
+    Camera camera;   /* of the logarithm, where an axis is logarithmic */
+    Axis x, y;       /* 0 ... 0: a stage in metres */
+    int pane;        /* index in the show */
+    bool text;       /* there is room for words */
+    double em;       /* pixels */
+    int flow[2];     /* pixels, where the next words of the legend go */
     /* Pixels, what words keep off: lines x, y, x, y; boxes. */
     int lines, boxes;
     double line[PLOT_LINES][4];
@@ -45,8 +49,8 @@ double plot_round_up(double value);
  * a number. */
 double plot_round_axis(double value);
 
-/* Axes with numbers on the left and below, light lines across. */
-Plot plot_create(Paper *paper, Box outer, Axis x, Axis y);
+/* Axes in a card, with numbers on the left and below, light lines across. */
+Plot plot_create(const Plot *card, Axis x, Axis y);
 
 /* Axes over a stage, drawn where there is room for words: what its camera sees
  * of x and y, the powers of ten of a logarithmic one; where y.high is not 0,
@@ -68,6 +72,14 @@ void plot_place(const Plot *plot, const double *at, double pixel[2]);
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour);
+
+/* middle + a cos t + b sin t; the phase of its dashes; NULL: none. */
+void plot_ellipse(const Plot *plot, const double *middle, const double *a,
+                  const double *b, double width, double *phase, Colour colour);
+
+/* All springs of a system at x [2n], the broken ones too. */
+void plot_springs(const Plot *plot, const System *system, const double *x,
+                  double width, Colour colour);
 
 /* phase: of the pattern, in/out, where several lines are one; NULL: begins */
 void plot_dashes(const Plot *plot, const double *a, const double *b,
@@ -120,11 +132,8 @@ void plot_text(const Plot *plot, const double *at, double right, double below,
                const char *format, ...);
 
 /* Words in colours from the upper left corner to the right, on a second line
- * if there is no room; the key stands behind an arrow so many ems long: what
- * that length means. */
+ * if there is no room. */
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
-void plot_key(Plot *plot, double length, Colour colour, const char *format,
-              ...);
 
 /* Lower left: a line as long as so many metres. */
 void plot_scale(const Plot *plot);

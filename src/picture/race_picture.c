@@ -15,9 +15,9 @@ static double place_of(const Simulation *simulation, const RacePoint *point)
 }
 
 /* Powers of ten. */
-static void race_bounds(const Show *show, int pane, double bounds[4])
+static void race_bounds(const Plot *stage, double bounds[4])
 {
-    bool over_h = show->pane[pane].simulation->exhibit.parts;
+    bool over_h = stage->simulation->exhibit.parts;
     bounds[0] = over_h ? -4.1 : -6.3;
     bounds[1] = -9.3;
     bounds[2] = over_h ? -1.9 : 0.3;
@@ -26,9 +26,9 @@ static void race_bounds(const Show *show, int pane, double bounds[4])
 
 /* The points of a method joined, hollow where it explodes later; words keep
  * off the lines.  Returns the last one; NULL: there is none. */
-static const RacePoint *draw_method(Plot *plot, const Simulation *simulation,
-                                    int method)
+static const RacePoint *draw_method(Plot *plot, int method)
 {
+    const Simulation *simulation = plot->simulation;
     const Race *race = &simulation->exhibit.race;
     Colour colour = colour_of_method(race_method(method)->name);
     const RacePoint *last = NULL;
@@ -49,9 +49,9 @@ static const RacePoint *draw_method(Plot *plot, const Simulation *simulation,
 }
 
 /* The names of the methods, each at its last point. */
-static void race_draw(Plot *stage, const Show *show)
+static void race_draw(Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Simulation *simulation = stage->simulation;
     static const PlotRoom room = {4, 5, 1.6, 3.6};
     const RacePoint *last[RACE_METHODS];
     bool over_h = simulation->exhibit.parts;
@@ -61,7 +61,7 @@ static void race_draw(Plot *stage, const Show *show)
         (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
         (Axis){.log = true, .label = "error in m"});
     for (int i = 0; i < RACE_METHODS; i++)
-        last[i] = draw_method(&plot, simulation, i);
+        last[i] = draw_method(&plot, i);
     for (int i = 0; i < RACE_METHODS && wide; i++)
         if (last[i])
             plot_words(&plot, 1,
@@ -127,13 +127,15 @@ static void put_cell(char *cell, size_t size, double value, int digits,
 /* A method a row: its errors with h, h/2 and h/4, its order, the longest stable
  * step; with h what is left of the energy after a second, and how long it took.
  */
-static void draw_table(Paper *paper, Box inside, const Show *show)
+static void draw_table(const Plot *card)
 {
     static const char *const heads[] = {"",          "4 ms",   "2 ms", "1 ms",
                                         "stable to", "energy", "time"};
     static const double columns[] = {0, 0.38, 0.5, 0.62, 0.75, 0.88, 1};
     enum { COLUMNS = sizeof columns / sizeof *columns, CELL = 64 };
-    const Race *race = &show_pane(show)->simulation->exhibit.race;
+    const Race *race = &card->simulation->exhibit.race;
+    Paper *paper = card->paper;
+    Box inside = card->box;
     double line = fmin(3 * paper->em, inside.height / (RACE_METHODS + 1.0));
     for (int row = 0; row <= RACE_METHODS; row++) {
         char cell[COLUMNS][CELL] = {""};

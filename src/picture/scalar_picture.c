@@ -130,12 +130,12 @@ static void draw_iterates(const Plot *plot, const Update *update)
     }
 }
 
-static void curve_draw(Plot *stage, const Show *show)
+static void curve_draw(Plot *stage)
 {
-    Update update = last_update(show->pane[stage->pane].simulation);
+    Update update = last_update(stage->simulation);
     Plot plot = plot_on(stage, &plot_room, (Axis){.label = "x"}, (Axis){0});
     plot_graph(&plot, value_at, &update, 2.4, COLOUR_X);
-    if (!show->veiled) {
+    if (!stage->show->veiled) {
         plot_graph(&plot, model_at, &update, 1.6, COLOUR_P);
         draw_model_minimum(&plot, &update);
     }
@@ -186,23 +186,21 @@ const Picture curve_picture = {
 /* ---- g and its tangents above E and its parabolas ------------------------ */
 
 /* Only x counts: both plots share it. */
-static void tangent_bounds(const Show *show, int pane, double bounds[4])
+static void tangent_bounds(const Plot *stage, double bounds[4])
 {
-    const Simulation *simulation = show->pane[pane].simulation;
-    bounds_around(TANGENT_REACH, 1.05 * fabs(simulation->descent.point[0]), 2,
-                  bounds);
+    double x = stage->simulation->descent.point[0];
+    bounds_around(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
 /* Upper half (0): g.  Lower half (1): E.  Both fit |g| and E of all iterates,
  * and have a line at 0. */
-static Plot tangent_plot(const Plot *stage, const Simulation *simulation,
-                         int half)
+static Plot tangent_plot(const Plot *stage, int half)
 {
     static const PlotRoom room[2] = {{3.2, 4, 2.2, 3.6}, {3.2, 4, 2, 3.8}};
-    const Descent *descent = &simulation->descent;
+    const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
-        Local at = scalar_at(simulation, iterate(descent, i));
+        Local at = scalar_at(stage->simulation, iterate(descent, i));
         high = fmax(high, half ? at.value : fabs(at.g[0]));
     }
     high = plot_round_axis(fmin(high, 1e12));
@@ -218,14 +216,14 @@ static Plot tangent_plot(const Plot *stage, const Simulation *simulation,
 }
 
 /* Discs on g and on E, with numbers; the present one is black. */
-static void tangent_iterates(const Plot plot[2], const Simulation *simulation)
+static void tangent_iterates(const Plot plot[2])
 {
-    const Descent *descent = &simulation->descent;
+    const Descent *descent = &plot->simulation->descent;
     double used = -1e9;
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
         double x = iterate(descent, i);
-        Local now = scalar_at(simulation, x);
+        Local now = scalar_at(plot->simulation, x);
         const double g[2] = {x, now.g[0]}, E[2] = {x, now.value};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool inside = plot_disc(&plot[0], g, last ? 7 : 5, colour);
@@ -257,22 +255,21 @@ static void tangent_model(const Plot plot[2], const Update *update)
     plot_hollow(&plot[1], lowest, 6, 3.6, COLOUR_P);
 }
 
-static void tangent_draw(Plot *stage, const Show *show)
+static void tangent_draw(Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Simulation *simulation = stage->simulation;
     const Prediction *guess = &simulation->prediction;
     const double target[2] = {simulation->exhibit.target[0], 0};
     Update update = last_update(simulation);
-    const Plot plot[2] = {tangent_plot(stage, simulation, 0),
-                          tangent_plot(stage, simulation, 1)};
+    const Plot plot[2] = {tangent_plot(stage, 0), tangent_plot(stage, 1)};
     plot_graph(&plot[0], slope_at, &update, 2.6, COLOUR_X);
     plot_graph(&plot[1], value_at, &update, 2.6, COLOUR_X);
-    if (update.made || !(show->veiled || (guess->made && !guess->shown)))
+    if (update.made || !(stage->show->veiled || (guess->made && !guess->shown)))
         tangent_model(plot, &update);
-    tangent_iterates(plot, simulation);
+    tangent_iterates(plot);
     if (!stage->text)
         return;
-    stage_handles(&plot[1], show);
+    stage_handles(&plot[1]);
     if (plot_disc(&plot[1], target, 5, COLOUR_X_TILDE))
         plot_text(&plot[1], target, 0, 0.7, 1, ALIGN_CENTRE, FACE_BOLD,
                   COLOUR_X_TILDE, "{xt}");
@@ -286,23 +283,20 @@ static void tangent_draw(Plot *stage, const Show *show)
 }
 
 /* By x alone: whichever is nearer. */
-static Pick tangent_pick(const Show *show, const Plot *stage, double x,
-                         double y)
+static void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    Pick pick = {PICK_PLACE, stage->pane, 0, {0, 0}};
     double at[SCENE_MAX_HANDLES][2], best = 14;
-    camera_world(&stage->camera, x, y, pick.point);
-    exhibit_handles(show->pane[stage->pane].simulation, at);
+    (void)y;
+    exhibit_handles(stage->simulation, at);
     for (int i = 0; i < 2; i++) {
         double pixel[2];
         plot_place(stage, at[i], pixel);
         if (fabs(pixel[0] - x) < best) {
             best = fabs(pixel[0] - x);
-            pick.kind = PICK_HANDLE;
-            pick.index = i;
+            pick->kind = PICK_HANDLE;
+            pick->index = i;
         }
     }
-    return pick;
 }
 
 static const Card card_tangent_numbers = {
@@ -327,6 +321,7 @@ const Picture tangent_picture = {
                                    &card_residual, NULL},
     .stretched = true,
     .own_handles = true,
+    .places = true,
     .bounds = tangent_bounds,
     .draw = tangent_draw,
     .facts = scalar_facts,

@@ -7,38 +7,38 @@
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
-enum { SPRING_CORNERS = 120, SPRING_COILS = 12 };
+enum { SPRING_COILS = 12 };
 
 static const double SPRING_REACH = 1.7;   /* m, seen at least */
 static const double SPRING_ARROW = 0.005; /* m/N, of the force */
-static const double SPRING_TURN = 6.283185307179586;
+static const double origin[2] = {0, 0};
 
-static void spring_bounds(const Show *show, int pane, double bounds[4])
+static void spring_bounds(const Plot *stage, double bounds[4])
 {
-    const double *x = show->pane[pane].simulation->run[0].x;
+    const double *x = stage->simulation->run[0].x;
     bounds_around(SPRING_REACH, 1.1 * math_hypot(x[0], x[1]), sqrt(2), bounds);
+}
+
+static SpringFacts facts_at(const double d[2], const System *system)
+{
+    SpringFacts facts;
+    spring_facts(d, system->l2[0], system->k[0], &facts);
+    return facts;
 }
 
 static SpringFacts facts_of_spring(const Simulation *simulation)
 {
-    const System *system = &simulation->system;
-    SpringFacts facts;
-    spring_facts(simulation->run[0].x, system->l2[0], system->k[0], &facts);
-    return facts;
+    return facts_at(simulation->run[0].x, &simulation->system);
 }
 
 /* A circle of this radius around the held end, in dashes. */
 static void spring_circle(Plot *stage, double radius, Colour colour,
                           const char *word)
 {
-    double phase = 0, from[2] = {radius, 0};
-    for (int i = 1; i <= SPRING_CORNERS; i++) {
-        double s = SPRING_TURN * i / SPRING_CORNERS;
-        const double to[2] = {radius * cos(s), radius * sin(s)};
-        plot_dashes(stage, from, to, 1.4, &phase, colour);
-        memcpy(from, to, sizeof from);
-    }
+    const double a[2] = {radius, 0}, b[2] = {0, radius};
     const double label[2] = {-0.7071 * radius, -0.7071 * radius};
+    double phase = 0;
+    plot_ellipse(stage, origin, a, b, 1.4, &phase, colour);
     if (stage->text)
         plot_text(stage, label, -0.4, 0.1, 0.95, ALIGN_RIGHT, FACE_REGULAR,
                   colour, "%s", word);
@@ -87,10 +87,11 @@ static void spring_eigenvectors(Plot *stage, const double *x,
 }
 
 /* Shorter than at rest: projection changes its block. */
-static void spring_draw(Plot *stage, const Show *show)
+static void spring_draw(Plot *stage)
 {
-    const Simulation *simulation = show->pane[stage->pane].simulation;
-    const double *x = simulation->run[0].x, origin[2] = {0, 0};
+    const Simulation *simulation = stage->simulation;
+    const Show *show = stage->show;
+    const double *x = simulation->run[0].x;
     double l = sqrt(simulation->system.l2[0]);
     SpringFacts facts = facts_of_spring(simulation);
     bool projects = facts.across < 0 && !show->veiled;
@@ -203,53 +204,47 @@ static void spring_bars(Paper *paper, Box box, const double value[4],
     }
 }
 
-static void spring_draw_eigenvalues(Paper *paper, Box inside, const Show *show)
+static void spring_draw_eigenvalues(const Plot *card)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
-    SpringFacts facts = facts_of_spring(simulation);
+    SpringFacts facts = facts_of_spring(card->simulation);
+    Box inside = card->box;
     double most = 1e-300;
     for (int i = 0; i < 4; i++) {
         most = fmax(most, fabs(facts.block[i]));
-        if (simulation->options.filter == FILTER_ABS)
+        if (card->simulation->options.filter == FILTER_ABS)
             facts.projected[i] = fabs(facts.block[i]);
     }
     for (int k = 0; k < 2; k++) {
         Box half = {inside.x + k * inside.width / 2, inside.y,
-                    inside.width / 2 - paper_pixels(paper, 0.6), inside.height};
-        spring_bars(paper, half, k ? facts.projected : facts.block, most,
+                    inside.width / 2 - paper_pixels(card->paper, 0.6),
+                    inside.height};
+        spring_bars(card->paper, half, k ? facts.projected : facts.block, most,
                     k ? "after projection" : "before");
     }
 }
 
 /* The energies at a signed length along d. */
-static double energy_over(const void *data, double d)
+static double energy_over(const void *system, double d)
 {
-    const System *system = data;
-    SpringFacts facts;
-    spring_facts((double[2]){d, 0}, system->l2[0], system->k[0], &facts);
-    return facts.energy;
+    return facts_at((double[2]){d, 0}, system).energy;
 }
 
-static double root_over(const void *data, double d)
+static double root_over(const void *system, double d)
 {
-    const System *system = data;
-    SpringFacts facts;
-    spring_facts((double[2]){d, 0}, system->l2[0], system->k[0], &facts);
-    return facts.root_energy;
+    return facts_at((double[2]){d, 0}, system).root_energy;
 }
 
-static void spring_draw_profile(Paper *paper, Box inside, const Show *show)
+static void spring_draw_profile(const Plot *card)
 {
-    const Simulation *simulation = show_pane(show)->simulation;
-    const System *system = &simulation->system;
-    SpringFacts now = facts_of_spring(simulation);
-    bool both = simulation->exhibit.parts;
+    const System *system = &card->simulation->system;
+    SpringFacts now = facts_of_spring(card->simulation);
+    bool both = card->simulation->exhibit.parts;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_over : energy_over)(system, 0);
     Axis x = {-reach, reach, false, false, "d in m"};
     Axis y = {0, plot_round_axis(1.1 * fmax(tip, now.energy)), false, false,
               NULL};
-    Plot plot = plot_create(paper, inside, x, y);
+    Plot plot = plot_create(card, x, y);
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
     plot_graph(&plot, energy_over, system, 2.4, COLOUR_X);
@@ -309,13 +304,11 @@ static const Card card_profile = {
     .draw = spring_draw_profile,
 };
 
-static const Card *const spring_cards[] = {&card_page,    &card_spring_numbers,
-                                           &card_block,   &card_eigenvalues,
-                                           &card_profile, NULL};
-
 const Picture spring_picture = {
     .name = "spring",
-    .cards = spring_cards,
+    .cards =
+        (const Card *const[]){&card_page, &card_spring_numbers, &card_block,
+                              &card_eigenvalues, &card_profile, NULL},
     .bounds = spring_bounds,
     .draw = spring_draw,
     .facts = add_facts,

@@ -70,8 +70,9 @@ double square_contact_most(const SpringPen *pen)
 
 void square_contact_forces(const SpringPen *pen, double most)
 {
-    double scale = pen->stage->camera.scale[0], round = plot_round_up(most);
-    double factor = FORCE_ROOM * pen->stage->em / (round * scale);
+    double round = plot_round_up(most); /* moves seldom */
+    double room = FORCE_ROOM * pen->stage->em / pen->stage->camera.scale[0];
+    double factor = room / round;
     double radius = fmax(pen->radius, 2);
     if (!(most > 0))
         return;
@@ -89,8 +90,8 @@ void square_contact_forces(const SpringPen *pen, double most)
     }
     if (pen->run > 0) /* the first one's legend is that of all */
         return;
-    plot_key(pen->stage, FORCE_ROOM, COLOUR_FORCE, "contact force %s N",
-             number_of(round).text);
+    plot_legend(pen->stage, COLOUR_FORCE, "contact force \u2264 %s N",
+                number_of(round).text);
     if (system_find_term(pen->system, &friction_energy))
         plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }

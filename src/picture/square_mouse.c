@@ -32,13 +32,13 @@ static double distance2(const double p[2], const double q[2], double x,
 }
 
 /* Before the first step a spring of the left or right edge is that edge. */
-static void pick_edge(const Show *show, const Simulation *simulation,
-                      Pick *pick)
+static void pick_edge(const Plot *stage, Pick *pick)
 {
+    const Simulation *simulation = stage->simulation;
     const int *e = simulation->system.e + 2 * (size_t)pick->index;
     int sides = square_mesh_sides(&simulation->mesh, e[0]) &
                 square_mesh_sides(&simulation->mesh, e[1]);
-    if (!show->paused || simulation->steps > 0 ||
+    if (!stage->show->paused || simulation->steps > 0 ||
         simulation->options.bodies > 0 || !(sides & (MESH_LEFT | MESH_RIGHT)))
         return;
     pick->kind = PICK_EDGE;
@@ -61,16 +61,13 @@ static void pick_obstacle(const Simulation *simulation, Pick *pick)
 
 /* The nearest node, else the nearest spring, within reach of the mouse; else an
  * obstacle. */
-Pick square_pick(const Show *show, const Plot *stage, double x, double y)
+void square_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    const Pane *pane = &show->pane[stage->pane];
-    const System *system = &pane->simulation->system;
-    const double *at = pane_x(pane);
-    double spacing = stage->camera.scale[0] * pane->simulation->mesh.spacing;
+    const System *system = &stage->simulation->system;
+    const double *at = pane_x(&stage->show->pane[stage->pane]);
+    double spacing = stage->camera.scale[0] * stage->simulation->mesh.spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16);
-    Pick pick = {PICK_NONE, stage->pane, 0, {0, 0}};
-    camera_world(&stage->camera, x, y, pick.point);
-    for (int springs = 0; springs < 2 && pick.kind == PICK_NONE; springs++) {
+    for (int springs = 0; springs < 2 && pick->kind == PICK_NONE; springs++) {
         int count = !springs           ? system->nodes
                     : solid_of(system) ? 0
                                        : system->springs;
@@ -84,16 +81,15 @@ Pick square_pick(const Show *show, const Plot *stage, double x, double y)
             double d2 = distance2(p, q, x, y);
             if (d2 < best) {
                 best = d2;
-                pick.kind = springs ? PICK_SPRING : PICK_NODE;
-                pick.index = i;
+                pick->kind = springs ? PICK_SPRING : PICK_NODE;
+                pick->index = i;
             }
         }
     }
-    if (pick.kind == PICK_SPRING)
-        pick_edge(show, pane->simulation, &pick);
-    if (pick.kind == PICK_NONE)
-        pick_obstacle(pane->simulation, &pick);
-    return pick;
+    if (pick->kind == PICK_SPRING)
+        pick_edge(stage, pick);
+    if (pick->kind == PICK_NONE)
+        pick_obstacle(stage->simulation, pick);
 }
 
 /* ---- the card beside it ------------------------------------------------- */
@@ -130,8 +126,9 @@ static void spring_law(const System *system, int s, double strain, double *tau,
 }
 
 /* What the nodes that have a place fill, pixels; cut to the stage. */
-static Box body_box(const Plot *stage, const Pane *pane)
+static Box body_box(const Plot *stage)
 {
+    const Pane *pane = &stage->show->pane[stage->pane];
     const Box *box = &stage->box;
     double low[2], high[2];
     square_fills(stage, pane->simulation->system.nodes, pane_x(pane), low,
@@ -143,8 +140,8 @@ static Box body_box(const Plot *stage, const Pane *pane)
 }
 
 /* A text beside a point of the world. */
-static void draw_note(Plot *stage, const Pane *pane, const double *at,
-                      const Facts *facts, const char *text)
+static void draw_note(Plot *stage, const double *at, const Facts *facts,
+                      const char *text)
 {
     Paper *paper = stage->paper;
     int wide = paper_pixels(paper, WIDTH), lines = 0;
@@ -155,9 +152,8 @@ static void draw_note(Plot *stage, const Pane *pane, const double *at,
         lines++;
     }
     plot_place(stage, at, p);
-    Box box =
-        plot_note(stage, p[0], p[1], wide, paper_pixels(paper, LINE * lines),
-                  body_box(stage, pane));
+    Box box = plot_note(stage, p[0], p[1], wide,
+                        paper_pixels(paper, LINE * lines), body_box(stage));
     for (TextLine line = text_of(facts, text); text_next(&line);) {
         paper_write(paper, line.face, SMALL, line.colour, box.x, box.y,
                     ALIGN_LEFT, "%s", line.words);
@@ -185,7 +181,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     fact_point(&facts, "velocity", v);
     fact_point(&facts, "force", force);
     fact_point(&facts, "inertia", tilde);
-    draw_note(stage, pane, x, &facts,
+    draw_note(stage, x, &facts,
               "#text* node {node:9}{pinned}\n"
               "m = {mass} kg\n"
               "{x} = {place} m\n"
@@ -196,7 +192,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
 
 /* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice
  * those of H = 2k/l2 (l2 tau I + 2 tau' d d^T). */
-static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
+static void note_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
@@ -223,7 +219,7 @@ static void note_spring(Plot *stage, const Show *show, const Pane *pane, int s)
         fact(&facts, "across after", projected_eigenvalue(filter, across));
         fact(&facts, "along after", projected_eigenvalue(filter, along));
     }
-    draw_note(stage, pane, show->hover.point, &facts,
+    draw_note(stage, stage->show->hover.point, &facts,
               "#text* spring {a:9}\u2013{b:9}\n"
               "l\u00b2 = {l2} m\u00b2,  strain {strain} %\n"
               "H = ({xx}, {xy}; {xy}, {yy}) J/m\u00b2\n"
@@ -239,15 +235,15 @@ static bool is_placed(const Pane *pane, int node)
     return isfinite(x[0]) && isfinite(x[1]);
 }
 
-void square_note(Plot *stage, const Show *show)
+void square_note(Plot *stage)
 {
-    const Pane *pane = &show->pane[stage->pane];
+    const Pane *pane = &stage->show->pane[stage->pane];
+    const Pick *hover = &stage->show->hover;
     const System *system = &pane->simulation->system;
-    int i = show->hover.index, *e = system->e + 2 * i;
-    if (show->hover.kind == PICK_NODE && i < system->nodes &&
-        is_placed(pane, i))
+    int i = hover->index, *e = system->e + 2 * i;
+    if (hover->kind == PICK_NODE && i < system->nodes && is_placed(pane, i))
         note_node(stage, pane, i);
-    if (show->hover.kind == PICK_SPRING && i < system->springs &&
+    if (hover->kind == PICK_SPRING && i < system->springs &&
         is_placed(pane, e[0]) && is_placed(pane, e[1]))
-        note_spring(stage, show, pane, i);
+        note_spring(stage, pane, i);
 }

@@ -61,8 +61,9 @@ static double plastic_range(const System *system, const double *ep)
     return plot_round_up(0.5 * largest);
 }
 
-SpringPen square_pen(Plot *stage, const Show *show, int run)
+SpringPen square_pen(Plot *stage, int run)
 {
+    const Show *show = stage->show;
     const Pane *pane = &show->pane[stage->pane];
     const Simulation *simulation = pane->simulation;
     const Trace *trace = pane->trace;

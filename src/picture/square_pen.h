@@ -31,7 +31,7 @@ typedef struct SpringPen {
     bool projected;         /* springs whose block was changed are lit */
 } SpringPen;
 
-SpringPen square_pen(Plot *stage, const Show *show, int run);
+SpringPen square_pen(Plot *stage, int run);
 
 /* What those of n nodes that have a place fill, pixels; without any, nothing:
  * high is below low.  low, high [2] out */
@@ -60,12 +60,12 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 void square_ghost(const SpringPen *pen, const double *x, Colour colour);
 
 /* The node, spring or edge of the paused square under a pixel. */
-Pick square_pick(const Show *show, const Plot *stage, double x, double y);
+void square_pick(const Plot *stage, double x, double y, Pick *pick);
 
 /* The small card beside a node or a spring under the mouse.  Node: m, x, v,
  * force, x_tilde.  Spring: e, l2, strain, its block of the Hessian and the
  * eigenvalues before and after projection. */
-void square_note(Plot *stage, const Show *show);
+void square_note(Plot *stage);
 
 /* ---- contact: it follows from positions and velocities alone, so that a state
  * from the history is drawn as it was when it was new ---------------------- */
@@ -91,8 +91,9 @@ void square_contact_obstacles(const SpringPen *pen);
 /* The largest force that an obstacle and its friction put on a node, N. */
 double square_contact_most(const SpringPen *pen);
 
-/* These forces as arrows that end at their nodes, `most` some ems long; a disc
- * where friction holds a node, a ring where it slides; and what they mean. */
+/* These forces as arrows that end at their nodes, the longest, of `most` N,
+ * some ems long; a disc where friction holds a node, a ring where it slides;
+ * and what they mean. */
 void square_contact_forces(const SpringPen *pen, double most);
 
 /* The first wall's coefficient of friction as a part of the options' and of its

@@ -42,11 +42,11 @@ static bool is_free(const Simulation *simulation)
  * out and bulge, around the middle or where a free one has drifted,
  * less the way that the view has room for; where nodes have left that, 1.5,
  * 1.5^2, ... times as much, so that the view jumps seldom. */
-static void square_bounds(const Show *show, int pane, double bounds[4])
+static void square_bounds(const Plot *stage, double bounds[4])
 {
-    const Pane *shown = &show->pane[pane];
-    const Simulation *simulation = shown->simulation;
-    const double *x = pane_x(shown);
+    const Show *show = stage->show;
+    const Simulation *simulation = stage->simulation;
+    const double *x = pane_x(&show->pane[stage->pane]);
     int nodes = simulation->system.nodes;
     const Options *options = &simulation->options;
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
@@ -306,16 +306,17 @@ static void draw_cuts(const SpringPen *pen)
 
 /* From the ground up; of several runs the first one is drawn last, and no wall
  * hides a body. */
-static void square_draw(Plot *stage, const Show *show)
+static void square_draw(Plot *stage)
 {
     SpringPen pen[SIMULATION_MAX_RUNS];
-    const Simulation *simulation = show->pane[stage->pane].simulation;
+    const Show *show = stage->show;
+    const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
     double most = 0; /* of all forces: they have one scale */
     const LecturePage *page = show->lecture;
     for (int r = 0; r < runs; r++) {
-        pen[r] = square_pen(stage, show, r);
+        pen[r] = square_pen(stage, r);
         square_contact_obstacles(&pen[r]);
     }
     for (int r = 1; r < runs; r++) {

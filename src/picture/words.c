@@ -12,7 +12,6 @@
 
 enum { WORDS_TEXT = 512 }; /* bytes of a text with numbers */
 
-static const double HEAD = 0.62;        /* ems, length of an arrow's head */
 static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
 static const double FARTHEST = 1e6;     /* pixels */
@@ -114,14 +113,15 @@ void plot_scale(const Plot *plot)
                 number_of(shown).text, name);
 }
 
-/* The next words of the legend after `before` pixels for a sign. */
-static void legend_words(Plot *plot, int before, Colour colour,
-                         const char *format, va_list arguments)
+void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 {
     Paper *paper = plot->paper;
     char words[128];
+    va_list arguments;
+    va_start(arguments, format);
     vsnprintf(words, sizeof words, format, arguments);
-    int width = before + paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
+    va_end(arguments);
+    int width = paper_width(paper, FACE_REGULAR, LEGEND_SIZE, words);
     int margin = paper_pixels(paper, 0.9);
     if (plot->flow[0] > 0 &&
         plot->flow[0] + width > plot->box.width - 2 * margin) {
@@ -133,32 +133,9 @@ static void legend_words(Plot *plot, int before, Colour colour,
     int air = paper_pixels(paper, 0.3); /* the picture may reach up to here */
     canvas_rectangle(&paper->canvas, (int)x - air, (int)y, width + 2 * air,
                      paper_pixels(paper, 1.25), COLOUR_PANEL);
-    if (before > 0) {
-        double middle = y + 0.65 * LEGEND_SIZE * paper->em;
-        double length = before - 0.6 * paper->em;
-        canvas_arrow(&paper->canvas, x, middle, x + length, middle,
-                     fmax(1, 1.8 * paper->unit), HEAD * paper->em, colour);
-    }
-    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour, x + before, y,
-                ALIGN_LEFT, "%s", words);
+    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour, x, y, ALIGN_LEFT,
+                "%s", words);
     plot->flow[0] += width + paper_pixels(paper, 1.6);
-}
-
-void plot_legend(Plot *plot, Colour colour, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    legend_words(plot, 0, colour, format, arguments);
-    va_end(arguments);
-}
-
-void plot_key(Plot *plot, double length, Colour colour, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    legend_words(plot, paper_pixels(plot->paper, length + 0.6), colour, format,
-                 arguments);
-    va_end(arguments);
 }
 
 Box plot_note(const Plot *plot, double x, double y, int width, int height,

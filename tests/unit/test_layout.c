@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/layout.h"
+#include "picture/cards.h"
 #include "picture/text.h"
 #include "test.h"
 
@@ -11,20 +11,22 @@ static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
                                {1, 1},       {300, 4000}, {4000, 200}};
 enum { SIZES = sizeof sizes / sizeof *sizes };
+enum { LISTING = 1, LINE, RESIDUAL, ENERGIES, SPY, SEEN = 5 }; /* cards */
 
-static LayoutWish full_wish(void)
+static Simulation simulation;
+static Show show;
+
+/* The square with five cards, the last one closed, settings and chips. */
+static void show_all(void)
 {
-    LayoutWish wish = {.panes = 1, .cards = 4, .large = -1, .settings = 9};
-    for (int i = 0; i < wish.cards; i++) {
-        wish.weight[i] = 1 + i;
-        wish.least[i] = 6;
+    static const char label[] = "............";
+    show_create(&simulation, &show);
+    show_know(&show);
+    for (int i = 0; i < 9; i++) {
+        show.setting[i].letters = 4 + 2 * i;
+        show.chip[i] = (Chip){"Tab", label + 8 - i, false};
     }
-    for (int i = 0; i < wish.settings; i++)
-        wish.setting_letters[i] = 5 + 2 * i;
-    wish.chips = 9;
-    for (int i = 0; i < wish.chips; i++)
-        wish.chip_letters[i] = 8 + i;
-    return wish;
+    show.settings = show.chips = 9;
 }
 
 static bool boxes_overlap(Box a, Box b)
@@ -41,14 +43,18 @@ static bool box_inside(Box inner, Box outer)
             inner.y + inner.height <= outer.y + outer.height);
 }
 
-/* Boxes of one kind lie in their zone and apart from each other. */
-static void check_boxes(const Box *boxes, int count, Box zone)
+/* Boxes of one kind lie in their zone and apart from each other.  Returns how
+ * many are there. */
+static int check_boxes(const Box *boxes, int count, Box zone)
 {
+    int there = 0;
     for (int i = 0; i < count; i++) {
-        CHECK(boxes[i].width > 0 && box_inside(boxes[i], zone));
+        there += boxes[i].width > 0;
+        CHECK(box_inside(boxes[i], zone));
         for (int j = 0; j < i; j++)
             CHECK(!boxes_overlap(boxes[i], boxes[j]));
     }
+    return there;
 }
 
 /* Chips lie in the last line; those without room have no width and are
@@ -62,40 +68,35 @@ static void check_chips(const Layout *l, int wished)
     CHECK(l->chips == wished && l->chip[wished - 1].width > 0);
     for (int i = 0; i < l->chips; i++) {
         out += l->chip[i].width <= 0;
-        CHECK(box_inside(l->chip[i], l->last));
-        for (int j = 0; j < i; j++)
-            CHECK(!boxes_overlap(l->chip[i], l->chip[j]));
         if (i > 0 && i < l->chips - 1 && l->chip[i - 1].width <= 0)
             CHECK(l->chip[i].width <= 0); /* the first ones stay */
     }
     CHECK(out == l->chips_left_out);
+    CHECK(check_boxes(l->chip, l->chips, l->last) == l->chips - out);
 }
 
 /* Zones tile the window: areas add up, nothing overlaps; parts lie inside. */
 TEST(zones_tile_every_size)
 {
+    show_all();
     for (int s = 0; s < SIZES; s++)
-        for (int panes = 1; panes <= LAYOUT_PANES; panes++) {
-            LayoutWish wish = full_wish();
-            wish.panes = panes;
-            Layout l = layout_create(sizes[s][0], sizes[s][1], &wish);
+        for (show.panes = 1; show.panes <= LAYOUT_PANES; show.panes++) {
+            Layout l = show_layout(&show, sizes[s][0], sizes[s][1]);
             const Box zones[] = {l.strip, l.stage, l.column,
                                  l.row,   l.time,  l.last};
             const Box window = {0, 0, l.width, l.height};
             long area = 0;
-            for (int i = 0; i < 6; i++) {
-                CHECK(box_inside(zones[i], window));
+            for (int i = 0; i < 6; i++)
                 area += (long)zones[i].width * zones[i].height;
-                for (int j = 0; j < i; j++)
-                    CHECK(!boxes_overlap(zones[i], zones[j]));
-            }
+            check_boxes(zones, 6, window);
             CHECK(area == (long)l.width * l.height);
-            CHECK(l.panes == panes);
+            CHECK(l.panes == show.panes);
             if (l.width >= 200)
-                check_boxes(l.pane, l.panes, l.stage);
-            check_boxes(l.card, l.cards, l.column);
-            check_boxes(l.setting, l.settings, l.row);
-            check_chips(&l, wish.chips);
+                CHECK(check_boxes(l.pane, l.panes, l.stage) == l.panes);
+            CHECK(check_boxes(l.card, l.cards, l.column) ==
+                  (l.cards ? SEEN : 0));
+            CHECK(check_boxes(l.setting, l.settings, l.row) == l.settings);
+            check_chips(&l, show.chips);
             CHECK(box_inside(l.bars, window));
         }
 }
@@ -103,27 +104,26 @@ TEST(zones_tile_every_size)
 /* What a lecture's screen must have, and what a stamp must not. */
 TEST(sizes_fold)
 {
-    LayoutWish wish = full_wish();
+    show_all();
     for (int s = 0; s < 4; s++) {
-        Layout l = layout_create(sizes[s][0], sizes[s][1], &wish);
-        CHECK(l.cards == 4 && l.settings == 9);
+        Layout l = show_layout(&show, sizes[s][0], sizes[s][1]);
+        CHECK(l.cards > SEEN && l.settings == 9);
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
-    for (int i = 0; i < wish.chips; i++)
-        wish.chip_letters[i] = 7 + i;
-    Layout close = layout_create(900, 900, &wish); /* they move together */
-    CHECK(close.chips_left_out == 0);
-    Layout small = layout_create(400, 300, &wish);
+    for (int i = 0; i < show.chips; i++)
+        show.chip[i].label++; /* they move together */
+    CHECK(show_layout(&show, 900, 900).chips_left_out == 0);
+    Layout small = show_layout(&show, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
-    wish.setting_letters[0] = 400; /* wider than the window: the first line */
-    Layout wide = layout_create(900, 900, &wish);
+    show.setting[0].letters = 400; /* wider than the window: the first line */
+    Layout wide = show_layout(&show, 900, 900);
     CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
     CHECK(wide.setting[0].y < wide.row.y + wide.em);
-    wish.bare = true;
-    Layout bare = layout_create(900, 900, &wish);
+    show.bare = true;
+    Layout bare = show_layout(&show, 900, 900);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
     CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
 }
@@ -138,16 +138,18 @@ static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
  * them (a card's upper right corner closes it). */
 TEST(hits_are_what_is_there)
 {
-    LayoutWish wish = full_wish();
-    wish.panes = 5;
-    wish.closed = 2;
-    Layout l = layout_create(1280, 800, &wish);
+    show_all();
+    show.panes = 5;
+    show.closed |= 1 << LISTING;
+    Layout l = show_layout(&show, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
     const int counts[] = {l.panes, l.cards, l.settings, l.chips};
     const Zone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < counts[k]; i++) {
             Box box = lists[k][i];
+            if (box.width == 0)
+                continue;
             int right = box.x + box.width, low = box.y + box.height;
             double middle = box.x + 0.5 * box.width;
             CHECK(hits(&l, middle, box.y + 0.5 * box.height, zones[k], i));
@@ -159,8 +161,8 @@ TEST(hits_are_what_is_there)
             CHECK(!hits(&l, middle, box.y - 1, zones[k], i));
             CHECK(!hits(&l, middle, low, zones[k], i));
         }
-    CHECK(l.card[1].height < l.card[0].height);
-    for (int i = 0; i < l.cards; i++) {
+    CHECK(l.card[LISTING].height < l.card[LINE].height);
+    for (int i = LISTING; i <= SPY; i++) {
         Box close = layout_close_box(&l, i);
         Hit hit = layout_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
@@ -173,31 +175,27 @@ TEST(hits_are_what_is_there)
     CHECK(layout_time_part(&l, 1e9) == 1 && layout_time_part(&l, -1e9) == 0);
 }
 
-/* A large card has the room; a page has it all. */
+/* Cards that need half of the width share a row; a large one has the room; a
+ * page has it all. */
 TEST(cards_share_the_column)
 {
-    LayoutWish wish = full_wish();
-    Layout even = layout_create(1280, 800, &wish);
-    CHECK(even.card[3].height > even.card[0].height);
-    wish.large = 0;
-    Layout large = layout_create(1280, 800, &wish);
-    for (int i = 1; i < 4; i++)
-        CHECK(large.card[0].height > 5 * large.card[i].height);
-    wish.large = -1;
-    wish.half = 6;
-    Layout pair = layout_create(1280, 800, &wish);
-    CHECK(pair.card[1].y == pair.card[2].y);
-    CHECK(pair.card[1].width < 0.5 * pair.card[0].width);
-    CHECK(pair.card[0].height > even.card[0].height);
-    check_boxes(pair.card, pair.cards, pair.column);
-    wish.closed = 4;
-    Layout apart = layout_create(1280, 800, &wish);
-    CHECK(apart.card[1].y < apart.card[2].y);
-    CHECK(layout_create(900, 900, &wish).card[1].y <
-          layout_create(900, 900, &wish).card[2].y);
-    wish.page = true;
-    Layout page = layout_create(1280, 800, &wish);
-    CHECK(page.cards == 0 && page.column.width == even.column.width);
+    show_all();
+    Layout pair = show_layout(&show, 1280, 800);
+    CHECK(pair.card[LINE].height > pair.card[RESIDUAL].height);
+    CHECK(pair.card[RESIDUAL].y == pair.card[ENERGIES].y);
+    CHECK(pair.card[RESIDUAL].width < 0.5 * pair.card[LINE].width);
+    Layout narrow = show_layout(&show, 900, 900);
+    CHECK(narrow.card[RESIDUAL].y < narrow.card[ENERGIES].y);
+    show.closed |= 1 << ENERGIES;
+    Layout apart = show_layout(&show, 1280, 800);
+    CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
+    show.large = LISTING;
+    Layout large = show_layout(&show, 1280, 800);
+    for (int i = LINE; i <= SPY; i++)
+        CHECK(large.card[LISTING].height > 5 * large.card[i].height);
+    show.page.kind = PAGE_HELP;
+    Layout page = show_layout(&show, 1280, 800);
+    CHECK(page.cards == 0 && page.column.width == pair.column.width);
     CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==
           ZONE_PAGE);
 }
@@ -240,6 +238,7 @@ static Canvas canvas;
 static int open_texts(void **unused)
 {
     (void)unused;
+    simulation_from_line("square", NULL, NULL, &simulation);
     return text_create(&text) || canvas_create(100, 60, &canvas);
 }
 
@@ -248,6 +247,7 @@ static int close_texts(void **unused)
     (void)unused;
     text_free(text);
     canvas_free(&canvas);
+    simulation_free(&simulation);
     return 0;
 }
 

@@ -47,7 +47,7 @@ int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 int __real_paper_paragraph(Paper *on, Face face, double size, Colour colour,
                            Box box, int lines, const char *markup);
-Plot __real_plot_create(Paper *on, Box outer, Axis x, Axis y);
+Plot __real_plot_create(const Plot *card, Axis x, Axis y);
 Plot __real_plot_on(const Plot *stage, const PlotRoom *room, Axis x, Axis y);
 
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -85,10 +85,10 @@ int __wrap_paper_paragraph(Paper *on, Face face, double size, Colour colour,
     return used;
 }
 
-Plot __wrap_plot_create(Paper *on, Box outer, Axis x, Axis y)
+Plot __wrap_plot_create(const Plot *card, Axis x, Axis y)
 {
     within = true;
-    Plot plot = __real_plot_create(on, outer, x, y);
+    Plot plot = __real_plot_create(card, x, y);
     within = false;
     return plot;
 }

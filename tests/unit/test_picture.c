@@ -219,9 +219,9 @@ TEST(axes_name_their_values)
         bool up = rows[r].upright;
         assert_int_equal(paper_create(SIZE, SIZE, &paper), 0);
         assert_int_equal(paper_create(SIZE, SIZE, &one), 0);
-        const Plot plot =
-            plot_create(&paper, (Box){50, 50, 600, 600},
-                        up ? plain : rows[r].axis, up ? rows[r].axis : plain);
+        const Plot card = {.paper = &paper, .box = {50, 50, 600, 600}};
+        const Plot plot = plot_create(&card, up ? plain : rows[r].axis,
+                                      up ? rows[r].axis : plain);
         const Box box = plot.box;
         int wide = paper_pixels(&paper, 1), lines = 0;
         int left = box.x - 5, low = box.y + box.height + 1;
@@ -259,7 +259,8 @@ TEST(plots_keep_to_their_axes)
     const double in[2] = {0.5, 0.5}, out[2] = {1.02, 0.5}, d[2] = {0.52, 0};
     Paper paper;
     assert_int_equal(paper_create(300, 300, &paper), 0);
-    Plot plot = plot_create(&paper, (Box){50, 50, 200, 200}, axis, axis);
+    const Plot card = {.paper = &paper, .box = {50, 50, 200, 200}};
+    Plot plot = plot_create(&card, axis, axis);
     for (int shape = 0; shape < 5; shape++) {
         canvas_clear(&paper.canvas, COLOUR_WHITE);
         if (shape == 0)

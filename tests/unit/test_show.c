@@ -6,6 +6,7 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
+#include "picture/handles.h"
 #include "picture/square_pen.h"
 #include "test.h"
 
@@ -470,12 +471,9 @@ TEST(contacts_slide_or_hold)
     static const double part[] = {0.5, 0.9, 1.1};
     stand_up("slope", 60);
     draw(); /* the paper has the size of its letters */
-    Plot stage = {.paper = &paper,
-                  .box = layout.stage,
-                  .camera = show_camera(&show, &layout, 0),
-                  .em = layout.em};
+    Plot stage = show_stage(&paper, &show, &layout, 0);
     for (int r = 0; r < 3; r++) {
-        const SpringPen pen = square_pen(&stage, &show, r);
+        const SpringPen pen = square_pen(&stage, r);
         const double *n = pen.contact->obstacle[0].n;
         double angle = atan2(fabs(n[0]), n[1]), lowest = 0, at[2];
         char words[64], expected[64];
