@@ -613,7 +613,7 @@ TEST(ends_and_methods_have_their_names)
          "it flies away: no curvature is left, so there is no next "
          "step",
          "Newton's method"},
-        {"race", "run time against error, measured now", "6 methods"},
+        {"race", "run time against error, measured now", "9 methods"},
         {"slope", "three blocks, each with a friction of its own",
          "backward Euler"},
     };
