@@ -130,20 +130,16 @@ Status cholesky_factor(Cholesky *cholesky)
 
 /* ---- definite: in panels ---- */
 
-static Panel panel_of(const cholmod_factor *L, size_t k)
-{
-    const int *column = L->super, *rows = L->pi, *values = L->px;
-    return (Panel){column[k + 1] - column[k], rows[k + 1] - rows[k],
-                   (const int *)L->s + rows[k],
-                   (const double *)L->x + values[k]};
-}
-
 /* y = L^-T L^-1 y; w [n] workspace. */
 static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
 {
+    const int *column = L->super, *rows = L->pi, *values = L->px;
     for (size_t step = 0; step < 2 * L->nsuper; step++) {
         bool down = step < L->nsuper;
-        Panel panel = panel_of(L, down ? step : 2 * L->nsuper - 1 - step);
+        size_t k = down ? step : 2 * L->nsuper - 1 - step;
+        Panel panel = {column[k + 1] - column[k], rows[k + 1] - rows[k],
+                       (const int *)L->s + rows[k],
+                       (const double *)L->x + values[k]};
         for (int i = 0; i < panel.rows; i++)
             w[i] = y[panel.row[i]];
         (down ? panel_forward : panel_backward)(&panel, w);

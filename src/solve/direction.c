@@ -37,33 +37,13 @@ static const double FIRST_TRIAL = 0.1;
 
 /* ---- the Hessian and its factor ---- */
 
-Status direction_create(Newton *newton)
-{
-    SearchDirection *search = &newton->search;
-    size_t size = 2 * (size_t)newton->system->nodes;
-    search->b = calloc(5 * size, sizeof *search->b);
-    if (!search->b)
-        return STATUS_OUT_OF_MEMORY;
-    search->r = search->b + size;
-    search->z = search->r + size;
-    search->q = search->z + size;
-    search->d = search->q + size;
-    return STATUS_OK;
-}
-
-static void free_matrix(SearchDirection *search)
+void direction_free_matrix(SearchDirection *search)
 {
     cholesky_free(search->cholesky);
     search->cholesky = NULL;
     sparse_free(&search->A);
     free(search->slot);
     search->slot = NULL;
-}
-
-void direction_free(Newton *newton)
-{
-    free_matrix(&newton->search);
-    free(newton->search.b);
 }
 
 /* A = the Hessian at x.  Pattern and symbolic analysis: once, and again only
@@ -82,7 +62,7 @@ static Status assemble(Newton *newton, Filter filter, int *projected)
     *projected = 0;
     if (!status && (!search->cholesky || search->kind != kind || grown ||
                     search->pattern != system->pattern)) {
-        free_matrix(search);
+        direction_free_matrix(search);
         search->pattern = system->pattern;
         search->kind = kind;
         status =
@@ -435,19 +415,9 @@ Status direction_judges_end(Newton *newton)
                               newton->settings.minimum ? 1 : 1 + MASSES_DOWN);
 }
 
-/* Random numbers of -1 ... 1, the same ones always; 0 for pinned nodes. */
-static void random_numbers(const System *system, double *r)
-{
-    uint64_t state = 1;
-    for (int i = 0; i < 2 * system->nodes; i++) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        r[i] = (double)(int64_t)state / 9223372036854775808.0;
-    }
-    system_clear_pinned(system, r);
-}
-
 /* Looks for negative curvature: conjugate gradients on the Hessian as it is,
- * from random numbers, preconditioned with the last factor.
+ * from random numbers of -1 ... 1, the same ones always, preconditioned with
+ * the last factor.
  *   found  out; p is then a direction with p.H p < 0 and p.g <= 0
  * Returns OK, NOT_FINITE. */
 static Status find_curvature(Newton *newton, bool *found)
@@ -457,7 +427,12 @@ static Status find_curvature(Newton *newton, bool *found)
     int n = 2 * newton->system->nodes;
     ConjugateGradients state = {FILTER_NONE, .enough = NO_CURVATURE};
     Status status = STATUS_OK;
-    random_numbers(newton->system, search->r);
+    uint64_t random = 1;
+    for (int i = 0; i < n; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        search->r[i] = (double)(int64_t)random / 9223372036854775808.0;
+    }
+    system_clear_pinned(newton->system, search->r);
     for (int k = 0; k < CURVATURE_MAX_ITERATIONS && !status; k++) {
         status = apply_factor(newton, search->r, search->z);
         if (!status && !conjugate_step(newton, &state))
@@ -514,21 +489,15 @@ Status direction_from_saddle(Newton *newton)
     return leave_saddle(newton);
 }
 
-/* Whether g is 0 but for rounding, compared with the force of a spring that is
- * compressed to nothing. */
-static bool gradient_vanishes(const Newton *newton)
-{
-    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
-    for (int i = 0; i < 2 * newton->system->nodes; i++)
-        if (!(fabs(newton->at.g[i]) <= most))
-            return false;
-    return true;
-}
-
 Status direction_first(Newton *newton)
 {
+    /* g is 0 but for rounding, compared with the force of a spring that is
+     * compressed to nothing. */
+    double most = 1e-12 * newton->at.E.weight * newton->rounding.force;
     Status status = direction_next(newton);
+    for (int i = 0; i < 2 * newton->system->nodes && !status; i++)
+        if (!(fabs(newton->at.g[i]) <= most))
+            return STATUS_OK;
     /* Where the gradient vanishes, any curvature downwards tells. */
-    return status || !gradient_vanishes(newton) ? status
-                                                : direction_bends_up(newton, 1);
+    return status ? status : direction_bends_up(newton, 1);
 }

@@ -47,9 +47,9 @@ static bool next_point(const IncrementalPotential *E, const double *u,
     return true;
 }
 
-/* P, J, or Phi; or the size of P. */
-static double potential(const IncrementalPotential *E, const double *u,
-                        const double *x, bool size)
+/* E; or its size: inertia and w |P|, for Phi is 0 for u = 0, P is not. */
+static double value(const IncrementalPotential *E, const double *u,
+                    const double *x, bool size)
 {
     Point point;
     double P = 0;
@@ -62,24 +62,22 @@ static double potential(const IncrementalPotential *E, const double *u,
                 value = 0.5 * (value - kind->value(&start)) / point.t;
             P += size ? fabs(value) : value;
         }
-    return P;
+    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
+           E->weight * P;
 }
 
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * potential(E, u, x, false);
+    return value(E, u, x, false);
 }
 
-/* Phi is 0 for u = 0, P is not. */
 double incremental_potential_scale(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
     IncrementalPotential at_end = *E;
     at_end.between = NULL;
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * potential(&at_end, u, x, true);
+    return value(&at_end, u, x, true);
 }
 
 void incremental_potential_gradient(const IncrementalPotential *E,

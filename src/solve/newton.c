@@ -192,24 +192,21 @@ static void finish(Newton *newton)
     newton->status = newton_tell(newton, &end);
 }
 
-/* E at the end - E at the start: the sum of the changes, each of which is exact
- * along its line; or the difference of both E, where E was so high in between
+/* The change of E is the sum of the changes, each of which is exact along its
+ * line; or the difference of E at end and start, where E was so high in between
  * that the sum has lost more digits. */
-static double change_of_all(const Newton *newton)
-{
-    const Iterate *at = &newton->at;
-    double first = newton->rounding.first;
-    if (isnan(first))
-        return newton->sum;
-    double last = incremental_potential_value(&at->E, at->u, at->x);
-    return newton->size <= fabs(first) + fabs(last) ? newton->sum
-                                                    : last - first;
-}
-
 void newton_finish(Newton *newton)
 {
+    const Iterate *at = &newton->at;
+    double first = newton->rounding.first, change, last;
     finish(newton);
-    newton->change += change_of_all(newton);
+    change = newton->sum;
+    if (!isnan(first)) {
+        last = incremental_potential_value(&at->E, at->u, at->x);
+        if (newton->size > fabs(first) + fabs(last))
+            change = last - first;
+    }
+    newton->change += change;
 }
 
 Status newton_minimise(Newton *newton, const double *x_n, const double *u,
@@ -227,23 +224,22 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    newton->at.u = calloc(9 * size, sizeof(double));
-    if (!newton->at.u)
-        return STATUS_OUT_OF_MEMORY;
-    newton->at.x = newton->at.u + size;
-    newton->at.g = newton->at.x + size;
-    newton->at.p = newton->at.g + size;
-    newton->u_tilde = newton->at.p + size;
-    newton->u_trial = newton->u_tilde + size;
-    newton->x_trial = newton->u_trial + size;
-    return direction_create(newton);
+    SearchDirection *search = &newton->search;
+    double *next = newton->at.u = calloc(14 * size, sizeof *next);
+    double **array[] = {
+        &newton->at.x,    &newton->at.g, &newton->at.p,   &newton->u_tilde,
+        &newton->u_trial, &search->b,    &search->r,      &search->z,
+        &search->q,       &search->d,    &newton->x_trial}; /* [4n], the last */
+    for (size_t i = 0; next && i < sizeof array / sizeof *array; i++)
+        *array[i] = next += size;
+    return next ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 void newton_free(Newton *newton)
 {
     if (!newton)
         return;
-    direction_free(newton);
+    direction_free_matrix(&newton->search);
     multigrid_free(newton->multigrid);
     free(newton->at.u);
     *newton = (Newton){0};

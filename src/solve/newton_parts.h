@@ -13,10 +13,8 @@ Status newton_tell(Newton *newton, const NewtonRecord *record);
 /* ---- direction.c: gradient, search direction and the test of Algorithm 3 at
  * each iterate. */
 
-/* Allocates newton->search, all 0 before; no matrix is made yet.  Returns OK,
- * OUT_OF_MEMORY; free it in any case. */
-Status direction_create(Newton *newton);
-void direction_free(Newton *newton);
+/* Frees the matrix and its factor, which are made where they are needed. */
+void direction_free_matrix(SearchDirection *search);
 
 /* At the start of a minimisation: fills g, p, residual and, of the record, what
  * concerns them.  A gradient that vanishes passes the test, but may be that of

@@ -72,24 +72,12 @@ static Status begin_terms(TimeIntegrator *integrator)
 {
     System *system = integrator->system;
     Status status = STATUS_OK;
-    for (int t = 0; t < system->terms && !status; t++) {
-        Term *term = &system->term[t];
-        if (term->kind->begin)
-            status = term->kind->begin(term, system, integrator->x,
-                                       integrator->v, integrator->h);
-    }
+    for (int t = 0; t < system->terms && !status; t++)
+        if (system->term[t].kind->begin)
+            status = system->term[t].kind->begin(&system->term[t], system,
+                                                 integrator->x, integrator->v,
+                                                 integrator->h);
     return status;
-}
-
-static void end_terms(TimeIntegrator *integrator)
-{
-    System *system = integrator->system;
-    for (int t = 0; t < system->terms; t++) {
-        Term *term = &system->term[t];
-        if (term->kind->end)
-            term->kind->end(term, system, integrator->x, integrator->v,
-                            integrator->h);
-    }
 }
 
 /* Where the hand pulls in this step. */
@@ -132,7 +120,11 @@ static Status end_step(TimeIntegrator *integrator, Status failure)
     if (integrator->moves)
         integrator->work +=
             prescribed_work(integrator, integrator->newton->at.E.weight);
-    end_terms(integrator);
+    System *system = integrator->system;
+    for (int t = 0; t < system->terms; t++)
+        if (system->term[t].kind->end)
+            system->term[t].kind->end(&system->term[t], system, integrator->x,
+                                      integrator->v, integrator->h);
     return integrator->status;
 }
 
