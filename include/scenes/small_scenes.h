@@ -148,9 +148,6 @@ void descent_restart(Simulation *simulation);
 Local descent_at(const Simulation *simulation, Filter filter, double x,
                  double y);
 
-/* Its value alone. */
-double descent_value(const Simulation *simulation, double x, double y);
-
 /* p = -H^-1 g from the iterate with this filter, m, whatever the run's own
  * filter is.  Returns grad E . p, J s^2, NaN where H has no inverse. */
 double descent_direction(const Simulation *simulation, Filter filter,

@@ -15,10 +15,10 @@ static const double TITLE = 2.0; /* ems, height of a title bar; layout.c */
 static double descent_difference(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    return descent_value(space->simulation,
-                         space->from[0] + alpha * space->p[0],
-                         space->from[1] + alpha * space->p[1]) -
-           space->value;
+    Local there = descent_at(space->simulation, FILTER_NONE,
+                             space->from[0] + alpha * space->p[0],
+                             space->from[1] + alpha * space->p[1]);
+    return there.value - space->value;
 }
 
 const Trace *descent_trace(const Simulation *simulation, DescentTrace *space)
@@ -49,7 +49,9 @@ const Trace *descent_trace(const Simulation *simulation, DescentTrace *space)
         space->from[1] = space->p[1] = 0;
     if (space->p[0] == 0 && space->p[1] == 0)
         return trace;
-    space->value = descent_value(simulation, space->from[0], space->from[1]);
+    space->value =
+        descent_at(simulation, FILTER_NONE, space->from[0], space->from[1])
+            .value;
     trace->difference = descent_difference;
     trace->function = space;
     trace->slope = made ? record->slope : descent->slope;

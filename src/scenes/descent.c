@@ -121,11 +121,6 @@ double landscape_part_value(const Simulation *simulation, unsigned parts,
     return landscape_at(simulation, parts, h, FILTER_NONE, at).value;
 }
 
-double descent_value(const Simulation *simulation, double x, double y)
-{
-    return descent_at(simulation, FILTER_NONE, x, y).value;
-}
-
 int descent_bends_down(const Simulation *simulation, double x, double y)
 {
     Local E = descent_at(simulation, FILTER_NONE, x, y);
@@ -213,7 +208,8 @@ static Status show_iterate(Simulation *simulation, Status status)
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
-    descent->value = descent_value(simulation, run->x[0], run->x[1]);
+    descent->value =
+        descent_at(simulation, FILTER_NONE, run->x[0], run->x[1]).value;
     if (descent->scalar)
         run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);

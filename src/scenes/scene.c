@@ -6,6 +6,9 @@
 #include "scenes/small_scenes.h"
 #include "scenes/body.h"
 
+/* A body of cells, by any integrator. */
+#define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
+
 /* What all of those have that fall on something. */
 #define FALL "--stretch 1 --tolerance 1e-4 --gravity 9.81 --cells on "
 
@@ -14,8 +17,8 @@
     "--material neo-hookean --timestep 0.01 --tolerance 1e-4 --gravity 9.81 "
 
 const Scene scenes[] = {
-    {"square", "A stretched square", "the stretched square relaxes",
-     PICTURE_SQUARE, NEEDS_SQUARE, NULL, create_square, .settles = true,
+    {"square", "A stretched square", "the stretched square relaxes", SQUARE,
+     NULL, create_square, .settles = true,
      .group = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
@@ -33,35 +36,31 @@ const Scene scenes[] = {
      .turn = "iteration", .explains = true, .step = step_descent,
      .aim = aim_descent, .grips = "tx", .parts = {"inertia", "elasticity"}},
     {"unprojected", "Without projection",
-     "the squeezed square: without projection Newton is stuck", PICTURE_SQUARE,
-     NEEDS_SQUARE, "--timestep 0.02 --stretch 0.5 --filter none", create_square,
+     "the squeezed square: without projection Newton is stuck", SQUARE,
+     "--timestep 0.02 --stretch 0.5 --filter none", create_square,
      .explains = true},
     /* Within the first step E rises to 2e16 J s^2 and nodes fly 1.7 km (found
      * by a scan of 2560 squares); with either ingredient it does not. */
     {"explosion", "Newton's method explodes",
-     "one step without projection and line search: nodes fly", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --filter none "
      "--line-search none",
      create_square, .explains = true},
     {"hang", "Gravity: a hanging square",
-     "pinned at its upper corners, it sags and swings", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "pinned at its upper corners, it sags and swings", SQUARE,
      "--segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
      "--tolerance 1e-3 --gravity 9.81",
      create_square, .pin = "top-corners",
      .group = "Gravity, contact, inelasticity, fracture"},
     {"drop", "Contact: a square thrown down",
-     "it falls on a corner, tumbles, and comes to rest", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "it falls on a corner, tumbles, and comes to rest", SQUARE,
      FALL "--segments 16 --timestep 0.005 --turn 25 --at -0.3,0.75 "
           "--velocity 0.9,-1 --friction 0.3 --ground 0,1,0,-0.5 "
           "--ground 1,0,-1.1,0 --ground -1,0,1.1,0",
      create_square, .settles = true, .frame = {-1.25, -0.65, 1.25, 1.45},
      .strain = 0.1},
     {"slope", "Friction: three blocks",
-     "three blocks, each with a friction of its own", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "three blocks, each with a friction of its own", SQUARE,
      FALL "--segments 6 --stiffness 5e4 --timestep 0.01 "
           "--tolerance 1e-5 --side 0.5 --turn 20 "
           "--at -0.08636008618973134,0.2372723867484419 "
@@ -69,54 +68,48 @@ const Scene scenes[] = {
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
      create_slope, .frame = {-2.3, -2.75, 0.9, 2.0}},
     {"squeeze", "Contact: pressed flat",
-     "a ceiling comes down and lets go: all of it returns", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
      create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain = 0.5,
      .own = squeeze_ceiling, .own_name = "the ceiling"},
     {"return", "Solids that never turn over",
-     "pressed to 3 % of its width, a square again", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
      .create = create_square, .settles = true, .frame = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
-     "three soft squares fall on one another", PICTURE_SQUARE, NEEDS_SQUARE,
+     "three soft squares fall on one another", SQUARE,
      SOLIDS "--segments 6 --side 0.45 --friction 0.4 --barrier 0.01875,1e5 "
             "--ground 0,1,0,-1 --ground 1,0,-1,0 --ground -1,0,1,0 "
             "--body 0,-0.76 --body 0.2,-0.22,12 --body -0.12,0.33,-30",
      create_square, .frame = {-1.1, -1.1, 1.1, 0.75}},
     {"rub", "Friction between bodies",
-     "a block slides on another one, and stops", PICTURE_SQUARE, NEEDS_SQUARE,
+     "a block slides on another one, and stops", SQUARE,
      SOLIDS "--segments 12 --young 4e5 --friction 0.2 --barrier 0.02,1e5 "
             "--body 0,-0.125 --body -0.15,0.1448,0,1,0",
      create_square, .frame = {-0.75, -0.4, 0.75, 0.5}, .aspect = 0.25,
      .pin = "all:1"},
     {"gap", "Squeezed through a gap",
-     "a soft square falls through a gap narrower than itself", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "a soft square falls through a gap narrower than itself", SQUARE,
      SOLIDS "--segments 10 --side 0.5 --young 2e4 --friction 0.1 "
             "--barrier 0.0125,1e5 --ground 0,1,0,-1.1 --body 0,0.65 "
             "--body -0.5036,0,45 --body 0.5036,0,45",
      create_square, .frame = {-0.95, -1.2, 0.95, 0.95}, .pin = "all:2,all:3"},
     {"dent", "Inelasticity: a dent that stays",
-     "springs beyond their yield strain flow, and keep it", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "springs beyond their yield strain flow, and keep it", SQUARE,
      FALL "--segments 16 --stiffness 2e5 --timestep 0.004 --at 0,0.62 "
           "--velocity 0.02,-2 --friction 0.3 --yield 0.04 "
           "--hardening 0.1 --ball 0,-0.75,0.35 --ground 0,1,0,-1.15",
      create_square, .frame = {-1.3, -1.3, 1.3, 1.25}},
     {"tear", "Fracture: a slit runs",
-     "pulled apart, springs break where the strain is largest", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "pulled apart, springs break where the strain is largest", SQUARE,
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
      create_tear, .frame = {-0.78, -0.65, 0.78, 0.65}, .strain = 0.05,
      .pin = "left,right", .moving_pins = true, .cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
-     "struck from above it cracks from below, at a notch", PICTURE_SQUARE,
-     NEEDS_SQUARE,
+     "struck from above it cracks from below, at a notch", SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
           "--tear 0.1 --friction 0.3 --barrier 0.008,8e5 --self-contact on "
           "--ball -0.8,-0.3325,0.14 --ball 0.8,-0.3325,0.14 "

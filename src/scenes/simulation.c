@@ -16,17 +16,6 @@
  * thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
-/* Dissipation is counted from the present state on. */
-static void begin_ledger(Simulation *simulation)
-{
-    for (int i = 0; i < simulation->runs; i++)
-        simulation->start[i] = 0;
-    for (int i = 0; i < simulation->runs; i++)
-        if (simulation->run[i].x)
-            simulation->start[i] =
-                -simulation_energies(simulation, i).dissipated;
-}
-
 NewtonSettings newton_settings_of(const Options *options)
 {
     return (NewtonSettings){.h = options->timestep,
@@ -60,8 +49,10 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1 && options->scene->parts[i])
             exhibit_flip(simulation, i);
-    if (!status)
-        begin_ledger(simulation);
+    for (int r = 0; r < simulation->runs && !status; r++)
+        if (simulation->run[r].x) /* dissipation is counted from here on */
+            simulation->start[r] =
+                -simulation_energies(simulation, r).dissipated;
     return status;
 }
 
@@ -97,30 +88,23 @@ void simulation_predict(Simulation *simulation, double x, double y)
     simulation->prediction = (Prediction){.made = true, .at = {x, y}};
 }
 
-/* A guess that was made is held against where the step led; one that was
- * compared before is forgotten. */
-static void compare_prediction(Simulation *simulation)
-{
-    Prediction *prediction = &simulation->prediction;
-    if (prediction->shown)
-        *prediction = (Prediction){0};
-    if (!prediction->made)
-        return;
-    int count = simulation_point(simulation, prediction->came);
-    double dx = prediction->came[0] - prediction->at[0];
-    double dy = count > 1 ? prediction->came[1] - prediction->at[1] : 0;
-    prediction->distance = math_hypot(dx, dy);
-    prediction->shown = true;
-}
-
 /* The step is over, or could not be made. */
 static Status end_step(Simulation *simulation, Status status)
 {
+    Prediction *guess = &simulation->prediction;
     simulation->status = status;
     if (status && !status_is_unconverged(status))
         return status;
     simulation->steps++;
-    compare_prediction(simulation);
+    if (guess->shown) /* it was of the step before */
+        *guess = (Prediction){0};
+    guess->shown = guess->made;
+    if (guess->made) {
+        bool line = simulation_point(simulation, guess->came) == 1;
+        double dx = guess->came[0] - guess->at[0];
+        guess->distance =
+            math_hypot(dx, line ? 0 : guess->came[1] - guess->at[1]);
+    }
     if (status)
         simulation->reasons[status]++;
     if (status && simulation->unconverged++ == 0)
@@ -287,26 +271,21 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
-/* Whether the command line lets multigrid work, as far as it tells. */
-static bool expects_multigrid(const Options *options)
-{
-    return (options->solver == SOLVER_MULTIGRID ||
-            (options->solver == SOLVER_AUTO &&
-             options->segments > AUTO_NEWTON_SEGMENTS)) &&
-           options->filter == FILTER_CLAMP && !options->minimum &&
-           options->line_search == LINE_SEARCH_BACKTRACK &&
-           !options_method(options)->averaged;
-}
-
+/* Whether multigrid works is what the command line tells of it. */
 double simulation_bytes(const Options *options)
 {
-    if (!(options->scene->needs & NEEDS_MESH))
-        return 0;
+    const IntegratorMethod *method = options_method(options);
+    bool multigrid = options->solver == SOLVER_AUTO
+                         ? options->segments > AUTO_NEWTON_SEGMENTS
+                         : options->solver == SOLVER_MULTIGRID;
     double row = options->segments + 1.0;
     double n = row * row * fmax(options->bodies, 1);
-    if (!options_method(options)->implicit)
+    if (!(options->scene->needs & NEEDS_MESH))
+        return 0;
+    if (!method->implicit)
         return 250 * n;
-    if (expects_multigrid(options))
+    if (multigrid && options->filter == FILTER_CLAMP && !options->minimum &&
+        options->line_search == LINE_SEARCH_BACKTRACK && !method->averaged)
         return 655 * n;
     return (130 * log2(n) + 750) * n;
 }

@@ -55,27 +55,6 @@ static void pass_system(Cursor *cursor, System *system)
              (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-/* Whether an earlier run has the same system. */
-static bool is_known(const Simulation *simulation, int run)
-{
-    for (int r = 0; r < run; r++)
-        if (simulation->run[r].system == simulation->run[run].system)
-            return true;
-    return false;
-}
-
-/* Counters of the simulation. */
-static void pass_counters(Cursor *cursor, Simulation *simulation)
-{
-    PASS(simulation->steps);
-    PASS(simulation->unconverged);
-    PASS(simulation->work);
-    PASS(simulation->first);
-    PASS(simulation->reasons);
-    PASS(simulation->status);
-    PASS(simulation->done);
-}
-
 /* Of one run: counters, positions, velocities, memory, system. */
 static void pass_run(Cursor *cursor, Simulation *simulation, int r)
 {
@@ -90,7 +69,7 @@ static void pass_run(Cursor *cursor, Simulation *simulation, int r)
     pass(cursor, run->v, array);
     PASS(run->memory_h);
     pass(cursor, run->memory, (size_t)run->method->memory * array);
-    if (!is_known(simulation, r))
+    if (r == 0 || run->system != simulation->run[0].system)
         pass_system(cursor, run->system);
     if (cursor->way == RESTORE)
         system_changed(run->system, false);
@@ -122,7 +101,13 @@ static void pass_exhibit(Cursor *cursor, Simulation *simulation)
 
 static void pass_all(Cursor *cursor, Simulation *simulation)
 {
-    pass_counters(cursor, simulation);
+    PASS(simulation->steps);
+    PASS(simulation->unconverged);
+    PASS(simulation->work);
+    PASS(simulation->first);
+    PASS(simulation->reasons);
+    PASS(simulation->status);
+    PASS(simulation->done);
     pass_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++)
         pass_run(cursor, simulation, r);

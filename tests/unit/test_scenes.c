@@ -62,9 +62,9 @@ static void check_path(const Simulation *simulation)
         CHECK(record->step == i + 1 && record->iteration == i);
         if (i > 0)
             CHECK_SAME_BITS(from, record[-1].to, 2);
-        double E = descent_value(simulation, from[0], from[1]);
-        CHECK_NEAR(descent_value(simulation, to[0], to[1]) - E, record->change,
-                   1e-12 * (1 + fabs(E)));
+        double E = descent_at(simulation, FILTER_NONE, from[0], from[1]).value;
+        CHECK_NEAR(descent_at(simulation, FILTER_NONE, to[0], to[1]).value - E,
+                   record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
             CHECK((record->projected > 0) ==
                   (descent_bends_down(simulation, from[0], from[1]) > 0));
