@@ -8,33 +8,39 @@
 
 #include <stdbool.h>
 
-typedef enum Status {
-    STATUS_OK = 0,
-    STATUS_RUNNING, /* not at the end yet: iterate again */
-    /* From here to DIVERGED: see status_is_unconverged. */
-    STATUS_ITERATION_LIMIT,       /* Newton used all its iterations */
-    STATUS_LINE_SEARCH_LIMIT,     /* no step length lowers the energy */
-    STATUS_NOT_DESCENT,           /* the direction points uphill */
-    STATUS_ROUNDING_LIMIT,        /* no decrease larger than rounding left */
-    STATUS_NOT_A_MINIMUM,         /* gradient 0, but the energy bends down */
-    STATUS_NOT_POSITIVE_DEFINITE, /* Cholesky met a pivot that is not > 0 */
-    STATUS_SINGULAR,              /* a system without usable solution */
-    STATUS_BLOCKED,               /* a wall or a pin could not be moved on */
-    STATUS_DIVERGED,              /* E ended above where it began */
-    STATUS_NOT_FINITE,            /* NaN or infinity appeared */
-    STATUS_INTERRUPTED,           /* the observer asked to stop */
-    STATUS_INVALID_INPUT,         /* an argument outside its range */
-    STATUS_TOO_LARGE,             /* an index or a size does not fit */
-    STATUS_OUT_OF_MEMORY,
-    STATUS_FILE_FAILED,   /* errno tells the reason */
-    STATUS_SCREEN_FAILED, /* view_failure tells the reason */
-    STATUS_COUNT
-} Status;
+/* The constant without its prefix, its name in logs, and a sentence without
+ * full stop, for people.  From ITERATION_LIMIT to DIVERGED: see
+ * status_is_unconverged. */
+#define STATUSES(F)                                                            \
+    F(OK, ok, "converged")                                                     \
+    F(RUNNING, running, "not at the end yet")                                  \
+    F(ITERATION_LIMIT, iteration_limit, "Newton used all its iterations")      \
+    F(LINE_SEARCH_LIMIT, line_search_limit,                                    \
+      "the line search found no step that lowers the energy")                  \
+    F(NOT_DESCENT, not_descent,                                                \
+      "the search direction points uphill and no small step along it helps")   \
+    F(ROUNDING_LIMIT, rounding_limit,                                          \
+      "rounding hides every further decrease above the tolerance")             \
+    F(NOT_A_MINIMUM, not_a_minimum,                                            \
+      "the gradient vanished, but not at a minimum")                           \
+    F(NOT_POSITIVE_DEFINITE, not_positive_definite,                            \
+      "the Hessian is not positive definite")                                  \
+    F(SINGULAR, singular, "the Hessian is singular")                           \
+    F(BLOCKED, blocked, "what is moved found no room to go on")                \
+    F(DIVERGED, diverged, "E ended above where it began")                      \
+    F(NOT_FINITE, not_finite, "a number became NaN or infinite")               \
+    F(INTERRUPTED, interrupted, "interrupted")                                 \
+    F(INVALID_INPUT, invalid_input, "the input is out of range")               \
+    F(TOO_LARGE, too_large, "the matrix is too large for 32-bit indices")      \
+    F(OUT_OF_MEMORY, out_of_memory, "not enough memory")                       \
+    F(FILE_FAILED, file_failed, "a file could not be written") /* errno */     \
+    F(SCREEN_FAILED, screen_failed, "drawing failed") /* view_failure */
 
-/* A sentence without full stop, for people. */
+#define STATUS_CONSTANT(name, lower, text) STATUS_##name,
+typedef enum Status { STATUSES(STATUS_CONSTANT) STATUS_COUNT } Status;
+
+/* The sentence; the name. */
 const char *status_text(Status status);
-
-/* The name of the constant without its prefix in lower case, for logs. */
 const char *status_name(Status status);
 
 /* True where a step ended with a usable state that is not the minimiser:

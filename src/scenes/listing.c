@@ -44,17 +44,6 @@ static int find_end(const Listing *listing, int from)
     return 0;
 }
 
-/* The first line of the comment that ends right above. */
-static int find_comment(const Listing *listing, int from)
-{
-    int first = from - 1;
-    if (first < 0 || !strstr(listing->line[first], "*/"))
-        return from;
-    while (first > 0 && !strstr(listing->line[first], "/*"))
-        first--;
-    return first;
-}
-
 bool listing_function(const Listing *listing, const char *function, int *from,
                       int *body, int *to)
 {
@@ -64,8 +53,10 @@ bool listing_function(const Listing *listing, const char *function, int *from,
         *to = find_end(listing, i);
         if (*to == 0)
             continue;
-        *body = i;
-        *from = find_comment(listing, i);
+        *from = *body = i;
+        if (i > 0 && strstr(listing->line[i - 1], "*/"))
+            for (--*from; *from > 0 && !strstr(listing->line[*from], "/*");)
+                --*from;
         return true;
     }
     return false;

@@ -69,16 +69,6 @@ Status create_race(Simulation *simulation)
     return status;
 }
 
-/* m, of the node that is farthest from where it belongs */
-static double largest_error(int nodes, const double *x, const double *exact)
-{
-    double largest = 0;
-    for (int i = 0; i < 2 * nodes; i += 2)
-        largest =
-            fmax(largest, math_hypot(x[i] - exact[i], x[i + 1] - exact[i + 1]));
-    return largest;
-}
-
 /* J */
 static double energy_of(const TimeIntegrator *run)
 {
@@ -171,8 +161,12 @@ Status step_race(Simulation *simulation)
                          .updates =
                              run.newton ? run.newton->counters.iterations : 0};
     if (!status) {
-        point->error = largest_error(simulation->system.nodes, run.x,
-                                     simulation->run[1].x);
+        const double *exact = simulation->run[1].x;
+        point->error = 0;
+        for (size_t i = 0; i < run.size; i += 2)
+            point->error =
+                fmax(point->error, math_hypot(run.x[i] - exact[i],
+                                              run.x[i + 1] - exact[i + 1]));
         point->kept = energy_of(&run) / energy_of(&simulation->run[0]);
         if (race->count / RACE_METHODS == RACE_SHOWN)
             point->later = energy_later(simulation, &run);
