@@ -20,8 +20,8 @@ $(B)/tests/unit/test_stress $(B)/tests/unit/test_multigrid \
   $(B)/tests/unit/test_newton $(B)/tests/unit/test_numbers: $(STRESS)
 $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc) \
   -lsuitesparseconfig
-$(B)/tests/unit/test_show $(B)/tests/unit/test_pages: \
-  LIBS += $(call wrap,text_draw)
+$(B)/tests/unit/test_show: LIBS += $(call wrap,text_draw)
+$(B)/tests/unit/test_pages: LIBS += $(call wrap,font_glyph)
 
 # Multigrid's loops once more, for one number at a time, and Cholesky's for two:
 # before the archive.

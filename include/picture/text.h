@@ -28,7 +28,8 @@ typedef struct TextStyle {
     Face face;
     double size; /* pixels an em; below 5 nothing is drawn, at most 400 */
     Colour colour;
-    bool plain; /* no markup: every character is itself */
+    bool plain;   /* no markup: every character is itself */
+    double least; /* pixels, no script and no part of a fraction is smaller */
 } TextStyle;
 
 typedef struct Text Text;

@@ -223,10 +223,8 @@ Status step_race(Simulation *simulation);
  * explicit or of implicit methods; NULL: there is none. */
 const RacePoint *race_quickest(const Race *race, double error, bool implicit);
 
-/* Of a method in the runs so far: the order of its error in h, by the last two
- * whose errors are above those of tolerance and reference; and the longest time
- * step with which it is stable, s; NaN: not known. */
-double race_order(const Race *race, int method);
+/* The longest time step with which a method is stable in the runs so far, s;
+ * NaN: not known. */
 double race_stable(const Race *race, int method);
 
 /* The method of column i, 0 ... RACE_METHODS - 1. */

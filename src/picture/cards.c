@@ -204,7 +204,7 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
     double size = fmax(0.88, paper->least), line = 1.24 * size * paper->em;
     double y = inside.y;
     int columns = (int)(inside.width / (0.603 * size * paper->em)) - 1;
-    TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true};
+    TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = page->top; i < page->lines && columns > 10; i++) {
         const char *text = page->line[i];
         int indent = (int)strspn(text, " "), column = 0;

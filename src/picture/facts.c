@@ -345,7 +345,8 @@ static double line_height(Paper *paper, const TextLine *line, double size,
                           double *above)
 {
     const double air = 0.2, empty = 0.6; /* ems */
-    TextStyle style = {line->face, size * paper->em, line->colour, false};
+    TextStyle style = {line->face, size * paper->em, line->colour, false,
+                       paper->least * paper->em};
     TextExtent extent = text_extent(paper->text, &style, line->words);
     TextExtent plain = text_extent(paper->text, &style, "");
     if (above)

@@ -112,44 +112,6 @@ static void circle_pick(const Plot *stage, double x, double y, Pick *pick)
     }
 }
 
-/* The two lines of a method, in the order in which they are done, and what they
- * do to the circle. */
-typedef struct Formula {
-    const char *method, *first, *second, *growth;
-} Formula;
-
-static const Formula formulas[] = {
-    {"forward-euler", "{x}^{n+1} = {x}^{n} + h v^{n}",
-     "v^{n+1} = v^{n} + h a({x}^{n})",
-     "radius \u00d7 \u221a(1 + (h\u03c9)\u00b2) a step: it grows"},
-    {"symplectic-euler", "v^{n+1} = v^{n} + h a({x}^{n})",
-     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
-     "stays on an ellipse while h\u03c9 < 2"},
-    {"backward-euler", "v^{n+1} = v^{n} + h a({x}^{n+1})",
-     "{x}^{n+1} = {x}^{n} + h v^{n+1}",
-     "radius / \u221a(1 + (h\u03c9)\u00b2) a step: it shrinks"},
-    {"verlet",
-     "v^{n+\u00bd} = v^{n} + \u00bdh a({x}^{n});   "
-     "{x}^{n+1} = {x}^{n} + h v^{n+\u00bd}",
-     "v^{n+1} = v^{n+\u00bd} + \u00bdh a({x}^{n+1})",
-     "on an ellipse, nearly the circle, while h\u03c9 < 2"},
-    {"bdf2", "{x}^{n+1} = (4{x}^{n} \u2212 {x}^{n\u22121})/3 + \u2154h v^{n+1}",
-     "v^{n+1} = (4v^{n} \u2212 v^{n\u22121})/3 + \u2154h a({x}^{n+1})",
-     "shrinks, by far less than backward Euler"},
-    {"midpoint", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
-     "v^{n+1} = v^{n} + h a(\u00bd({x}^{n} + {x}^{n+1}))",
-     "stays on the circle, a little late"},
-    {"sdirk2", "two stages of backward Euler with \u03b3h,",
-     "\u03b3 = 1 \u2212 1/\u221a2; the second one is the end",
-     "shrinks, by far less than backward Euler"},
-    {"avf", "{x}^{n+1} = {x}^{n} + \u00bdh (v^{n} + v^{n+1})",
-     "v^{n+1} = v^{n} + h \u222b a on the way from {x}^{n} to {x}^{n+1}",
-     "stays on the circle: energy is kept"},
-    {"avf4", "five steps of the averaged field:",
-     "g h, g h, (1 \u2212 4g) h, g h, g h;  g = 1/(4 \u2212 4^{1/3})",
-     "stays on the circle, hardly late"},
-};
-
 /* The matrix of a step of (x, v/omega), t = h omega, and its eigenvalues: real
  * ones, or a pair. */
 static void add_matrix(const char *method, double t, Facts *facts)
@@ -199,32 +161,15 @@ static void add_runs(const Simulation *simulation, Facts *facts)
         facts->run = r + 1;
         if (simulation->scene->picture == PICTURE_CIRCLE)
             add_matrix(run->method->name, turn, facts);
-        for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
-            if (strcmp(formulas[i].method, run->method->name) == 0) {
-                fact_words(facts, "first", formulas[i].first);
-                fact_words(facts, "second", formulas[i].second);
-                fact_words(facts, "growth", formulas[i].growth);
-            }
     }
     facts->run = 0;
 }
-
-/* Name, both lines and what they do to the circle, run by run. */
-static const Card card_methods = {
-    .name = "methods",
-    .title = "The methods",
-    .least = 20,
-    .weight = 0.3,
-    .words = "@\n{after}\n"
-             "#run* {name}\n{first}\n{second}\n#faint {growth}",
-};
 
 static const Card card_matrix = {
     .name = "matrix",
     .title = "each step of (x, v/\u03c9) as a matrix",
     .least = 11,
     .weight = 0.4,
-    .lecture = true,
     .words = "@\n"
              "#run matrix{{Sxx:4} & {Sxv:4}; {Svx:4} & {Svv:4}}  "
              "\u03bb = {re:3} \u00b1 {im:3} i, |\u03bb| = {size:6}\n"
@@ -234,8 +179,8 @@ static const Card card_matrix = {
 
 const Picture circle_picture = {
     .name = "circle",
-    .cards = (const Card *const[]){&card_page, &card_radius, &card_methods,
-                                   &card_matrix, NULL},
+    .cards =
+        (const Card *const[]){&card_page, &card_radius, &card_matrix, NULL},
     .bounds = circle_bounds,
     .draw = circle_draw,
     .facts = add_runs,

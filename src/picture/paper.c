@@ -42,7 +42,7 @@ static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
     return (TextStyle){face, fmax(size, paper->least) * paper->em, colour,
-                       false};
+                       false, paper->least * paper->em};
 }
 
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,

@@ -6,7 +6,7 @@
 #include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 
-static const double NAMED = 30; /* ems, for names beside the lines */
+static const double NAMED = 36; /* ems, for names beside the lines */
 
 /* Across: run time, or h where that is switched on. */
 static double place_of(const Simulation *simulation, const RacePoint *point)

@@ -158,6 +158,8 @@ static void add_differences(const Simulation *simulation, Facts *facts)
 
 static void add_facts(const Simulation *simulation, Facts *facts)
 {
+    static const char *const before[] = {"e1", "e2", "e3", "e4"};
+    static const char *const after[] = {"p1", "p2", "p3", "p4"};
     SpringFacts now = facts_of_spring(simulation);
     bool both = simulation->exhibit.parts;
     fact_point(facts, "d", simulation->run[0].x);
@@ -170,6 +172,11 @@ static void add_facts(const Simulation *simulation, Facts *facts)
     fact_point(facts, "force", now.force);
     fact(facts, "along", now.along);
     fact(facts, "across", now.across);
+    for (int i = 0; i < 4; i++) {
+        bool turned = simulation->options.filter == FILTER_ABS;
+        fact(facts, before[i], now.block[i]);
+        fact(facts, after[i], turned ? fabs(now.block[i]) : now.projected[i]);
+    }
     fact(facts, "negative", fmin(2 * fmin(now.along, now.across), 0));
     add_hessian(simulation, &now, facts);
     if (simulation->options.page)
@@ -178,49 +185,6 @@ static void add_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
     fact(facts, "root across", now.root_across);
-}
-
-/* Four bars up or down from a line, with numbers. */
-static void spring_bars(Paper *paper, Box box, const double value[4],
-                        double most, const char *title)
-{
-    double middle = box.y + 0.56 * box.height, room = 0.3 * box.height;
-    double wide = box.width / 4.0;
-    paper_write(paper, FACE_BOLD, 0.95, COLOUR_TEXT, box.x, box.y, ALIGN_LEFT,
-                "%s", title);
-    for (int i = 0; i < 4; i++) {
-        double x = box.x + (i + 0.5) * wide;
-        double high = value[i] / most * room;
-        Colour colour = value[i] < 0 ? COLOUR_WARNING : COLOUR_X;
-        int top = (int)(high > 0 ? middle - high : middle);
-        canvas_rectangle(&paper->canvas, (int)(x - 0.28 * wide), top,
-                         (int)(0.56 * wide), (int)fmax(fabs(high), 2),
-                         value[i] == 0 ? COLOUR_GREY : colour);
-        paper_write(paper, FACE_REGULAR, 0.92, colour, x,
-                    value[i] < 0 ? middle - high + 0.1 * paper->em
-                                 : middle + 0.15 * paper->em,
-                    ALIGN_CENTRE, "%s",
-                    number_with(round(value[i] * 10) / 10 + 0.0, 5).text);
-    }
-}
-
-static void spring_draw_eigenvalues(const Plot *card)
-{
-    SpringFacts facts = facts_of_spring(card->simulation);
-    Box inside = card->box;
-    double most = 1e-300;
-    for (int i = 0; i < 4; i++) {
-        most = fmax(most, fabs(facts.block[i]));
-        if (card->simulation->options.filter == FILTER_ABS)
-            facts.projected[i] = fabs(facts.block[i]);
-    }
-    for (int k = 0; k < 2; k++) {
-        Box half = {inside.x + k * inside.width / 2, inside.y,
-                    inside.width / 2 - paper_pixels(card->paper, 0.6),
-                    inside.height};
-        spring_bars(card->paper, half, k ? facts.projected : facts.block, most,
-                    k ? "after projection" : "before");
-    }
 }
 
 /* The energies at a signed length along d. */
@@ -275,13 +239,6 @@ static const Card card_spring_numbers = {
              "#ghost curvature along {root along:4}, across {root across:4} "
              "J/m\u00b2",
 };
-static const Card card_eigenvalues = {
-    .name = "eigenvalues",
-    .title = "eigenvalues of its 4 \u00d7 4 block",
-    .least = 9.5,
-    .weight = 0.9,
-    .draw = spring_draw_eigenvalues,
-};
 static const Card card_block = {
     .name = "block",
     .title = "its 4 \u00d7 4 block, before and after projection, J/m\u00b2",
@@ -291,10 +248,12 @@ static const Card card_block = {
              "{Hxy:4} & {Hyy:4} & {-Hxy:4} & {-Hyy:4}; "
              "{-Hxx:4} & {-Hxy:4} & {Hxx:4} & {Hxy:4}; "
              "{-Hxy:4} & {-Hyy:4} & {Hxy:4} & {Hyy:4}}\n"
+             "eigenvalues {e1:4}, {e2:4}, {e3:4}, {e4:4}\n"
              "#project P = matrix{{Pxx:4} & {Pxy:4} & {-Pxx:4} & {-Pxy:4}; "
              "{Pxy:4} & {Pyy:4} & {-Pxy:4} & {-Pyy:4}; "
              "{-Pxx:4} & {-Pxy:4} & {Pxx:4} & {Pxy:4}; "
-             "{-Pxy:4} & {-Pyy:4} & {Pxy:4} & {Pyy:4}}",
+             "{-Pxy:4} & {-Pyy:4} & {Pxy:4} & {Pyy:4}}\n"
+             "#project eigenvalues {p1:4}, {p2:4}, {p3:4}, {p4:4}",
 };
 static const Card card_profile = {
     .name = "profile",
@@ -308,7 +267,7 @@ const Picture spring_picture = {
     .name = "spring",
     .cards =
         (const Card *const[]){&card_page, &card_spring_numbers, &card_block,
-                              &card_eigenvalues, &card_profile, NULL},
+                              &card_profile, NULL},
     .bounds = spring_bounds,
     .draw = spring_draw,
     .facts = add_facts,

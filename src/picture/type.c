@@ -145,11 +145,17 @@ static const char *find_outside(Part part, const char *word)
     return part.end;
 }
 
+/* Smaller than the letters around it, as far as it may be. */
+static void shrink(TextStyle *style, double factor)
+{
+    style->size = fmin(style->size, fmax(factor * style->size, style->least));
+}
+
 static void set_raised(Pen *pen, Part part, int depth, double ems)
 {
     Pen inner = *pen;
     inner.y += ems * pen->style.size;
-    inner.style.size *= SCRIPT_SIZE;
+    shrink(&inner.style, SCRIPT_SIZE);
     set_part(&inner, part, depth);
     reach(pen, inner.top, inner.bottom);
     pen->x = inner.x;
@@ -173,7 +179,7 @@ static void set_fraction(Pen *pen, Part part, int depth)
     Part above = {part.from, middle}, below = {middle, part.end};
     below.from += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
-    small.style.size *= PART_SIZE;
+    shrink(&small.style, PART_SIZE);
     TextExtent a = measure(&small, above, depth);
     TextExtent b = measure(&small, below, depth);
     double thin = THIN * pen->style.size;

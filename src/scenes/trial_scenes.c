@@ -123,18 +123,6 @@ static Status measure_run(Simulation *simulation,
     return status;
 }
 
-double race_order(const Race *race, int method)
-{
-    const double least = 1e-8; /* m, of tolerance and reference */
-    double order = NAN;
-    for (int i = method + RACE_METHODS; i < race->count; i += RACE_METHODS) {
-        double before = race->point[i - RACE_METHODS].error;
-        if (before > 0 && race->point[i].error > least)
-            order = log2(before / race->point[i].error);
-    }
-    return order;
-}
-
 double race_stable(const Race *race, int method)
 {
     for (int i = method; i < race->count; i += RACE_METHODS)

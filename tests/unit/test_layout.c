@@ -275,7 +275,7 @@ TEST(markup_is_set)
         {"x^{", 1, 1, false},          {"{x}", 1, 1, false},
         {"{x}", 2.01, 9, true},
     };
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     int x = text_width(text, &style, "x");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         style.plain = rows[i].plain;
@@ -309,7 +309,7 @@ TEST(formulas_are_set)
         {"matrix{;;&&&&&&&&&&&&&&;&}", "", 0, 99, 0, 9},
         {"matrix{frac{sqrt{#p{^{_{", "", 0, 99, 0, 9},
     };
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextExtent a = text_extent(text, &style, rows[i].markup);
         TextExtent b = text_extent(text, &style, rows[i].other);
@@ -337,7 +337,7 @@ TEST(parts_of_formulas_stand_apart)
                 {"frac{\u2212 over \u2212}", 3},
                 {"x^{x}", 1},
                 {"frac{x over x} frac{x over x}", 3}};
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows && text; i++) {
         int bands = 0;
         canvas_clear(&canvas, 0xffffffff);
@@ -361,7 +361,7 @@ TEST(braces_are_told_apart)
 /* The slides' letters have their colours: orange keeps its red. */
 TEST(letters_have_colours)
 {
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     canvas_clear(&canvas, 0xffffffff);
     text_draw(text, &canvas, &style, 0, 0, ALIGN_LEFT, "{p}");
     if (text)
@@ -372,7 +372,7 @@ TEST(letters_have_colours)
 TEST(marks_stand_above_letters)
 {
     static const char *const pairs[][2] = {{"x", "x\u0303"}, {"E", "E\u0303"}};
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (int k = 0; k < 2 && text; k++) {
         int plain[60], letter = 0, low = 59; /* rows */
         for (int mark = 0; mark < 2; mark++) {
@@ -393,7 +393,7 @@ TEST(marks_stand_above_letters)
 TEST(texts_are_clipped)
 {
     for (double size = 4; size < 500; size *= 3) {
-        TextStyle style = {FACE_BOLD, size, 0xff000000, false};
+        TextStyle style = {FACE_BOLD, size, 0xff000000, false, 0};
         for (int y = -80; y <= 60; y += 20)
             for (int x = -300; x <= 120; x += 30) {
                 text_draw(text, &canvas, &style, x, y, (Align)((x + 300) % 3),
@@ -416,7 +416,7 @@ TEST(no_font_is_no_failure)
     const char *was = getenv("ELASTO_FONT");
     char *kept = was ? strdup(was) : NULL;
     Text *none = (Text *)1;
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false};
+    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     canvas_clear(&canvas, 0xffffffff);
     setenv("ELASTO_FONT", "", 1);
     CHECK_STATUS(text_create(&none), STATUS_OK);
