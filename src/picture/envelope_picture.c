@@ -138,7 +138,7 @@ static void envelope_draw_cell(const Plot *card)
 static const Card card_envelope_numbers = {
     .name = "numbers",
     .title = "this cell",
-    .least = 11.5,
+    .least = 12.5,
     .weight = 0.9,
     .words = "{converged} of {known} cells converge\n"
              "in {undone} nothing was done\n"

@@ -302,7 +302,7 @@ static void tangent_pick(const Plot *stage, double x, double y, Pick *pick)
 static const Card card_tangent_numbers = {
     .name = "numbers",
     .title = "the update with its numbers",
-    .least = 10,
+    .least = 11.5,
     .weight = 0.9,
     .words = "#x x^{{number}} = {iterate:8}\n"
              "g = {slope:6}     E\u2033 = {curvature:6}\n"

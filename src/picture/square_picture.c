@@ -417,27 +417,22 @@ static void square_facts(const Simulation *simulation, Facts *facts)
 static const Card card_equation = {
     .name = "numbers",
     .title = "M a = f, the row of node {last}",
-    .least = 8,
+    .least = 6,
     .weight = 0.4,
     .lecture = true,
     .words = "each node: {mass} kg / {masses} = {node mass} kg\n"
-             "a = {a:4} m/s\u00b2\n"
-             "#force f = m a = {f:4} N = \u2212\u2207P(x) there",
+             "{node mass} kg {a:4} m/s\u00b2 = #force{{f:4} N}",
 };
 
 static const Card card_parameters = {
     .name = "parameters",
     .title = "the numbers of simulator.py",
-    .least = 14.6,
+    .least = 9.6,
     .weight = 0.4,
     .lecture = true,
-    .words = "side_len = {side} m\n"
-             "rho = {rho} kg/m\u00b2\n"
-             "k = {k} J/m\u00b2\n"
-             "initial_stretch = {stretch}\n"
-             "n_seg = {segments}\n"
-             "h = {h} s\n"
-             "tol = {epsilon} m/s\n"
+    .words = "side_len = {side} m,  rho = {rho} kg/m\u00b2\n"
+             "k = {k} J/m\u00b2,  initial_stretch = {stretch}\n"
+             "n_seg = {segments},  h = {h} s,  tol = {epsilon} m/s\n"
              "m = rho side_len\u00b2 / (n_seg + 1)\u00b2 = {node mass} kg",
 };
 

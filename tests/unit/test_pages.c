@@ -406,7 +406,7 @@ TEST(claim_newton)
 
 TEST(claim_overshoot)
 {
-    says("overshoot", "2 4 27.29 3 10 0 1.0886 2 11.645 3 9 1.08 1.09");
+    says("overshoot", "2 4 27.29 11.645 3 10 0 1.0886 2 11.645 3 9 1.08 1.09");
     CHECK_NEAR(known("overshoot", "next"), 2 - sinh(4) / 2, 1e-12);
     CHECK_NEAR(sinh(4), 27.29, 0.005);
     end_of("overshoot", "", 10);
@@ -631,7 +631,7 @@ TEST(claim_force)
 
 TEST(claim_potential)
 {
-    says("potential", "16 0 2 2 50 72 16 676 2500");
+    says("potential", "16 2 2 1 2 2 1 0 2 2 50 72 16 676 2500");
     CHECK(known("potential", "places") == 676);
     Simulation *simulation = open_page("potential", "");
     const System *system = &simulation->system;
