@@ -218,7 +218,8 @@ static void draw_prints(const Plot *card)
     Paper *paper = card->paper;
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
-    int pitch = paper_pixels(paper, 1.45), room = inside.height / pitch;
+    double size = inside.width > 40 * paper->em ? 1.5 : 0.95; /* a star */
+    int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
     if (count == 0) {
@@ -226,13 +227,13 @@ static void draw_prints(const Plot *card)
         return;
     }
     for (int i = first; i < count && i - first < room; i++)
-        paper_write(paper, FACE_MONO, 0.9, COLOUR_TEXT, inside.x,
+        paper_write(paper, FACE_MONO, size, COLOUR_TEXT, inside.x,
                     inside.y + (i - first) * pitch, ALIGN_LEFT,
                     "Iteration %d: residual = %s  step size = %s", i,
                     number_with(trace->record[i].residual, 4).text,
                     number_of(trace->record[i].alpha).text);
     if (count - first < room && trace->residual <= trace->tolerance)
-        paper_write(paper, FACE_MONO, 0.9, COLOUR_FAINT, inside.x,
+        paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x,
                     inside.y + (count - first) * pitch, ALIGN_LEFT,
                     "then residual \u2264 %s: the loop ends",
                     number_of(trace->tolerance).text);

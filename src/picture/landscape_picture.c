@@ -318,7 +318,7 @@ static void landscape_draw(Plot *stage)
         plot_keep_box(&plot, stage_switch_box(stage, i));
     if (plot.text)
         keep_places(&plot);
-    if (plot.text && !show->veiled)
+    if (plot.text && !show->veiled && (raw || !show->lecture))
         draw_other_direction(&plot);
     if (!show->veiled && simulation->exhibit.parts == PART_BOTH &&
         (p[0] != 0 || p[1] != 0))
