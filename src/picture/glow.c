@@ -84,7 +84,7 @@ static Colour term_near(const Canvas *canvas, const double at[2], double ems)
                 continue;
             Colour pixel = canvas->pixels[canvas->width * (y + j) + x + i];
             for (int term = 0; (colour = colour_of_term(term)); term++)
-                if (has_colour(pixel, colour)) {
+                if (colour != COLOUR_TEXT && has_colour(pixel, colour)) {
                     best = colour;
                     least = far;
                 }

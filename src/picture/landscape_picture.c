@@ -263,10 +263,12 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
     int last = descent->count - 1;
     fact_point(facts, "place", x);
     fact_point(facts, "x tilde", simulation->exhibit.target);
+    for (int k = 0; k < 2; k++) /* nothing but rounding */
+        E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
+    double bowl = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
     fact_point(facts, "g", E.g);
-    fact(facts, "E", E.value);
-    fact(facts, "bowl",
-         landscape_part_value(simulation, PART_INERTIA, x[0], x[1]));
+    fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
+    fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
     fact(facts, "Hxx", E.H[0]);
     fact(facts, "Hxy", E.H[1]);
     fact(facts, "Hyy", E.H[2]);

@@ -134,7 +134,8 @@ static void draw_hover(const SpringPen *pen)
             !spring_is_broken(system, s))
             plot_line(pen->stage, pen->x + 2 * system->e[2 * s],
                       pen->x + 2 * system->e[2 * s + 1], 3, COLOUR_P);
-    if (lit >= 0 && lit < system->springs)
+    if (lit >= 0 && lit < system->springs &&
+        !(kinds && spring_is_broken(system, lit)))
         plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * lit],
                   pen->x + 2 * (size_t)system->e[2 * lit + 1], 4.5,
                   writes ? COLOUR_PROJECT : COLOUR_TEXT);
