@@ -171,9 +171,9 @@ static const Card card_matrix = {
     .least = 11,
     .weight = 0.4,
     .words = "@\n"
-             "#run matrix{{Sxx:4} & {Sxv:4}; {Svx:4} & {Svv:4}}  "
+             "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
              "\u03bb = {re:3} \u00b1 {im:3} i, |\u03bb| = {size:6}\n"
-             "#run matrix{{Sxx:4} & {Sxv:4}; {Svx:4} & {Svv:4}}  "
+             "#run matrix{{Sxx:3} & {Sxv:3}; {Svx:3} & {Svv:3}}  "
              "\u03bb = {least:4}, {most:4}",
 };
 

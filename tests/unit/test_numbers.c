@@ -1126,7 +1126,7 @@ static const char notation[] =
     "(1 \u2212 4g)|1/(4 \u2212 4|l/\u221a3|m/2|P = l\u00b2 k/2|/2 \u00b7|"
     "f = \u22122 k s d|2k|\u00b2 \u2212 1 =|alpha} = 1|h\u03c9 < 2|"
     "rows 2i, 2i + 1|{alpha} / 2|(n_seg + 1)|side_len\u00b2|h\u00b2/2|\u2190 1|"
-    "6 methods|3 integrators|4th order|below 0";
+    "9 methods|3 integrators|4th order|below 0";
 
 /* Blanks out what is no number: notation, what stands behind ^ and _ but a
  * power of ten. */
