@@ -49,8 +49,10 @@ typedef enum Keyboard {
 enum {
     REPEATS = 1, /* while the key is held down */
     KEPT = 2,    /* belongs into the script of a session */
-    SCREEN = 4   /* concerns what is shown: obeyed while a step is computed;
+    SCREEN = 4,  /* concerns what is shown: obeyed while a step is computed;
                     all else ends that work first */
+    LATEST = 8,  /* of several in one drag the last one is enough */
+    QUIET = 16   /* leaves the message of before */
 };
 
 /* What a command does.  Returns as player_obey. */

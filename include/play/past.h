@@ -145,20 +145,16 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
 
 /* Changes something from the step that is shown on; later steps that are known
  * stay in the branch below.
- *   edit     COMMAND_SET with a row of the options and its number x or its
- *            text, which the caller has checked; COMMAND_PIN with a node, x = 1
- *            to pin it and 0 to set it free; COMMAND_GRAB with a node and where
- *            the hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_PLACE,
- *            COMMAND_OBSTACLE, which the caller has checked, too;
- *            COMMAND_HANDLE, COMMAND_FLIP
- *   from,to  in panes from ... to - 1
- *   again    it counts from the step before on: the one that is shown, not
- *            step 0, is made once more by past_iterate
- *   gesture  of the mouse: the same one changes its own branch's end; or 0
- *   message  [size] out, why not, after INVALID_INPUT
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+ *   edit     which the caller has checked: COMMAND_SET with a row of the
+ * options and its number x or its text; COMMAND_PIN with a node, x = 1 to pin
+ *            it and 0 to set it free; COMMAND_GRAB with a node and where the
+ * hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_PLACE, COMMAND_OBSTACLE,
+ * COMMAND_HANDLE, COMMAND_FLIP from,to  in panes from ... to - 1 again    it
+ * counts from the step before on: the one that is shown, not step 0, is made
+ * once more by past_iterate gesture  of the mouse: the same one changes its own
+ * branch's end; or 0 Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
-                 int gesture, char *message, size_t size);
+                 int gesture);
 
 /* One pane more with the past of the last one, or fewer.  Returns OK,
  * OUT_OF_MEMORY. */

@@ -117,8 +117,7 @@ typedef struct Player {
 
     int gesture;    /* what is done now is undone at once: its number, */
     int gestures;   /* how many there were, */
-    int held;       /* that of a script's last grab, which drags go on with, */
-    int noted;      /* and that of the journal's last line */
+    int held;       /* that of a script's last grab, which drags go on with */
     Script journal; /* all that was done, undo and redo, too */
     char message[768]; /* why a command or the script makes no sense, or "" */
     char note[SHOW_TEXT]; /* what a command just did, or "" */

@@ -19,6 +19,7 @@
 typedef struct ScriptLine {
     long step;
     Command command;
+    int gesture; /* it was part of; 0: unknown */
 } ScriptLine;
 
 typedef struct Script {

@@ -90,23 +90,29 @@ Status obey_restart(Player *player, const Command *command)
 
 /* ---- the lecture --------------------------------------------------------- */
 
-Status player_open_page(Player *player)
+/* Commands with a ; between them, which are undone at once. */
+static Status obey_lines(Player *player, const char *lines)
 {
-    const LecturePage *page = player_settings(player)->page;
-    const char *rest = page && page->open ? page->open : "";
     Status status = STATUS_OK;
-    player->told = page; /* nobody has asked for these steps */
-    while (*rest && !status) {
+    while (*lines && !status) {
         char line[COMMAND_TEXT_SIZE];
         Command command;
-        size_t length = strcspn(rest, ";");
-        snprintf(line, sizeof line, "& %.*s", (int)length, rest);
-        rest += length + (rest[length] == ';');
+        size_t length = strcspn(lines, ";");
+        snprintf(line, sizeof line, "& %.*s", (int)length, lines);
+        lines += length + (lines[length] == ';');
         status = command_parse(line, &command, player->message,
                                sizeof player->message);
         if (!status)
             status = player_obey(player, &command);
     }
+    return status;
+}
+
+Status player_open_page(Player *player)
+{
+    const LecturePage *page = player_settings(player)->page;
+    player->told = page; /* nobody has asked for these steps */
+    Status status = obey_lines(player, page && page->open ? page->open : "");
     player->told = NULL;
     return status;
 }
@@ -206,13 +212,6 @@ Status obey_predict(Player *player, const Command *command)
 
 /* ---- the map ------------------------------------------------------------- */
 
-/* Whether the scene is the envelope and has this cell. */
-static bool has_cell(const Player *player, long cell)
-{
-    return player_simulation(player)->scene->picture == PICTURE_ENVELOPE &&
-           cell < (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS;
-}
-
 /* Shows a cell of the envelope. */
 Status obey_cell(Player *player, const Command *command)
 {
@@ -221,8 +220,6 @@ Status obey_cell(Player *player, const Command *command)
     const EnvelopeMap *map = &simulation->exhibit.map;
     int column = (int)(cell % ENVELOPE_COLUMNS);
     int row = (int)(cell / ENVELOPE_COLUMNS);
-    if (!has_cell(player, cell))
-        return player_refuse(player, "there is no such cell");
     if (map->column == column && map->row == row)
         return STATUS_OK;
     return envelope_visit(simulation, column, row);
@@ -233,26 +230,14 @@ Status obey_cell(Player *player, const Command *command)
 Status player_load_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
-    const Command scene = {
-        .kind = COMMAND_SCENE, .text = "square", .joins = true};
-    const struct {
-        const char *option;
-        double value;
-    } numbers[] = {
-        {"segments", map.segments},
-        {"stretch", map.stretch},
-        {"timestep", envelope_timestep((int)(cell % ENVELOPE_COLUMNS))},
-        {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))},
-    };
-    if (!has_cell(player, cell))
-        return player_refuse(player, "there is no such cell");
-    Status status = player_obey(player, &scene);
-    for (int i = 0; i < 4 && !status; i++)
-        status = player_ask_set(player, option_find(numbers[i].option),
-                                numbers[i].value);
-    player->mode = MODE_PAUSE;
-    if (!status)
-        status = player_ask(player, COMMAND_RESTART, 0, 0, 0);
+    char lines[256];
+    snprintf(lines, sizeof lines,
+             "scene square;set segments %g;set stretch %.17g;"
+             "set timestep %.17g;set stiffness %.17g;pause;restart",
+             map.segments, map.stretch,
+             envelope_timestep((int)(cell % ENVELOPE_COLUMNS)),
+             envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
+    Status status = obey_lines(player, lines);
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
                 map.page ? ", Page Down goes on" : "");
     return status;

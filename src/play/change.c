@@ -16,8 +16,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
     Past *past = &player->past;
     if (player->mode >= MODE_HELD || player->mode == MODE_DRIFT)
         player->mode = MODE_RUN; /* something may move again */
-    Status status = past_edit(past, change, from, to, again, player->gesture,
-                              player->message, sizeof player->message);
+    Status status = past_edit(past, change, from, to, again, player->gesture);
     if (status)
         return status;
     player->still = player->rigid = 0;
@@ -231,6 +230,13 @@ static Status put_value(Player *player, const Command *command,
     return status;
 }
 
+/* Whether obstacles leave room for the bodies of a pane; else it is told. */
+static bool has_room(Player *player, int pane, const Options *options)
+{
+    return simulation_has_room(&player->past.machine[pane].simulation, options,
+                               player->message, sizeof player->message);
+}
+
 /* New runs with these options, which belong to the same panes. */
 static Status restart_with(Player *player, const Options *options,
                            const Command *command)
@@ -289,9 +295,7 @@ Status obey_set(Player *player, const Command *command)
     for (int p = from; p < to && !status; p++)
         status = put_value(player, command, &options[p]);
     for (int p = from; p < to && !status && row->times; p++)
-        if (!simulation_has_room(&player->past.machine[p].simulation,
-                                 &options[p], player->message,
-                                 sizeof player->message))
+        if (!has_room(player, p, &options[p]))
             status = STATUS_INVALID_INPUT;
     if (status)
         return status;
@@ -373,47 +377,43 @@ Status obey_switch(Player *player, const Command *command)
     return obey_set(player, &change);
 }
 
-/* The next row of the table of integrators that all terms allow. */
-static const IntegratorMethod *next_method(const Simulation *simulation)
+/* The next row of the table of integrators that all terms allow, for this pane,
+ * as a command. */
+static Status find_method(Player *player, int pane, Command *change)
 {
-    const IntegratorMethod *next = simulation->run[0].method;
-    if (simulation->runs > 1)
-        return &integrator_methods[0];
-    do {
-        next = next[1].name ? next + 1 : &integrator_methods[0];
-    } while (next != simulation->run[0].method &&
-             integrator_method_refuses(next, &simulation->system));
-    return next;
-}
-
-/* Another method than this simulation has, as a command. */
-static Status find_method(Player *player, const Simulation *simulation,
-                          const IntegratorMethod **next, Command *change)
-{
-    *next = next_method(simulation);
-    *change = (Command){.kind = COMMAND_SET,
-                        .number = option_find("integrator") - option_rows,
-                        .x = (double)(*next - integrator_methods)};
+    const Simulation *simulation = &player->past.machine[pane].simulation;
+    const IntegratorMethod *own = simulation->run[0].method, *next = own;
     if (!(simulation->scene->needs & NEEDS_TIME))
         return player_refuse(player,
                              "no time passes here: there is no other method");
-    if (*next == simulation->run[0].method)
+    do
+        next = next[1].name ? next + 1 : &integrator_methods[0];
+    while (next != own && integrator_method_refuses(next, &simulation->system));
+    if (simulation->runs > 1)
+        next = &integrator_methods[0];
+    if (next == own)
         return player_refuse(player, "no other method knows all terms of this "
                                      "scene");
+    *change = (Command){.kind = COMMAND_SET,
+                        .number = option_find("integrator") - option_rows,
+                        .x = (double)(next - integrator_methods)};
     return STATUS_OK;
+}
+
+static const char *method_label(const Command *change)
+{
+    return integrator_methods[(int)change->x].label;
 }
 
 Status obey_method(Player *player, const Command *command)
 {
     (void)command;
-    const IntegratorMethod *next;
     Command change;
-    Status status =
-        find_method(player, player_simulation(player), &next, &change);
+    Status status = find_method(player, player->active, &change);
     if (!status)
         status = obey_set(player, &change);
     if (!status)
-        player_note(player, "method: %s", next->label);
+        player_note(player, "method: %s", method_label(&change));
     return status;
 }
 
@@ -424,28 +424,26 @@ Status obey_add_pane(Player *player, const Command *command)
 {
     Past *past = &player->past;
     int panes = past_panes(past);
-    const Simulation *simulation = &past->machine[panes - 1].simulation;
-    const IntegratorMethod *next;
     Command change;
     if (panes == OPTIONS_MAX_PANES)
         return player_refuse(player, "six are side by side: no room for more");
-    if (simulation->runs > 1)
+    if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
     if (!past->keeps)
         return player_refuse(player, "nothing to be put beside it here");
-    Status status = find_method(player, simulation, &next, &change);
-    if (status)
-        return status;
-    status = past_set_panes(past, panes + 1, player->gesture, command);
-    if (status)
-        return status;
-    status = player_work(player);
+    Status status = find_method(player, panes - 1, &change);
+    if (!status)
+        status = past_set_panes(past, panes + 1, player->gesture, command);
+    if (!status)
+        status = player_work(player);
     if (!status)
         status = player_change(player, &change, panes, panes + 1, false);
+    if (status)
+        return status;
     player->active = panes;
-    player_note(player, "beside it: %s", next->label);
-    return status;
+    player_note(player, "beside it: %s", method_label(&change));
+    return STATUS_OK;
 }
 
 /* The last pane goes. */
@@ -462,8 +460,6 @@ Status obey_end_pane(Player *player, const Command *command)
 /* The pane whose numbers are shown. */
 Status obey_pane(Player *player, const Command *command)
 {
-    if (command->number >= past_panes(&player->past))
-        return player_refuse(player, "there is no such pane");
     player->active = (int)command->number;
     return STATUS_OK;
 }
@@ -477,8 +473,7 @@ Status obey_pin(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
         return player_refuse(player, "only nodes of a square can be pinned");
-    bool pinned = node < simulation->system.nodes &&
-                  simulation_is_pinned(simulation, (int)node);
+    bool pinned = simulation_is_pinned(simulation, (int)node);
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
     Status status = change_all(player, &change);
     if (!status)
@@ -493,11 +488,10 @@ Status obey_grab(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     if (!simulation_is_handled(simulation))
         return player_refuse(player, "nothing to take hold of here");
-    Command change = {.kind = COMMAND_GRAB, .number = node};
-    if (node < simulation->system.nodes) {
-        change.x = simulation->run[0].x[2 * node];
-        change.y = simulation->run[0].x[2 * node + 1];
-    }
+    const Command change = {.kind = COMMAND_GRAB,
+                            .number = node,
+                            .x = simulation->run[0].x[2 * node],
+                            .y = simulation->run[0].x[2 * node + 1]};
     Status status = change_all(player, &change);
     player->holds = player->holds || !status;
     if (!status && player_stands(player))
@@ -513,8 +507,7 @@ Status obey_place(Player *player, const Command *command)
         return player_refuse(player, "nothing to be placed here");
     for (int p = 0; p < past_panes(&player->past); p++) {
         Simulation *simulation = &player->past.machine[p].simulation;
-        if (command->number < simulation->system.nodes &&
-            simulation_place(simulation, (int)command->number, command->x,
+        if (simulation_place(simulation, (int)command->number, command->x,
                              command->y, false))
             return player_refuse(player, "no room for it there: an obstacle, "
                                          "or a cell that would turn over");
@@ -526,28 +519,20 @@ Status obey_place(Player *player, const Command *command)
 Status obey_obstacle(Player *player, const Command *command)
 {
     const Options *now = player_settings(player);
-    int number = (int)fmin((double)command->number, 1e6);
-    int ball = number - (int)now->grounds;
+    int number = (int)command->number, ball = number - (int)now->grounds;
+    const double *from = ball < 0 ? now->ground[number] + 2 : now->ball[ball];
     Command change = *command;
-    if (ball < now->balls) {
-        const double *from =
-            ball < 0 ? now->ground[number] + 2 : now->ball[ball];
-        for (double part = 1; part > 0; part = part > 0.01 ? part / 2 : 0) {
-            Options moved = *now;
-            change.x = from[0] + part * (command->x - from[0]);
-            change.y = from[1] + part * (command->y - from[1]);
-            obstacle_move(&moved, number, change.x, change.y);
-            bool room = true;
-            for (int p = 0; p < past_panes(&player->past); p++)
-                room = room && simulation_has_room(
-                                   &player->past.machine[p].simulation, &moved,
-                                   player->message, sizeof player->message);
-            if (room)
-                return change_all(player, &change);
-        }
-        return STATUS_INVALID_INPUT;
+    bool room = false;
+    for (double part = 1; part > 0.005 && !room; part /= 2) {
+        Options moved = *now;
+        change.x = from[0] + part * (command->x - from[0]);
+        change.y = from[1] + part * (command->y - from[1]);
+        obstacle_move(&moved, number, change.x, change.y);
+        room = true;
+        for (int p = 0; p < past_panes(&player->past); p++)
+            room = room && has_room(player, p, &moved);
     }
-    return change_all(player, &change); /* which says that there is none */
+    return room ? change_all(player, &change) : STATUS_INVALID_INPUT;
 }
 
 /* It pulls, or lets go. */
@@ -567,12 +552,10 @@ Status obey_handle(Player *player, const Command *command)
     const Simulation *simulation = player_simulation(player);
     Status status = STATUS_OK;
     unsigned needs = simulation->scene->needs;
-    double at[SCENE_MAX_HANDLES][2];
     long step = past->step;
     int now = past->now;
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
-        !(needs & NEEDS_TIME) &&
-        command->number < exhibit_handles(simulation, at))
+        !(needs & NEEDS_TIME))
         status = player_show(player, 0, false, THEN_NOTHING);
     if (!status)
         status = player_work(player);

@@ -1,9 +1,13 @@
 /* obey.c - from a command to its deed, and the journal of what was done. */
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "picture/picture.h"
 #include "play/playing.h"
+#include "scenes/scene.h"
+#include "scenes/small_scenes.h"
 
 Status player_refuse(Player *player, const char *why)
 {
@@ -53,56 +57,71 @@ static void begin_gesture(Player *player, const Command *command)
         player->held = player->gesture;
 }
 
-/* Writes down what is going to be done, before what it does in turn.  Nothing
- * is ever taken out but the way of a drag: undo and redo are lines, too. */
-static Status note_line(Player *player, const Command *command)
-{
-    Command line = *command;
-    bool drags =
-        command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE;
-    line.joins = player->gesture == player->noted && !drags;
-    player->noted = player->gesture;
-    return script_add(&player->journal, player->past.step, &line);
-}
-
-/* The line that was noted as number `at` was refused. */
-static void forget_line(Player *player, size_t at, int noted)
-{
-    if (at + 1 == player->journal.count) {
-        player->journal.count = at;
-        player->noted = noted;
-    }
-}
-
-/* Of two places of one drag the second one is enough. */
-static void join_lines(Player *player, size_t at)
+/* The line that was noted as number `at` goes if it was refused, or takes the
+ * place of the one before it if both are of one drag. */
+static void settle_line(Player *player, size_t at, bool refused)
 {
     Script *journal = &player->journal;
     ScriptLine *line = journal->line + at;
-    if (at + 1 != journal->count || at == 0 || !line->command.joins)
+    bool follows = at > 0 && line[-1].gesture == line->gesture &&
+                   line[-1].step == line->step &&
+                   line[-1].command.kind == line->command.kind &&
+                   line[-1].command.number == line->command.number;
+    if (!refused && follows && command_row(line->command.kind)->flags & LATEST)
+        line[-1] = *line;
+    else if (!refused)
         return;
-    CommandKind kind = line->command.kind;
-    if (line[-1].step != line->step || line[-1].command.kind != kind ||
-        line[-1].command.number != line->command.number ||
-        (kind != COMMAND_START && kind != COMMAND_HANDLE &&
-         kind != COMMAND_PLACE && kind != COMMAND_OBSTACLE &&
-         (kind != COMMAND_SET || line->command.text[0])))
-        return;
-    line->command.joins = line[-1].command.joins;
-    line[-1] = *line;
-    journal->count--;
+    journal->count = at;
 }
 
 /* ---- obeying ------------------------------------------------------------- */
 
-/* Whether the message of before may stay. */
-static bool keeps_note(const Player *player, CommandKind kind)
+/* How many there are of what the number of a command counts. */
+static long parts_of(const Player *player, int pane, CommandKind kind)
 {
-    if ((kind == COMMAND_SET || kind == COMMAND_PLACE) &&
-        player->mouse.drag != COMMAND_NONE)
-        return true;
-    return kind == COMMAND_REDRAW || kind == COMMAND_DRAG ||
-           kind == COMMAND_PLAY || kind == COMMAND_RELEASE;
+    const Simulation *simulation = &player->past.machine[pane].simulation;
+    const Scene *scene = simulation->scene;
+    double at[SCENE_MAX_HANDLES][2];
+    Switch part[SCENE_MAX_SWITCHES];
+    bool cells = scene->picture == PICTURE_ENVELOPE;
+    switch (kind) {
+    case COMMAND_PIN:
+    case COMMAND_GRAB:
+    case COMMAND_PLACE:
+        return simulation->system.nodes;
+    case COMMAND_HANDLE:
+        return exhibit_handles(simulation, at);
+    case COMMAND_FLIP:
+        return exhibit_switches(simulation, part);
+    case COMMAND_OBSTACLE:
+        return (long)(simulation->options.grounds + simulation->options.balls);
+    case COMMAND_PANE:
+        return past_panes(&player->past);
+    case COMMAND_CARD:
+    case COMMAND_ENLARGE:
+        return picture_cards(picture_of(scene));
+    case COMMAND_CELL:
+        return cells ? (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS : 0;
+    default:
+        return LONG_MAX;
+    }
+}
+
+/* Whether all panes have what the command is about. */
+static Status check_number(Player *player, const Command *command)
+{
+    long count = LONG_MAX;
+    for (int p = 0; p < past_panes(&player->past); p++) {
+        long parts = parts_of(player, p, command->kind);
+        count = parts < count ? parts : count;
+    }
+    if (command->number < count)
+        return STATUS_OK;
+    const char *word = command_row(command->kind)->word;
+    snprintf(player->message, sizeof player->message,
+             count > 0 ? "%s: there are 0 ... %ld, no %ld" : "%s: none is here",
+             word, count - 1, command->number);
+    return STATUS_INVALID_INPUT;
 }
 
 /* Later steps that a change has left behind. */
@@ -125,7 +144,6 @@ Status player_obey(Player *player, const Command *asked)
     long step = past->step, newest = past_newest(past);
     int now = past->now;
     size_t at = player->journal.count;
-    int noted = player->noted;
     if (command.kind == COMMAND_TOGGLE_PAUSE) /* so that a script of it leads */
         command.kind =                        /* to the same place */
             player_stands(player) ? COMMAND_PLAY : COMMAND_PAUSE;
@@ -135,7 +153,7 @@ Status player_obey(Player *player, const Command *asked)
     player->changed = true;
     player->message[0] = '\0';
     player->leaving = player->leaving && command.kind == COMMAND_ESCAPE;
-    if (!keeps_note(player, command.kind))
+    if (!(flags & QUIET || (flags & LATEST && player->mouse.drag)))
         player->note[0] = '\0';
     if (past->works && command.kind == COMMAND_NEXT)
         return STATUS_OK; /* it is on its way */
@@ -154,10 +172,13 @@ Status player_obey(Player *player, const Command *asked)
         if (command.kind == COMMAND_ESCAPE)
             return player_work(player);
     }
-    if (flags & KEPT && note_line(player, &command))
+    Status status = check_number(player, &command);
+    bool noted = !status && flags & KEPT; /* before what it does in turn */
+    if (noted && script_add(&player->journal, step, &command))
         return STATUS_OUT_OF_MEMORY;
-    Status status = STATUS_OK;
-    if (row->deed)
+    if (noted)
+        player->journal.line[at].gesture = player->gesture;
+    if (!status && row->deed)
         status = row->deed(player, &command);
     if (past->works && !(flags & SCREEN)) {
         Status shown = player_work(player);
@@ -165,9 +186,7 @@ Status player_obey(Player *player, const Command *asked)
     }
     if (past->now > now && command.kind != COMMAND_REDO)
         tell_left(player, step, newest);
-    if (flags & KEPT && status == STATUS_INVALID_INPUT)
-        forget_line(player, at, noted);
-    else if (flags & KEPT)
-        join_lines(player, at);
+    if (noted && player->journal.count == at + 1)
+        settle_line(player, at, status == STATUS_INVALID_INPUT);
     return player_bear(player, status);
 }

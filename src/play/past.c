@@ -843,36 +843,6 @@ bool past_moves(const Command *edit)
     return drags(edit) || edit->kind == COMMAND_PIN;
 }
 
-/* Whether a change makes sense here; message [size] out: why not. */
-static Status check_edit(const Simulation *simulation, const Command *edit,
-                         char *message, size_t size)
-{
-    double at[SCENE_MAX_HANDLES][2];
-    Switch part[SCENE_MAX_SWITCHES];
-    CommandKind kind = edit->kind;
-    const Options *options = &simulation->options;
-    const char *what = kind == COMMAND_HANDLE     ? "point to drag"
-                       : kind == COMMAND_FLIP     ? "switch"
-                       : kind == COMMAND_OBSTACLE ? "ground or ball"
-                                                  : "node";
-    long limit =
-        kind == COMMAND_HANDLE     ? exhibit_handles(simulation, at)
-        : kind == COMMAND_FLIP     ? exhibit_switches(simulation, part)
-        : kind == COMMAND_OBSTACLE ? (long)(options->grounds + options->balls)
-        : kind == COMMAND_PIN || kind == COMMAND_GRAB || kind == COMMAND_PLACE
-            ? simulation->system.nodes
-            : LONG_MAX;
-    message[0] = '\0';
-    if (edit->number >= 0 && edit->number < limit)
-        return STATUS_OK;
-    if (limit > 0)
-        snprintf(message, size, "there is no %s %ld, they are 0 ... %ld", what,
-                 edit->number, limit - 1);
-    else
-        snprintf(message, size, "there is no %s here", what);
-    return STATUS_INVALID_INPUT;
-}
-
 /* The control after a change, for one user more.  NULL: no memory. */
 static const Control *changed(const Control *from, const Command *edit)
 {
@@ -927,11 +897,9 @@ static Status change_entry(Past *past, int pane, const Command *edit,
 }
 
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
-                 int gesture, char *message, size_t size)
+                 int gesture)
 {
     Status status = settle(past);
-    for (int p = from; p < to && !status; p++)
-        status = check_edit(&past->machine[p].simulation, edit, message, size);
     if (status)
         return status;
     Branch *branch = present(past);

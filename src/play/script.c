@@ -19,7 +19,7 @@ Status script_add(Script *script, long step, const Command *command)
         script->line = line;
         script->size = size;
     }
-    script->line[script->count++] = (ScriptLine){step, *command};
+    script->line[script->count++] = (ScriptLine){step, *command, 0};
     return STATUS_OK;
 }
 
@@ -78,8 +78,14 @@ Status script_write(const char *name, const Script *script)
     errno = 0;
     for (size_t i = 0; i < script->count; i++) {
         char line[512];
-        command_format(&script->line[i].command, line, sizeof line);
-        fprintf(output.file, "%ld %s\n", script->line[i].step, line);
+        const ScriptLine *at = &script->line[i];
+        Command command = at->command;
+        if (at->gesture) /* drags go on with what was grabbed by themselves */
+            command.joins = i > 0 && at->gesture == at[-1].gesture &&
+                            command.kind != COMMAND_DRAG &&
+                            command.kind != COMMAND_RELEASE;
+        command_format(&command, line, sizeof line);
+        fprintf(output.file, "%ld %s\n", at->step, line);
     }
     return output_close(&output);
 }

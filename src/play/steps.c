@@ -270,7 +270,6 @@ static Status let_go(Player *player)
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
     player_next_gesture(player);
-    player->noted = 0; /* no line joins what none has told */
     player->sampled = -1;
     return player_change(player, &release, 0, panes, false);
 }

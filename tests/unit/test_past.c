@@ -260,14 +260,13 @@ static Command random_edit(Random *random, int kind)
 
 static void change_at_random(Random *random, int gesture)
 {
-    char message[256];
     int kind = random_below(random, 6), panes = past_panes(&past);
     int now = past.now, one = random_below(random, 2 * panes);
     bool all = kind > 1 || one >= panes;
     bool again = kind < 2 && past.step > 0 && random_below(random, 3) == 0;
     const Command edit = random_edit(random, kind);
     CHECK_STATUS(past_edit(&past, &edit, all ? 0 : one, all ? panes : one + 1,
-                           again, gesture, message, sizeof message),
+                           again, gesture),
                  STATUS_OK);
     const double *x = past.machine[0].simulation.run[0].x;
     CHECK(edit.kind != COMMAND_HANDLE || (x[0] == edit.x && x[1] == edit.y));
