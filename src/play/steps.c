@@ -262,16 +262,19 @@ Status player_show(Player *player, long step, bool again, Then then)
     return STATUS_OK;
 }
 
-/* A node that was held when this step was shown, long ago. */
+/* A node that was held when this step was shown, long ago; it is undone by
+ * itself. */
 static Status let_go(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
-    int panes = past_panes(&player->past);
+    int gesture = player->gesture, panes = past_panes(&player->past);
     if (past_control(&player->past, 0)->hand < 0 || player->holds)
         return STATUS_OK;
     player_next_gesture(player);
     player->sampled = -1;
-    return player_change(player, &release, 0, panes, false);
+    Status status = player_change(player, &release, 0, panes, false);
+    player->gesture = gesture;
+    return status;
 }
 
 Status player_go_on(Player *player, Then then)

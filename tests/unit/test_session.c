@@ -584,7 +584,7 @@ static const Session sessions[] = {
            "says it must be above 0", "key Ctrl+Z Ctrl+Z", "key Ctrl+Z",
            "same a state", "do set ground 0,1,0,-1", "do obstacle 0 0 -0.9",
            "do set friction 0.5", "key N N", "do obstacle 4 0 0",
-           "says obstacle: there are 0 ... 1, no 4",
+           "says obstacle: there are 0 ... 0, no 4",
            "replays hang --segments 8")},
     {"what is undone during a drag ends it, in a script, too",
      LINES("begin square --segments 2 --paused", "press 279 389",
