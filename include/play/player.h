@@ -94,7 +94,6 @@ typedef struct Player {
     View *view;      /* NULL: nothing is drawn */
     bool window;     /* the view is a window: it takes keys */
     bool attended;   /* a window or a script: it may pause and go back */
-    bool begun;      /* player_create worked */
     bool quit;       /* somebody asked for the end */
     bool refused;    /* a line of the script made no sense */
     const volatile sig_atomic_t *stop; /* set by signals */
@@ -193,9 +192,6 @@ Status player_start(Player *player);
 Status player_frame(Player *player);
 int player_wait(const Player *player);
 bool player_ended(const Player *player);
-
-/* Whether any step, or the scene as a whole, did not converge. */
-bool player_unconverged(const Player *player);
 
 /* The hash of the present state of all panes; see state_hash. */
 uint64_t player_hash(const Player *player);

@@ -31,10 +31,10 @@ typedef struct Script {
 /* Appends a line.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command);
 
-/* Reads a file.
+/* Reads the file of --script; NULL: there is none.
  *   script   out; free it in any case
- *   message  [size] out: which line, and what is wrong with it
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY, FILE_FAILED (errno tells why). */
+ *   message  [size] out: what is wrong with the file or with which line
+ * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status script_read(const char *name, Script *script, char *message,
                    size_t size);
 

@@ -1,6 +1,5 @@
 #include "play/player.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -93,17 +92,6 @@ bool player_ended(const Player *player)
     return (counted && player->past.step >= options->steps) ||
            ((!player->window || counted) && simulation->done) ||
            (!player->window && player_stands(player));
-}
-
-bool player_unconverged(const Player *player)
-{
-    bool any = false;
-    for (int i = 0; i < past_panes(&player->past); i++) {
-        const Simulation *simulation = &player->past.machine[i].simulation;
-        any = any || simulation->unconverged > 0 ||
-              (simulation->done && simulation->status != STATUS_OK);
-    }
-    return any;
 }
 
 /* ---- drawing ------------------------------------------------------------- */
@@ -330,24 +318,6 @@ static Status open_view(Player *player)
     return status;
 }
 
-/* The commands of the command line's file. */
-static Status read_script(Player *player)
-{
-    const char *name = player->given[0].script;
-    char why[640], shown[80];
-    if (!name)
-        return STATUS_OK;
-    one_line(name, shown, sizeof shown);
-    Status status = script_read(name, &player->script, why, sizeof why);
-    if (status == STATUS_FILE_FAILED)
-        snprintf(player->message, sizeof player->message, "--script: %s: %s",
-                 shown, strerror(errno));
-    if (status == STATUS_INVALID_INPUT)
-        snprintf(player->message, sizeof player->message,
-                 "--script: %s, %.600s", shown, why);
-    return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
-}
-
 Status player_create(const Options *options, int count, const char *line,
                      const volatile sig_atomic_t *stop, Player *player)
 {
@@ -365,7 +335,8 @@ Status player_create(const Options *options, int count, const char *line,
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
     player->speed = player_first_speed(options);
-    Status status = read_script(player);
+    Status status = script_read(options->script, &player->script,
+                                player->message, sizeof player->message);
     if (!status)
         status = open_view(player);
     if (status)
@@ -388,7 +359,6 @@ Status player_create(const Options *options, int count, const char *line,
              simulation_is_handled(player_simulation(player)))
         player_note(player, "pull at a node with the mouse; G: all scenes; "
                             "Page Down: the guided tour");
-    player->begun = !status;
     return status;
 }
 
@@ -410,10 +380,7 @@ void player_free(Player *player)
     view_free(player->view);
     recording_close(&player->recording);
     past_free(&player->past);
-    for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        free(player->side[p].ghost);
-        player->side[p].ghost = NULL;
-    }
+    player_leave_step(player);
     player_close_sheet(player);
     script_free(&player->script);
     script_free(&player->journal);

@@ -22,6 +22,13 @@ static void tell(const char *format, ...)
     fprintf(stderr, "elasto: %s\n", line);
 }
 
+/* A bad command line. */
+static int misuse(const char *message)
+{
+    tell("%s", message);
+    return EXIT_MISUSED;
+}
+
 /* Whether everything printed arrived; errno was 0 before.  what: for the one
  * line if it did not. */
 static int check_output(const char *what)
@@ -47,9 +54,13 @@ static void print_notes(void)
     printf("%g min in all\n", begins);
 }
 
-/* --help, --version, --list, --notes. */
+/* --help, --version, --notes, --lecture --list, --list.  Returns the exit code;
+ * PROGRAM_PLAYS: none of them was asked for. */
 static int print_information(const Options *options)
 {
+    if (!options->help && !options->version && !options->notes &&
+        !options->list)
+        return PROGRAM_PLAYS;
     errno = 0;
     if (options->help)
         options_help(stdout);
@@ -73,22 +84,15 @@ static int print_information(const Options *options)
 /* What a user can do about a failure. */
 static const char *advice(const Player *player, Status status)
 {
-    unsigned needs = player->given[0].scene->needs;
-    switch (status) {
-    case STATUS_OUT_OF_MEMORY:
-    case STATUS_TOO_LARGE:
-        return "; try fewer --segments";
-    case STATUS_NOT_FINITE:
-        return needs & NEEDS_MESH   ? "; try a smaller --timestep or --stretch"
-               : needs & NEEDS_TIME ? "; try a smaller --timestep"
-                                    : "; try a --start nearer to 0,0";
-    case STATUS_NOT_POSITIVE_DEFINITE:
-        return "; try --filter clamp";
-    case STATUS_INVALID_INPUT:
-        return "; try numbers nearer to the defaults";
-    default:
-        return "";
-    }
+    bool time = player->given[0].scene->needs & NEEDS_TIME;
+    return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
+               ? "; try fewer --segments"
+           : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --filter clamp"
+           : status == STATUS_INVALID_INPUT
+               ? "; try numbers nearer to the defaults"
+           : status != STATUS_NOT_FINITE ? ""
+           : time                        ? "; try a smaller --timestep"
+                                         : "; try a --start nearer to 0,0";
 }
 
 /* The first pane whose simulation ended so; -1: none did. */
@@ -141,10 +145,20 @@ static bool fits_in_memory(const Options *options, char *message, size_t size)
     return false;
 }
 
+/* Whether any step, or the scene as a whole, did not converge. */
+static bool is_unconverged(const Player *player)
+{
+    bool any = false;
+    for (int i = 0; i < past_panes(&player->past); i++) {
+        const Simulation *simulation = &player->past.machine[i].simulation;
+        any = any || simulation->unconverged > 0 ||
+              (simulation->done && simulation->status != STATUS_OK);
+    }
+    return any;
+}
+
 int program_end(Player *player, Status status)
 {
-    if (!player->begun)
-        recording_discard(&player->recording);
     long steps = player->past.machine[0].simulation.steps;
     player->recording.aside = status && steps == 0;
     Status closed = player_finish(player);
@@ -160,7 +174,7 @@ int program_end(Player *player, Status status)
     int code = check_output("the summary");
     if (code == EXIT_FINE && player->refused)
         return EXIT_MISUSED;
-    if (code == EXIT_FINE && player_unconverged(player))
+    if (code == EXIT_FINE && is_unconverged(player))
         return EXIT_UNCONVERGED;
     return code;
 }
@@ -202,24 +216,6 @@ static void join_line(int argc, char **argv, char *line, size_t size)
     }
 }
 
-/* All panes of a command line, and whether they can be begun.  message [size]
- * out, what is wrong.  Returns false after a bad one. */
-static bool read_line(int argc, char **argv, Options *options, char *message,
-                      size_t size)
-{
-    for (int i = 0; i < options[0].panes; i++)
-        if (options_parse(argc, argv, i, &options[i], message, size))
-            return false;
-    if (options->help || options->version || options->list || options->notes)
-        return true;
-    if (recording_check(options, message, size))
-        return false;
-    for (int i = 0; i < options->panes; i++)
-        if (!fits_in_memory(&options[i], message, size))
-            return false;
-    return true;
-}
-
 int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player)
 {
@@ -231,21 +227,28 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         commands_help(stdout);
         return check_output("the help");
     }
-    if (!read_line(argc, argv, options, message, sizeof message)) {
-        tell("%s", message);
-        return EXIT_MISUSED;
-    }
-    if (options->help || options->version || options->list || options->notes)
-        return print_information(options);
+    for (int i = 0; i < options->panes; i++)
+        if (options_parse(argc, argv, i, &options[i], message, sizeof message))
+            return misuse(message);
+    int code = print_information(options);
+    if (code != PROGRAM_PLAYS)
+        return code;
+    if (recording_check(options, message, sizeof message))
+        return misuse(message);
+    for (int i = 0; i < options->panes; i++)
+        if (!fits_in_memory(&options[i], message, sizeof message))
+            return misuse(message);
     if (options->handout) {
-        int code = make_handout(options, stop, player);
+        code = make_handout(options, stop, player);
         *player = (Player){0};
         return code;
     }
     join_line(argc, argv, line, sizeof line);
     Status status = player_create(options, options->panes, line, stop, player);
-    if (status)
+    if (status) {
+        recording_discard(&player->recording);
         return program_end(player, status);
+    }
     if (options->panes > 1 && !options->quiet)
         fprintf(stderr, "%d panes: %s\n", options->panes, line);
     return PROGRAM_PLAYS;

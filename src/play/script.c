@@ -46,27 +46,28 @@ static Status read_line(char *text, Script *script, char *message, size_t size)
 
 Status script_read(const char *name, Script *script, char *message, size_t size)
 {
-    char *text = NULL, why[600] = "";
+    char *text = NULL, why[600] = "", shown[80];
     size_t room = 0;
     *script = (Script){0};
-    message[0] = '\0';
+    if (!name)
+        return STATUS_OK;
+    one_line(name, shown, sizeof shown);
     FILE *file = fopen(name, "r");
-    if (!file)
-        return STATUS_FILE_FAILED;
-    Status status = STATUS_OK;
+    Status status = file ? STATUS_OK : STATUS_FILE_FAILED;
     long number = 0;
     for (; !status && getline(&text, &room, file) >= 0; number++)
         status = read_line(text, script, why, sizeof why);
-    if (status == STATUS_INVALID_INPUT)
-        snprintf(message, size, "line %ld: %s", number, why);
-    one_line(message, message, size);
     if (!status && !feof(file))
         status = STATUS_FILE_FAILED;
-    int reason = errno;
+    if (status == STATUS_FILE_FAILED)
+        snprintf(message, size, "--script: %s: %s", shown, strerror(errno));
+    if (status == STATUS_INVALID_INPUT)
+        snprintf(message, size, "--script: %s, line %ld: %s", shown, number,
+                 why);
     free(text);
-    fclose(file);
-    errno = reason;
-    return status;
+    if (file)
+        fclose(file);
+    return status == STATUS_FILE_FAILED ? STATUS_INVALID_INPUT : status;
 }
 
 Status script_write(const char *name, const Script *script)

@@ -65,7 +65,7 @@ Status player_write_rest(Player *player)
     Past *past = &player->past;
     Status status = STATUS_OK;
     long shown = past->step;
-    bool failed = false;
+    bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
         failed = failed || past->machine[p].failed;
     if (failed && shown == player->written) /* its iterations are told */
@@ -73,10 +73,12 @@ Status player_write_rest(Player *player)
     if (!past->keeps || !recording_has_tables(&player->recording))
         return status;
     while (player->written < past_newest(past) && !status && !*player->stop) {
-        past_aim(past, player->written + 1, past->step != player->written);
+        long next = player->written + 1;
+        past_aim(past, next, again);
         status = past_finish(past);
         if (!status || status_is_unconverged(status))
             status = record_step(player);
+        again = player->written < next;
     }
     past_aim(past, shown, false);
     past_finish(past);
