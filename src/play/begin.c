@@ -204,8 +204,7 @@ Status obey_predict(Player *player, const Command *command)
     Simulation *simulation = &player->past.machine[player->active].simulation;
     if (simulation->done || simulation_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
+    player_stop(player);
     simulation_predict(simulation, command->x, command->y);
     return STATUS_OK;
 }

@@ -315,22 +315,27 @@ Status obey_set(Player *player, const Command *command)
     return status;
 }
 
+Status player_pace(Player *player, int index, int paces)
+{
+    const OptionRow *number[OPTIONS_MOST];
+    const Options now = player_numbers(player);
+    if (index >= player_row(player, number))
+        return player_refuse(player, "there is no number to change here");
+    if (number[index]->count > 1)
+        return player_refuse(player, "several numbers: type them");
+    return player_ask_set(player, number[index],
+                          option_paced(number[index], &now, paces));
+}
+
 /* The selected number a pace up or down. */
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MOST];
-    const Options now = player_numbers(player);
     int count = player_row(player, number);
-    if (count == 0)
-        return player_refuse(player, "there is no number to change here");
     if (player->selected < 0 || player->selected >= count)
         player->selected = 0;
-    const OptionRow *row = number[player->selected];
-    if (row->count > 1)
-        return player_refuse(player, "several numbers: type them");
-    return player_ask_set(
-        player, row,
-        option_paced(row, &now, command->kind == COMMAND_RAISE ? 1 : -1));
+    return player_pace(player, player->selected,
+                       command->kind == COMMAND_RAISE ? 1 : -1);
 }
 
 /* The value of the page, or of the command line, or of the scene by itself. */

@@ -205,18 +205,6 @@ Status obey_close(Player *player, const Command *command)
 
 /* ---- the row of numbers and the time line -------------------------------- */
 
-/* One pace of a number, by wheel or click. */
-static Status pace(Player *player, int index, int paces)
-{
-    if (index < 0 || index >= player->numbers)
-        return STATUS_OK;
-    const OptionRow *row = player->number[index];
-    Options options = player_numbers(player);
-    if (row->count > 1)
-        return player_refuse(player, "several numbers: type them");
-    return player_ask_set(player, row, option_paced(row, &options, paces));
-}
-
 /* A number follows the mouse: from its value where the drag began. */
 static Status drag_number(Player *player)
 {
@@ -226,13 +214,13 @@ static Status drag_number(Player *player)
     const OptionRow *row = player->number[mouse->index];
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     if (row->count > 1)
-        return pace(player, mouse->index, 1);
+        return player_pace(player, mouse->index, 1);
     if (row->kind == OPTION_NAME) {
         double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
         if (fabs(names) < 1)
             return STATUS_OK;
         mouse->last[0] = mouse->x;
-        return pace(player, mouse->index, names > 0 ? 1 : -1);
+        return player_pace(player, mouse->index, names > 0 ? 1 : -1);
     }
     if (row->pace > 0)
         paces = rint(paces);
@@ -550,7 +538,7 @@ static Status released(Player *player)
     if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
         mouse->index < player->numbers &&
         player->number[mouse->index]->kind == OPTION_NAME)
-        return pace(player, mouse->index, 1);
+        return player_pace(player, mouse->index, 1);
     return STATUS_OK;
 }
 
@@ -558,7 +546,7 @@ static Status wheeled(Player *player, double amount)
 {
     Under under = look(player);
     if (under.hit.zone == ZONE_SETTING)
-        return pace(player, under.hit.index, amount > 0 ? 1 : -1);
+        return player_pace(player, under.hit.index, amount > 0 ? 1 : -1);
     if (under.hit.zone == ZONE_TIME)
         return ask(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (under.hit.zone != ZONE_STAGE)

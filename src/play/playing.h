@@ -16,10 +16,10 @@ Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
     obey_drag, obey_place, obey_obstacle, obey_handle; /* change.c */
 Deed obey_scene, obey_start, obey_restart, obey_page, obey_predict,
     obey_cell; /* begin.c */
-Deed obey_speed, obey_shown, obey_full, obey_column, obey_escape, obey_camera,
-    obey_card, obey_shot, obey_film, obey_hash, obey_quit; /* screen.c */
-Deed obey_type, obey_enter, obey_close;                    /* hands.c */
-Deed obey_sheet, obey_choose, obey_open;                   /* sheet.c */
+Deed obey_speed, obey_switched, obey_full, obey_column, obey_escape,
+    obey_camera, obey_card, obey_shot, obey_film, obey_hash; /* screen.c */
+Deed obey_type, obey_enter, obey_close;                      /* hands.c */
+Deed obey_sheet, obey_choose, obey_open;                     /* sheet.c */
 
 /* Says why a command makes no sense here.  Returns INVALID_INPUT. */
 Status player_refuse(Player *player, const char *why);
@@ -91,6 +91,9 @@ void player_judge(Player *player);
 
 /* ---- walk.c -------------------------------------------------------------- */
 
+/* Somebody has asked for a pause; a walk goes on. */
+void player_stop(Player *player);
+
 /* What was wished for the step that is shown now. */
 void player_wish(Player *player, Then then);
 
@@ -114,6 +117,9 @@ bool player_compares(const Player *player, const OptionRow *row);
 int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST]);
 int player_all_numbers(const Player *player,
                        const OptionRow *found[OPTIONS_MOST]);
+
+/* The number in this place of the row goes so many paces up. */
+Status player_pace(Player *player, int index, int paces);
 
 /* Why a number has no meaning now; NULL: it has one. */
 const char *player_idle(const Player *player, const OptionRow *row);

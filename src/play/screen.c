@@ -50,12 +50,13 @@ Status obey_speed(Player *player, const Command *command)
 }
 
 /* What is on or off. */
-Status obey_shown(Player *player, const Command *command)
+Status obey_switched(Player *player, const Command *command)
 {
-    bool *shown = command->kind == COMMAND_COLOURS ? &player->strain
-                  : command->kind == COMMAND_BARE  ? &player->bare
-                                                   : &player->blank;
-    *shown = !*shown;
+    bool *what = command->kind == COMMAND_COLOURS ? &player->strain
+                 : command->kind == COMMAND_BARE  ? &player->bare
+                 : command->kind == COMMAND_BLANK ? &player->blank
+                                                  : &player->quit;
+    *what = !*what;
     return STATUS_OK;
 }
 
@@ -107,13 +108,6 @@ Status obey_escape(Player *player, const Command *command)
         player->leaving = true;
     if (player->leaving)
         player_note(player, "Esc once more, or Q, ends the program");
-    return STATUS_OK;
-}
-
-Status obey_quit(Player *player, const Command *command)
-{
-    (void)command;
-    player->quit = true;
     return STATUS_OK;
 }
 

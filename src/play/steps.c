@@ -171,22 +171,6 @@ static Status show_last_good(Player *player)
     return status;
 }
 
-/* Of several side by side: those whose step could not be made have ended. */
-static void tell_ended(Player *player)
-{
-    const Past *past = &player->past;
-    for (int p = 0; p < past_panes(past); p++) {
-        long last = past_ended(past, p, past->step);
-        if (last != past->step - 1)
-            continue;
-        player_note(player,
-                    "pane %d ended at step %ld, beyond all numbers: its last "
-                    "state below ten times the size is shown",
-                    p + 1, last);
-        player->warning = true;
-    }
-}
-
 Status player_bear(Player *player, Status status)
 {
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
@@ -194,8 +178,7 @@ Status player_bear(Player *player, Status status)
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
     if (!status || fatal || !player->attended || player->given[0].steps >= 0)
         return status;
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
+    player_stop(player);
     return STATUS_OK;
 }
 
@@ -218,8 +201,6 @@ static Status step_shown(Player *player, Status status, long before)
     player->changed = true;
     if (failed && player->past.step == before)
         return show_failure(player, status, then);
-    if (player->past.step > before)
-        tell_ended(player);
     status = record_step(player);
     if (!status)
         player_wish(player, then);
@@ -254,8 +235,7 @@ Status player_show(Player *player, long step, bool again, Then then)
 {
     player_leave_step(player);
     player->holds = false;
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
+    player_stop(player);
     if (!player->past.keeps)
         return STATUS_OK;
     long newest = past_newest(&player->past);

@@ -8,11 +8,6 @@
 #include "play/playing.h"
 #include "scenes/scene.h"
 
-static const Machine *machine_of(const Player *player, int pane)
-{
-    return &player->past.machine[pane];
-}
-
 int player_place(const Player *player, int pane)
 {
     return player->mode == MODE_WALK ? player->side[pane].place : -1;
@@ -21,7 +16,7 @@ int player_place(const Player *player, int pane)
 /* Whether there is more to walk through than the start and the end. */
 static bool has_lines(const Player *player, int pane)
 {
-    const Machine *machine = machine_of(player, pane);
+    const Machine *machine = &player->past.machine[pane];
     return machine->known && machine->rounds.places > 2;
 }
 
@@ -40,7 +35,7 @@ void player_stand_at(Player *player, int pane, int place)
 static void enter_rounds(Player *player, Then then)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Machine *machine = machine_of(player, p);
+        const Machine *machine = &player->past.machine[p];
         const Rounds *rounds = &machine->rounds;
         double rise;
         int place = !has_lines(player, p) ? -1
@@ -65,7 +60,7 @@ static bool walk(Player *player, int way)
 {
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Rounds *rounds = &machine_of(player, p)->rounds;
+        const Rounds *rounds = &player->past.machine[p].rounds;
         int last = rounds->places - 1, place = player_place(player, p);
         if (place < 0)
             continue;
@@ -88,6 +83,12 @@ void player_wish(Player *player, Then then)
 
 /* ---- commands ------------------------------------------------------------ */
 
+void player_stop(Player *player)
+{
+    if (!player_stands(player))
+        player->mode = MODE_PAUSE;
+}
+
 Status obey_pause(Player *player, const Command *command)
 {
     player->mode = command->kind == COMMAND_PLAY ? MODE_RUN
@@ -99,19 +100,12 @@ Status obey_pause(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Stops, for somebody has asked for it; a walk goes on. */
-static void stop(Player *player)
-{
-    if (!player_stands(player))
-        player->mode = MODE_PAUSE;
-}
-
 Status obey_next(Player *player, const Command *command)
 {
     (void)command;
     const Past *past = &player->past;
     Then then = player->fine > 0 ? THEN_ENTER : THEN_PEAK;
-    stop(player);
+    player_stop(player);
     if (player->fine > 0 && walk(player, 1))
         return STATUS_OK;
     if (player->fine == 0 && player_place(player, player->active) >= 0) {
@@ -128,7 +122,7 @@ static bool has_updates(const Player *player)
 {
     bool any = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        const Simulation *simulation = &machine_of(player, p)->simulation;
+        const Simulation *simulation = &player->past.machine[p].simulation;
         any = any || ((simulation->scene->needs & NEEDS_TIME) &&
                       simulation->run[0].newton);
     }
@@ -140,7 +134,7 @@ Status obey_back(Player *player, const Command *command)
 {
     (void)command;
     long step = player->past.step;
-    stop(player);
+    player_stop(player);
     if (player->fine == 0 || !has_updates(player))
         return player_show(player, step - 1, false, THEN_NOTHING);
     if (player_place(player, player->active) < 0 && step > 0) {
@@ -156,7 +150,7 @@ Status obey_back(Player *player, const Command *command)
 Status obey_step(Player *player, const Command *command)
 {
     (void)command;
-    stop(player);
+    player_stop(player);
     return player_go_on(player, THEN_NOTHING);
 }
 
