@@ -17,10 +17,7 @@ Status player_change(Player *player, const Command *change, int from, int to,
     if (player->mode >= MODE_HELD || player->mode == MODE_DRIFT)
         player->mode = MODE_RUN; /* something may move again */
     Status status = past_edit(past, change, from, to, again, player->gesture);
-    if (status)
-        return status;
-    player->still = player->rigid = 0;
-    return player_follow(player);
+    return status ? status : player_follow(player);
 }
 
 /* In all panes; the picture of the present step is another one. */
@@ -162,13 +159,19 @@ int player_row(const Player *player, const OptionRow *found[OPTIONS_MOST])
     return count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
 }
 
+/* Whether it is one that the scene can make use of. */
+static bool is_number(const Player *player, const OptionRow *row)
+{
+    return (row->needs & player_settings(player)->scene->needs) &&
+           row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
+}
+
 int player_all_numbers(const Player *player,
                        const OptionRow *found[OPTIONS_MOST])
 {
     int count = 0;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if ((row->needs & player_settings(player)->scene->needs) &&
-            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT)
+        if (is_number(player, row))
             found[count++] = row;
     return count;
 }
@@ -191,8 +194,7 @@ Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = row_of(command);
     const char *idle;
-    if (!row || !(row->needs & player_settings(player)->scene->needs) ||
-        row->kind == OPTION_TEXT || row->kind == OPTION_SWITCH)
+    if (!row || !is_number(player, row))
         return player_refuse(player, "this scene has no such number");
     idle = player_idle(player, row);
     if (idle) {
@@ -237,22 +239,18 @@ static bool has_room(Player *player, int pane, const Options *options)
                                player->message, sizeof player->message);
 }
 
-/* New runs with these options, which belong to the same panes. */
+/* New runs with these options. */
 static Status restart_with(Player *player, const Options *options,
                            const Command *command)
 {
     char value[COMMAND_TEXT_SIZE];
-    int active = player->active;
     const OptionRow *row = &option_rows[command->number];
     Status status =
         player_begin(player, options, past_panes(&player->past), command);
-    if (status)
-        return status;
-    player->active = active;
-    option_value(row, &options[active], value, sizeof value);
-    if (row->effect == EFFECT_AGAIN) /* races and maps of other runs */
+    option_value(row, player_settings(player), value, sizeof value);
+    if (!status && row->effect == EFFECT_AGAIN) /* of races and maps */
         player_note(player, "from the start: %s %s", row->label, value);
-    return STATUS_OK;
+    return status;
 }
 
 /* Whether nodes were placed at this step: no step has led here that could be

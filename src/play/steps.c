@@ -129,7 +129,6 @@ Status player_begin(Player *player, const Options *options, int count,
     player->mode = player_stands(player) ? MODE_PAUSE : MODE_RUN;
     player->sampled = -1;
     player->warned = player->holds = false;
-    player->active = player->still = player->rigid = 0;
     status = player_follow(player);
     player_reset_speed(player);
     return status ? status : record_step(player);
@@ -141,6 +140,7 @@ Status player_follow(Player *player)
     long same = past->same;
     past->same = LONG_MAX;
     player->changed = true;
+    player->still = player->rigid = 0;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     enter_scene(player);

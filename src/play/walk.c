@@ -200,8 +200,6 @@ Status obey_undo(Player *player, const Command *command)
     player->mode = MODE_PAUSE;
     player->holds = false;
     player->mouse.gesture = ++player->gestures; /* if a drag goes on */
-    player->still = player->rigid = 0;
-    player->then = THEN_NOTHING;
     Status status = player_follow(player);
     player_leave_step(player);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
