@@ -35,7 +35,8 @@ typedef struct Round {
     double *x, *p; /* [size] m; NULL: not kept */
     double first;  /* alpha that the line search begins with */
     Quartic along; /* E(x + alpha p) - E(x), J s^2, where it is this alone */
-    double *value; /* [ROUND_VALUES] J s^2, where it is not; NULL: it is */
+    bool rough;    /* it is not: */
+    double *value; /* [ROUND_VALUES] J s^2, behind p */
 } Round;
 
 /* A place in the listing: which line of which round; in the line search, how

@@ -23,7 +23,6 @@ bool records_fit(Records *records, int count)
 static void free_round(Round *round)
 {
     free(round->x);
-    free(round->value);
     *round = (Round){0};
 }
 
@@ -82,26 +81,16 @@ static bool make_room(Rounds *rounds)
 
 /* ---- what is kept -------------------------------------------------------- */
 
-/* E along p of the round that is due, from the place where `at` is; where it is
- * rough and memory is missing, nothing of the round. */
+/* E along p of the round that is due, from the place where `at` is. */
 static void keep_line(Rounds *rounds, const Iterate *at)
 {
     Round *round = &rounds->round[rounds->made.count];
-    size_t bytes = ROUND_VALUES * sizeof *round->value;
     Along along = incremental_potential_along(at);
     round->first = incremental_potential_reach(at);
     round->along = along.smooth;
     rounds->made.row[rounds->made.count].slope = along.smooth.q[0];
-    if (along.rough == 0 || !round->x)
-        return;
-    free(round->value);
-    round->value = malloc(bytes);
-    if (!round->value) {
-        free_round(round);
-        return;
-    }
-    rounds->bytes += bytes;
-    for (int i = 0; i < ROUND_VALUES; i++)
+    round->rough = along.rough != 0;
+    for (int i = 0; i < ROUND_VALUES && round->rough && round->x; i++)
         round->value[i] =
             along_difference(&along, i * round->first / ROUND_PARTS);
 }
@@ -110,7 +99,7 @@ static void keep_line(Rounds *rounds, const Iterate *at)
 static double kept_difference(const void *function, double alpha)
 {
     const Round *round = function;
-    if (!round->value)
+    if (!round->rough)
         return quartic_value(&round->along, alpha);
     double place = alpha / round->first * ROUND_PARTS;
     if (!(place >= 0 && place <= ROUND_VALUES - 1))
@@ -146,7 +135,8 @@ static void keep_round(Rounds *rounds, const Newton *newton)
 {
     Round *round = &rounds->round[rounds->made.count];
     NewtonRecord *record = &rounds->made.row[rounds->made.count];
-    size_t size = (size_t)rounds->size, bytes = 2 * size * sizeof *round->x;
+    size_t size = (size_t)rounds->size;
+    size_t bytes = (2 * size + ROUND_VALUES) * sizeof *round->x;
     free_round(round);
     *record = newton->record;
     record->residual = newton->residual;
@@ -155,9 +145,10 @@ static void keep_round(Rounds *rounds, const Newton *newton)
         round->x = malloc(bytes);
     if (round->x) {
         round->p = round->x + size;
+        round->value = round->p + size;
         rounds->bytes += bytes;
-        memcpy(round->x, newton->at.x, bytes / 2);
-        memcpy(round->p, newton->at.p, bytes / 2);
+        memcpy(round->x, newton->at.x, size * sizeof *round->x);
+        memcpy(round->p, newton->at.p, size * sizeof *round->p);
     }
     keep_line(rounds, &newton->at);
 }
