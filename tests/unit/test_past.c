@@ -358,19 +358,6 @@ TEST(anything_in_any_order)
 TEST(commands_are_written_as_they_are_read)
 {
     char message[256], line[160], again[160];
-    static const char *const good[] = {
-        "quit",        "set timestep 0.01",
-        "goto 12",     "drag 0.10000000000000001 -0.5",
-        "default k",   "zoom 110 0.5 1",
-        "line-search", "scene landscape",
-    };
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-        Command command;
-        CHECK_STATUS(command_parse(good[i], &command, message, sizeof message),
-                     STATUS_OK);
-        command_format(&command, line, sizeof line);
-        CHECK(strcmp(line, good[i]) == 0);
-    }
     for (int kind = COMMAND_QUIT; kind < COMMAND_KINDS; kind++) {
         Command command = {(CommandKind)kind, 7, 0.1, -3, "word",
                            kind % 2 == 0},
@@ -407,47 +394,6 @@ TEST(keys_are_given_once)
             CHECK((int)command_from_key(key, false, AT_RUN).kind == kind);
             all += length;
         }
-    }
-}
-
-/* Whether this word stands alone in the text. */
-static bool has_word(const char *text, const char *word)
-{
-    static const char *const ends = " ,;|\n";
-    for (const char *at = text; (at = strstr(at, word)); at++)
-        if (at > text && strchr(ends, at[-1]) && strchr(ends, at[strlen(word)]))
-            return true;
-    return false;
-}
-
-/* README's table of hands and keys has each key of the list. */
-TEST(the_readme_names_every_key)
-{
-    static const char *const names[][2] = {{"PageDown", "Page Down"},
-                                           {"PageUp", "Page Up"},
-                                           {"Escape", "Esc"},
-                                           {"N", "N or Right"}};
-    static char text[1 << 16];
-    FILE *file = fopen("README.md", "r");
-    CHECK(file != NULL);
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
-    char *table = strstr(text, "| hand or key |");
-    CHECK(table != NULL);
-    *strstr(table, "\n\n") = '\0';
-    for (int kind = 1; kind < COMMAND_KINDS; kind++) {
-        const CommandRow *row = command_row((CommandKind)kind);
-        char key[16] = "";
-        if (!row->label)
-            continue;
-        snprintf(key, sizeof key, "%.*s", (int)strcspn(row->keys, "|"),
-                 row->keys);
-        for (int i = 0; i < 4; i++)
-            if (strcmp(key, names[i][0]) == 0)
-                snprintf(key, sizeof key, "%s", names[i][1]);
-        if (!has_word(table, key))
-            print_error("README lacks %s\n", key);
-        CHECK(has_word(table, key));
     }
 }
 
