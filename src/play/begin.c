@@ -185,7 +185,6 @@ Status obey_page(Player *player, const Command *command)
         return status;
     status = player_begin(player, &options, 1, command);
     player->speed = player_first_speed(&options);
-    player_reset_speed(player);
     player->left = page;
     player->told = NULL;
     player->column = COLUMN_CARDS;

@@ -304,13 +304,10 @@ Status obey_set(Player *player, const Command *command)
         (row->effect == EFFECT_AGAIN ||
          (player->fine > 0 && player_place(player, player->active) >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)
-        status = restart_with(player, options, command);
-    else if (again && change.x != old)
-        status = retake_step(player, &change, from, to);
-    else
-        status = player_change(player, &change, from, to, false);
-    player_reset_speed(player);
-    return status;
+        return restart_with(player, options, command);
+    if (again && change.x != old)
+        return retake_step(player, &change, from, to);
+    return player_change(player, &change, from, to, false);
 }
 
 Status player_pace(Player *player, int index, int paces)

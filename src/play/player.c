@@ -212,21 +212,22 @@ static Status step_frame(Player *player)
     return status;
 }
 
-/* Simulated over real time, twice a second. */
+/* Simulated over real time, twice a second; unknown after a pause. */
 static void measure_speed(Player *player)
 {
     double now = clock_now(), time = player_time(player);
-    double passed = now - player->mark[0];
-    if (passed < MEASURE_TIME)
+    double passed = now - player->mark[0], made = time - player->mark[1];
+    bool begins = player_stands(player) || made < 0;
+    if (!begins && (passed < MEASURE_TIME || made == 0))
         return;
-    player->measured = (time - player->mark[1]) / passed;
+    player->measured = begins ? 0 : made / passed;
     player->mark[0] = now;
     player->mark[1] = time;
 }
 
 Status player_start(Player *player)
 {
-    player->due = clock_now();
+    player->due = player->mark[0] = clock_now();
     return player_draw(player);
 }
 
@@ -249,9 +250,9 @@ Status player_frame(Player *player)
         if (!works)
             player->due = fmax(player->due + period, now);
         status = step_frame(player);
-        if (player->window)
-            measure_speed(player);
     }
+    if (player->window)
+        measure_speed(player);
     if (lives && due) {
         player->due = now + 1.0 / FRAME_RATE;
         player_live(player);
@@ -298,7 +299,6 @@ static Status open_view(Player *player)
         player->window = window_open("elasto", size, options->fullscreen);
         if (player->window)
             status = view_create(0, 0, &player->view);
-        player_set_title(player);
     }
     if (!options->headless && !player->window) {
         view_failure(reason, sizeof reason);
@@ -325,16 +325,11 @@ Status player_create(const Options *options, int count, const char *line,
     const Command pause = {.kind = COMMAND_PAUSE};
     *player = (Player){.given_count = count,
                        .stop = stop,
-                       .scene = options->scene,
                        .left = options->page,
-                       .lens = LENS_FITS,
-                       .large = -1,
-                       .selected = -1,
                        .written = -1};
     snprintf(player->line, sizeof player->line, "%s", line);
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();
-    player->speed = player_first_speed(options);
     Status status = script_read(options->script, &player->script,
                                 player->message, sizeof player->message);
     if (!status)
@@ -343,8 +338,8 @@ Status player_create(const Options *options, int count, const char *line,
         return status;
     player->asks = player->window && !options->script;
     player->attended = player->window || options->script || options->page;
-    if (options->paused || (player->window && !options->script &&
-                            options->steps < 0 && player_explains(options)))
+    if (options->paused ||
+        (player->asks && options->steps < 0 && player_explains(options)))
         player->mode = MODE_PAUSE;
     status = recording_open(&player->given[0], count, &player->recording);
     past_create(player->attended || player->view,
@@ -353,9 +348,9 @@ Status player_create(const Options *options, int count, const char *line,
         status = player_begin(player, player->given, count, &begin);
     if (!status && player_stands(player)) /* scripts begin to run */
         status = script_add(&player->journal, 0, &pause);
-    if (!status && options->page && player->window && !options->script)
+    if (!status && player->asks && options->page)
         status = player_open_page(player);
-    else if (!status && player->window && !options->script &&
+    else if (!status && player->asks &&
              simulation_is_handled(player_simulation(player)))
         player_note(player, "pull at a node with the mouse; G: all scenes; "
                             "Page Down: the guided tour");

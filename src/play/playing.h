@@ -94,8 +94,9 @@ void player_judge(Player *player);
 /* Somebody has asked for a pause; a walk goes on. */
 void player_stop(Player *player);
 
-/* What was wished for the step that is shown now. */
-void player_wish(Player *player, Then then);
+/* Into the step that is shown, where any pane has lines: to the first of them,
+ * to the last, or to where E rose beyond all proportion. */
+void player_enter(Player *player, Then then);
 
 /* The place in the step that a pane shows; -1: none, it shows all of it.
  * player_stand_at: from now on this one. */
@@ -152,11 +153,6 @@ Status player_check_answer(Player *player);
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a
  * frame through time, and iterations one at a time. */
 int player_first_speed(const Options *options);
-
-/* The speed in the texts is measured anew from here. */
-void player_reset_speed(Player *player);
-
-void player_set_title(Player *player);
 
 /* ---- sheet.c ------------------------------------------------------------- */
 

@@ -23,29 +23,12 @@ int player_first_speed(const Options *options)
     return options->scene->needs & NEEDS_TIME ? 0 : WATCHED_SPEED;
 }
 
-void player_reset_speed(Player *player)
-{
-    player->measured = 0;
-    player->mark[0] = clock_now();
-    player->mark[1] = player_time(player);
-}
-
-void player_set_title(Player *player)
-{
-    char title[128];
-    snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
-             player->scene->name);
-    if (player->window)
-        window_set_title(title);
-}
-
 /* Twice or half as fast. */
 Status obey_speed(Player *player, const Command *command)
 {
     int speed = player->speed + (command->kind == COMMAND_FASTER ? 1 : -1);
     if (speed >= SPEED_LEAST && speed <= SPEED_MOST)
         player->speed = speed;
-    player_reset_speed(player);
     return STATUS_OK;
 }
 
@@ -247,7 +230,8 @@ Status obey_hash(Player *player, const Command *command)
     journal->count = count;
     if (status)
         player_note(player, "state %016llx of %s, step %ld; no script: %s",
-                    hash, player->scene->name, step, reason_of(status));
+                    hash, player_simulation(player)->scene->name, step,
+                    reason_of(status));
     else
         player_note(player, "state %016llx at step %ld: %.60s --script %s",
                     hash, step, player->line, name);

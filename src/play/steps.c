@@ -91,6 +91,7 @@ Status player_write_rest(Player *player)
 static void enter_scene(Player *player)
 {
     const Options *options = player_settings(player);
+    char title[128];
     if (options->scene == player->scene)
         return;
     player->scene = options->scene;
@@ -101,7 +102,10 @@ static void enter_scene(Player *player)
     player_deselect(player);
     player->show.hover = (Pick){.kind = PICK_NONE};
     player->mouse.drag = COMMAND_NONE;
-    player_set_title(player);
+    snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
+             options->scene->name);
+    if (player->window)
+        window_set_title(title);
 }
 
 void player_leave_step(Player *player)
@@ -130,7 +134,6 @@ Status player_begin(Player *player, const Options *options, int count,
     player->sampled = -1;
     player->warned = player->holds = false;
     status = player_follow(player);
-    player_reset_speed(player);
     return status ? status : record_step(player);
 }
 
@@ -202,8 +205,12 @@ static Status step_shown(Player *player, Status status, long before)
     if (failed && player->past.step == before)
         return show_failure(player, status, then);
     status = record_step(player);
-    if (!status)
-        player_wish(player, then);
+    if (!status && then == THEN_JUDGE)
+        player_judge(player);
+    else if (!status && then == THEN_TELL)
+        player_tell_retake(player);
+    else if (!status && then != THEN_NOTHING)
+        player_enter(player, then);
     return status;
 }
 

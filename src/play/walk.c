@@ -30,9 +30,7 @@ void player_stand_at(Player *player, int pane, int place)
     player->side[pane].place = place;
 }
 
-/* Into the step that is shown, where any pane has lines: to the first of them,
- * to the last, or to where E rose beyond all proportion. */
-static void enter_rounds(Player *player, Then then)
+void player_enter(Player *player, Then then)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const Machine *machine = &player->past.machine[p];
@@ -71,16 +69,6 @@ static bool walk(Player *player, int way)
     return moved;
 }
 
-void player_wish(Player *player, Then then)
-{
-    if (then == THEN_JUDGE)
-        player_judge(player);
-    if (then == THEN_ENTER || then == THEN_LEAVE || then == THEN_PEAK)
-        enter_rounds(player, then);
-    if (then == THEN_TELL)
-        player_tell_retake(player);
-}
-
 /* ---- commands ------------------------------------------------------------ */
 
 void player_stop(Player *player)
@@ -95,8 +83,6 @@ Status obey_pause(Player *player, const Command *command)
                    : player->mode == MODE_WALK   ? MODE_WALK
                                                  : MODE_PAUSE;
     player->changed = true;
-    if (player->mode == MODE_RUN)
-        player_reset_speed(player);
     return STATUS_OK;
 }
 
@@ -140,7 +126,7 @@ Status obey_back(Player *player, const Command *command)
     if (player_place(player, player->active) < 0 && step > 0) {
         if (!player_machine(player)->known)
             return player_show(player, step, true, THEN_LEAVE);
-        enter_rounds(player, THEN_LEAVE);
+        player_enter(player, THEN_LEAVE);
     }
     if (player_place(player, player->active) >= 0 && walk(player, -1))
         return STATUS_OK;
