@@ -160,7 +160,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
  * OUT_OF_MEMORY. */
 Status past_set_panes(Past *past, int panes, int gesture, const Command *edit);
 
-/* Wants this step shown, 0 ... newest + 1.
+/* Wants this step shown, 0 ... newest + 1; work that is under way is given up.
  *   again  it is made once more, to know its rounds and those before it, also
  *          where that is long work */
 void past_aim(Past *past, long step, bool again);
@@ -173,10 +173,6 @@ Status past_iterate(Past *past);
 
 /* Iterates to the end of the work, and returns as past_iterate does there. */
 Status past_finish(Past *past);
-
-/* Gives up the work that is under way: past_iterate leads back to the step that
- * was shown before it. */
-void past_drop(Past *past);
 
 /* One gesture down (-1) or up (1), where past_iterate leads.  Returns what was
  * undone or done again; NULL: nothing was. */

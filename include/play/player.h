@@ -88,14 +88,13 @@ typedef struct Retake {
 
 typedef struct Player {
     Options given[OPTIONS_MAX_PANES]; /* of the command line */
-    int given_count;
-    char line[1024]; /* it, without files and scripts */
-    Script script;   /* of the command line */
-    View *view;      /* NULL: nothing is drawn */
-    bool window;     /* the view is a window: it takes keys */
-    bool attended;   /* a window or a script: it may pause and go back */
-    bool quit;       /* somebody asked for the end */
-    bool refused;    /* a line of the script made no sense */
+    char line[1024];                  /* it, without files and scripts */
+    Script script;                    /* of the command line */
+    View *view;                       /* NULL: nothing is drawn */
+    bool window;                      /* the view is a window: it takes keys */
+    bool attended; /* a window or a script: it may pause and go back */
+    bool quit;     /* somebody asked for the end */
+    bool refused;  /* a line of the script made no sense */
     const volatile sig_atomic_t *stop; /* set by signals */
     double started;                    /* s, on the wall clock */
 

@@ -35,7 +35,7 @@ Status player_own_options(Player *player, const char *scene,
         return status;
     options->speed = given->speed;
     if (options->scene == given->scene && !given->page) {
-        *count = player->given_count;
+        *count = given->panes;
         memcpy(options, given, (size_t)*count * sizeof *given);
     }
     return STATUS_OK;
@@ -62,29 +62,24 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Another start, where the scene has one. */
-Status obey_start(Player *player, const Command *command)
-{
-    Options options[OPTIONS_MAX_PANES];
-    if (!(player_simulation(player)->scene->needs & NEEDS_START))
-        return player_refuse(player, "this scene has no start to choose");
-    int panes = player_options(player, options);
-    for (int i = 0; i < panes; i++) {
-        options[i].start[0] = command->x;
-        options[i].start[1] = command->y;
-    }
-    player->mode = MODE_PAUSE;
-    return player_begin(player, options, panes, command);
-}
-
-/* From step 0 with the present numbers; a pause that nobody asked for ends. */
+/* From step 0 with the present numbers, or from another start; a pause that
+ * nobody asked for ends. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     int panes = player_options(player, options);
-    if (player->mode >= MODE_END && !player_explains(&options[0]))
+    bool moves = command->kind == COMMAND_START;
+    if (moves && !(options->scene->needs & NEEDS_START))
+        return player_refuse(player, "this scene has no start to choose");
+    for (int p = 0; p < panes && moves; p++) {
+        options[p].start[0] = command->x;
+        options[p].start[1] = command->y;
+    }
+    if (moves)
+        player->mode = MODE_PAUSE;
+    else if (player->mode >= MODE_END && !player_explains(options))
         player->mode = MODE_RUN;
-    player->lens = LENS_FITS;
+    player->lens = moves ? player->lens : LENS_FITS;
     return player_begin(player, options, panes, command);
 }
 

@@ -167,7 +167,7 @@ Status player_obey(Player *player, const Command *asked)
         }
     }
     if (past->works && !(flags & SCREEN)) {
-        past_drop(past);
+        past_aim(past, step, false);
         player->then = THEN_NOTHING;
         if (command.kind == COMMAND_ESCAPE)
             return player_work(player);

@@ -753,12 +753,6 @@ void past_aim(Past *past, long step, bool again)
     leave_all(past);
 }
 
-void past_drop(Past *past)
-{
-    if (past->works)
-        past_aim(past, past->step, false);
-}
-
 /* ---- what is done -------------------------------------------------------- */
 
 /* What was told of later steps than this is no more so. */

@@ -323,10 +323,7 @@ Status player_create(const Options *options, int count, const char *line,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.given_count = count,
-                       .stop = stop,
-                       .left = options->page,
-                       .written = -1};
+    *player = (Player){.stop = stop, .left = options->page, .written = -1};
     snprintf(player->line, sizeof player->line, "%s", line);
     memcpy(player->given, options, (size_t)count * sizeof *options);
     player->started = clock_now();

@@ -101,7 +101,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     if (!plays)
         return words;
     int panes = player_options(&run->player, now);
-    if ((panes != run->player.given_count && !now[0].page) ||
+    if ((panes != run->player.given[0].panes && !now[0].page) ||
         !first_options(&run->player, &now[0], words, &base))
         words[0] = '\0';
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {

@@ -132,7 +132,7 @@ TEST(a_step_is_made_again)
     past_aim(&past, 2, false);
     past_iterate(&past);
     past_iterate(&past);
-    past_drop(&past);
+    past_aim(&past, past.step, false);
     show(2);
     CHECK(past_control(&past, 0)->options.stiffness == 2e5);
     CHECK(past_entry(&past, 0, 1)->control->options.stiffness != 2e5);
@@ -215,7 +215,7 @@ static void visit_in_part(Random *random)
              random_below(random, 2));
     for (int k = random_below(random, 9); k > 0 && past.works; k--)
         past_iterate(&past);
-    past_drop(&past);
+    past_aim(&past, past.step, false);
     CHECK_STATUS(past_finish(&past), STATUS_OK);
     look(past_newest(&past) > newest);
 }
