@@ -21,7 +21,7 @@ typedef struct Table {
 static const Table tables[] = {
     {"work", "error against run time of all methods", bench_work,
      "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"
-     "error_m,energy_drift,unconverged,failed"},
+     "error_m,failed"},
     {"steps", "milliseconds a step: the slides' program, newton, multigrid",
      bench_steps,
      "segments,solver,starts,median_ms,least_ms,most_ms,updates,smooth_ms,"

@@ -1,7 +1,7 @@
 # Error against run time: gnuplot -c figures.gnuplot DATA PICTURES reads
 # DATA/work.csv and writes PICTURES/work_precision.svg; of a quick run, DATA/.
 # Columns: 1 case, 2 segments, 3 integrator, 4 solver, 8 run time, 9 error,
-# 12 failed.
+# 10 failed.
 work = ARG1."/work.csv"
 machine = system("sed -n '1s/^# //p' ".work." | sed 's/; flags[^;]*//'")
 quick = machine[strlen(machine) - 8:] eq "quick run"
@@ -37,10 +37,10 @@ do for [panel in quick ? "soft:4 stiff:4 spinning:4" \
         ? "stiff (k = 10^9 J/m^2), 0.02 s" \
         : "stiff and turning slowly, 0.1 s", size, size)
     plot for [i=1:9] work using \
-            (is_row(kind, size, i) && $12 == 0 ? $8 : 1/0):9 \
+            (is_row(kind, size, i) && $10 == 0 ? $8 : 1/0):9 \
             with linespoints lw 1.5 ps 0.5 pt shape(i) lc rgb colour[i], \
         for [i=1:9] work using \
-            (is_row(kind, size, i) && $12 == 1 ? $8 : 1/0):(0.6) \
+            (is_row(kind, size, i) && $10 == 1 ? $8 : 1/0):(0.6) \
             with points pt 2 ps 0.6 lc rgb colour[i]
 }
 # An empty panel for the legend.

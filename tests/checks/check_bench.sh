@@ -43,13 +43,13 @@ verdict all_methods_were_measured "$(for name in $methods; do
         echo "$name has too few runs"
 done)"
 verdict errors_fall_with_the_time_step "$(awk -F , '
-    $1 == "soft" && $3 == "verlet" && $12 == 0 {
+    $1 == "soft" && $3 == "verlet" && $10 == 0 {
         if (last && !($9 < last / 3)) print "error " $9 " after " last
         last = $9
     }
     END { if (!last) print "no runs" }' "$temporary/csv/work.csv")"
 verdict failures_are_marked "$(awk -F , '
-    $1 == "spinning" && $3 == "forward-euler" && $12 == 0 {
+    $1 == "spinning" && $3 == "forward-euler" && $10 == 0 {
         print "forward Euler did not fail with " $6 " steps"
     }' "$temporary/csv/work.csv")"
 verdict solvers_end_with_the_same_energy "$(awk -F , 'NR > 2 {
