@@ -118,11 +118,9 @@ const SESSIONS = {
     await tab.key('n');
   },
   keys: async (tab) => {
-    for (const key of ['Space', 'n', 'n', 'i', 'i', 'ArrowRight', 'ArrowRight', 'Escape', 'p', 'n'])
-      await tab.key(key);
-    await tab.key('Tab');
-    for (const key of ['0', '.', '0', '2', 'Enter', 'n', 'm', 'n', 'ArrowLeft', 'n'])
-      await tab.key(key);
+    const keys =
+      'Space n n i i ArrowRight ArrowRight Escape p n Tab 0 . 0 2 Enter n m n ArrowLeft n';
+    for (const key of keys.split(' ')) await tab.key(key);
   },
   touch: async (tab) => {
     await tab.touch('touchStart', [450, 300]);
