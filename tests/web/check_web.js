@@ -129,7 +129,7 @@ const SESSIONS = {
     await tab.touch('touchEnd');
     await tab.key('Space');
     await tab.touch('touchStart', [300, 400]);
-    await sleep(800);
+    await tab.until(`/pinned/.test(ask('web_text', 'string'))`, 9000).catch(() => {});
     await tab.touch('touchEnd');
     await tab.touch('touchStart', [350, 300], [450, 300]);
     await tab.touch('touchMove', [320, 300], [480, 300]);
