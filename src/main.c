@@ -53,7 +53,7 @@ static void on_alarm(int number)
     if (seconds(CLOCK_PROCESS_CPUTIME_ID) - main_used > least)
         set_alarm();
     else
-        view_let_go();
+        window_let_go();
 }
 
 /* Signals that end the run; and those of pipes without a reader and of files
@@ -99,7 +99,7 @@ int main(int argc, char **argv)
 {
     hold_standard_streams();
     handle_signals();
-    view_when_lost(on_lost_screen);
+    window_when_lost(on_lost_screen);
     int code = program_begin(argc, argv, &main_stop, &main_player);
     if (code == PROGRAM_PLAYS)
         code = program_end(&main_player, player_run(&main_player));

@@ -53,7 +53,7 @@ Status view_show(View *view);
 
 /* ---- the window --------------------------------------------------------- */
 
-/* There is one at a time; false: view_failure tells why there is none.
+/* There is one at a time; false: window_failure tells why there is none.
  *   size  [2] in, its pixels; 0: 1280 x 800, or what fits on the screen
  *   full  it fills the screen
  * window_close: in any case; a second time it does nothing. */
@@ -62,12 +62,12 @@ void window_close(void);
 
 /* From now on `lost` is called when the server of a window is gone; it must not
  * return. */
-void view_when_lost(void (*lost)(void));
+void window_when_lost(void (*lost)(void));
 
 /* Ends every wait for a server that does not answer, as if it were gone; while
  * a window is opened the program ends, for nothing was begun.  For handlers of
  * signals. */
-void view_let_go(void);
+void window_let_go(void);
 
 /* size  [2] out, pixels of a paper that fills it */
 void window_size(int size[2]);
@@ -79,7 +79,7 @@ void window_set_title(const char *title);
 
 /* Why the last SCREEN_FAILED, in one line; empty where nobody knows.  reason
  * [size] out */
-void view_failure(char *reason, size_t size);
+void window_failure(char *reason, size_t size);
 
 /* Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
 Status window_show(const Canvas *canvas);

@@ -301,7 +301,7 @@ static Status open_view(Player *player)
             status = view_create(0, 0, &player->view);
     }
     if (!options->headless && !player->window) {
-        view_failure(reason, sizeof reason);
+        window_failure(reason, sizeof reason);
         window_close();
         if (!options->frames && !options->film)
             options->frames = "frames";

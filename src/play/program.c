@@ -113,7 +113,7 @@ static void report_failure(const Player *player, Status status)
     if (ended >= 0 && past_panes(&player->past) > 1)
         snprintf(pane, sizeof pane, "pane %d, ", ended + 1);
     if (status == STATUS_SCREEN_FAILED)
-        view_failure(reason, sizeof reason);
+        window_failure(reason, sizeof reason);
     if (player->message[0] || message[0])
         tell("%s", player->message[0] ? player->message : message);
     else if (ended >= 0)

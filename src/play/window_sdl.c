@@ -76,12 +76,12 @@ static void guard_server(void)
         set_handler(server_is_gone);
 }
 
-void view_when_lost(void (*lost)(void))
+void window_when_lost(void (*lost)(void))
 {
     when_lost = lost;
 }
 
-void view_let_go(void)
+void window_let_go(void)
 {
     if (opens)
         _exit(EXIT_FAILURE);
@@ -90,7 +90,7 @@ void view_let_go(void)
 }
 
 /* One line out of SDL's message. */
-void view_failure(char *reason, size_t size)
+void window_failure(char *reason, size_t size)
 {
     snprintf(reason, size, "%s", SDL_GetError());
     reason[strcspn(reason, "\r\n")] = '\0';

@@ -38,7 +38,7 @@ void window_close(void)
 {
 }
 
-void view_failure(char *reason, size_t size)
+void window_failure(char *reason, size_t size)
 {
     if (size > 0)
         reason[0] = '\0';
