@@ -41,13 +41,6 @@ static uint32_t pixel(int frame, int x, int y)
     return inside ? 0xff0020c0u + 0x060000u * (uint32_t)i : 0xffffffffu;
 }
 
-static void draw(int frame, Canvas *canvas)
-{
-    for (int y = 0; y < canvas->height; y++)
-        for (int x = 0; x < canvas->width; x++)
-            canvas->pixels[y * canvas->width + x] = pixel(frame, x, y);
-}
-
 static Film open_film(const char *name)
 {
     Film film;
@@ -63,7 +56,8 @@ static void make_film(const char *name, int frames)
     Film film = open_film(name);
     CHECK_STATUS(canvas_create(WIDTH, HEIGHT, &canvas), STATUS_OK);
     for (int i = 0; i < frames; i += i == 4 ? 2 : 1) {
-        draw(i, &canvas);
+        for (int k = 0; k < WIDTH * HEIGHT; k++)
+            canvas.pixels[k] = pixel(i, k % WIDTH, k / WIDTH);
         CHECK_STATUS(film_add(&film, &canvas, i == 4 ? 2 : 1), STATUS_OK);
     }
     CHECK(film.frames == frames);
@@ -72,18 +66,24 @@ static void make_film(const char *name, int frames)
     canvas_free(&canvas);
 }
 
+/* What a line of the shell says; %s in it is the film. */
+static FILE *ask(const char *format, const char *name)
+{
+    char line[512];
+    snprintf(line, sizeof line, format, name);
+    FILE *answer = popen(line, "r");
+    assert_non_null(answer);
+    return answer;
+}
+
 /* The frames of a film as RGB, one after the other; how many whole ones. */
 static int read_film(const char *name, int width, int height, uint8_t *bytes,
                      int most)
 {
-    char line[512];
     size_t size = 3 * (size_t)width * (size_t)height;
-    snprintf(line, sizeof line,
-             "ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f rawvideo "
-             "-pix_fmt rgb24 pipe:1 </dev/null",
-             name);
-    FILE *film = popen(line, "r");
-    assert_non_null(film);
+    FILE *film = ask("ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f "
+                     "rawvideo -pix_fmt rgb24 pipe:1 </dev/null",
+                     name);
     size_t read = fread(bytes, 1, size * (size_t)most, film);
     CHECK(pclose(film) == 0 && read % size == 0);
     return (int)(read / size);
@@ -92,19 +92,12 @@ static int read_film(const char *name, int width, int height, uint8_t *bytes,
 /* Frames a second, from the times of the first and the last of `count`. */
 static double rate_of(const char *name, int count)
 {
-    char line[512];
-    double first = -1, last = -1, time;
-    snprintf(line, sizeof line,
-             "ffprobe -v error -show_entries packet=pts_time -of csv=p=0 "
-             "'file:%s'",
-             name);
-    FILE *answer = popen(line, "r");
-    assert_non_null(answer);
-    while (fscanf(answer, "%lf%*[^\n]", &time) == 1) {
-        first = first < 0 || time < first ? time : first;
-        last = fmax(last, time);
-    }
-    CHECK(pclose(answer) == 0);
+    double first, last;
+    FILE *times = ask("ffprobe -v error -show_entries packet=pts_time -of "
+                      "csv=p=0 'file:%s' | tr -d , | sort -g | sed -n '1p;$p'",
+                      name);
+    CHECK(fscanf(times, "%lf %lf", &first, &last) == 2);
+    CHECK(pclose(times) == 0);
     return (count - 1) / (last - first);
 }
 
