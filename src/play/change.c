@@ -179,12 +179,18 @@ int player_all_numbers(const Player *player,
 const char *player_idle(const Player *player, const OptionRow *row)
 {
     const Simulation *simulation = player_simulation(player);
-    bool minimises = simulation->run[0].newton || simulation->scene->step;
-    bool asks_newton = row->slot == OPTION_SLOT(filter) ||
-                       row->slot == OPTION_SLOT(line_search) ||
-                       row->slot == OPTION_SLOT(tolerance) ||
-                       row->slot == OPTION_SLOT(solver);
-    if (asks_newton && !minimises)
+    bool minimises = simulation->scene->step;
+    int slot = row->slot;
+    for (int p = 0; p < past_panes(&player->past); p++)
+        minimises =
+            minimises || player->past.machine[p].simulation.run[0].newton;
+    if (slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
+        return "nothing to project here";
+    if (slot == OPTION_SLOT(line_search) &&
+        !simulation_has_line_search(simulation))
+        return "no line search here";
+    if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
+        !minimises)
         return "explicit methods minimise nothing";
     return row->idle ? row->idle(player_settings(player)) : NULL;
 }
@@ -277,13 +283,8 @@ Status obey_set(Player *player, const Command *command)
                  row ? row->name : command->text);
         return STATUS_INVALID_INPUT;
     }
-    bool search = row->slot == OPTION_SLOT(line_search);
-    if (search && !simulation_has_line_search(simulation))
-        return player_refuse(player, "no line search here");
-    if (row->slot == OPTION_SLOT(filter) && !simulation_has_filter(simulation))
-        return player_refuse(player, "nothing to project here");
-    if (row->idle && row->idle(player_settings(player)))
-        return player_refuse(player, row->idle(player_settings(player)));
+    if (player_idle(player, row))
+        return player_refuse(player, player_idle(player, row));
     bool one = player_compares(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);

@@ -211,29 +211,24 @@ Status obey_hash(Player *player, const Command *command)
 {
     (void)command;
     const Command pause = {.kind = COMMAND_PAUSE};
-    char name[80];
-    unsigned long long hash = player_hash(player);
+    char name[80], way[200];
     Script *journal = &player->journal;
     size_t count = journal->count;
     long step = player->past.step;
     Status status = STATUS_OK;
-    if (count == 0) {
-        player_note(player, "state %016llx: %.80s --steps %ld", hash,
-                    player->line, step);
-        return STATUS_OK;
-    }
     free_name(player, ".script", name, sizeof name);
     if (!player_stands(player))
         status = script_add(journal, step, &pause);
-    if (!status)
+    if (!status && count > 0)
         status = script_write(name, journal);
     journal->count = count;
-    if (status)
-        player_note(player, "state %016llx of %s, step %ld; no script: %s",
-                    hash, player_simulation(player)->scene->name, step,
-                    reason_of(status));
+    if (count == 0)
+        snprintf(way, sizeof way, "%.80s --steps %ld", player->line, step);
+    else if (status)
+        snprintf(way, sizeof way, "no script: %s", reason_of(status));
     else
-        player_note(player, "state %016llx at step %ld: %.60s --script %s",
-                    hash, step, player->line, name);
+        snprintf(way, sizeof way, "%.60s --script %s", player->line, name);
+    player_note(player, "state %016llx at step %ld: %s",
+                (unsigned long long)player_hash(player), step, way);
     return STATUS_OK;
 }

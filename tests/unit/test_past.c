@@ -88,8 +88,6 @@ TEST(states_come_back)
     }
 }
 
-/* A change that counts from the step before leaves what was changed after it,
- * also where work on it is given up. */
 /* A pane that has ended beside another one: the same states from random steps,
  * with all states kept and with a handful. */
 TEST(a_pane_that_has_ended_comes_back)
@@ -122,6 +120,8 @@ TEST(a_pane_that_has_ended_comes_back)
     }
 }
 
+/* A change that counts from the step before leaves what was changed after it,
+ * also where work on it is given up. */
 TEST(a_step_is_made_again)
 {
     begin_past("square --segments 3");
