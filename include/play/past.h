@@ -190,6 +190,10 @@ const Entry *past_entry(const Past *past, int pane, long step);
 const Control *past_control(const Past *past, int pane);
 const Control *past_start(const Past *past, int pane);
 
+/* Whether no step has led to what is shown: it is a start, or something was
+ * dragged there. */
+bool past_is_given(const Past *past);
+
 /* The last step that a pane could make, if it has ended before this one because
  * a step of it failed; else -1. */
 long past_ended(const Past *past, int pane, long step);

@@ -98,8 +98,6 @@ static Status retake_step(Player *player, const Command *change, int from,
     int place = player_place(player, player->active);
     bool failed = machine->failed;
     long step = past->step + failed;
-    if (step < 1)
-        return player_change(player, change, from, to, false);
     *retake = (Retake){.at = {.round = -1}};
     if (place >= 0 && player->fine > 0)
         retake->at = machine->rounds.place[place];
@@ -259,17 +257,6 @@ static Status restart_with(Player *player, const Options *options,
     return status;
 }
 
-/* Whether nodes were placed at this step: no step has led here that could be
- * taken again. */
-static bool is_placed(const Past *past)
-{
-    const Branch *branch = past->branch + past->now;
-    while (!branch->fresh && branch->first == past->step &&
-           branch->edit.kind != COMMAND_PLACE)
-        branch--;
-    return branch->first == past->step && branch->edit.kind == COMMAND_PLACE;
-}
-
 /* An option while the run goes on, or from the start where it cannot change any
  * more: in the active pane where they are compared by it, else in all. */
 Status obey_set(Player *player, const Command *command)
@@ -301,7 +288,7 @@ Status obey_set(Player *player, const Command *command)
     Command change = *command;
     change.x = options[player->active].number[row->slot];
     bool again =
-        !is_placed(&player->past) &&
+        (!past_is_given(&player->past) || player_machine(player)->failed) &&
         (row->effect == EFFECT_AGAIN ||
          (player->fine > 0 && player_place(player, player->active) >= 0));
     if (simulation_effect(simulation, row) == EFFECT_START)

@@ -222,6 +222,11 @@ static Kept kept_of(const Past *past, int pane, long step)
                   i > 0 ? entry[-branch->panes].control : entry->control};
 }
 
+bool past_is_given(const Past *past)
+{
+    return kept_of(past, 0, past->step).dragged;
+}
+
 /* The machine's state into an entry, before which others give way. */
 static Status keep_state(Past *past, int pane, Entry *entry)
 {
