@@ -137,28 +137,27 @@ void past_free(Past *past);
  * dragged elsewhere, a node that is pinned stops. */
 bool past_moves(const Command *edit);
 
-/* New runs from step 0, side by side.  A gesture that has begun the present
- * branch begins it anew.  Returns as simulation_create; what was there before
- * is shown then as soon as past_iterate has made it. */
+/* New runs from step 0, side by side.  Returns as simulation_create; what was
+ * there before is shown then as soon as past_iterate has made it. */
 Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit);
 
 /* Changes something from the step that is shown on; later steps that are known
  * stay in the branch below.
  *   edit     which the caller has checked: COMMAND_SET with a row of the
- * options and its number x or its text; COMMAND_PIN with a node, x = 1 to pin
- *            it and 0 to set it free; COMMAND_GRAB with a node and where the
- * hand is, m; COMMAND_DRAG, COMMAND_RELEASE; COMMAND_PLACE, COMMAND_OBSTACLE,
- * COMMAND_HANDLE, COMMAND_FLIP from,to  in panes from ... to - 1 again    it
- * counts from the step before on: the one that is shown, not step 0, is made
- * once more by past_iterate gesture  of the mouse: the same one changes its own
- * branch's end; or 0 Returns OK, OUT_OF_MEMORY. */
+ *            options and its number x or its text; COMMAND_PIN with a node,
+ *            x = 1 to pin it and 0 to set it free; COMMAND_GRAB with a node and
+ *            where the hand is, m; COMMAND_DRAG, COMMAND_RELEASE;
+ *            COMMAND_PLACE, COMMAND_OBSTACLE, COMMAND_HANDLE, COMMAND_FLIP;
+ *            COMMAND_ADD_PANE: one more with the past of the last one;
+ *            COMMAND_END_PANE: it goes
+ *   from,to  in panes from ... to - 1
+ *   again    it counts from the step before on: the one that is shown, not
+ *            step 0, is made once more by past_iterate
+ *   gesture  of the mouse: the same one changes its own branch's end; or 0
+ * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
-
-/* One pane more with the past of the last one, or fewer.  Returns OK,
- * OUT_OF_MEMORY. */
-Status past_set_panes(Past *past, int panes, int gesture, const Command *edit);
 
 /* Wants this step shown, 0 ... newest + 1; work that is under way is given up.
  *   again  it is made once more, to know its rounds and those before it, also

@@ -422,9 +422,7 @@ Status obey_add_pane(Player *player, const Command *command)
         return player_refuse(player, "nothing to be put beside it here");
     Status status = find_method(player, panes - 1, &change);
     if (!status)
-        status = past_set_panes(past, panes + 1, player->gesture, command);
-    if (!status)
-        status = player_work(player);
+        status = past_edit(past, command, 0, 0, false, player->gesture);
     if (!status)
         status = player_change(player, &change, panes, panes + 1, false);
     if (status)
@@ -440,8 +438,7 @@ Status obey_end_pane(Player *player, const Command *command)
     Past *past = &player->past;
     if (past_panes(past) < 2)
         return player_refuse(player, "there is only one");
-    Status status =
-        past_set_panes(past, past_panes(past) - 1, player->gesture, command);
+    Status status = past_edit(past, command, 0, 0, false, player->gesture);
     return status ? status : player_follow(player);
 }
 

@@ -773,7 +773,7 @@ static Status settle(Past *past)
     return past_finish(past);
 }
 
-/* The branch that could not begin goes, or the one that begins anew. */
+/* The branch that could not begin goes. */
 static void pop_branch(Past *past)
 {
     past->works = false;
@@ -809,17 +809,12 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
                   const Command *edit)
 {
     const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
-    Options own[OPTIONS_MAX_PANES];
-    memcpy(own, options, (size_t)panes * sizeof *own); /* their branch may go */
     stop_work(past);
-    if (past->now > 0 && gesture && present(past)->gesture == gesture &&
-        present(past)->fresh)
-        pop_branch(past);
     if (!push_branch(past, wanted, edit))
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     for (int p = 0; p < panes && !status; p++)
-        status = begin_pane(past, p, &own[p]);
+        status = begin_pane(past, p, &options[p]);
     if (!status) {
         forget_behind(past, -1);
         return status;
@@ -902,13 +897,16 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     if (status)
         return status;
     Branch *branch = present(past);
+    const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
+                      (edit->kind == COMMAND_END_PANE);
     bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
-                 !again && past->step == past_newest(past) &&
+                 panes == branch->panes && !again &&
+                 past->step == past_newest(past) &&
                  drags(edit) == drags(&branch->edit) &&
                  (!drags(edit) || branch->count == 1);
     const Branch wanted = {.first = past->step - again,
                            .given = 1 + again,
-                           .panes = branch->panes,
+                           .panes = panes,
                            .gesture = gesture};
     if (joins) /* those that were undone went on from what it was */
         drop_branches(past, past->now + 1);
@@ -922,19 +920,6 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
             status = change_entry(past, p, edit,
                                   &branch->entry[i * branch->panes + p]);
     return status || again ? status : settle(past);
-}
-
-Status past_set_panes(Past *past, int panes, int gesture, const Command *edit)
-{
-    Status status = settle(past);
-    const Branch wanted = {
-        .first = past->step, .given = 1, .panes = panes, .gesture = gesture};
-    if (!status && !push_branch(past, wanted, edit))
-        status = STATUS_OUT_OF_MEMORY;
-    forget_behind(past, past->step);
-    if (!status)
-        past_aim(past, past->step, false);
-    return status;
 }
 
 /* Whether the branch above it is of the same gesture. */

@@ -162,7 +162,8 @@ TEST(a_gesture_is_undone_as_a_whole)
     past_undo(&past, 1);
     CHECK_STATUS(past_finish(&past), STATUS_OK);
     CHECK(past.step == 8 && hash_now() == hash[8]);
-    CHECK_STATUS(past_set_panes(&past, 2, 0, &grab), STATUS_OK);
+    const Command add = {.kind = COMMAND_ADD_PANE};
+    CHECK_STATUS(past_edit(&past, &add, 0, 0, false, 0), STATUS_OK);
     past_undo(&past, -1);
     CHECK_STATUS(try_edit(&grab, false, 7), STATUS_OK); /* goes on with it: */
     CHECK(!past_undo(&past, 1)); /* the panes were of another end */
@@ -281,12 +282,12 @@ static void change_at_random(Random *random, int gesture)
 
 static void change_panes(int panes)
 {
-    const Command edit = {.kind = COMMAND_ADD_PANE};
     int had = past_panes(&past), now = past.now;
+    const Command edit = {.kind = panes > had ? COMMAND_ADD_PANE
+                                              : COMMAND_END_PANE};
     if (panes < 1 || panes > PANES)
         return;
-    CHECK_STATUS(past_set_panes(&past, panes, 0, &edit), STATUS_OK);
-    CHECK_STATUS(past_finish(&past), STATUS_OK);
+    CHECK_STATUS(past_edit(&past, &edit, 0, 0, false, 0), STATUS_OK);
     memcpy(truth[past.now], truth[now], sizeof *truth);
     for (int step = 0; step <= LAST && panes > had; step++)
         truth[past.now][step][had] = truth[now][step][had - 1];
