@@ -38,6 +38,11 @@ typedef struct Boundary {
     double alpha, mean[2], margin, widest;
     bool upright; /* that is y */
     Box2 own;     /* of the point that looks */
+    /* What was near at the last x without a way, with this margin: of point i
+     * near[first[i]] and on, until that of the next. */
+    bool listed; /* else it is not known, or there was no room */
+    double *listed_x, listed_margin; /* [2n] */
+    int *first, *near;               /* [points + 1], edges */
 } Boundary;
 
 /* Bytes of all arrays; and puts them there. */

@@ -4,10 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Room for so many near edges for each node of the mesh. */
+enum { NEAR_A_NODE = 8 };
+
 size_t boundary_bytes(const SquareMesh *mesh)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    return springs * (sizeof(Box2) + 1) + nodes * (sizeof(int) + 1);
+    return 2 * nodes * sizeof(double) + springs * (sizeof(Box2) + 1) +
+           ((2 + NEAR_A_NODE) * nodes + 1) * sizeof(int) + nodes;
 }
 
 void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
@@ -15,9 +19,13 @@ void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
     *boundary = (Boundary){.shape = *mesh, .version = ~0u};
     boundary->shape.x = NULL;
     boundary->shape.e = boundary->shape.order = NULL;
-    boundary->box = bytes;
+    boundary->listed_x = bytes;
+    boundary->box = (Box2 *)(boundary->listed_x + 2 * (size_t)mesh->nodes);
     boundary->point = (int *)(boundary->box + mesh->springs);
-    boundary->sides = (unsigned char *)(boundary->point + mesh->nodes);
+    boundary->first = boundary->point + mesh->nodes;
+    boundary->near = boundary->first + mesh->nodes + 1;
+    boundary->sides =
+        (unsigned char *)(boundary->near + NEAR_A_NODE * (size_t)mesh->nodes);
     boundary->role = boundary->sides + mesh->springs;
 }
 
@@ -75,6 +83,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         if (boundary->role[i] != IN_A_TRIANGLE)
             boundary->point[boundary->points++] = i;
     boundary->version = system->version;
+    boundary->listed = false;
 }
 
 /* ---- who comes near whom ------------------------------------------------ */
@@ -109,15 +118,9 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
-void boundary_sort(Boundary *boundary, const System *system, const double *x,
-                   const double *p, double alpha, double margin)
+static void sort_boxes(Boundary *boundary, const System *system)
 {
-    if (boundary->version != system->version)
-        find_boundary(boundary, system);
-    boundary->x = x;
-    boundary->p = p;
-    boundary->alpha = alpha;
-    boundary->margin = margin;
+    const double *x = boundary->x, *p = boundary->p;
     boundary->widest = boundary->mean[0] = boundary->mean[1] = 0;
     Box2 all = nothing;
     for (int i = 0; i < boundary->points; i++) {
@@ -157,7 +160,8 @@ static int first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-int boundary_next(Boundary *boundary, const System *system, int i, int *place)
+/* boundary_next, by the boxes. */
+static int next_box(Boundary *boundary, const System *system, int i, int *place)
 {
     int node = boundary->point[i];
     Box2 *own = &boundary->own;
@@ -179,4 +183,50 @@ int boundary_next(Boundary *boundary, const System *system, int i, int *place)
     }
     *place = 0;
     return -1;
+}
+
+/* Goes through all points once, where x is new; false: there is no room. */
+static bool list_near(Boundary *boundary, const System *system)
+{
+    int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
+    for (int i = 0; i < boundary->points; i++) {
+        boundary->first[i] = count;
+        while ((edge = next_box(boundary, system, i, &place)) >= 0) {
+            if (count == room)
+                return false;
+            boundary->near[count++] = edge;
+        }
+    }
+    boundary->first[boundary->points] = count;
+    return true;
+}
+
+void boundary_sort(Boundary *boundary, const System *system, const double *x,
+                   const double *p, double alpha, double margin)
+{
+    size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
+    if (boundary->version != system->version)
+        find_boundary(boundary, system);
+    boundary->x = x;
+    boundary->p = p;
+    boundary->alpha = alpha;
+    boundary->margin = margin;
+    if (!p && boundary->listed && boundary->listed_margin == margin &&
+        memcmp(boundary->listed_x, x, bytes) == 0)
+        return;
+    sort_boxes(boundary, system);
+    if (p)
+        return;
+    boundary->listed = list_near(boundary, system);
+    boundary->listed_margin = margin;
+    memcpy(boundary->listed_x, x, bytes);
+}
+
+int boundary_next(Boundary *boundary, const System *system, int i, int *place)
+{
+    if (boundary->p || !boundary->listed)
+        return next_box(boundary, system, i, place);
+    int k = *place > 0 ? *place : boundary->first[i];
+    *place = k < boundary->first[i + 1] ? k + 1 : 0;
+    return *place > 0 ? boundary->near[k] : -1;
 }

@@ -323,6 +323,7 @@ static Status test_at_rest(Newton *newton)
     int n = 2 * newton->system->nodes;
     double error = 0, away = 0;
     ConjugateGradients state = {newton->settings.filter, .enough = 0};
+    newton->search.filter = state.filter; /* the judge's, too */
     for (int i = 0; i < n; i++) {
         search->r[i] = -newton->at.g[i];
         newton->at.p[i] = search->d[i] = 0;

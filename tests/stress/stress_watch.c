@@ -129,78 +129,63 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
         blame(watch, "converged, but the residual is above %g m/s", tolerance);
 }
 
-/* What H p + grad E lacks at a node, kg m, squared: of the direction, or of 0.
- */
-static Real lacking(Watch *watch, const Moment *moment, const double *u, int i)
+/* What the solver says of H p + grad E, kg m: of the direction, or of 0. */
+static double lacking(const Newton *newton, int i)
 {
-    const Newton *newton = watch->run->newton;
-    Real sum = 0, noise;
-    for (int c = 2 * i; c < 2 * i + 2; c++) {
-        Real r = newton->at.g[c];
-        if (newton->kind == RESIDUAL_ESTIMATE) {
-            memset(watch->way, 0, (size_t)watch_size(watch) * sizeof(double));
-            watch->way[c] = 1;
-            r = wide_imbalance(moment, u, newton->at.p, watch->way, 0, &noise);
-        }
-        sum += r * r;
-    }
-    return sum;
+    return newton->kind == RESIDUAL_BOUND      ? newton->at.g[i]
+           : newton->kind == RESIDUAL_ESTIMATE ? -newton->search.r[i]
+                                               : 0;
 }
 
 /* m/s, of the direction and what it may be wrong by, or where there was no need
  * for one, what it cannot exceed: the Hessian is more than M. */
-static Real claimed_residual(Watch *watch, const Moment *moment,
-                             const double *u)
+static Real claimed_residual(const Newton *newton)
 {
-    const Newton *newton = watch->run->newton;
     const System *system = newton->system;
     const double *p = newton->at.p;
     Real most = 0, sum = 0, lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++) {
         if (system->pinned && system->pinned[i])
             continue;
+        Real x = lacking(newton, 2 * i), y = lacking(newton, 2 * i + 1);
         if (newton->kind != RESIDUAL_BOUND)
             most = fmaxl(most, fabsl(p[2 * i]) + fabsl(p[2 * i + 1]));
-        if (newton->kind != RESIDUAL_VALUE)
-            sum += lacking(watch, moment, u, i) / system->m[i];
+        sum += (x * x + y * y) / system->m[i];
         lightest = fminl(lightest, system->m[i]);
     }
     return (most + sqrtl(2 / lightest * sum)) / newton->settings.h;
 }
 
 /* Of all terms: the direction passes the test, with what it may be wrong by,
- * and H p = -grad E, as the oracle has both, along a random way; or, where no p
- * was needed, grad E is the solver's. */
+ * and H p + grad E is what the solver says, as the oracle has it along a random
+ * way.
+ */
 static void judge_direction(Watch *watch, const double *u, double limit)
 {
     Moment moment = watch_moment(watch);
     const Newton *newton = watch->run->newton;
     const unsigned char *pinned = newton->system->pinned;
-    bool solved = newton->kind == RESIDUAL_VALUE;
+    bool bound = newton->kind == RESIDUAL_BOUND;
     Random random = {(uint64_t)watch->run->steps + 1};
     if (newton->working != SOLVER_NEWTON)
         return;
-    moment.clamped = newton->kind != RESIDUAL_BOUND &&
-                     (newton->settings.filter == FILTER_CLAMP ||
-                      newton->record.projected > 0);
-    Real noise, residual = claimed_residual(watch, &moment, u);
+    moment.clamped = !bound && (newton->settings.filter == FILTER_CLAMP ||
+                                newton->record.projected > 0);
+    Real noise, given = 0, residual = claimed_residual(newton);
     if (!(residual <= limit * (1 + 1e-9L)))
         blame(watch, "converged, but the residual is %Lg m/s", residual);
-    watch->judged++;
-    if (newton->kind == RESIDUAL_ESTIMATE)
-        return;
-    Real given = 0;
     for (int i = 0; i < watch_size(watch); i++) {
         bool held = pinned && pinned[i / 2];
         watch->way[i] = held ? 0 : 2 * random_below(&random, 2) - 1;
-        given += solved ? 0 : watch->way[i] * (Real)newton->at.g[i];
+        given += watch->way[i] * lacking(newton, i);
     }
-    Real off = wide_imbalance(&moment, u, solved ? newton->at.p : NULL,
+    Real off = wide_imbalance(&moment, u, bound ? NULL : newton->at.p,
                               watch->way, given, &noise);
     /* once for the sums, once for the factor */
     if (!(fabsl(off) <= ROUNDINGS * ROUNDINGS * noise))
         blame(watch, "converged, but H p + grad E is %Lg, rounding %Lg", off,
               noise);
+    watch->judged++;
 }
 
 /* Where a minimisation says it converged at u: once more, in wide numbers.
