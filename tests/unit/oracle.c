@@ -330,16 +330,23 @@ static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
 }
 
 /* Whether a point and an edge are so far from each other that there is nothing:
- * most of them are. */
-static bool is_far(const Spot *spot, int p, const int end[2], double most)
+ * most of them are; there, or at x_n. */
+static bool is_far(const Spot *spot, bool at_start, int p, const int end[2],
+                   double most)
 {
     const Place *at = spot->at;
+    const double *way = at_start ? NULL : spot->p, *u = at_start ? NULL : at->u;
+    const double *from = at->x_n;
+    if (at->x && !at_start) {
+        from = at->x;
+        u = NULL;
+    }
     for (int c = 0; c < 2; c++) {
         const int i[3] = {2 * p + c, 2 * end[0] + c, 2 * end[1] + c};
         double x[3];
         for (int k = 0; k < 3; k++)
-            x[k] = (at->x ? at->x[i[k]] : at->x_n[i[k]] + at->u[i[k]]) +
-                   (spot->p ? (double)spot->alpha * spot->p[i[k]] : 0);
+            x[k] = from[i[k]] + (u ? u[i[k]] : 0) +
+                   (way ? (double)spot->alpha * way[i[k]] : 0);
         if ((x[0] > x[1] + most && x[0] > x[2] + most) ||
             (x[0] < x[1] - most && x[0] < x[2] - most))
             return true;
@@ -354,12 +361,9 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
     const Outline *outline = spot->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
-    Place start = *spot->at;
-    Spot before = {.at = &start};
     Real n[2], r;
-    start.x = start.x_n;
     if (p == end[0] || p == end[1] ||
-        is_far(data == self ? spot : &before, p, end, 1.001 * self->d_hat))
+        is_far(spot, data != self, p, end, 1.001 * self->d_hat))
         return;
     if (data == self)
         barrier(spot, sum, self->c, parted(spot, self, p, end, &r, n));
@@ -494,7 +498,7 @@ static void frame_of_pair(Spot *spot, Frame *frame, int i)
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
     Real n[2], r;
-    if (p == end[0] || p == end[1] || is_far(spot, p, end, self->d_hat))
+    if (p == end[0] || p == end[1] || is_far(spot, false, p, end, self->d_hat))
         return;
     parted(spot, self, p, end, &r, n);
     *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
