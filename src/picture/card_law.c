@@ -23,11 +23,11 @@ typedef struct LawNow {
     SpringLaw spring;
     double ep, breaks; /* strains, of the spring: plastic; where it breaks */
     double reach;      /* the unit of the axis */
-    double x, y;       /* the dot */
+    double x, felt;    /* where it is on the axis, NaN: nowhere; how much */
 } LawNow;
 
 typedef struct Law {
-    const char *name, *none, *now, *unit, *across, *upwards;
+    const char *name, *now, *across, *upwards;
     const TermKind *kind, *source; /* the term; whose elements, or springs */
     double (*value)(const void *now, double x);
     double low, high; /* ends of the axis, in units of reach */
@@ -85,24 +85,23 @@ static double spring_value(const void *data, double s)
 #define SPRING "strain s", "f/(2k|d|)"
 
 static const Law laws[] = {
-    {"barrier", "nothing is near a wall", "the smallest gap, d = ", " m", GAPS,
-     &contact_energy, &contact_energy, gap_value, 0, 1.2},
-    {"near", "no point is near an edge", "point and edge, d = ", " m", GAPS,
-     &self_contact_energy, &self_contact_energy, near_value, 0, 1.2},
-    {"friction", "friction over slip", "where it is pressed most: ", " m/s",
-     SLIPS, &friction_energy, &contact_energy, slip_value, 1e-2, 1e4},
-    {"rub", "friction over slip", "where it is pressed most: ", " m/s", SLIPS,
-     &self_friction_energy, &self_contact_energy, slip_value, 1e-2, 1e4},
-    {"triangle", "", "the flattest triangle, J = ", "", "J", "W/A in J/m\u00b2",
+    {"barrier", "the smallest gap, m", GAPS, &contact_energy, &contact_energy,
+     gap_value, 0, 1.2},
+    {"near", "the nearest point and edge, m", GAPS, &self_contact_energy,
+     &self_contact_energy, near_value, 0, 1.2},
+    {"friction", "where it is pressed most, m/s", SLIPS, &friction_energy,
+     &contact_energy, slip_value, 1e-2, 1e4},
+    {"rub", "where it is pressed most, m/s", SLIPS, &self_friction_energy,
+     &self_contact_energy, slip_value, 1e-2, 1e4},
+    {"triangle", "J of the flattest triangle", "J", "W/A in J/m\u00b2",
      &neo_hookean_energy, &neo_hookean_energy, triangle_value, 0, 1.5},
-    {"yield", "", "the spring that flowed most, s = ", "", SPRING,
-     &plastic_energy, NULL, spring_value, -1, 1},
-    {"break", "", "the spring nearest to breaking, s = ", "", SPRING, &fracture,
-     NULL, spring_value, 0, 1.3},
+    {"yield", "s of the spring that flowed most", SPRING, &plastic_energy, NULL,
+     spring_value, -1, 1},
+    {"break", "s of the spring nearest to breaking", SPRING, &fracture, NULL,
+     spring_value, 0, 1.3},
 };
 
-/* A spring and its dot; returns how much it feels. */
-static double find_spring(LawNow *now, int s)
+static void find_spring(LawNow *now, int s)
 {
     const System *system = now->at.system;
     const Plasticity *flow = plasticity_of(system);
@@ -114,91 +113,78 @@ static double find_spring(LawNow *now, int s)
     now->spring.flow = flow ? 1 / (1 + flow->hardening) : 0;
     now->breaks = tear ? fracture_strength(tear, s) : INFINITY;
     now->x = spring_strain(system->e + 2 * s, system->l2[s], now->at.x, d);
-    now->y = spring_value(now, now->x);
+    now->felt = spring_is_broken(system, s) ? -INFINITY
+                : flow ? fabs(now->ep) + 1e-3 * fabs(now->x)
+                       : now->x / now->breaks;
     now->reach =
         flow ? fmax(4 * now->spring.yield, 1.2 * fabs(now->x)) : now->breaks;
-    return spring_is_broken(system, s) ? -INFINITY
-           : flow                      ? fabs(now->ep) + 1e-3 * fabs(now->x)
-                                       : now->x / now->breaks;
 }
 
-/* The same of an element. */
-static double find_element(LawNow *now, const Law *law, const double *v)
+static void find_element(LawNow *now, const Law *law, const double *v)
 {
     const Element *element = &now->element;
-    double t[4], w[4], slip, felt = -element->s;
+    double t[4], w[4], slip;
+    now->felt = -element->s;
     now->x =
         law->value == near_value ? sqrt(element->s) * now->reach : element->s;
-    if (law->value == slip_value) {
-        felt = now->at.term->kind->element->rub(&now->at, element, t, &slip);
-        element_vectors(element, v, w);
-        for (int i = 0; i < 2 * element->vectors; i++)
-            slip -= t[i] * w[i];
-        now->x = fabs(slip);
-    }
-    return felt;
+    if (law->value != slip_value)
+        return;
+    now->felt = now->at.term->kind->element->rub(&now->at, element, t, &slip);
+    element_vectors(element, v, w);
+    for (int i = 0; i < 2 * element->vectors; i++)
+        slip -= t[i] * w[i];
+    now->x = fabs(slip);
 }
 
-/* The law that the page is about, and where a run is on it.  NULL: the scene
- * has none; *found: something feels it. */
-static const Law *law_now(const Simulation *simulation, int run, LawNow *now,
-                          bool *found)
+/* The law that the page is about, and where a run is on it, most of all.  NULL:
+ * the scene has none. */
+static const Law *law_now(const Simulation *simulation, int run, LawNow *most)
 {
     const LecturePage *page = simulation->options.page;
     const System *system = simulation->run[run].system;
     const double *x = simulation->run[run].x, *v = simulation->run[run].v;
     const Law *law = page && page->law ? laws : NULL;
-    const Contact *contact = contact_of(system);
-    const SelfContact *self = self_contact_of(system);
-    double most = -INFINITY, felt;
     while (law && strcmp(law->name, page->law) != 0)
         law++;
     const Term *term = law ? system_find_term(system, law->kind) : NULL;
     if (!term)
         return NULL;
-    LawNow best = {.at = place_at(system, x, NULL, x), .reach = 1};
+    *most = (LawNow){.at = place_at(system, x, NULL, x),
+                     .reach = 1,
+                     .x = NAN,
+                     .felt = -INFINITY};
     if (law->value == slip_value)
-        best.reach = ((const Friction *)term->data)->slip_speed;
+        most->reach = ((const Friction *)term->data)->slip_speed;
     else if (law->source == &contact_energy)
-        best.reach = contact->barrier.d_hat;
+        most->reach = contact_of(system)->barrier.d_hat;
     else if (law->source == &self_contact_energy)
-        best.reach = self->d_hat;
-    if (law->source)
-        best.at.term = system_find_term(system, law->source);
-    *now = best;
-    for (int s = 0; s < system->springs && !law->source; s++)
-        if ((felt = find_spring(now, s)) > most) {
-            most = felt;
-            best = *now;
-        }
-    ElementWalk walk = {0};
-    if (law->source)
-        walk = elements_from(&now->at, NULL, 0);
-    while (law->source && elements_next(&walk)) {
-        now->element = walk.element;
-        if ((felt = find_element(now, law, v)) > most) {
-            most = felt;
-            best = *now;
-        }
+        most->reach = self_contact_of(system)->d_hat;
+    LawNow now = *most;
+    for (int s = 0; s < system->springs && !law->source; s++) {
+        find_spring(&now, s);
+        *most = now.felt > most->felt ? now : *most;
     }
-    *found = most > -INFINITY;
-    *now = best;
-    now->y = *found ? law->value(now, now->x) : 0;
+    if (!law->source)
+        return law;
+    most->at.term = now.at.term = system_find_term(system, law->source);
+    for (ElementWalk walk = elements_from(&now.at, NULL, 0);
+         elements_next(&walk);) {
+        now.element = walk.element;
+        find_element(&now, law, v);
+        *most = now.felt > most->felt ? now : *most;
+    }
     return law;
 }
 
 void law_facts(const Simulation *simulation, Facts *facts)
 {
     LawNow now;
-    bool found;
-    const Law *law = law_now(simulation, 0, &now, &found);
-    fact_words(facts, "law", law ? law->none : NULL);
-    if (!law || !found || simulation->runs > 1)
+    const Law *law = law_now(simulation, 0, &now);
+    if (!law || simulation->runs > 1)
         return;
-    fact_words(facts, "law now", law->now);
-    fact_words(facts, "law unit", law->unit);
+    fact_words(facts, "law", law->now);
     fact(facts, "law x", now.x);
-    fact(facts, "law y", now.y);
+    fact(facts, "law y", isnan(now.x) ? NAN : law->value(&now, now.x));
 }
 
 /* The curve for the element of the first run; of springs all others are there,
@@ -209,8 +195,7 @@ static void draw_law(const Plot *card)
     static const char *const names[] = {"upper", "middle", "lower"};
     const Simulation *simulation = card->simulation;
     LawNow now;
-    bool found;
-    const Law *law = law_now(simulation, 0, &now, &found);
+    const Law *law = law_now(simulation, 0, &now);
     if (!law)
         return;
     bool log = law->value == slip_value, both = law->low < 0;
@@ -218,25 +203,30 @@ static void draw_law(const Plot *card)
     double most = both ? 1.4 * now.spring.yield
                        : fmax(law->value(&now, 0.9 * low + 0.1 * high),
                               law->value(&now, 0.25 * low + 0.75 * high));
-    most = plot_round_axis(1.1 * fmax(most, fabs(now.y)));
+    most = plot_round_axis(1.1 * fmax(most, fabs(law->value(&now, now.x))));
     Plot plot = plot_create(
         card, (Axis){low, high, log, false, law->across},
         (Axis){both ? -most : -0.02 * most, most, false, false, law->upwards});
     plot_graph(&plot, law->value, &now, 2.4, COLOUR_X);
     for (int s = 0; s < now.at.system->springs && !law->source; s++) {
         LawNow other = now;
-        if (find_spring(&other, s) > -INFINITY)
-            plot_disc(&plot, (double[2]){other.x, other.y}, small_dot,
-                      COLOUR_GHOST);
+        find_spring(&other, s);
+        if (other.felt > -INFINITY)
+            plot_disc(&plot,
+                      (double[2]){other.x, spring_value(&other, other.x)},
+                      small_dot, COLOUR_GHOST);
     }
     for (int i = 0; i < 2 * simulation->runs; i++) { /* dots, then words */
         int run = i % simulation->runs;
-        law_now(simulation, run, &now, &found);
-        double at[1][2] = {{fmin(fmax(now.x, low), high), now.y}};
-        if (found && i == run) {
+        law_now(simulation, run, &now);
+        double at[1][2] = {
+            {fmin(fmax(now.x, low), high), law->value(&now, now.x)}};
+        if (isnan(now.x))
+            continue;
+        if (i == run) {
             plot_disc(&plot, at[0], dot, COLOUR_P);
             plot_keep_disc(&plot, at[0], dot);
-        } else if (found && simulation->runs > 1) {
+        } else if (simulation->runs > 1) {
             plot_words(&plot, 1, at, 0.6, 1, FACE_REGULAR, COLOUR_P,
                        names[run]);
         }
@@ -245,7 +235,7 @@ static void draw_law(const Plot *card)
 
 const Card card_law = {
     .name = "law",
-    .title = "{law now}{law x:3}{law unit}\n{law}",
+    .title = "{law}: {law x:3}\nits law",
     .least = 11,
     .weight = 2,
     .lecture = true,

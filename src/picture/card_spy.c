@@ -112,85 +112,45 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
         return;
     canvas_copy(&paper->canvas, kept, square.x, square.y);
     light_spring(paper, system,
-                 over      ? hover->index
-                 : natural ? springs - 1
-                           : -1,
+                 over                             ? hover->index
+                 : natural && card->show->lecture ? springs - 1
+                                                  : -1,
                  natural, square);
 }
 
-/* What the colours mean, beside the square or below it. */
-static void draw_words(Paper *paper, Box words, int side)
-{
-    int line = paper_pixels(paper, 1.3), used = side + line / 2;
-    if (words.width > words.height) {
-        words.x += used;
-        words.width -= used;
-    } else {
-        words.y += used;
-        words.height -= used;
-    }
-    int room = words.height / line / 2;
-    if (words.width < 6 * line || room < 1)
-        return;
-    room = room < 4 ? room : 4;
-    words.y += paper_paragraph(paper, FACE_REGULAR, 0.85, COLOUR_X, words, room,
-                               "blue: a 2 \u00d7 2 block of \u2207\u00b2E, "
-                               "in the order of elimination") +
-               line / 2;
-    paper_paragraph(paper, FACE_REGULAR, 0.85, 0xffb87a30u, words, room,
-                    "below the diagonal: the factor L with its fill");
-}
-
+/* Beside each other: with the rows in the nodes' order, as the springs write
+ * it, one a step, where a page wants it so; and in the order of elimination. */
 static void draw_spy(const Plot *card)
 {
-    const System *system = &card->simulation->system;
-    Box inside = card->box;
-    int side = inside.width < inside.height ? inside.width : inside.height;
-    int line = paper_pixels(card->paper, 1.3);
-    if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1) {
-        cards_hint(card,
-                   side < 4 * line ? "enlarge it" : "too many nodes to draw");
-        return;
-    }
-    draw_matrix(card, (Box){inside.x, inside.y, side, side}, false,
-                system->springs);
-    draw_words(card->paper, inside, side);
-}
-
-/* Beside each other: as the springs write it, one a step, and as a whole in the
- * order of elimination. */
-static void draw_assembly(const Plot *card)
-{
     Paper *paper = card->paper;
+    const System *system = &card->simulation->system;
+    const LecturePage *page = card->show->lecture;
     Box inside = card->box;
     int line = paper_pixels(paper, 1.4), gap = line;
     int side = (inside.width - gap) / 2;
     if (side > inside.height - line)
         side = inside.height - line;
-    int springs = lecture_spring(card->simulation) + 1;
-    for (int k = 0; k < 2 && side > 4 * line; k++) {
-        int x = inside.x + k * (side + gap);
-        paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
-                    ALIGN_LEFT, k ? "order of elimination" : "rows 2i, 2i + 1");
-        draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
-                    k ? card->simulation->system.springs : springs);
-    }
+    int springs = page && page->writes ? lecture_spring(card->simulation) + 1
+                                       : system->springs;
+    if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1)
+        cards_hint(card,
+                   side < 4 * line ? "enlarge it" : "too many nodes to draw");
+    else
+        for (int k = 0; k < 2; k++) {
+            int x = inside.x + k * (side + gap);
+            paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
+                        ALIGN_LEFT,
+                        k ? "order of elimination" : "rows 2i, 2i + 1");
+            draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
+                        k ? system->springs : springs);
+        }
 }
 
 const Card card_spy = {
     .name = "spy",
-    .title = "Hessian and its factor",
+    .title = "the Hessian, and with its factor",
     .least = 12,
     .weight = 2,
     .closed = true,
     .draw = draw_spy,
-};
-
-const Card card_assembly = {
-    .name = "assembly",
-    .title = "the Hessian, spring by spring; and with its factor",
-    .least = 12,
-    .weight = 2,
-    .lecture = true,
-    .draw = draw_assembly,
 };

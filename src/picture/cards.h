@@ -45,12 +45,9 @@ double energies_value(const Simulation *simulation, const History *history,
  *   last  out, s, the latest time that the curves may reach */
 Axis energies_axis(const Show *show, double *joule, double *last);
 
-/* The pattern of the Hessian and of its factor. */
+/* The pattern of the Hessian and of its factor; on a page while springs write
+ * it, one a step, and the newest of them, from 0. */
 extern const Card card_spy;
-
-/* The same while springs write it, one a step, and the newest of them, from 0.
- */
-extern const Card card_assembly;
 int lecture_spring(const Simulation *simulation);
 
 /* What is inside the frame of a card, below its title; em in pixels. */

@@ -456,7 +456,6 @@ static const Card *const square_cards[] = {&card_page,
                                            &card_parameters,
                                            &card_search,
                                            &card_prints,
-                                           &card_assembly,
                                            &card_law,
                                            NULL};
 
