@@ -202,8 +202,8 @@ typedef struct RacePoint {
                        NaN: the run failed */
     double seconds; /* run time */
     long updates;   /* Newton updates; 0 in explicit methods */
-    double kept;    /* of the energy at the start, at the end; and of the run */
-    double later;   /* of RACE_SHOWN, a second after the start */
+    double later;   /* what is left of the energy at the start after a second,
+                       of the runs of RACE_SHOWN */
     bool stable;    /* its energy stays bounded when it runs on */
 } RacePoint;
 
@@ -218,10 +218,6 @@ Status create_race(Simulation *simulation);
 /* One run more, up to all of them.  The methods take turns, each from its
  * longest time step to its shortest. */
 Status step_race(Simulation *simulation);
-
-/* The quickest run so far that reaches the error, m, and stays stable, of
- * explicit or of implicit methods; NULL: there is none. */
-const RacePoint *race_quickest(const Race *race, double error, bool implicit);
 
 /* The longest time step with which a method is stable in the runs so far, s;
  * NaN: not known. */

@@ -149,7 +149,6 @@ static void add_runs(const Simulation *simulation, Facts *facts)
         const TimeIntegrator *run = &simulation->run[r];
         facts->run = r + 1;
         facts->colour[r + 1] = colour_of_method(run->method->name);
-        fact_when(facts, "after", r > 0);
         fact_when(facts, "many", simulation->runs > 1);
         fact_words(facts, "name", run->method->label);
         fact(facts, "radius", math_hypot(run->x[0], run->x[1]));

@@ -155,7 +155,6 @@ Status step_race(Simulation *simulation)
             point->error =
                 fmax(point->error, math_hypot(run.x[i] - exact[i],
                                               run.x[i + 1] - exact[i + 1]));
-        point->kept = energy_of(&run) / energy_of(&simulation->run[0]);
         if (race->count / RACE_METHODS == RACE_SHOWN)
             point->later = energy_later(simulation, &run);
         point->stable = is_stable(simulation, &run);
@@ -166,18 +165,6 @@ Status step_race(Simulation *simulation)
     race->count++;
     simulation->done = race->count == RACE_METHODS * RACE_STEP_SIZES;
     return STATUS_OK;
-}
-
-const RacePoint *race_quickest(const Race *race, double error, bool implicit)
-{
-    const RacePoint *best = NULL;
-    for (int i = 0; i < race->count; i++) {
-        const RacePoint *point = &race->point[i];
-        if (point->method->implicit == implicit && point->error <= error &&
-            point->stable && (!best || point->seconds < best->seconds))
-            best = point;
-    }
-    return best;
 }
 
 /* ---- how far the solver can be trusted ----------------------------------- */

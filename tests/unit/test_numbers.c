@@ -822,32 +822,8 @@ static void tell_dial(const Simulation *simulation)
 
 static void tell_race(const Simulation *simulation)
 {
-    static const char *const ms[2] = {"explicit ms", "implicit ms"};
-    static const char *const h[2] = {"explicit h", "implicit h"};
     const Race *race = &simulation->exhibit.race;
     is("methods", 9);
-    is("count", simulation->steps);
-    is("most", 63);
-    is("duration", 0.064L);
-    for (run_now = 1; run_now <= 3; run_now++) {
-        Real error = powl(10, -2 * run_now);
-        is("error", error);
-        for (int implicit = 0; implicit < 2; implicit++) {
-            const RacePoint *best = NULL;
-            for (int i = 0; i < race->count; i++) {
-                const RacePoint *one = &race->point[i];
-                if (one->error <= error && one->stable &&
-                    one->method->implicit == implicit &&
-                    (!best || one->seconds < best->seconds))
-                    best = one;
-            }
-            if (best) {
-                is(ms[implicit], 1e3L * best->seconds);
-                is(h[implicit], 1e3L * best->h);
-            }
-        }
-    }
-    run_now = 0;
     for (int i = 0; i < RACE_METHODS; i++) { /* the table */
         Real stable = 0;
         for (int k = i; k < race->count; k += RACE_METHODS) {
@@ -861,8 +837,7 @@ static void tell_race(const Simulation *simulation)
         is("stable", 1e3L * stable);
     }
     for (int i = 0; i < 3; i++)
-        is("h", powl(2, i));
-    is("s", 1);
+        is("h and s", powl(2, i));
 }
 
 /* A cell that is known has run; its three steps are made again. */
