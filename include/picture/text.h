@@ -5,7 +5,6 @@
  * over the middle of the letter before them.  In markup
  *     ^{...} _{...}            are superscripts and subscripts,
  *     frac{a over b} sqrt{a}   a fraction, a root,
- *     wide{a}                  a number in a room that does not change
  *     matrix{a & b; c & d}     a matrix in brackets, row by row,
  *     #p{...}                  what has the colour of this name (colour_map.h),
  *     {x} {xt} {p} {alpha}     the slides' letters in theirs (xt: x with a

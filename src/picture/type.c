@@ -208,15 +208,6 @@ static void set_root(Pen *pen, Part part, int depth)
     pen->x = inside + in.width + 2 * THIN * em;
 }
 
-/* wide{a}: at the right of a room for four digits, a point and a sign, so that
- * a number that changes moves nothing. */
-static void set_wide(Pen *pen, Part part, int depth)
-{
-    double room = measure(pen, part_of("\u2212000.0"), depth).width;
-    pen->x += fmax(0, room - measure(pen, part, depth).width);
-    set_part(pen, part, depth);
-}
-
 /* Square brackets, from `left` to `right`. */
 static void set_brackets(Pen *pen, double left, double right, double top,
                          double bottom)
@@ -296,8 +287,7 @@ static const struct {
     const char *name;
     void (*set)(Pen *pen, Part part, int depth);
 } words[] = {{"^", set_above},   {"_", set_below},       {"frac", set_fraction},
-             {"sqrt", set_root}, {"matrix", set_matrix}, {"wide", set_wide},
-             {"#", NULL}};
+             {"sqrt", set_root}, {"matrix", set_matrix}, {"#", NULL}};
 
 /* The letters that have a colour. */
 static const struct {

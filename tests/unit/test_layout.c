@@ -302,8 +302,6 @@ TEST(formulas_are_set)
         {"matrix{xx & x; x & xx}", "matrix{x & x; x & x}", 1, 1.3, 0, 0},
         {"matrix{frac{x over x} & x}", "matrix{x & x}", 0.2, 0.6, 0.2, 1.4},
         {"#p{xx}", "xx", 0, 0, 0, 0},
-        {"matrix{wide{1} & 1}", "matrix{wide{\u221212.5} & 1}", 0, 0, 0, 0},
-        {"wide{00000000}", "00000000", 0, 0, 0, 0},
         {"frac{x}", "x", 0.2, 0.6, 0, 1},
         {"frac {x}", "frac x", 0, 0, 0, 0},
         {"matrix{;;&&&&&&&&&&&&&&;&}", "", 0, 99, 0, 9},
