@@ -197,11 +197,9 @@ enum { RACE_LONGER = 2048, RACE_ENERGY = 2 };
 typedef struct RacePoint {
     const IntegratorMethod *method;
     double h;       /* s */
-    long steps;     /* that it took */
     double error;   /* m, largest distance of a node from where it belongs;
                        NaN: the run failed */
     double seconds; /* run time */
-    long updates;   /* Newton updates; 0 in explicit methods */
     double later;   /* what is left of the energy at the start after a second,
                        of the runs of RACE_SHOWN */
     bool stable;    /* its energy stays bounded when it runs on */

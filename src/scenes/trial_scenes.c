@@ -142,12 +142,9 @@ Status step_race(Simulation *simulation)
     RacePoint *point = &race->point[race->count];
     *point = (RacePoint){.method = method,
                          .h = RACE_TIME / (double)steps,
-                         .steps = steps,
                          .error = NAN,
                          .later = NAN,
-                         .seconds = seconds,
-                         .updates =
-                             run.newton ? run.newton->counters.iterations : 0};
+                         .seconds = seconds};
     if (!status) {
         const double *exact = simulation->run[1].x;
         point->error = 0;
