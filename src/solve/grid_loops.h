@@ -55,6 +55,16 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 #endif
 #define EACH_OF(lanes) AT_ONCE for (int e = 0; e < (lanes); e++)
 
+/* So many of a run's next nodes: where registers are narrow, lanes behind its
+ * end are left out; they are outside and stay 0. */
+#ifdef __wasm_simd128__
+#define NEXT(at, lanes)                                                        \
+    ((at).end - (at).first < (lanes) ? ((at).end - (at).first + 3) & ~3        \
+                                     : (lanes))
+#else
+#define NEXT(at, lanes) (lanes)
+#endif
+
 /* The springs of a node: their kind, where their other node is, and where their
  * numbers are.  Two are in the node's row, six lead to the next rows; four of
  * all start at the node. */
@@ -92,7 +102,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
         for (int odd = 0; odd < 2; odd++)                                      \
             for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
                  at.first += LANES)                                            \
-                EACH_OF (LANES)
+                EACH_OF (NEXT(at, LANES))
 
 /* What a loop reads of a spring: d = x_i - x_j, |d|^2, s = |d|^2 - l2, c. */
 typedef struct Spring {

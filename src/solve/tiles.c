@@ -57,7 +57,7 @@ INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
     const double *const tx = grid->x_tilde, *const ty = tx + plane;
     double *const x = grid->x, *const y = x + plane;
     double *const ax = grid->away, *const ay = ax + plane;
-    EACH_OF (LANES) {
+    EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         double mass = grid->m[q + at.node], gx = mass * ax[q];
         double gy = mass * ay[q], xx = 0, xy = 0, yy = 0;

@@ -134,7 +134,7 @@ INLINE void tensor_row(const VCycle *cycle, int i)
     }                                                                          \
     for (int n = 0; n < 4; n++)                                                \
         narrow(far[n], near[n]);                                               \
-    EACH_OF (WIDE_LANES) {                                                     \
+    EACH_OF (NEXT(at, WIDE_LANES)) {                                           \
         const int q = at.first + e;                                            \
         float dx = near[0][e], dy = near[1][e], t = near[2][e];                \
         float c = near[3][e], iso = t > 0 ? t : 0;                             \
@@ -155,7 +155,7 @@ INLINE void invert_row(const Level *of, int i)
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
              at.first += WIDE_LANES)
-            EACH_OF (WIDE_LANES) {
+            EACH_OF (NEXT(at, WIDE_LANES)) {
                 const int q = at.first + e;
                 float mass = level.m[q], xx = mass, xy = 0, yy = mass;
 #define ADD(kind, to, numbers)                                                 \
@@ -328,7 +328,7 @@ INLINE void visit_row(const Level *of, int i, int colour, Visit visit,
     const float *const bx = level.b, *const by = bx + plane;
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
          at.first < at.end; at.first += WIDE_LANES)
-        EACH_OF (WIDE_LANES) {
+        EACH_OF (NEXT(at, WIDE_LANES)) {
             const int q = at.first + e;
             const float hx = from_0 ? 0 : x[q], hy = from_0 ? 0 : y[q];
             float ax = from_0 ? 0 : level.m[q] * hx;
