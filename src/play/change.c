@@ -101,19 +101,15 @@ static Status retake_step(Player *player, const Command *change, int from,
     *retake = (Retake){.at = {.round = -1}};
     if (place >= 0 && player->fine > 0)
         retake->at = machine->rounds.place[place];
-    tell_outcome(row, player_settings(player),
-                 failed ? &machine->outcome
-                        : &past_entry(past, player->active, step)->outcome,
-                 retake->had, sizeof retake->had);
+    tell_outcome(row, player_settings(player), &machine->outcome, retake->had,
+                 sizeof retake->had);
     player_leave_step(player);
-    Mode mode = player->mode;
     if (row->effect == EFFECT_AGAIN && !failed &&
         !machine->simulation.scene->step)
         keep_ghost(player, row);
     Status status = player_change(player, change, from, to, !failed);
     if (status)
         return status;
-    player->mode = mode;
     player->sampled = -1;
     past_aim(past, step, false);
     player->then = THEN_TELL;
@@ -126,7 +122,7 @@ void player_tell_retake(Player *player)
     const Station *at = &player->retake.at;
     const Machine *machine = player_machine(player);
     char has[120];
-    if (at->round >= 0 && machine->known && machine->rounds.places > 2)
+    if (at->round >= 0 && machine->rounds.places > 2)
         player_stand_at(player, player->active,
                         rounds_find(&machine->rounds, at->round, at->line));
     tell_outcome(&option_rows[past->branch[past->now].edit.number],

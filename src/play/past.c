@@ -355,7 +355,7 @@ static void forget_step(Machine *machine)
 {
     machine->known = machine->failed = false;
     machine->substeps = 0;
-    machine->records.count = 0;
+    machine->rounds.places = machine->records.count = 0;
     machine->records.lost = false;
 }
 

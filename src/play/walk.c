@@ -13,13 +13,6 @@ int player_place(const Player *player, int pane)
     return player->mode == MODE_WALK ? player->side[pane].place : -1;
 }
 
-/* Whether there is more to walk through than the start and the end. */
-static bool has_lines(const Player *player, int pane)
-{
-    const Machine *machine = &player->past.machine[pane];
-    return machine->known && machine->rounds.places > 2;
-}
-
 /* ---- lines --------------------------------------------------------------- */
 
 void player_stand_at(Player *player, int pane, int place)
@@ -36,10 +29,10 @@ void player_enter(Player *player, Then then)
         const Machine *machine = &player->past.machine[p];
         const Rounds *rounds = &machine->rounds;
         double rise;
-        int place = !has_lines(player, p) ? -1
-                    : then == THEN_ENTER  ? 0
-                    : then == THEN_LEAVE  ? rounds->places - 1
-                                          : rounds_peak(rounds, &rise);
+        int place = rounds->places <= 2  ? -1 /* the start and the end */
+                    : then == THEN_ENTER ? 0
+                    : then == THEN_LEAVE ? rounds->places - 1
+                                         : rounds_peak(rounds, &rise);
         if (place >= 0)
             player_stand_at(player, p, place);
         if (place < 0 || then != THEN_PEAK)
