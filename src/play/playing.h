@@ -9,7 +9,7 @@ static const double SLICE = 0.05;
 
 /* ---- obey.c: commands, deeds, the journal -------------------------------- */
 
-Deed obey_pause, obey_next, obey_back, obey_step, obey_finer, obey_goto,
+Deed obey_pause, obey_next, obey_back, obey_finer, obey_goto,
     obey_undo; /* walk.c */
 Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
     obey_add, obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab,

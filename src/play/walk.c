@@ -81,10 +81,11 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    (void)command;
     const Past *past = &player->past;
     Then then = player->fine > 0 ? THEN_ENTER : THEN_PEAK;
     player_stop(player);
+    if (command->kind == COMMAND_STEP)
+        return player_go_on(player, THEN_NOTHING);
     if (player->fine > 0 && walk(player, 1))
         return STATUS_OK;
     if (player->fine == 0 && player_place(player, player->active) >= 0) {
@@ -124,13 +125,6 @@ Status obey_back(Player *player, const Command *command)
     if (player_place(player, player->active) >= 0 && walk(player, -1))
         return STATUS_OK;
     return player_show(player, step - 1, true, THEN_LEAVE);
-}
-
-Status obey_step(Player *player, const Command *command)
-{
-    (void)command;
-    player_stop(player);
-    return player_go_on(player, THEN_NOTHING);
 }
 
 /* Steps, updates, lines, and steps again. */
