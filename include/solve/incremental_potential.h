@@ -9,7 +9,6 @@
 #ifndef ELASTO_INCREMENTAL_POTENTIAL_H
 #define ELASTO_INCREMENTAL_POTENTIAL_H
 
-#include "base/quartic.h"
 #include "base/sparse.h"
 #include "model/system.h"
 
@@ -81,6 +80,19 @@ void incremental_potential_inertia(const Iterate *at, double *m,
  * the minimum, without any matrix.  Writes over g and p.
  * Returns OK, NOT_FINITE; RUNNING where it is not so: nothing was done. */
 Status incremental_potential_solve(Iterate *at);
+
+/* What E is along a line, without its constant term:
+ * q(alpha) = q[0] alpha + q[1] alpha^2 + q[2] alpha^3 + q[3] alpha^4 */
+typedef struct Quartic {
+    double q[4]; /* J s^2 */
+} Quartic;
+
+/* q(alpha) - q(0), by Horner's rule. */
+static inline double quartic_value(const Quartic *quartic, double alpha)
+{
+    const double *q = quartic->q;
+    return alpha * (q[0] + alpha * (q[1] + alpha * (q[2] + alpha * q[3])));
+}
 
 /* E(x + alpha p) - E(x): an exact polynomial, and what some terms add that is
  * none. */

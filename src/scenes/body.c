@@ -9,7 +9,6 @@
 #include "model/contact.h"
 #include "model/friction.h"
 #include "model/self_contact.h"
-#include "scenes/start_table.h"
 #include "base/mathematics.h"
 
 /* ---- pins --------------------------------------------------------------- */

@@ -65,4 +65,17 @@ const char *body_needs_end_of_step(const Options *options);
  * all gaps and cells are > 0.  Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 Status body_check(const Options *options, Refusal told);
 
+/* One step of what --states wrote, CSV or .npz, of the nodes of one run.  A
+ * .npz may be any with the arrays x, y, vx, vy [step, node] or [node], stored
+ * (numpy.savez).
+ *   step     below 0: the last one
+ *   nodes    n of each run; those of run r follow those of run r - 1
+ *   runs     of the scene
+ *   x, v     [2n] out, m, m/s
+ * Returns OK; INVALID_INPUT: there is no such table or step, or it has other
+ * nodes or fewer runs, or more of them and no panes.  (Of a table of several
+ * panes it takes the first.) */
+Status start_table_read(const char *name, double step, int nodes, int run,
+                        int runs, double *x, double *v, Refusal told);
+
 #endif

@@ -54,54 +54,30 @@ static Text list_text(Names names)
     return list;
 }
 
-enum { LONGEST = 40 }; /* letters that are compared */
-
-/* As two names are compared: small letters, '-' for '_'. */
-static char plain(char c)
+/* How many letters two names begin with alike; small letters, '-' for '_'. */
+static int alike(const char *a, const char *b)
 {
-    return (char)(c == '_' ? '-' : tolower((unsigned char)c));
+    int n = 0;
+    while (a[n] &&
+           (tolower((unsigned char)a[n]) == tolower((unsigned char)b[n]) ||
+            (a[n] == '-' && b[n] == '_')))
+        n++;
+    return n;
 }
 
-/* Letters to insert, delete, replace, or swap with their neighbours: row i of
- * d[][] is for the first i letters of a (optimal string alignment). */
-static int distance(const char *a, const char *b)
-{
-    int rows = (int)strlen(a), columns = (int)strlen(b);
-    double d[LONGEST + 1][LONGEST + 1];
-    for (int i = 0; i <= rows; i++)
-        for (int j = 0; j <= columns; j++) {
-            d[i][j] = i + j;
-            if (i == 0 || j == 0)
-                continue;
-            bool same = plain(a[i - 1]) == plain(b[j - 1]);
-            d[i][j] = fmin(d[i - 1][j - 1] + !same,
-                           1 + fmin(d[i - 1][j], d[i][j - 1]));
-            if (i > 1 && j > 1 && plain(a[i - 1]) == plain(b[j - 2]) &&
-                plain(a[i - 2]) == plain(b[j - 1]))
-                d[i][j] = fmin(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return (int)d[rows][columns];
-}
-
-/* "; did you mean --timestep?"  Of the names the one that is most like a text,
- * or begins with it; at most a quarter of its letters may be wrong, else "". */
+/* "; did you mean --timestep?"  Of the names the first one of those that begin
+ * most like a text; "" where that is less than two letters. */
 static Text meant(const char *text, const char *before, Names names)
 {
     Text hint = {""};
     const char *name;
-    int least = LONGEST;
-    for (int i = 0; (name = name_at(names, i)); i++) {
-        int longer = (int)fmax(strlen(name), strlen(text));
-        int wrong =
-            name[0] && longer <= LONGEST ? distance(name, text) : longer;
-        if (text[0] && strncmp(name, text, strlen(text)) == 0)
-            wrong = 0;
-        if (4 * wrong > longer || wrong >= least)
-            continue;
-        least = wrong;
-        snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?", before,
-                 name);
-    }
+    int most = 1;
+    for (int i = 0; (name = name_at(names, i)); i++)
+        if (alike(name, text) > most) {
+            most = alike(name, text);
+            snprintf(hint.text, sizeof hint.text, "; did you mean %s%s?",
+                     before, name);
+        }
     return hint;
 }
 

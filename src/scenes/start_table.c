@@ -1,4 +1,5 @@
-#include "scenes/start_table.h"
+/* A start out of a file: a step of a table of states. */
+#include "scenes/body.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -8,8 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-
-#include "scenes/one_line.h"
 
 /* What is looked for, and what was found. */
 typedef struct Start {

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/quartic.h"
 #include "model/mass_spring_energy.h"
 #include "solve/newton_parts.h"
 #include "solve/tiles.h"
