@@ -176,8 +176,4 @@ double simulation_deforming(const Simulation *simulation, double *centre,
  * more nodes.  mode [2n] out, its length is 1. */
 double simulation_fastest(const Simulation *simulation, double *mode);
 
-/* Whether nothing from outside acts on the body: no gravity, no obstacles, no
- * pins and no hand. */
-bool simulation_is_free(const Simulation *simulation);
-
 #endif

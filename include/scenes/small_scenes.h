@@ -59,6 +59,11 @@ typedef struct Prediction {
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
+/* Node 0 is free; each of the others is held and has a spring to it.  kg, m,
+ * J/m^2.  Returns as system_create. */
+Status small_system(System *system, int held, double mass, double length,
+                    double stiffness);
+
 /* Run 0 forward, 1 symplectic, 2 backward Euler; with --integrator that one. */
 Status create_circle(Simulation *simulation);
 Status create_mass(Simulation *simulation);

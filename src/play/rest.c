@@ -30,7 +30,8 @@ static bool is_rigid(const Machine *machine)
     double centre, turn;
     return (simulation->scene->needs & body) == body &&
            simulation_is_handled(simulation) && simulation->runs == 1 &&
-           machine->control->hand < 0 && simulation_is_free(simulation) &&
+           machine->control->hand < 0 && system_is_free(&simulation->system) &&
+           !system_has_gravity(&simulation->system) &&
            simulation_deforming(simulation, &centre, &turn) <=
                simulation->options.tolerance;
 }

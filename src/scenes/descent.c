@@ -51,29 +51,6 @@ static Local line_energy(const Simulation *simulation, double x)
                    .H = {m + 2 * h * h * k * (3 * x * x / l2 - 1), 0, 0}};
 }
 
-/* Pins at (-1, 0) and (1, 0) m, each with a spring to node 0 that is too long
- * to lie flat between them: like a buckling column it gives way up or down. */
-static Status fill_landscape(System *system, double x[2 * LANDSCAPE_NODES])
-{
-    Status status = system_create(LANDSCAPE_NODES, LANDSCAPE_PINS, system);
-    if (!status)
-        status = system_create_pins(system);
-    if (status)
-        return status;
-    for (int i = 0; i < LANDSCAPE_NODES; i++)
-        system->m[i] = LANDSCAPE_MASS;
-    for (int s = 0; s < LANDSCAPE_PINS; s++) {
-        int pin = s + 1;
-        x[2 * pin] = s == 0 ? -1 : 1;
-        system->pinned[pin] = 1;
-        system->e[2 * s] = 0;
-        system->e[2 * s + 1] = pin;
-        system->l2[s] = LANDSCAPE_LENGTH * LANDSCAPE_LENGTH;
-        system->k[s] = LANDSCAPE_STIFFNESS;
-    }
-    return STATUS_OK;
-}
-
 /* The parts of E of landscape and dial, with this h; or f of one unknown. */
 static Local landscape_at(const Simulation *simulation, unsigned parts,
                           double h, Filter filter, const double at[2])
@@ -331,12 +308,10 @@ static Status begin_descent(Simulation *simulation, const double *x)
 
 static Status create_scalar(Simulation *simulation, ScalarEnergy *f)
 {
-    Status status = system_create(1, 0, &simulation->system);
-    if (status)
-        return status;
-    simulation->system.m[0] = 1;
     simulation->descent.scalar = f;
-    return begin_descent(simulation, simulation->options.start);
+    Status status = small_system(&simulation->system, 0, 1, 0, 0);
+    return status ? status
+                  : begin_descent(simulation, simulation->options.start);
 }
 
 Status create_overshoot(Simulation *simulation)
@@ -350,11 +325,16 @@ Status create_tangent(Simulation *simulation)
     return create_scalar(simulation, line_energy);
 }
 
+/* Pins at (-1, 0) and (1, 0) m, each with a spring to node 0 that is too long
+ * to lie flat between them: like a buckling column it gives way up or down. */
 Status create_landscape(Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    double x[2 * LANDSCAPE_NODES] = {options->start[0], options->start[1]};
-    Status status = fill_landscape(&simulation->system, x);
+    const double x[2 * LANDSCAPE_NODES] = {
+        options->start[0], options->start[1], -1, 0, 1, 0};
+    Status status =
+        small_system(&simulation->system, LANDSCAPE_PINS, LANDSCAPE_MASS,
+                     LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     if (status)
         return status;
     memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,

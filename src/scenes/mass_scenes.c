@@ -11,6 +11,23 @@ static const double SPRING_MASS = 1;                  /* kg */
 static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, at rest */
 
+Status small_system(System *system, int held, double mass, double length,
+                    double stiffness)
+{
+    Status status = system_create(1 + held, held, system);
+    if (!status && held > 0)
+        status = system_create_pins(system);
+    for (int i = 0; i <= held && !status; i++)
+        system->m[i] = mass;
+    for (int s = 0; s < held && !status; s++) {
+        system->pinned[s + 1] = 1;
+        system->e[2 * s + 1] = s + 1;
+        system->l2[s] = length * length;
+        system->k[s] = stiffness;
+    }
+    return status;
+}
+
 /* A mass with a = -omega2 x, from x with v. */
 static Status create_orbit(Simulation *simulation, double omega2,
                            const double x[2], const double v[2])
@@ -19,10 +36,9 @@ static Status create_orbit(Simulation *simulation, double omega2,
         "forward-euler", "symplectic-euler", "backward-euler"};
     const Options *options = &simulation->options;
     bool chosen = options->integrator >= 0;
-    Status status = system_create(1, 0, &simulation->system);
+    Status status = small_system(&simulation->system, 0, 1, 0, 0);
     if (status)
         return status;
-    simulation->system.m[0] = 1;
     status = pull_set(&simulation->system, &central_field,
                       &(Pull){.node = -1, .k = omega2});
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
@@ -111,17 +127,10 @@ Status create_spring(Simulation *simulation)
     System *system = &simulation->system;
     const double x[4] = {options->start[0], options->start[1], 0, 0};
     const double v[4] = {0};
-    Status status = system_create(2, 1, system);
-    if (!status)
-        status = system_create_pins(system);
+    Status status =
+        small_system(system, 1, SPRING_MASS, SPRING_LENGTH, SPRING_STIFFNESS);
     if (status)
         return status;
-    system->m[0] = system->m[1] = SPRING_MASS;
-    system->pinned[1] = 1;
-    system->e[0] = 0;
-    system->e[1] = 1;
-    system->l2[0] = SPRING_LENGTH * SPRING_LENGTH;
-    system->k[0] = SPRING_STIFFNESS;
     simulation->runs = 1;
     return simulation_start(simulation, 0, options_method(options), system, x,
                             v);

@@ -357,9 +357,3 @@ double simulation_deforming(const Simulation *simulation, double *centre,
     }
     return fastest;
 }
-
-bool simulation_is_free(const Simulation *simulation)
-{
-    const System *system = &simulation->system;
-    return system_is_free(system) && !system_has_gravity(system);
-}
