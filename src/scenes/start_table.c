@@ -35,16 +35,7 @@ static bool put_number(const Start *start, int i, int number, double value)
 
 /* ---- CSV ---------------------------------------------------------------- */
 
-/* step,time,node,x,y,vx,vy and perhaps more as one line of the table. */
-static bool read_row(const char *line, long *step, int *node, double row[4])
-{
-    int end = 0;
-    int read = sscanf(line, "%ld,%*f,%d,%lf,%lf,%lf,%lf%n", step, node, &row[0],
-                      &row[1], &row[2], &row[3], &end);
-    return read == 6 && end > 0 && (line[end] == '\n' || line[end] == ',');
-}
-
-/* Returns false at a line that is none. */
+/* step,time,node,x,y,vx,vy and perhaps more.  Returns false at another line. */
 static bool read_lines(Start *start)
 {
     static const char names[] = "step,time,node,x,y,vx,vy";
@@ -58,8 +49,11 @@ static bool read_lines(Start *start)
         return false;
     start->has_panes = strstr(line, ",pane") != NULL;
     while (fgets(line, sizeof line, start->file)) {
+        int end = 0;
         start->line++;
-        if (!read_row(line, &step, &node, row))
+        if (sscanf(line, "%ld,%*f,%d,%lf,%lf,%lf,%lf%n", &step, &node, &row[0],
+                   &row[1], &row[2], &row[3], &end) < 6 ||
+            end == 0 || (line[end] != '\n' && line[end] != ','))
             return false;
         if (start->step >= 0 && (double)step > start->step)
             break;
@@ -132,27 +126,19 @@ static bool find_array(FILE *file, const char *name, const char *kind,
     return false;
 }
 
-/* The row of the step. */
-static long find_step(const Start *start)
-{
-    unsigned char bytes[8];
-    long shape[2];
-    if (!find_array(start->file, "step", "<i8", shape))
-        return -1;
-    for (long i = 0; i < shape[1]; i++)
-        if (fread(bytes, 1, 8, start->file) == 8 &&
-            (double)number_at(bytes, 8) == start->step)
-            return i;
-    return -1;
-}
-
 static bool read_arrays(Start *start)
 {
     static const char *const names[] = {"x", "y", "vx", "vy"};
-    long shape[2], row = start->step >= 0 ? find_step(start) : 0;
+    unsigned char bytes[8];
+    long shape[2], row = 0;
+    bool found = start->step < 0;
+    if (!found && find_array(start->file, "step", "<i8", shape))
+        for (; row < shape[1] && !found; row += !found)
+            found = fread(bytes, 1, 8, start->file) == 8 &&
+                    (double)number_at(bytes, 8) == start->step;
     start->has_panes = find_array(start->file, "pane", "<i", shape);
-    start->has_step = row >= 0;
-    for (int k = 0; k < 4 && row >= 0; k++) {
+    start->has_step = found;
+    for (int k = 0; k < 4 && found; k++) {
         double value;
         if (!find_array(start->file, names[k], "<f8", shape))
             return false;

@@ -50,30 +50,26 @@ struct Multigrid {
     bool stalls;          /* tiles relax in each iteration */
 };
 
-static void lay_out(int segments, Multigrid *mg)
-{
-    mg->memory.used = 0;
-    grid_lay_out(segments, &mg->memory, &mg->grid);
-    v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
-    tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
-    double **vectors[] = {&mg->g, &mg->p, &mg->rest};
-    size_t bytes = 2 * (size_t)mg->grid.rows.plane * sizeof(double);
-    for (int i = 0; i < 3; i++)
-        *vectors[i] = memory_piece(&mg->memory, bytes);
-}
-
 Status multigrid_create(int segments, int threads, Multigrid **multigrid)
 {
     Multigrid *mg = *multigrid = calloc(1, sizeof *mg);
-    if (!mg)
-        return STATUS_OUT_OF_MEMORY;
-    lay_out(segments, mg);
-    if (memory_create(&mg->memory)) {
+    Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
+    for (int pass = 0; pass < 2 && !status; pass++) { /* the first one counts */
+        double **vectors[] = {&mg->g, &mg->p, &mg->rest};
+        if (pass > 0)
+            status = memory_create(&mg->memory);
+        grid_lay_out(segments, &mg->memory, &mg->grid);
+        v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
+        tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
+        for (int i = 0; i < 3; i++)
+            *vectors[i] = memory_piece(
+                &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
+    }
+    if (status) {
         free(mg);
         *multigrid = NULL;
-        return STATUS_OUT_OF_MEMORY;
+        return status;
     }
-    lay_out(segments, mg);
     mg->grid.crew = crew_create(threads);
     return STATUS_OK;
 }

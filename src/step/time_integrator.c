@@ -68,18 +68,6 @@ void time_integrator_free(TimeIntegrator *integrator)
     *integrator = (TimeIntegrator){0};
 }
 
-static Status begin_terms(TimeIntegrator *integrator)
-{
-    System *system = integrator->system;
-    Status status = STATUS_OK;
-    for (int t = 0; t < system->terms && !status; t++)
-        if (system->term[t].kind->begin)
-            status = system->term[t].kind->begin(&system->term[t], system,
-                                                 integrator->x, integrator->v,
-                                                 integrator->h);
-    return status;
-}
-
 /* Where the hand pulls in this step. */
 static void begin_hand(TimeIntegrator *integrator)
 {
@@ -169,12 +157,18 @@ static Status go_on(TimeIntegrator *integrator, Status status)
 
 Status time_integrator_begin(TimeIntegrator *integrator)
 {
+    System *system = integrator->system;
+    Status status = STATUS_OK;
     integrator->status = STATUS_OK;
     integrator->stage = 0;
     if (integrator->newton)
         integrator->newton->change = 0;
     integrator->moves = prescribed_begin(integrator);
-    Status status = begin_terms(integrator);
+    for (int t = 0; t < system->terms && !status; t++)
+        if (system->term[t].kind->begin)
+            status = system->term[t].kind->begin(&system->term[t], system,
+                                                 integrator->x, integrator->v,
+                                                 integrator->h);
     if (status)
         return end_step(integrator, status);
     begin_hand(integrator);
