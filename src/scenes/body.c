@@ -320,16 +320,6 @@ static Status start_run(Simulation *simulation, int run, const Options *options,
     return status;
 }
 
-Status body_create(Simulation *simulation, int run, const Options *options,
-                   SquareMesh *mesh, System *system)
-{
-    int more = has_ball(options->scene, options);
-    Status status = create_system(options, more, mesh, system);
-    if (!status)
-        status = set_terms(options, mesh, system);
-    return status ? status : start_run(simulation, run, options, mesh, system);
-}
-
 /* What the options say of one run. */
 static Options options_of_run(const Simulation *simulation, int run,
                               const Options *options)
@@ -337,9 +327,26 @@ static Options options_of_run(const Simulation *simulation, int run,
     Options own = *options;
     if (simulation->grip[run] > 0)
         own.friction *= simulation->grip[run];
+    own.at[1] += simulation->lift[run];
     for (int i = 0; i < own.grounds; i++)
         own.ground[i][3] += simulation->lift[run];
     return own;
+}
+
+Status body_create(Simulation *simulation, int run)
+{
+    const Options options =
+        options_of_run(simulation, run, &simulation->options);
+    SquareMesh same = {0}, *mesh = run ? &same : &simulation->mesh;
+    System *system = run ? &simulation->more[run] : &simulation->system;
+    int more = has_ball(options.scene, &options);
+    Status status = create_system(&options, more, mesh, system);
+    if (!status)
+        status = set_terms(&options, mesh, system);
+    if (!status)
+        status = start_run(simulation, run, &options, mesh, system);
+    square_mesh_free(&same);
+    return status;
 }
 
 Status body_follow(Simulation *simulation, int run)
@@ -357,8 +364,7 @@ Status body_follow(Simulation *simulation, int run)
 Status create_square(Simulation *simulation)
 {
     simulation->runs = 1;
-    return body_create(simulation, 0, &simulation->options, &simulation->mesh,
-                       &simulation->system);
+    return body_create(simulation, 0);
 }
 
 /* Whether one of the row's numbers is not 0. */

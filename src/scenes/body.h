@@ -24,13 +24,10 @@ SquareMesh body_shape(const Options *options);
 Status pins_read(const char *text, const SquareMesh *shape,
                  unsigned char *pinned);
 
-/* Mesh, system with all terms of the options, and the simulation's run of this
- * number from where the options put it.  A ball that comes with the scene is
- * the last node.
- *   mesh, system  out; free them in any case
+/* Mesh and system of this run, with all terms of its options, and the run from
+ * where they put it.  A ball that comes with the scene is the last node.
  * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
-Status body_create(Simulation *simulation, int run, const Options *options,
-                   SquareMesh *mesh, System *system);
+Status body_create(Simulation *simulation, int run);
 
 /* Terms and springs of a run that goes on get the numbers of the simulation's
  * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */

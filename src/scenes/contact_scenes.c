@@ -12,19 +12,10 @@ Status create_slope(Simulation *simulation)
     Status status = STATUS_OK;
     simulation->runs = SIMULATION_MAX_RUNS;
     for (int run = 0; run < SIMULATION_MAX_RUNS && !status; run++) {
-        Options options = simulation->options;
-        SquareMesh mesh = {0};
-        double up = 1.3 * options.side / 0.5 * (1 - run);
         simulation->grip[run] = part[run];
-        simulation->lift[run] = up;
-        options.friction *= part[run];
-        options.at[1] += up;
-        for (int i = 0; i < options.grounds; i++)
-            options.ground[i][3] += up;
-        status = body_create(
-            simulation, run, &options, run ? &mesh : &simulation->mesh,
-            run ? &simulation->more[run] : &simulation->system);
-        square_mesh_free(&mesh);
+        simulation->lift[run] =
+            1.3 * simulation->options.side / 0.5 * (1 - run);
+        status = body_create(simulation, run);
     }
     return status;
 }

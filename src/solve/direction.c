@@ -95,49 +95,41 @@ static Status factor(Newton *newton)
 {
     SearchDirection *search = &newton->search;
     search->shift = 0;
-    newton->counters.factorisations++;
-    Status status = cholesky_factor(search->cholesky);
-    if (status != STATUS_NOT_POSITIVE_DEFINITE || search->filter == FILTER_NONE)
-        return status;
-    double shift = 1e-15 * largest_diagonal(newton);
-    for (int i = 0; i < SHIFT_TRIES && status == STATUS_NOT_POSITIVE_DEFINITE;
-         i++, shift *= 100) {
+    for (int tries = 0;; tries++) {
+        newton->counters.factorisations++;
+        Status status = cholesky_factor(search->cholesky);
+        if (status != STATUS_NOT_POSITIVE_DEFINITE || tries == SHIFT_TRIES ||
+            search->filter == FILTER_NONE)
+            return status;
+        double shift =
+            tries > 0 ? 100 * search->shift : 1e-15 * largest_diagonal(newton);
         for (int t = 0; t < 2 * newton->system->nodes; t++)
             search->A.value[search->slot[t]] += shift - search->shift;
         search->shift = shift;
-        newton->counters.factorisations++;
-        status = cholesky_factor(search->cholesky);
     }
-    return status;
 }
 
-/* Assembles and factors the Hessian at x, once. */
-static Status factor_as(Newton *newton, Filter filter)
+/* Assembles and factors the Hessian at x as the filter says.  Projection on
+ * demand first tries it as it is; after a failure it clamps, and goes on to do
+ * so for some iterations. */
+static Status newton_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
+    Filter filter = newton->settings.filter;
+    if (filter == FILTER_ON_DEMAND && newton->clamps > 0) {
+        newton->clamps--;
+        filter = FILTER_CLAMP;
+    }
     Status status = assemble(newton, filter, &record->projected);
     if (!status)
         status = factor(newton);
     record->factorised = true;
     record->shift = newton->search.shift;
     newton->counters.projected += record->projected;
-    return status;
-}
-
-/* As the filter says.  Projection on demand first tries the Hessian as it is;
- * after a failure it clamps, and goes on to do so for some iterations. */
-static Status newton_factor(Newton *newton)
-{
-    if (newton->settings.filter != FILTER_ON_DEMAND)
-        return factor_as(newton, newton->settings.filter);
-    if (newton->clamps == 0) {
-        Status status = factor_as(newton, FILTER_ON_DEMAND);
-        if (status != STATUS_NOT_POSITIVE_DEFINITE)
-            return status;
-        newton->clamps = CLAMPS_AFTER_FAILURE;
-    }
-    newton->clamps--;
-    return factor_as(newton, FILTER_CLAMP);
+    if (filter != FILTER_ON_DEMAND || status != STATUS_NOT_POSITIVE_DEFINITE)
+        return status;
+    newton->clamps = CLAMPS_AFTER_FAILURE;
+    return newton_factor(newton);
 }
 
 /* z = (H + shift I)^-1 r, both in the order of the nodes.
