@@ -1,63 +1,11 @@
-/* Sparse matrices, their factorisations and what these say of matrices that
- * have none: against dense elimination in extended precision.
+/* Factorisations of sparse matrices, and what they say of matrices that have
+ * none: against dense elimination in extended precision.
  */
 #include "test.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* ---- triplets ---------------------------------------------------------- */
-
-enum { SMALL = 9, TRIPLETS = 60 };
-
-/* Random places and values, each often more than once, above and below the
- * diagonal; row and column 4 stay empty.  Whole numbers: sums are exact. */
-TEST(triplets_make_the_dense_matrix)
-{
-    Random random = {1};
-    for (int trial = 0; trial < 50; trial++) {
-        Triplets triplets;
-        Sparse A;
-        int slot[TRIPLETS];
-        double value[TRIPLETS], dense[SMALL * SMALL] = {0};
-        double got[SMALL * SMALL], x[SMALL], y[SMALL];
-        CHECK_STATUS(triplets_create(SMALL, TRIPLETS, &triplets), STATUS_OK);
-        while (triplets.count < TRIPLETS) {
-            int r = random_below(&random, SMALL);
-            int c = random_below(&random, SMALL);
-            if (r == 4 || c == 4)
-                continue;
-            double v = random_below(&random, 100) - 50;
-            value[triplets.count] = v;
-            triplets_add(&triplets, r, c);
-            dense[SMALL * r + c] += v;
-            dense[SMALL * c + r] += r == c ? 0 : v;
-        }
-        CHECK_STATUS(sparse_create(&triplets, &A, slot), STATUS_OK);
-        for (int c = 0; c < SMALL; c++)
-            for (int s = A.start[c]; s < A.start[c + 1]; s++)
-                CHECK(A.row[s] >= c &&
-                      (s == A.start[c] || A.row[s] > A.row[s - 1]));
-        CHECK(A.size == SMALL && A.start[SMALL] == A.entries);
-        CHECK(A.start[0] == 0 && A.start[4] == A.start[5]);
-        for (int t = 0; t < TRIPLETS; t++)
-            A.value[slot[t]] += value[t];
-        dense_from_sparse(&A, got);
-        CHECK_SAME_BITS(got, dense, SMALL * SMALL);
-        for (int i = 0; i < SMALL; i++)
-            x[i] = random_below(&random, 100) - 50;
-        sparse_multiply(&A, x, y);
-        for (int r = 0; r < SMALL; r++) {
-            double sum = 0;
-            for (int c = 0; c < SMALL; c++)
-                sum += dense[SMALL * r + c] * x[c];
-            CHECK(y[r] == sum);
-        }
-        sparse_free(&A);
-        triplets_free(&triplets);
-    }
-}
 
 /* ---- factorisations ---------------------------------------------------- */
 
