@@ -80,19 +80,19 @@ bool integrator_method_refuses(const IntegratorMethod *method,
  * term it cannot serve). */
 Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
-                              const double *v, TimeIntegrator *integrator);
-void time_integrator_free(TimeIntegrator *integrator);
+                              const double *v, TimeIntegrator *run);
+void time_integrator_free(TimeIntegrator *run);
 
 /* Begins a step; one Newton iteration of it.  Both return RUNNING while there
  * is more to do.  At the end of the step: OK; or a status for which
  * status_is_unconverged holds: the step was made with the best iterate; or a
  * failure: x, v are those of t_n, as they are until then.  Who leaves a step
  * before restores what the terms remember and where walls are. */
-Status time_integrator_begin(TimeIntegrator *integrator);
-Status time_integrator_iterate(TimeIntegrator *integrator);
+Status time_integrator_begin(TimeIntegrator *run);
+Status time_integrator_iterate(TimeIntegrator *run);
 
 /* A whole step.  Returns as time_integrator_iterate at its end. */
-Status time_integrator_step(TimeIntegrator *integrator);
+Status time_integrator_step(TimeIntegrator *run);
 
 /* Whether the forces at x balance: whether the test of Algorithm 3 would be
  * passed by a step from rest that is so long that the masses hardly count.  Its
@@ -102,7 +102,7 @@ Status time_integrator_step(TimeIntegrator *integrator);
  *   distance  m, the test lets pass
  *   balances  out; true also where the balance is unstable
  * Returns OK, or a failure. */
-Status time_integrator_balances(const TimeIntegrator *integrator,
-                                double distance, bool *balances);
+Status time_integrator_balances(const TimeIntegrator *run, double distance,
+                                bool *balances);
 
 #endif

@@ -15,16 +15,10 @@ const Listing *listing_find(const char *file)
  * a type, and the name is a whole word before a parenthesis. */
 static bool names_function(const char *line, const char *function)
 {
-    size_t length = strlen(function);
-    if (!isalpha((unsigned char)line[0]))
-        return false;
-    for (const char *at = strstr(line, function); at;
-         at = strstr(at + 1, function)) {
-        bool begins = at == line || at[-1] == ' ' || at[-1] == '*';
-        if (begins && at[length] == '(')
-            return true;
-    }
-    return false;
+    const char *at = strstr(line, function);
+    return at && isalpha((unsigned char)line[0]) &&
+           (at == line || at[-1] == ' ' || at[-1] == '*') &&
+           at[strlen(function)] == '(';
 }
 
 /* The line after the closing brace of what begins here; 0: a declaration, for

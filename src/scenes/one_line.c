@@ -40,23 +40,6 @@ static bool is_control(unsigned code)
            (code >= 0x2066 && code <= 0x2069);
 }
 
-/* Each control, and each byte that is no character, becomes '?'. */
-static void hide_controls(char *line)
-{
-    unsigned code;
-    const char *from = line;
-    while (*from) {
-        size_t size = read_character((const unsigned char *)from, &code);
-        if (is_control(code))
-            *line++ = '?';
-        else
-            for (size_t i = 0; i < size; i++)
-                *line++ = from[i];
-        from += size;
-    }
-    *line = '\0';
-}
-
 void one_line(const char *text, char *line, size_t size)
 {
     if (size == 0)
@@ -82,7 +65,18 @@ void one_line(const char *text, char *line, size_t size)
         memmove(line + left, CUT, sizeof CUT - 1);
         memmove(line + left + sizeof CUT - 1, rest, right + 1);
     }
-    hide_controls(line);
+    /* Each control, and each byte that is no character, becomes '?'. */
+    for (const char *from = line; *from;) {
+        unsigned code;
+        size_t bytes = read_character((const unsigned char *)from, &code);
+        if (is_control(code))
+            *line++ = '?';
+        else
+            for (size_t i = 0; i < bytes; i++)
+                *line++ = from[i];
+        from += bytes;
+    }
+    *line = '\0';
 }
 
 Status refuse(Refusal told, const char *format, ...)

@@ -9,81 +9,81 @@
  * never is without damping. */
 
 /* v_(n+1) = v_n + h a(x_n) */
-static void kick(TimeIntegrator *integrator)
+static void kick(TimeIntegrator *run)
 {
-    double *new_v = integrator->new_v;
-    system_acceleration(integrator->system, integrator->x, new_v);
-    for (size_t i = 0; i < integrator->size; i++)
-        new_v[i] = integrator->v[i] + integrator->h * new_v[i];
+    double *new_v = run->new_v;
+    system_acceleration(run->system, run->x, new_v);
+    for (size_t i = 0; i < run->size; i++)
+        new_v[i] = run->v[i] + run->h * new_v[i];
 }
 
 /* x_(n+1) = x_n + h v */
-static void drift(TimeIntegrator *integrator, const double *v)
+static void drift(TimeIntegrator *run, const double *v)
 {
-    for (size_t i = 0; i < integrator->size; i++)
-        integrator->new_x[i] = integrator->x[i] + integrator->h * v[i];
+    for (size_t i = 0; i < run->size; i++)
+        run->new_x[i] = run->x[i] + run->h * v[i];
 }
 
 /* Drifts with the velocity of t_n.  Order 1. */
-static void forward_euler_land(TimeIntegrator *integrator)
+static void forward_euler_land(TimeIntegrator *run)
 {
-    kick(integrator);
-    drift(integrator, integrator->v);
+    kick(run);
+    drift(run, run->v);
 }
 
 /* Drifts with the velocity of t_(n+1).  Order 1. */
-static void symplectic_euler_land(TimeIntegrator *integrator)
+static void symplectic_euler_land(TimeIntegrator *run)
 {
-    kick(integrator);
-    drift(integrator, integrator->new_v);
+    kick(run);
+    drift(run, run->new_v);
 }
 
 /* Velocity Verlet: x_(n+1) = x_n + h v_n + h^2/2 a_n,
  * v_(n+1) = v_n + h/2 (a_n + a_(n+1)).  Order 2, symplectic; a_(n+1) is
  * remembered, so a step costs one evaluation. */
-static void verlet_land(TimeIntegrator *integrator)
+static void verlet_land(TimeIntegrator *run)
 {
-    double *a = integrator->memory, h = integrator->h;
-    double *new_x = integrator->new_x, *new_v = integrator->new_v;
-    if (integrator->memory_h == 0)
-        system_acceleration(integrator->system, integrator->x, a);
-    for (size_t i = 0; i < integrator->size; i++) {
-        new_v[i] = integrator->v[i] + 0.5 * h * a[i];
-        new_x[i] = integrator->x[i] + h * new_v[i];
+    double *a = run->memory, h = run->h;
+    double *new_x = run->new_x, *new_v = run->new_v;
+    if (run->memory_h == 0)
+        system_acceleration(run->system, run->x, a);
+    for (size_t i = 0; i < run->size; i++) {
+        new_v[i] = run->v[i] + 0.5 * h * a[i];
+        new_x[i] = run->x[i] + h * new_v[i];
     }
-    system_acceleration(integrator->system, new_x, a);
-    for (size_t i = 0; i < integrator->size; i++)
+    system_acceleration(run->system, new_x, a);
+    for (size_t i = 0; i < run->size; i++)
         new_v[i] += 0.5 * h * a[i];
-    integrator->memory_h = h;
+    run->memory_h = h;
 }
 
 /* ---- implicit methods: min |u - u_tilde|_M^2 / 2 + w P(x_n + u), u = x - x_n,
  * each with its own target, weight and velocity. */
 
 /* u_tilde = h v: as far as v leads in the time h. */
-static void aim_ahead(TimeIntegrator *integrator, double h, const double *v,
+static void aim_ahead(TimeIntegrator *run, double h, const double *v,
                       double weight)
 {
-    integrator->weight = weight;
-    for (size_t i = 0; i < integrator->size; i++)
-        integrator->newton->u_tilde[i] = h * v[i];
+    run->weight = weight;
+    for (size_t i = 0; i < run->size; i++)
+        run->newton->u_tilde[i] = h * v[i];
 }
 
 /* The implicit Euler step of the slides (Algorithm 3): u_tilde = h v_n,
  * w = h^2, v_(n+1) = u/h.  Order 1; damps, never gains:
  * M|v1-v0|^2/2 + P(x1) <= M|v0|^2/2 + P(x0). */
-static void backward_euler_aim(TimeIntegrator *integrator)
+static void backward_euler_aim(TimeIntegrator *run)
 {
-    double h = integrator->h;
-    aim_ahead(integrator, h, integrator->v, h * h);
+    double h = run->h;
+    aim_ahead(run, h, run->v, h * h);
 }
 
-static void backward_euler_land(TimeIntegrator *integrator)
+static void backward_euler_land(TimeIntegrator *run)
 {
-    const Iterate *end = &integrator->newton->at;
-    for (size_t i = 0; i < integrator->size; i++) {
-        integrator->new_x[i] = end->x[i];
-        integrator->new_v[i] = end->u[i] / integrator->h;
+    const Iterate *end = &run->newton->at;
+    for (size_t i = 0; i < run->size; i++) {
+        run->new_x[i] = end->x[i];
+        run->new_v[i] = end->u[i] / run->h;
     }
 }
 
@@ -91,34 +91,33 @@ static void backward_euler_land(TimeIntegrator *integrator)
  * for v and a.  With du = x_n - x_(n-1): u_tilde = du/3 + (2h/9) (4 v_n -
  * v_(n-1)), w = (4/9) h^2, v_(n+1) = (3u - du) / (2h).  Order 2.  du and v_n
  * are remembered; the first step is backward Euler. */
-static void bdf2_aim(TimeIntegrator *integrator)
+static void bdf2_aim(TimeIntegrator *run)
 {
-    double h = integrator->h, *v = integrator->v;
-    double *du = integrator->memory, *v_old = du + integrator->size;
-    if (integrator->memory_h != h) {
-        backward_euler_aim(integrator);
+    double h = run->h, *v = run->v;
+    double *du = run->memory, *v_old = du + run->size;
+    if (run->memory_h != h) {
+        backward_euler_aim(run);
         return;
     }
-    integrator->weight = 4 * h * h / 9;
-    for (size_t i = 0; i < integrator->size; i++)
-        integrator->newton->u_tilde[i] =
-            du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
+    run->weight = 4 * h * h / 9;
+    for (size_t i = 0; i < run->size; i++)
+        run->newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
 }
 
-static void bdf2_land(TimeIntegrator *integrator)
+static void bdf2_land(TimeIntegrator *run)
 {
-    const Iterate *end = &integrator->newton->at;
-    double h = integrator->h, *v = integrator->v;
-    double *du = integrator->memory, *v_old = du + integrator->size;
-    if (integrator->memory_h != h)
-        backward_euler_land(integrator);
-    for (size_t i = 0; integrator->memory_h == h && i < integrator->size; i++) {
-        integrator->new_x[i] = end->x[i];
-        integrator->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
+    const Iterate *end = &run->newton->at;
+    double h = run->h, *v = run->v;
+    double *du = run->memory, *v_old = du + run->size;
+    if (run->memory_h != h)
+        backward_euler_land(run);
+    for (size_t i = 0; run->memory_h == h && i < run->size; i++) {
+        run->new_x[i] = end->x[i];
+        run->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
     }
-    memcpy(du, end->u, integrator->size * sizeof *du);
-    memcpy(v_old, v, integrator->size * sizeof *v_old);
-    integrator->memory_h = h;
+    memcpy(du, end->u, run->size * sizeof *du);
+    memcpy(v_old, v, run->size * sizeof *v_old);
+    run->memory_h = h;
 }
 
 /* Two stages of a diagonally implicit Runge-Kutta method, L-stable (Alexander
@@ -128,29 +127,29 @@ static void bdf2_land(TimeIntegrator *integrator)
  * w = g^2 h^2 in both.  Order 2. */
 static const double SDIRK_G = 0.29289321881345248; /* 1 - 1/sqrt(2) */
 
-static void sdirk2_aim(TimeIntegrator *integrator)
+static void sdirk2_aim(TimeIntegrator *run)
 {
-    double h = integrator->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
-    const double *v = integrator->v, *s = integrator->new_v;
-    if (integrator->stage == 0) {
-        aim_ahead(integrator, gh, v, gh * gh);
+    double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
+    const double *v = run->v, *s = run->new_v;
+    if (run->stage == 0) {
+        aim_ahead(run, gh, v, gh * gh);
         return;
     }
-    integrator->weight = gh * gh;
-    for (size_t i = 0; i < integrator->size; i++) {
+    run->weight = gh * gh;
+    for (size_t i = 0; i < run->size; i++) {
         double a = (s[i] - v[i]) / gh;
-        integrator->newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
+        run->newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
     }
 }
 
-static void sdirk2_land(TimeIntegrator *integrator)
+static void sdirk2_land(TimeIntegrator *run)
 {
-    const Iterate *end = &integrator->newton->at;
-    double h = integrator->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
-    double *s = integrator->new_v;
-    bool first = integrator->stage == 0;
-    for (size_t i = 0; i < integrator->size; i++) {
-        integrator->new_x[i] = end->x[i];
+    const Iterate *end = &run->newton->at;
+    double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
+    double *s = run->new_v;
+    bool first = run->stage == 0;
+    for (size_t i = 0; i < run->size; i++) {
+        run->new_x[i] = end->x[i];
         s[i] = (first ? end->u[i] : end->u[i] - rest * s[i]) / gh;
     }
 }
@@ -167,34 +166,33 @@ static void sdirk2_land(TimeIntegrator *integrator)
  *
  * Order 4 by composition (Suzuki 1990), g = 1/(4 - 4^(1/3)): five substeps of
  * g h, g h, (1 - 4g) h, g h, g h, each from where the one before has led. */
-static double substep(const TimeIntegrator *integrator)
+static double substep(const TimeIntegrator *run)
 {
     const double g = 0.41449077179437571;
-    double share = integrator->method->stages == 1 ? 1
-                   : integrator->stage == 2        ? 1 - 4 * g
-                                                   : g;
-    return share * integrator->h;
+    double share = run->method->stages == 1 ? 1
+                   : run->stage == 2        ? 1 - 4 * g
+                                            : g;
+    return share * run->h;
 }
 
-static void symmetric_aim(TimeIntegrator *integrator)
+static void symmetric_aim(TimeIntegrator *run)
 {
-    const IntegratorMethod *method = integrator->method;
-    bool first = integrator->stage == 0;
-    double h = substep(integrator);
-    integrator->x_n = first ? integrator->x : integrator->new_x;
-    aim_ahead(integrator, method->a * h,
-              first ? integrator->v : integrator->new_v, method->b * h * h);
+    const IntegratorMethod *method = run->method;
+    bool first = run->stage == 0;
+    double h = substep(run);
+    run->x_n = first ? run->x : run->new_x;
+    aim_ahead(run, method->a * h, first ? run->v : run->new_v,
+              method->b * h * h);
 }
 
-static void symmetric_land(TimeIntegrator *integrator)
+static void symmetric_land(TimeIntegrator *run)
 {
-    const double *u = integrator->newton->at.u, *x = integrator->x_n;
-    const double *v =
-        integrator->stage == 0 ? integrator->v : integrator->new_v;
-    double c = integrator->method->c, h = substep(integrator);
-    for (size_t i = 0; i < integrator->size; i++) {
-        integrator->new_x[i] = x[i] + c * u[i];
-        integrator->new_v[i] = 2 * c * u[i] / h - v[i];
+    const double *u = run->newton->at.u, *x = run->x_n;
+    const double *v = run->stage == 0 ? run->v : run->new_v;
+    double c = run->method->c, h = substep(run);
+    for (size_t i = 0; i < run->size; i++) {
+        run->new_x[i] = x[i] + c * u[i];
+        run->new_v[i] = 2 * c * u[i] / h - v[i];
     }
 }
 

@@ -22,20 +22,19 @@ static bool moves(const Obstacle *obstacle)
     return obstacle->v[0] != 0 || obstacle->v[1] != 0;
 }
 
-bool prescribed_begin(TimeIntegrator *integrator)
+bool prescribed_begin(TimeIntegrator *run)
 {
-    Contact *contact = contact_of(integrator->system);
-    bool any = integrator->system->pin_v != NULL;
-    integrator->moved = 0;
-    integrator->left = 1;
-    integrator->part = 0;
-    integrator->blocked = false;
-    integrator->before =
-        integrator->newton ? integrator->newton->counters.iterations : 0;
+    Contact *contact = contact_of(run->system);
+    bool any = run->system->pin_v != NULL;
+    run->moved = 0;
+    run->left = 1;
+    run->part = 0;
+    run->blocked = false;
+    run->before = run->newton ? run->newton->counters.iterations : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
-        motion_velocity(&obstacle->motion,
-                        integrator->clock + 0.5 * integrator->h, obstacle->v);
+        motion_velocity(&obstacle->motion, run->clock + 0.5 * run->h,
+                        obstacle->v);
         any = any || moves(obstacle);
     }
     return any;
@@ -77,29 +76,29 @@ static void carry(const System *system, const Contact *contact, double way,
 }
 
 /* Whether no body passes another on the way to u. */
-static bool lets_pass(const TimeIntegrator *integrator, const double *x_n,
-                      bool first, const double *u)
+static bool lets_pass(const TimeIntegrator *run, const double *x_n, bool first,
+                      const double *u)
 {
-    const Newton *newton = integrator->newton;
+    const Newton *newton = run->newton;
     double *x = newton->x_trial, *p = newton->u_trial; /* free to be used */
-    for (size_t i = 0; i < integrator->size; i++) {
+    for (size_t i = 0; i < run->size; i++) {
         double from = first ? 0 : newton->at.u[i];
         x[i] = x_n[i] + from;
         p[i] = u[i] - from;
     }
-    return self_contact_lets_pass(integrator->system, x, p);
+    return self_contact_lets_pass(run->system, x, p);
 }
 
 /* u = newton's displacement with a part of the way made; obstacles too.
  * Returns whether all terms allow that; if not, obstacles are put back. */
-static bool make_part(TimeIntegrator *integrator, const double *x_n,
-                      double part, bool first, double *u, double *x)
+static bool make_part(TimeIntegrator *run, const double *x_n, double part,
+                      bool first, double *u, double *x)
 {
-    const System *system = integrator->system;
-    Contact *contact = contact_of(integrator->system);
-    double way = part * integrator->h;
+    const System *system = run->system;
+    Contact *contact = contact_of(run->system);
+    double way = part * run->h;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = first ? 0 : integrator->newton->at.u[i];
+        u[i] = first ? 0 : run->newton->at.u[i];
         x[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -109,47 +108,45 @@ static bool make_part(TimeIntegrator *integrator, const double *x_n,
     for (int i = 0; i < 2 * system->nodes; i++)
         x[i] = x_n[i] + u[i];
     IncrementalPotential E = {
-        .system = system, .weight = integrator->h * integrator->h, .x_n = x_n};
+        .system = system, .weight = run->h * run->h, .x_n = x_n};
     if (incremental_potential_allowed(&E, u, x) &&
-        lets_pass(integrator, x_n, first, u))
+        lets_pass(run, x_n, first, u))
         return true;
     move_obstacles(contact, -way);
     return false;
 }
 
-Status prescribed_start(TimeIntegrator *integrator)
+Status prescribed_start(TimeIntegrator *run)
 {
-    double *u = integrator->new_x, *x = integrator->new_v;
-    double part = integrator->left;
+    double *u = run->new_x, *x = run->new_v;
+    double part = run->left;
     int halvings = 0;
-    bool first = integrator->part == 0;
-    while (halvings < MAX_HALVINGS && integrator->part < MAX_PARTS &&
-           !make_part(integrator, integrator->x_n, part, first, u, x)) {
+    bool first = run->part == 0;
+    while (halvings < MAX_HALVINGS && run->part < MAX_PARTS &&
+           !make_part(run, run->x_n, part, first, u, x)) {
         part /= 2;
         halvings++;
     }
-    integrator->blocked =
-        halvings == MAX_HALVINGS || integrator->part == MAX_PARTS;
-    if (integrator->blocked) /* nothing moves any more in this step */
-        make_part(integrator, integrator->x_n, 0, first, u, x);
+    run->blocked = halvings == MAX_HALVINGS || run->part == MAX_PARTS;
+    if (run->blocked) /* nothing moves any more in this step */
+        make_part(run, run->x_n, 0, first, u, x);
     else
-        integrator->moved += part;
-    integrator->left = integrator->blocked ? 0 : integrator->left - part;
-    integrator->part++;
-    integrator->newton->rough = integrator->left > 0;
-    return newton_start(integrator->newton, integrator->x_n, u,
-                        integrator->weight);
+        run->moved += part;
+    run->left = run->blocked ? 0 : run->left - part;
+    run->part++;
+    run->newton->rough = run->left > 0;
+    return newton_start(run->newton, run->x_n, u, run->weight);
 }
 
-bool prescribed_goes_on(TimeIntegrator *integrator, Status *status)
+bool prescribed_goes_on(TimeIntegrator *run, Status *status)
 {
-    const Newton *newton = integrator->newton;
-    long updates = newton->counters.iterations - integrator->before;
+    const Newton *newton = run->newton;
+    long updates = newton->counters.iterations - run->before;
     if (*status && !status_is_unconverged(*status))
         return false;
-    if (integrator->blocked && !*status)
+    if (run->blocked && !*status)
         *status = STATUS_BLOCKED;
-    if (integrator->left <= 0)
+    if (run->left <= 0)
         return false;
     if (updates < newton_most_iterations(newton))
         return true;
@@ -159,11 +156,10 @@ bool prescribed_goes_on(TimeIntegrator *integrator, Status *status)
 
 /* Of the pins: their reaction, which is what E's gradient has in their places,
  * times their way. */
-static double pins_work(const TimeIntegrator *integrator, double weight,
-                        double *g)
+static double pins_work(const TimeIntegrator *run, double weight, double *g)
 {
-    const System *system = integrator->system;
-    const Newton *newton = integrator->newton;
+    const System *system = run->system;
+    const Newton *newton = run->newton;
     Place at = place_at(system, newton->at.E.x_n, newton->at.u, newton->at.x);
     double sum = 0;
     at.w = weight;
@@ -182,12 +178,12 @@ static double pins_work(const TimeIntegrator *integrator, double weight,
 
 /* Of the obstacles: the forces on the nodes, normal and of friction, times the
  * obstacle's way. */
-static double obstacles_work(const TimeIntegrator *integrator)
+static double obstacles_work(const TimeIntegrator *run)
 {
-    const System *system = integrator->system;
+    const System *system = run->system;
     const Contact *contact = contact_of(system);
-    const double *x = integrator->newton->at.x;
-    double way = integrator->moved * integrator->h, sum = 0;
+    const double *x = run->newton->at.x;
+    double way = run->moved * run->h, sum = 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const double *v = contact->obstacle[k].v;
         for (int i = 0; moves(&contact->obstacle[k]) && i < system->nodes;
@@ -199,12 +195,10 @@ static double obstacles_work(const TimeIntegrator *integrator)
                    (gap.n[0] * v[0] + gap.n[1] * v[1]);
         }
     }
-    return way * sum +
-           friction_work_of_obstacles(system, integrator->newton->at.u);
+    return way * sum + friction_work_of_obstacles(system, run->newton->at.u);
 }
 
-double prescribed_work(const TimeIntegrator *integrator, double weight)
+double prescribed_work(const TimeIntegrator *run, double weight)
 {
-    return pins_work(integrator, weight, integrator->new_x) +
-           obstacles_work(integrator);
+    return pins_work(run, weight, run->new_x) + obstacles_work(run);
 }

@@ -13,20 +13,20 @@
 
 /* Before a step: each obstacle's v is what its motion has for this step.
  * Returns whether anything moves. */
-bool prescribed_begin(TimeIntegrator *integrator);
+bool prescribed_begin(TimeIntegrator *run);
 
 /* Puts things on their way, as far as there is room, and starts to minimise E
  * with u_tilde as target from there; roughly, where another part follows.
  * Returns as newton_start. */
-Status prescribed_start(TimeIntegrator *integrator);
+Status prescribed_start(TimeIntegrator *run);
 
 /* After one of its minimisations: whether another one follows.
  *   status  in: how it ended; out: how all of them did, BLOCKED where things
  *           could not be put where they belong */
-bool prescribed_goes_on(TimeIntegrator *integrator, Status *status);
+bool prescribed_goes_on(TimeIntegrator *run, Status *status);
 
 /* After a step was minimised: J, what those who moved things have done in it.
  */
-double prescribed_work(const TimeIntegrator *integrator, double weight);
+double prescribed_work(const TimeIntegrator *run, double weight);
 
 #endif

@@ -29,10 +29,10 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 
 Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
-                              const double *v, TimeIntegrator *integrator)
+                              const double *v, TimeIntegrator *run)
 {
     size_t size = 2 * (size_t)system->nodes;
-    *integrator = (TimeIntegrator){
+    *run = (TimeIntegrator){
         .method = method, .system = system, .size = size, .h = settings->h};
     if (system_check(system, x) || !all_finite(v, size) ||
         !isfinite(settings->h) || !(settings->h > 0) ||
@@ -40,162 +40,159 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->at_end))
         return STATUS_INVALID_INPUT;
-    integrator->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
-    if (!integrator->x)
+    run->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
+    if (!run->x)
         return STATUS_OUT_OF_MEMORY;
-    integrator->v = integrator->x + size;
-    integrator->new_x = integrator->v + size;
-    integrator->new_v = integrator->new_x + size;
-    integrator->memory = integrator->new_v + size;
-    memcpy(integrator->x, x, size * sizeof *x);
-    memcpy(integrator->v, v, size * sizeof *v);
+    run->v = run->x + size;
+    run->new_x = run->v + size;
+    run->new_v = run->new_x + size;
+    run->memory = run->new_v + size;
+    memcpy(run->x, x, size * sizeof *x);
+    memcpy(run->v, v, size * sizeof *v);
     if (!method->implicit)
         return STATUS_OK;
     NewtonSettings own = *settings;
     own.averaged = method->averaged;
-    integrator->newton = calloc(1, sizeof *integrator->newton);
-    return integrator->newton ? newton_create(system, &own, integrator->newton)
-                              : STATUS_OUT_OF_MEMORY;
+    run->newton = calloc(1, sizeof *run->newton);
+    return run->newton ? newton_create(system, &own, run->newton)
+                       : STATUS_OUT_OF_MEMORY;
 }
 
-void time_integrator_free(TimeIntegrator *integrator)
+void time_integrator_free(TimeIntegrator *run)
 {
-    if (!integrator)
+    if (!run)
         return;
-    newton_free(integrator->newton);
-    free(integrator->newton);
-    free(integrator->x);
-    *integrator = (TimeIntegrator){0};
+    newton_free(run->newton);
+    free(run->newton);
+    free(run->x);
+    *run = (TimeIntegrator){0};
 }
 
 /* Where the hand pulls in this step. */
-static void begin_hand(TimeIntegrator *integrator)
+static void begin_hand(TimeIntegrator *run)
 {
-    System *system = integrator->system;
+    System *system = run->system;
     Pull *hand = hand_energy_of(system);
     double *free = NULL;
     if (!hand)
         return;
     size_t i = 2 * (size_t)hand->node;
-    if (!integrator->newton) {
+    if (!run->newton) {
         hand->k = 0;
-        system_acceleration(system, integrator->x, integrator->new_x);
-        free = integrator->new_x + i;
-        integrator->memory_h = 0; /* it was another force */
+        system_acceleration(system, run->x, run->new_x);
+        free = run->new_x + i;
+        run->memory_h = 0; /* it was another force */
     }
-    hand_follow(hand, integrator->x + i, integrator->v + i,
-                system->m[hand->node], integrator->h, free);
+    hand_follow(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
+                free);
     system_changed(system, false);
 }
 
 /* All stages are over, or one failed. */
-static Status end_step(TimeIntegrator *integrator, Status failure)
+static Status end_step(TimeIntegrator *run, Status failure)
 {
-    size_t both = 2 * integrator->size; /* v is behind x, new_v behind new_x */
-    if (!failure && !all_finite(integrator->new_x, both)) {
-        integrator->memory_h = 0;
+    size_t both = 2 * run->size; /* v is behind x, new_v behind new_x */
+    if (!failure && !all_finite(run->new_x, both)) {
+        run->memory_h = 0;
         failure = STATUS_NOT_FINITE;
     }
     if (failure)
-        return integrator->status = failure;
-    const Pull *hand = hand_energy_of(integrator->system);
+        return run->status = failure;
+    const Pull *hand = hand_energy_of(run->system);
     if (hand)
-        integrator->work += hand_work(hand, integrator->x + 2 * hand->node,
-                                      integrator->new_x + 2 * hand->node);
-    memcpy(integrator->x, integrator->new_x, both * sizeof(double));
-    integrator->steps++;
-    integrator->clock += integrator->h;
-    if (integrator->moves)
-        integrator->work +=
-            prescribed_work(integrator, integrator->newton->at.E.weight);
-    System *system = integrator->system;
+        run->work += hand_work(hand, run->x + 2 * hand->node,
+                               run->new_x + 2 * hand->node);
+    memcpy(run->x, run->new_x, both * sizeof(double));
+    run->steps++;
+    run->clock += run->h;
+    if (run->moves)
+        run->work += prescribed_work(run, run->newton->at.E.weight);
+    System *system = run->system;
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind->end)
-            system->term[t].kind->end(&system->term[t], system, integrator->x,
-                                      integrator->v, integrator->h);
-    return integrator->status;
+            system->term[t].kind->end(&system->term[t], system, run->x, run->v,
+                                      run->h);
+    return run->status;
 }
 
 /* The minimisation of the present stage begins. */
-static Status begin_stage(TimeIntegrator *integrator)
+static Status begin_stage(TimeIntegrator *run)
 {
-    const System *system = integrator->system;
-    Newton *newton = integrator->newton;
-    integrator->x_n = integrator->x;
-    integrator->method->aim(integrator);
+    const System *system = run->system;
+    Newton *newton = run->newton;
+    run->x_n = run->x;
+    run->method->aim(run);
     if (system_has_gravity(system))
-        for (size_t i = 0; i < integrator->size; i++)
-            newton->u_tilde[i] += integrator->weight * system->gravity[i % 2];
-    newton->step = integrator->steps + 1;
-    return integrator->moves ? prescribed_start(integrator)
-                             : newton_start(newton, integrator->x_n, NULL,
-                                            integrator->weight);
+        for (size_t i = 0; i < run->size; i++)
+            newton->u_tilde[i] += run->weight * system->gravity[i % 2];
+    newton->step = run->steps + 1;
+    return run->moves ? prescribed_start(run)
+                      : newton_start(newton, run->x_n, NULL, run->weight);
 }
 
 /* From a minimisation that is over to the next one, to the end where none is
  * left. */
-static Status go_on(TimeIntegrator *integrator, Status status)
+static Status go_on(TimeIntegrator *run, Status status)
 {
     while (status != STATUS_RUNNING) {
-        newton_finish(integrator->newton);
-        status = integrator->newton->status;
-        if (integrator->moves && prescribed_goes_on(integrator, &status)) {
-            status = prescribed_start(integrator);
+        newton_finish(run->newton);
+        status = run->newton->status;
+        if (run->moves && prescribed_goes_on(run, &status)) {
+            status = prescribed_start(run);
             continue;
         }
         if (status && !status_is_unconverged(status))
-            return end_step(integrator, status);
+            return end_step(run, status);
         if (status)
-            integrator->status = status;
-        integrator->method->land(integrator);
-        if (++integrator->stage == integrator->method->stages)
-            return end_step(integrator, STATUS_OK);
-        status = begin_stage(integrator);
+            run->status = status;
+        run->method->land(run);
+        if (++run->stage == run->method->stages)
+            return end_step(run, STATUS_OK);
+        status = begin_stage(run);
     }
     return STATUS_RUNNING;
 }
 
-Status time_integrator_begin(TimeIntegrator *integrator)
+Status time_integrator_begin(TimeIntegrator *run)
 {
-    System *system = integrator->system;
+    System *system = run->system;
     Status status = STATUS_OK;
-    integrator->status = STATUS_OK;
-    integrator->stage = 0;
-    if (integrator->newton)
-        integrator->newton->change = 0;
-    integrator->moves = prescribed_begin(integrator);
+    run->status = STATUS_OK;
+    run->stage = 0;
+    if (run->newton)
+        run->newton->change = 0;
+    run->moves = prescribed_begin(run);
     for (int t = 0; t < system->terms && !status; t++)
         if (system->term[t].kind->begin)
             status = system->term[t].kind->begin(&system->term[t], system,
-                                                 integrator->x, integrator->v,
-                                                 integrator->h);
+                                                 run->x, run->v, run->h);
     if (status)
-        return end_step(integrator, status);
-    begin_hand(integrator);
-    if (integrator->newton)
-        return go_on(integrator, begin_stage(integrator));
-    integrator->method->land(integrator);
-    return end_step(integrator, STATUS_OK);
+        return end_step(run, status);
+    begin_hand(run);
+    if (run->newton)
+        return go_on(run, begin_stage(run));
+    run->method->land(run);
+    return end_step(run, STATUS_OK);
 }
 
-Status time_integrator_iterate(TimeIntegrator *integrator)
+Status time_integrator_iterate(TimeIntegrator *run)
 {
-    return go_on(integrator, newton_iterate(integrator->newton));
+    return go_on(run, newton_iterate(run->newton));
 }
 
-Status time_integrator_step(TimeIntegrator *integrator)
+Status time_integrator_step(TimeIntegrator *run)
 {
-    Status status = time_integrator_begin(integrator);
+    Status status = time_integrator_begin(run);
     while (status == STATUS_RUNNING)
-        status = time_integrator_iterate(integrator);
+        status = time_integrator_iterate(run);
     return status;
 }
 
 /* A Newton object of its own: nothing that the run remembers is touched. */
-Status time_integrator_balances(const TimeIntegrator *integrator,
-                                double distance, bool *balances)
+Status time_integrator_balances(const TimeIntegrator *run, double distance,
+                                bool *balances)
 {
-    const System *system = integrator->system;
+    const System *system = run->system;
     double lightest = INFINITY, stiffest, force;
     for (int i = 0; i < system->nodes; i++)
         lightest = fmin(lightest, system->m[i]);
@@ -208,10 +205,10 @@ Status time_integrator_balances(const TimeIntegrator *integrator,
                                .search = LINE_SEARCH_BACKTRACK};
     Newton newton;
     Status status = newton_create(system, &settings, &newton);
-    for (size_t i = 0; i < integrator->size && !status; i++)
+    for (size_t i = 0; i < run->size && !status; i++)
         newton.u_tilde[i] = weight * system->gravity[i % 2];
     if (!status)
-        status = newton_start(&newton, integrator->x, NULL, weight);
+        status = newton_start(&newton, run->x, NULL, weight);
     *balances = status == STATUS_OK || status == STATUS_NOT_A_MINIMUM ||
                 newton.bends_down;
     bool decided = *balances || status == STATUS_RUNNING;
