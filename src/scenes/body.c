@@ -301,25 +301,6 @@ static Status place_body(const Options *options, const SquareMesh *shape,
     return STATUS_OK;
 }
 
-/* The run from there; what is pinned does not move. */
-static Status start_run(Simulation *simulation, int run, const Options *options,
-                        const SquareMesh *mesh, System *system)
-{
-    size_t size = 2 * (size_t)system->nodes;
-    double *x = malloc(size * sizeof *x), *v = malloc(size * sizeof *v);
-    Status status = x && v ? place_body(options, mesh, run, x, v, (Refusal){0})
-                           : STATUS_OUT_OF_MEMORY;
-    for (int i = 0; !status && system->pinned && i < system->nodes; i++)
-        if (system->pinned[i])
-            v[2 * i] = v[2 * i + 1] = 0;
-    if (!status)
-        status = simulation_start(simulation, run, options_method(options),
-                                  system, x, v);
-    free(x);
-    free(v);
-    return status;
-}
-
 /* What the options say of one run. */
 static Options options_of_run(const Simulation *simulation, int run,
                               const Options *options)
@@ -333,6 +314,7 @@ static Options options_of_run(const Simulation *simulation, int run,
     return own;
 }
 
+/* What is pinned does not move. */
 Status body_create(Simulation *simulation, int run)
 {
     const Options options =
@@ -343,8 +325,18 @@ Status body_create(Simulation *simulation, int run)
     Status status = create_system(&options, more, mesh, system);
     if (!status)
         status = set_terms(&options, mesh, system);
+    size_t size = 2 * (size_t)system->nodes;
+    double *x = malloc(2 * size * sizeof *x), *v = x ? x + size : NULL;
     if (!status)
-        status = start_run(simulation, run, &options, mesh, system);
+        status = x ? place_body(&options, mesh, run, x, v, (Refusal){0})
+                   : STATUS_OUT_OF_MEMORY;
+    for (int i = 0; !status && system->pinned && i < system->nodes; i++)
+        if (system->pinned[i])
+            v[2 * i] = v[2 * i + 1] = 0;
+    if (!status)
+        status = simulation_start(simulation, run, options_method(&options),
+                                  system, x, v);
+    free(x);
     square_mesh_free(&same);
     return status;
 }
@@ -367,21 +359,15 @@ Status create_square(Simulation *simulation)
     return body_create(simulation, 0);
 }
 
-/* Whether one of the row's numbers is not 0. */
-static bool asks_for(const Options *options, const OptionRow *row)
-{
-    int first = row->times > 0 ? row->counter : row->slot;
-    for (int i = 0; i < row->count || i == 0; i++)
-        if (options->number[first + i] != 0)
-            return true;
-    return false;
-}
-
 const char *body_needs_end_of_step(const Options *options)
 {
-    for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->term && row->term->end_of_step && asks_for(options, row))
-            return row->term->name;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        int first = row->times > 0 ? row->counter : row->slot;
+        for (int i = 0; i < row->count || i == 0; i++)
+            if (row->term && row->term->end_of_step &&
+                options->number[first + i] != 0)
+                return row->term->name;
+    }
     return options->scene->moving_pins ? "moving pins" : NULL;
 }
 
@@ -403,52 +389,42 @@ static void name_obstacle(const Options *options, int i, char *text,
                  value[2], value[3]);
 }
 
-/* The gap of the body when it begins, m, and the node that has it; infinite
- * where all are pinned. */
-static double nearest_node(const Options *options, const double *x,
-                           const unsigned char *pinned,
-                           const Obstacle *obstacle, int *node)
-{
-    const SquareMesh shape = body_shape(options);
-    bool moves = options->scene->moving_pins || obstacle->motion.phases > 0;
-    double nearest = INFINITY;
-    for (int i = 0; i < shape.nodes; i++) {
-        double d = contact_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
-        if (d < nearest && (moves || !pinned || !pinned[i])) {
-            nearest = d;
-            *node = i;
-        }
-    }
-    return nearest;
-}
-
-/* Whether obstacle i is one, and the body begins off it; and off a ball that is
- * free, the last one. */
+/* Whether obstacle i is one, and the nodes begin off it that can come to touch
+ * it; and so does a ball that is free, the last obstacle. */
 static Status check_obstacle(const Options *options, const double *x,
                              const unsigned char *pinned, const Obstacle list[],
                              int count, int i, Refusal told)
 {
     const Obstacle *it = &list[i], *own = &list[count - 1];
+    bool moves = options->scene->moving_pins || it->motion.phases > 0;
     char name[128], who[64];
-    int node = 0;
+    double nearest = INFINITY;
+    int nodes = body_shape(options).nodes, touching = 0;
     name_obstacle(options, i, name, sizeof name);
     if (it->kind == OBSTACLE_WALL && !isfinite(it->n[0]))
         return refuse(told, "%s: the normal is 0,0; it must point somewhere",
                       name);
     if (it->kind == OBSTACLE_BALL && !(it->radius > 0))
         return refuse(told, "%s: the radius must be above 0", name);
-    double d = nearest_node(options, x, pinned, it, &node);
-    snprintf(who, sizeof who, "node %d", node);
-    if (d > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
+    for (int node = 0; node < nodes; node++) {
+        double d = contact_gap(it, it->o, x + 2 * node, 0).d;
+        if (d < nearest && (moves || !pinned || !pinned[node])) {
+            nearest = d;
+            touching = node;
+        }
+    }
+    snprintf(who, sizeof who, "node %d", touching);
+    if (nearest > 0 && options->scene->own && own->kind == OBSTACLE_BALL &&
         it != own) {
-        d = contact_gap(it, it->o, own->o, own->radius).d;
+        nearest = contact_gap(it, it->o, own->o, own->radius).d;
         snprintf(who, sizeof who, "%s", options->scene->own_name);
     }
-    return d > 0 ? STATUS_OK
-                 : refuse(told,
-                          "%s: %s would begin at a distance of %g m; it must "
-                          "be above 0",
-                          name, who, d);
+    return nearest > 0
+               ? STATUS_OK
+               : refuse(told,
+                        "%s: %s would begin at a distance of %g m; it must "
+                        "be above 0",
+                        name, who, nearest);
 }
 
 bool simulation_has_room(const Simulation *simulation, const Options *options,
