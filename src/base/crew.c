@@ -36,14 +36,11 @@ struct Crew {
     double alone_until; /* s */
 };
 
-/* Between looks; others run once in a while. */
-static void pause_shortly(int looks)
+static void pause_shortly(void)
 {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
-    if (looks % LOOKS == LOOKS - 1)
-        sched_yield();
 }
 
 /* Does chunks until none is left; returns how many.  Who has one may read the
@@ -65,7 +62,9 @@ static void wait_for_chunks(Crew *crew)
     for (int i = 0; i < YIELDS * LOOKS; i++) {
         if (atomic_load(&crew->left) > 0 || atomic_load(&crew->leave))
             return;
-        pause_shortly(i);
+        pause_shortly();
+        if (i % LOOKS == LOOKS - 1)
+            sched_yield();
     }
     pthread_mutex_lock(&crew->mutex);
     atomic_store(&crew->asleep, true);
@@ -138,8 +137,11 @@ void crew_free(Crew *crew)
 static void wait_for_others(Crew *crew, int chunks, double most)
 {
     double start = clock_now();
-    for (int i = 0; atomic_load(&crew->done) != chunks; i++)
-        pause_shortly(i);
+    for (int i = 0; atomic_load(&crew->done) != chunks; i++) {
+        pause_shortly();
+        if (i % LOOKS == LOOKS - 1)
+            sched_yield();
+    }
     double now = clock_now();
     if (now - start > LATE + 1e-9 * most)
         crew->alone_until = now + ALONE_FOR * (now - start);

@@ -7,23 +7,17 @@ static const ElementKind *kind_of(const Place *at)
     return at->term->kind->element;
 }
 
-/* How much a and b may change along alpha p, m, of kinds that ask for `way`:
- * |sum w_k p_k| with sum |w_k| <= 2, and |p_k| <= 1.5 of its larger coordinate.
- */
-static double longest_way(const Place *at, const double *p, double alpha)
-{
-    double most = 0;
-    for (int i = 0; i < 2 * at->system->nodes; i++)
-        most = fabs(p[i]) > most ? fabs(p[i]) : most;
-    return 3 * alpha * most;
-}
-
 ElementWalk elements_from(const Place *at, const double *p, double alpha)
 {
     const ElementKind *kind = kind_of(at);
-    double way = p ? longest_way(at, p, alpha) : 0;
+    double most = 0;
+    for (int i = 0; p && i < 2 * at->system->nodes; i++)
+        most = fabs(p[i]) > most ? fabs(p[i]) : most;
     if (kind->look)
         kind->look(at, p, alpha);
+    /* So much may a and b change: |sum w_k p_k| with sum |w_k| <= 2, and |p_k|
+     * <= 1.5 of its larger coordinate. */
+    double way = 3 * alpha * most;
     return (ElementWalk){at, kind, way, -1, kind->count(at), {0}};
 }
 

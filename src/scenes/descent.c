@@ -162,24 +162,10 @@ static Local present(const Simulation *simulation)
     return descent_at(simulation, filter, at[0], at[1]);
 }
 
-/* How Algorithm 1 ends: at its test, without a direction, or above the start,
- * which is no success where no line search held E down. */
-static Status end_of_search(const Simulation *simulation)
-{
-    const Descent *descent = &simulation->descent;
-    double room = 1e-12 * fabs(descent->began);
-    if (descent->residual <= simulation->options.tolerance)
-        return descent->value > descent->began + room ? STATUS_DIVERGED
-                                                      : STATUS_OK;
-    return isfinite(descent->slope) ? STATUS_RUNNING
-           : descent->scalar        ? STATUS_DIVERGED
-                                    : STATUS_SINGULAR;
-}
-
 /* Shows the iterate where the picture and the states look for it, p, and what
  * the loop tests there: of Algorithm 1 |g|, else |p|/h; and what that test says
- * if the search (status) goes on.  Where it failed its direction stays to be
- * seen. */
+ * if the search (status) goes on: an end above the start is no success where no
+ * line search held E down.  Where it failed its direction stays to be seen. */
 static Status show_iterate(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
@@ -195,8 +181,12 @@ static Status show_iterate(Simulation *simulation, Status status)
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
                             : (fabs(p[0]) + fabs(p[1])) / run->h;
-    if (status == STATUS_RUNNING)
-        status = end_of_search(simulation);
+    double most = descent->began + 1e-12 * fabs(descent->began);
+    bool passed = descent->residual <= simulation->options.tolerance;
+    if (status == STATUS_RUNNING && passed)
+        status = descent->value > most ? STATUS_DIVERGED : STATUS_OK;
+    else if (status == STATUS_RUNNING && !isfinite(descent->slope))
+        status = descent->scalar ? STATUS_DIVERGED : STATUS_SINGULAR;
     simulation->done = status != STATUS_RUNNING;
     if (status == STATUS_OK || !isfinite(descent->slope))
         p[0] = p[1] = descent->slope = 0;

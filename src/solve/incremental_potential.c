@@ -94,22 +94,6 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     system_clear_pinned(system, g);
 }
 
-/* The masses on the diagonal, then the terms one after the other. */
-static Status create_triplets(const System *system, Triplets *triplets)
-{
-    Place at = place_at(system, NULL, NULL, NULL);
-    long long count = 2LL * system->nodes;
-    for (const TermKind *kind; (kind = next_energy(&at));)
-        count += kind->entries ? kind->entries(&at) : 0;
-    Status status = triplets_create(2 * system->nodes, count, triplets);
-    for (int i = 0; i < system->nodes && !status; i++)
-        term_add_diagonal(system, i, triplets);
-    for (const TermKind *kind; !status && (kind = next_energy(&at));)
-        if (kind->pattern)
-            kind->pattern(&at, triplets);
-    return status;
-}
-
 /* Slots of the terms' entries in rows or columns of pinned nodes.  A column
  * begins with its diagonal, which is 1 here, for a while, where it is pinned.
  */
@@ -125,13 +109,23 @@ static void drop_pinned(const System *system, const Triplets *triplets,
             slot[t] = A->entries;
 }
 
+/* The masses on the diagonal, then the terms one after the other. */
 Status incremental_potential_pattern(const System *system, Sparse *A,
                                      int **slot)
 {
+    Place at = place_at(system, NULL, NULL, NULL);
     Triplets triplets;
+    long long count = 2LL * system->nodes;
     *A = (Sparse){0};
     *slot = NULL;
-    Status status = create_triplets(system, &triplets);
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        count += kind->entries ? kind->entries(&at) : 0;
+    Status status = triplets_create(2 * system->nodes, count, &triplets);
+    for (int i = 0; i < system->nodes && !status; i++)
+        term_add_diagonal(system, i, &triplets);
+    for (const TermKind *kind; !status && (kind = next_energy(&at));)
+        if (kind->pattern)
+            kind->pattern(&at, &triplets);
     if (!status) {
         *slot = malloc((size_t)triplets.count * sizeof **slot);
         status =

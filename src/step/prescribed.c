@@ -75,42 +75,32 @@ static void carry(const System *system, const Contact *contact, double way,
     }
 }
 
-/* Whether no body passes another on the way to u. */
-static bool lets_pass(const TimeIntegrator *run, const double *x_n, bool first,
-                      const double *u)
-{
-    const Newton *newton = run->newton;
-    double *x = newton->x_trial, *p = newton->u_trial; /* free to be used */
-    for (size_t i = 0; i < run->size; i++) {
-        double from = first ? 0 : newton->at.u[i];
-        x[i] = x_n[i] + from;
-        p[i] = u[i] - from;
-    }
-    return self_contact_lets_pass(run->system, x, p);
-}
-
 /* u = newton's displacement with a part of the way made; obstacles too.
- * Returns whether all terms allow that; if not, obstacles are put back. */
+ * Returns whether all terms allow that, and no body passes another on the way;
+ * if not, obstacles are put back. */
 static bool make_part(TimeIntegrator *run, const double *x_n, double part,
                       bool first, double *u, double *x)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
+    double *before = run->newton->x_trial, *p = run->newton->u_trial;
     double way = part * run->h;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = first ? 0 : run->newton->at.u[i];
-        x[i] = x_n[i] + u[i];
+        u[i] = p[i] = first ? 0 : run->newton->at.u[i];
+        before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
     }
     move_obstacles(contact, way);
-    carry(system, contact, way, x_n, x, u);
-    for (int i = 0; i < 2 * system->nodes; i++)
+    carry(system, contact, way, x_n, before, u);
+    for (int i = 0; i < 2 * system->nodes; i++) {
         x[i] = x_n[i] + u[i];
+        p[i] = u[i] - p[i];
+    }
     IncrementalPotential E = {
         .system = system, .weight = run->h * run->h, .x_n = x_n};
     if (incremental_potential_allowed(&E, u, x) &&
-        lets_pass(run, x_n, first, u))
+        self_contact_lets_pass(system, before, p))
         return true;
     move_obstacles(contact, -way);
     return false;
