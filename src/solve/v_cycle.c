@@ -502,6 +502,22 @@ typedef struct Update {
     float alpha, beta;
 } Update;
 
+FAST static void take(const Grid *grid, double factor, const double *a,
+                      float *b)
+{
+    EACH_OF (2 * grid->rows.plane)
+        b[e] = (float)(factor * a[e]);
+}
+
+/* p = factor x, or p += it. */
+FAST static void give(const Grid *grid, double factor, const float *x,
+                      bool adds, double *p)
+{
+    const double old = adds;
+    EACH_OF (2 * grid->rows.plane)
+        p[e] = old * p[e] + factor * x[e];
+}
+
 /* d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d; sums
  * |b|_(M^-1)^2 and the largest |p_x| + |p_y| of each band. */
 FAST static void advance(const void *job, int first, int end)
@@ -568,13 +584,12 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
 {
     const Grid *grid = cycle->grid;
     double unit = unit_of(sqrt(square * grid->lightest)), largest = 0;
-    double last = 0, alpha = 1, rest = INFINITY, old = adds;
+    double last = 0, alpha = 1, rest = INFINITY;
     set_up(cycle);
     for (int i = 0; i < 3; i++)
         memset((float *[]){cycle->p, cycle->d, cycle->Ad}[i], 0,
                2 * (size_t)grid->rows.plane * sizeof(float));
-    EACH_OF (2 * grid->rows.plane)
-        cycle->level->b[e] = (float)(sign * unit * a[e]);
+    take(grid, sign * unit, a, cycle->level->b);
     for (int i = 0; i < end.cycles; i++) {
         double xb = 0, xw = 0;
         v_cycle(cycle);
@@ -595,7 +610,6 @@ double v_solve(VCycle *cycle, double sign, const double *a, double square,
             (end.length > 0 && v_decides(grid, largest, rest, end.length)))
             break;
     }
-    EACH_OF (2 * grid->rows.plane)
-        p[e] = old * p[e] + cycle->mass / unit * cycle->p[e];
+    give(grid, cycle->mass / unit, cycle->p, adds, p);
     return largest;
 }
