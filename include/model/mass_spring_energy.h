@@ -61,15 +61,13 @@ long long mass_spring_entries(const Place *at);
 void mass_spring_pattern(const Place *at, Triplets *triplets);
 void mass_spring_bounds(const Place *at, double *stiffest, double *force);
 
-/* g += factor d at node e[0] and minus that at node e[1]; e[1] < 0: there is
- * none. */
+/* g += factor d at node e[0] and minus that at node e[1]. */
 static inline void spring_add_force(const int e[2], double factor,
                                     const double d[2], double *g)
 {
     for (int c = 0; c < 2; c++) {
         g[2 * e[0] + c] += factor * d[c];
-        if (e[1] >= 0)
-            g[2 * e[1] + c] -= factor * d[c];
+        g[2 * e[1] + c] -= factor * d[c];
     }
 }
 

@@ -89,9 +89,10 @@ struct TermKind {
     void (*gradient)(const Place *at, double *g);
 
     /* The entries of the Hessian, the same ones all step long but for grow: how
-     * many, and the
-     * triplets in rows and columns of the matrix (term_add_block).  A force
-     * that is the same everywhere has none: these and hessian are NULL. */
+     * many, and the triplets in rows and columns of the matrix
+     * (term_add_block). A force that is the same everywhere has none: these and
+     * hessian are NULL.
+     */
     long long (*entries)(const Place *at);
     void (*pattern)(const Place *at, Triplets *triplets);
 

@@ -25,20 +25,14 @@ static int nodes(const Place *at, int t, int node[3])
     return 3;
 }
 
-/* Whether a triangle still has its three springs. */
-static bool is_whole(const Place *at, int t)
-{
-    const int *s = cells_of(at)->spring + 3 * t;
-    const double *k = at->system->k;
-    return !at->system->breaks || (k[s[0]] > 0 && k[s[1]] > 0 && k[s[2]] > 0);
-}
-
-/* a = e1, b = e2, s = J, which a way changes by q way (|e1| + |e2| + way) at
- * most, q = 1/(2 A0). */
+/* Of a triangle that still has its three springs: a = e1, b = e2, s = J, which
+ * a way changes by q way (|e1| + |e2| + way) at most, q = 1/(2 A0). */
 static bool get(const Place *at, int t, double way, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = cells_of(at);
+    const double *k = at->system->k;
+    const int *side = cells->spring + 3 * t;
     const double *x_a = at->x + 2 * cells->node[3 * t];
     const double *x_b = at->x + 2 * cells->node[3 * t + 1];
     const double *x_c = at->x + 2 * cells->node[3 * t + 2];
@@ -46,7 +40,8 @@ static bool get(const Place *at, int t, double way, Element *element)
                          x_c[1] - x_a[1]};
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
     double q = 1 / (2 * cells->area), J = cross(e, e + 2) / (2 * cells->area);
-    if (J >= CELL_J_HAT + q * way * (sides + way) || !is_whole(at, t))
+    if (J >= CELL_J_HAT + q * way * (sides + way) ||
+        !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
         return false;
     element->vectors = 2;
     element->nodes = nodes(at, t, element->node);
