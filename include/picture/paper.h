@@ -48,6 +48,10 @@ void paper_line(Paper *paper, const double a[2], const double b[2],
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
+/* The same on a piece of thin white, so that it can be read on a picture. */
+int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
+                double y, Align align, const char *markup);
+
 /* The width it would have. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);
 

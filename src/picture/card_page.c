@@ -4,7 +4,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "scenes/pages.h"
 
 /* What a page says, one below the other: a head, and lines of a text. */

@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -55,20 +56,23 @@ static void draw_kinds(const Plot *plot, const Trace *trace)
             estimate && bound ? "  " : "", bound ? "\u25cb upper bound" : "");
 }
 
-/* The residuals joined by lines, a point each. */
+/* The residuals joined by lines, a point each, the last one this large; behind
+ * the records one more, if not NULL. */
 static void draw_updates(const Plot *plot, const NewtonRecord *records,
-                         int count, int begin, double radius, Colour colour)
+                         int count, const NewtonRecord *more, double radius,
+                         double last, Colour colour)
 {
     double before[2] = {NAN, NAN};
-    for (int i = 0; i < count; i++) {
-        const double point[2] = {begin + i, records[i].residual};
+    int all = count + (more != NULL);
+    for (int i = 0; i < all; i++) {
+        const NewtonRecord *one = i < count ? &records[i] : more;
+        const double point[2] = {1 + i, one->residual};
         if (!(point[1] > 0))
             continue;
         if (isfinite(before[1]))
             plot_line(plot, before, point, 1.3, colour);
-        draw_point(plot, point, radius, records[i].kind, colour);
-        before[0] = point[0];
-        before[1] = point[1];
+        draw_point(plot, point, i + 1 < all ? radius : last, one->kind, colour);
+        memcpy(before, point, sizeof before);
     }
 }
 
@@ -94,8 +98,8 @@ static void draw_tolerance(const Plot *plot, double tolerance, double h)
                 p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);
 }
 
-/* The last record of the trace is the update whose p is known; its point is
- * larger. */
+/* The update whose p is known is the last record of the trace, or it is still
+ * to come there; its point is larger. */
 static void draw_residual(const Plot *card)
 {
     const Trace *trace = show_pane(card->show)->update;
@@ -106,41 +110,29 @@ static void draw_residual(const Plot *card)
         return;
     }
     double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
-    int last = trace->updates - 1; /* it may be the present one already */
+    int last = trace->updates - 1, before = trace->updates_before;
     bool counted = last >= 0 && trace->record[last].residual == trace->residual;
     bool pending = trace->residual > 0 && isfinite(trace->residual) &&
                    (trace->line >= LINE_SOLVE || trace->line == LINE_NONE) &&
                    !counted;
-    NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
+    bool known = trace->line && (counted || (pending && !trace->passed));
+    const NewtonRecord now = {.residual = trace->residual, .kind = trace->kind};
     extend_range(trace->record, trace->updates, &low, &high);
-    extend_range(trace->record_before, trace->updates_before, &low, &high);
-    if (pending)
-        extend_range(&now, 1, &low, &high);
-    int most = trace->updates + pending > trace->updates_before
-                   ? trace->updates + pending
-                   : trace->updates_before;
+    extend_range(trace->record_before, before, &low, &high);
+    extend_range(&now, pending, &low, &high);
+    int count = trace->updates + pending,
+        most = count > before ? count : before;
     Axis x = {0.5, fmax(most, 4) + 0.5, false, true, "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
               false, NULL};
     Plot plot = plot_create(card, x, y);
-    draw_updates(&plot, trace->record_before, trace->updates_before, 1, 2.5,
+    bool time = card->simulation->scene->needs & NEEDS_TIME;
+    draw_updates(&plot, trace->record_before, before, NULL, 2.5, 2.5,
                  COLOUR_BORDER);
-    draw_tolerance(&plot, trace->tolerance,
-                   card->simulation->scene->needs & NEEDS_TIME ? trace->h : 0);
-    draw_updates(&plot, trace->record, trace->updates, 1, 3.5, COLOUR_P);
+    draw_tolerance(&plot, trace->tolerance, time ? trace->h : 0);
+    draw_updates(&plot, trace->record, trace->updates, pending ? &now : NULL,
+                 3.5, known ? 5.5 : 3.5, COLOUR_P);
     draw_kinds(&plot, trace);
-    if (counted && trace->line)
-        draw_updates(&plot, &now, 1, trace->updates, 5.5, COLOUR_P);
-    if (!pending)
-        return;
-    if (trace->updates > 0) {
-        const double a[2] = {trace->updates,
-                             trace->record[trace->updates - 1].residual};
-        const double b[2] = {trace->updates + 1, trace->residual};
-        plot_line(&plot, a, b, 1.3, COLOUR_P);
-    }
-    draw_updates(&plot, &now, 1, trace->updates + 1,
-                 trace->line && !trace->passed ? 5.5 : 3.5, COLOUR_P);
 }
 
 const Card card_residual = {

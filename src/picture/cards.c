@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 #include "scenes/scene.h"
 
@@ -274,7 +273,7 @@ void cards_draw(Paper *paper, const Layout *layout, const Show *show)
         if (show->veils >> i & 1)
             cards_hint(&inside, "after your guess");
         else if (card->words)
-            text_in_card(&inside, card->words);
+            text_in_card(&inside, &show_pane(show)->facts, card->words);
         else
             card->draw(&inside);
         canvas_clip(&paper->canvas, before);

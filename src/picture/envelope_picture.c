@@ -2,7 +2,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 
 /* From few updates (light) to many (dark), by powers of two. */
@@ -41,15 +40,14 @@ static Box envelope_box(const Plot *stage, int column, int row)
     return (Box){left, top, (int)ceil(q[0]) - left, (int)ceil(p[1]) - top};
 }
 
-/* A frame of four lines around a cell. */
-static void envelope_frame(Paper *paper, Box box, double width, Colour colour)
+/* Four lines around a cell. */
+static void envelope_frame(const Plot *stage, int column, int row)
 {
-    const double c[4][2] = {{box.x, box.y},
-                            {box.x + box.width, box.y},
-                            {box.x + box.width, box.y + box.height},
-                            {box.x, box.y + box.height}};
+    double x = log10(envelope_timestep(column)) - 0.25;
+    double y = log10(envelope_stiffness(row)) - 0.5;
+    const double c[4][2] = {{x, y}, {x + 0.5, y}, {x + 0.5, y + 1}, {x, y + 1}};
     for (int i = 0; i < 4; i++)
-        paper_line(paper, c[i], c[(i + 1) % 4], width, colour);
+        plot_line(stage, c[i], c[(i + 1) % 4], 2.4, COLOUR_TEXT);
 }
 
 /* The cells lie on the axes' lines. */
@@ -65,8 +63,7 @@ static void envelope_draw(Plot *stage)
                              box.height - 1,
                              envelope_colour(&map->cell[row][column]));
         }
-    envelope_frame(stage->paper, envelope_box(stage, map->column, map->row),
-                   2.4, COLOUR_TEXT);
+    envelope_frame(stage, map->column, map->row);
 }
 
 static void envelope_pick(const Plot *stage, double x, double y, Pick *pick)

@@ -51,7 +51,7 @@ bool text_is_known(const Facts *facts, const char *text);
 
 /* All known lines in a card, one below the other, as large as fits but no
  * larger than plain text.  An empty line is half as high. */
-void text_in_card(const Plot *card, const char *text);
+void text_in_card(const Plot *card, const Facts *facts, const char *text);
 
 /* Words in a row from the left edge of a card, on the next line where there is
  * no room, `gap` ems apart; without `draw` only their room is measured.

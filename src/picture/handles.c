@@ -1,4 +1,4 @@
-#include "picture/handles.h"
+#include "picture/plot.h"
 
 #include <math.h>
 

@@ -6,8 +6,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 
@@ -71,22 +69,6 @@ static void draw_ground(const Plot *plot)
         }
 }
 
-/* The value of a contour on it, on a piece of background. */
-static void draw_level_number(const Plot *plot, const double at[2],
-                              double level)
-{
-    Paper *paper = plot->paper;
-    Number text = number_of(level);
-    double p[2];
-    plot_place(plot, at, p);
-    int width = paper_width(paper, FACE_REGULAR, 0.82, text.text);
-    int height = paper_pixels(paper, 1.05);
-    canvas_rectangle(&paper->canvas, (int)p[0] - width / 2 - 1,
-                     (int)p[1] - height / 2, width + 2, height, COLOUR_PANEL);
-    plot_text(plot, at, 0, -0.53, 0.82, ALIGN_CENTRE, FACE_REGULAR,
-              COLOUR_FAINT, "%s", text.text);
-}
-
 /* Numbers where contours cross a level line from x0 to x1, as far as they do
  * not get into each other's way. */
 static void draw_level_numbers(const Plot *plot, double x0, double x1, double y)
@@ -101,7 +83,11 @@ static void draw_level_numbers(const Plot *plot, double x0, double x1, double y)
         for (int k = 0; k < MAP_LEVELS && i > 0; k++)
             if ((before < map_levels[k]) != (E < map_levels[k]) &&
                 fabs(at[0] - last) >= MAP_LABEL_ROOM * unit) {
-                draw_level_number(plot, at, factor * map_levels[k]);
+                double p[2];
+                plot_place(plot, at, p);
+                paper_panel(plot->paper, FACE_REGULAR, 0.82, COLOUR_FAINT, p[0],
+                            p[1] - 0.53 * plot->em, ALIGN_CENTRE,
+                            number_of(factor * map_levels[k]).text);
                 last = at[0];
             }
         before = E;

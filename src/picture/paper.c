@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "picture/colour_map.h"
+
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
 Status paper_create(int width, int height, Paper *paper)
@@ -61,6 +63,16 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
 {
     TextStyle style = paper_style(paper, face, size, 0);
     return text_width(paper->text, &style, markup);
+}
+
+int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
+                double y, Align align, const char *markup)
+{
+    int wide = paper_width(paper, face, size, markup);
+    int left = (int)x - (int)align * wide / 2, air = paper_pixels(paper, 0.3);
+    canvas_rectangle(&paper->canvas, left - air, (int)y, wide + 2 * air,
+                     paper_pixels(paper, 1.36 * size), COLOUR_PANEL);
+    return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
 /* How many bytes of the text fit into this width, at a blank outside of braces

@@ -3,8 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/scene.h"
 
 /* By the kind that a scene names. */
@@ -52,28 +50,8 @@ static void draw_rules(Paper *paper, const Box *box)
                      thick, COLOUR_RULE);
 }
 
-/* Over a pane that is not alone: its label in the colour of its curve. */
-static void draw_label(const Plot *stage)
-{
-    Paper *paper = stage->paper;
-    const char *label = stage->show->pane[stage->pane].label;
-    const Box *box = &stage->box;
-    int wide = label ? paper_width(paper, FACE_BOLD, 1, label) : 0;
-    if (!label)
-        return;
-    canvas_rectangle(&paper->canvas,
-                     box->x + (box->width - wide) / 2 -
-                         paper_pixels(paper, 0.4),
-                     box->y + box->height - paper_pixels(paper, 1.7),
-                     wide + paper_pixels(paper, 0.8), paper_pixels(paper, 1.4),
-                     COLOUR_PANEL);
-    paper_write(paper, FACE_BOLD, 1, colour_of_run(stage->pane),
-                box->x + 0.5 * box->width,
-                box->y + box->height - 1.7 * paper->em, ALIGN_CENTRE, "%s",
-                label);
-}
-
-/* One pane, its words, and what the mouse is over in it. */
+/* One pane, its words, where it is not alone its label in the colour of its
+ * curve, and what the mouse is over in it. */
 static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
                       int pane)
 {
@@ -91,8 +69,11 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
         stage_handles(&stage);
     stage_switches(&stage);
     stage_prediction(&stage);
-    if (layout->panes > 1)
-        draw_label(&stage);
+    if (layout->panes > 1 && show->pane[pane].label)
+        paper_panel(paper, FACE_BOLD, 1, colour_of_run(pane),
+                    stage.box.x + 0.5 * stage.box.width,
+                    stage.box.y + stage.box.height - 1.7 * paper->em,
+                    ALIGN_CENTRE, show->pane[pane].label);
     if (picture->hover && stage.text && hover->pane == pane &&
         hover->kind != PICK_NONE && !show->hand.on)
         picture->hover(&stage);

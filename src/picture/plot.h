@@ -150,12 +150,6 @@ void plot_keep_box(Plot *plot, Box box);
 void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
                 double size, Face face, Colour colour, const char *words);
 
-/* A small card beside pixel (x, y), inside the stage, and beside the body where
- * there is room.  Returns where its contents go.
- *   body  what it should not cover, in; without width: nothing */
-Box plot_note(const Plot *plot, double x, double y, int width, int height,
-              Box body);
-
 /* "1e5" as people write it: 100000, 2.5e7, 0.003; in markup with a
  * superscript where it needs a power. */
 typedef struct Number {
@@ -163,5 +157,25 @@ typedef struct Number {
 } Number;
 Number number_with(double value, int digits);
 Number number_of(double value); /* with three digits */
+
+/* ---- stages (show.c, handles.c): what the mouse can drag and switch ------ */
+
+/* The stage of a pane; paper NULL: it only tells where things are. */
+Plot show_stage(Paper *paper, const Show *show, const Layout *layout, int pane);
+
+/* Open rings where the scene's handles are. */
+void stage_handles(const Plot *stage);
+
+/* The scene's switches as chips in the upper right corner. */
+void stage_switches(const Plot *stage);
+
+/* Where switch i is; pixels. */
+Box stage_switch_box(const Plot *stage, int i);
+
+/* A switch or a handle under pixel (x, y): fills kind and index. */
+bool handles_pick(const Plot *stage, double x, double y, Pick *pick);
+
+/* The guess, and where the step led: over any picture. */
+void stage_prediction(const Plot *stage);
 
 #endif

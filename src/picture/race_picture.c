@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 
 static const double NAMED = 36; /* ems, for names beside the lines */

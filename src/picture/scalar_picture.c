@@ -4,8 +4,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
-#include "picture/handles.h"
 #include "scenes/small_scenes.h"
 
 static const double TANGENT_REACH = 3; /* m, x from -3 to 3 at least */

@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/exhibits.h"
-#include "picture/handles.h"
 
 void show_create(const Simulation *simulation, Show *show)
 {

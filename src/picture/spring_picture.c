@@ -3,7 +3,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 

@@ -1,6 +1,5 @@
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "model/contact.h"
 #include "model/friction.h"
@@ -60,85 +59,77 @@ static bool slides(const SpringPen *pen)
     return moves;
 }
 
-double square_contact_most(const SpringPen *pen)
+/* The largest force that an obstacle and its friction put on a node of these
+ * runs, N. */
+static double largest_force(const SpringPen *pen, int runs)
 {
     double most = 0;
-    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);)
-        most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
+    for (int r = 0; r < runs; r++)
+        for (Touch touch = {.pair = -1}; square_next_touch(&pen[r], &touch);)
+            most = fmax(most, math_hypot(touch.force[0], touch.force[1]));
     return isfinite(most) ? most : 0;
 }
 
-void square_contact_forces(const SpringPen *pen, double most)
+static void draw_force(const SpringPen *pen, const Touch *touch, double factor,
+                       double least)
 {
-    double round = plot_round_up(most); /* moves seldom */
-    double room = FORCE_ROOM * pen->stage->em / pen->stage->camera.scale[0];
-    double factor = room / round;
+    const double *at = pen->x + 2 * (size_t)touch->node, *f = touch->force;
+    const double tail[2] = {at[0] - factor * f[0], at[1] - factor * f[1]};
     double radius = fmax(pen->radius, 2);
+    if (math_hypot(f[0], f[1]) > least)
+        plot_arrow(pen->stage, tail, f, factor, 1.8, COLOUR_FORCE);
+    if (touch->rough && touch->slides)
+        plot_ring(pen->stage, at, 1.6 * radius, 1.5, COLOUR_FORCE);
+    else if (touch->rough)
+        plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
+}
+
+void square_contact_forces(const SpringPen *pen, int runs)
+{
+    const Plot *stage = pen->stage;
+    double most = largest_force(pen, runs), round = plot_round_up(most);
+    double factor = FORCE_ROOM * stage->em / stage->camera.scale[0] / round;
     if (!(most > 0))
         return;
-    for (Touch touch = {.pair = -1}; square_next_touch(pen, &touch);) {
-        const double *at = pen->x + 2 * (size_t)touch.node;
-        const double tail[2] = {at[0] - factor * touch.force[0],
-                                at[1] - factor * touch.force[1]};
-        if (math_hypot(touch.force[0], touch.force[1]) > FORCE_LEAST * most)
-            plot_arrow(pen->stage, tail, touch.force, factor, 1.8,
-                       COLOUR_FORCE);
-        if (touch.rough && touch.slides)
-            plot_ring(pen->stage, at, 1.6 * radius, 1.5, COLOUR_FORCE);
-        else if (touch.rough)
-            plot_disc(pen->stage, at, 1.4 * radius, COLOUR_FORCE);
-    }
-    if (pen->run > 0) /* the first one's legend is that of all */
-        return;
+    for (int r = runs - 1; r >= 0; r--)
+        for (Touch touch = {.pair = -1}; square_next_touch(&pen[r], &touch);)
+            draw_force(&pen[r], &touch, factor, FORCE_LEAST * most);
     plot_legend(pen->stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 number_of(round).text);
     if (system_find_term(pen->system, &friction_energy))
         plot_legend(pen->stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-/* Of a wall's surface, m upwards for each to the right. */
-static double slope_of(const Obstacle *wall)
-{
-    return -wall->n[0] / wall->n[1];
-}
-
-bool square_contact_words(const SpringPen *pen, char *text, size_t size)
-{
-    const Obstacle *wall = &pen->contact->obstacle[0];
-    double slope = slope_of(wall), grip = pen->simulation->grip[pen->run];
-    if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
-        !(fabs(slope) > 1e-6))
-        return false;
-    int used = grip > 0 ? snprintf(text, size, "%.3g ", grip) : 0;
-    snprintf(text + used, size - (size_t)used,
-             "\u03bc = %.3g tan %.3g\u00b0: %s", wall->friction / fabs(slope),
-             fabs(atan(slope)) / DEGREE, slides(pen) ? "slides" : "holds");
-    return true;
-}
-
-/* These words under the left end of that wall. */
+/* Under the left end of a run's first wall, if it has a slope: its coefficient
+ * of friction as a part of the options' and of the slope, and, unless that is
+ * asked for, what the body does. */
 static void draw_words(const SpringPen *pen)
 {
     const Plot *stage = pen->stage;
-    double em = pen->stage->em, left[2], at[2];
-    char words[64];
-    if (!square_contact_words(pen, words, sizeof words))
-        return;
-    if (pen->show->veiled) /* what it does is asked for */
-        words[strcspn(words, ":")] = '\0';
     const Obstacle *wall = &pen->contact->obstacle[0];
-    double slope = slope_of(wall);
+    double em = stage->em, grip = pen->simulation->grip[pen->run];
+    double left[2], at[2], slope = -wall->n[0] / wall->n[1];
+    char part[16] = "";
+    if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
+        !(fabs(slope) > 1e-6))
+        return;
     camera_world(&stage->camera, stage->box.x + em, stage->box.y, left);
-    const double foot[2] = {left[0],
-                            wall->o[1] + slope * (left[0] - wall->o[0])};
-    plot_place(stage, foot, at);
+    left[1] = wall->o[1] + slope * (left[0] - wall->o[0]);
+    plot_place(stage, left, at);
     double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
     if (low > 0) { /* further up along the wall */
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
+    if (grip > 0)
+        snprintf(part, sizeof part, "%.3g ", grip);
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.5 * em, ALIGN_LEFT, "%s", words);
+                at[1] + 1.5 * em, ALIGN_LEFT,
+                "%s\u03bc = %.3g tan %.3g\u00b0%s", part,
+                wall->friction / fabs(slope), fabs(atan(slope)) / DEGREE,
+                pen->show->veiled ? ""
+                : slides(pen)     ? ": slides"
+                                  : ": holds");
 }
 
 /* The half plane as far as the stage goes, or a slab, and how far it reaches.

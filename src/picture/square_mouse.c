@@ -6,11 +6,11 @@
 #include "base/mathematics.h"
 #include "model/contact.h"
 #include "model/fracture.h"
-#include "model/neo_hookean.h"
 #include "model/friction.h"
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
+#include "picture/colour_map.h"
 #include "picture/facts.h"
 #include "picture/square_pen.h"
 #include "scenes/scene.h"
@@ -139,26 +139,54 @@ static Box body_box(const Plot *stage)
     return (Box){left, top, right - left, bottom - top};
 }
 
+/* Where a card of this size stands beside a pixel: in the stage, and beside the
+ * body where there is room. */
+static Box place_note(const Plot *stage, const double at[2], int width,
+                      int height)
+{
+    const Box *box = &stage->box, body = body_box(stage);
+    int apart = paper_pixels(stage->paper, 1.1);
+    int right = box->x + box->width, low = box->y + box->height;
+    Box note = {(int)at[0] + apart, (int)at[1] + apart, width, height};
+    if (note.x + width > right)
+        note.x = (int)at[0] - apart - width;
+    if (body.width > 0) { /* right of it, left, below, above */
+        int beyond = body.x + body.width + apart, under = body.y + body.height;
+        if (beyond + width <= right)
+            note.x = beyond;
+        else if (body.x - apart - width >= box->x)
+            note.x = body.x - apart - width;
+        else if (under + apart + height <= low)
+            note.y = under + apart;
+        else if (body.y - apart - height >= box->y)
+            note.y = body.y - apart - height;
+    }
+    if (note.y + height > low)
+        note.y = low - height;
+    note.x = note.x < box->x ? box->x : note.x;
+    note.y = note.y < box->y ? box->y : note.y;
+    return note;
+}
+
 /* A text beside a point of the world. */
-static void draw_note(Plot *stage, const double *at, const Facts *facts,
+static void draw_note(const Plot *stage, const double *at, const Facts *facts,
                       const char *text)
 {
     Paper *paper = stage->paper;
-    int wide = paper_pixels(paper, WIDTH), lines = 0;
-    double p[2];
+    Plot note = *stage;
+    int margin = paper_pixels(paper, 0.7);
+    double wide = WIDTH * paper->em, high = 0, p[2];
     for (TextLine line = text_of(facts, text); text_next(&line);) {
-        int width = paper_width(paper, line.face, SMALL, line.words);
-        wide = width > wide ? width : wide;
-        lines++;
+        wide = fmax(wide, paper_width(paper, line.face, SMALL, line.words));
+        high += LINE * paper->em;
     }
     plot_place(stage, at, p);
-    Box box = plot_note(stage, p[0], p[1], wide,
-                        paper_pixels(paper, LINE * lines), body_box(stage));
-    for (TextLine line = text_of(facts, text); text_next(&line);) {
-        paper_write(paper, line.face, SMALL, line.colour, box.x, box.y,
-                    ALIGN_LEFT, "%s", line.words);
-        box.y += paper_pixels(paper, LINE);
-    }
+    note.box =
+        place_note(stage, p, (int)wide + 2 * margin, (int)high + 2 * margin);
+    canvas_card(&paper->canvas, note.box, 0.4 * paper->em, COLOUR_NOTE,
+                COLOUR_GREY);
+    note.box = box_inset(note.box, margin);
+    text_in_card(&note, facts, text);
 }
 
 static void note_node(Plot *stage, const Pane *pane, int node)

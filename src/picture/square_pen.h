@@ -84,21 +84,12 @@ typedef struct Touch {
 bool square_next_touch(const SpringPen *pen, Touch *touch);
 
 /* Walls and balls of a run.  Several runs have theirs as slabs, so that they
- * stay apart, and words under the left end of the first one: square_contact_
- * words. */
+ * stay apart, and words under the left end of the first one. */
 void square_contact_obstacles(const SpringPen *pen);
 
-/* The largest force that an obstacle and its friction put on a node, N. */
-double square_contact_most(const SpringPen *pen);
-
-/* These forces as arrows that end at their nodes, the longest, of `most` N,
- * some ems long; a disc where friction holds a node, a ring where it slides;
- * and what they mean. */
-void square_contact_forces(const SpringPen *pen, double most);
-
-/* The first wall's coefficient of friction as a part of the options' and of its
- * slope, and whether the body slides; false: it has no slope.  text [size] out
- */
-bool square_contact_words(const SpringPen *pen, char *text, size_t size);
+/* Forces of contact and friction of all runs as arrows that end at their nodes,
+ * the longest, up to a round number, some ems long; a disc where friction holds
+ * a node, a ring where it slides; and what they mean. */
+void square_contact_forces(const SpringPen *pen, int runs);
 
 #endif

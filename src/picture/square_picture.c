@@ -4,7 +4,6 @@
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
-#include "picture/exhibits.h"
 #include "model/fracture.h"
 #include "picture/plot.h"
 #include "picture/square_pen.h"
@@ -17,7 +16,6 @@ enum { LEAST_CELL = 5 };     /* pixels; smaller cells are drawn as faces */
 enum { NUMBERED = 121 };     /* nodes, at most, whose numbers are shown */
 
 static const double MOST_SEEN = 1e303; /* times the square, the stage shows */
-static const double PANE_LABEL = 1.9;  /* ems, the label of a pane needs */
 static const double ROOM = 1.14;       /* of the stage around the square */
 static const double BARE_ROOM = 1.75;  /* the bare square: 57 % of the side */
 
@@ -204,59 +202,32 @@ static void draw_signs(const SpringPen *pen)
     draw_hand(pen);
 }
 
-/* What the colours mean, lower right: from compressed to stretched, or from
- * nothing to the largest plastic strain; above the label of a pane. */
-static void draw_colour_bar(const SpringPen *pen)
+/* What the colours mean: the ends of the strains, or the largest plastic one.
+ */
+static void draw_colours(const SpringPen *pen)
 {
-    Paper *paper = pen->stage->paper;
-    const Box *box = &pen->stage->box;
-    bool plastic = pen->plastic;
-    double raised = pen->show->panes > 1 ? PANE_LABEL : 0;
-    int width = paper_pixels(paper, 14), height = paper_pixels(paper, 0.6);
-    int x = box->x + box->width - width - paper_pixels(paper, 1);
-    int y = box->y + box->height - paper_pixels(paper, 1.2 + raised);
-    double above = y - 1.4 * paper->em;
-    int rim = paper_pixels(paper, 0.4); /* walls may be behind it */
-    char low[32] = "0";
-    if (!plastic)
-        snprintf(low, sizeof low, "\u2212%.3g %%", 100 * fmin(pen->range, 1));
-    canvas_rectangle(&paper->canvas, x - rim, (int)above - rim / 2,
-                     width + 2 * rim, height + paper_pixels(paper, 1.9),
-                     COLOUR_PANEL);
-    for (int i = 0; i < width; i++) {
-        double part = (i + 0.5) / width;
-        canvas_rectangle(&paper->canvas, x + i, y, 1, height,
-                         plastic ? colour_map_plastic(part, 1)
-                                 : colour_map_strain(2 * part - 1, 1));
+    double percent = 100 * pen->range;
+    if (pen->plastic) {
+        plot_legend(pen->stage, COLOUR_PLASTIC, "plastic strain up to %.3g %%",
+                    percent);
+        return;
     }
-    paper_write(paper, FACE_REGULAR, 0.85,
-                plastic ? COLOUR_FAINT : COLOUR_COMPRESS, x, above, ALIGN_LEFT,
-                "%s", low);
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * width, above,
-                ALIGN_CENTRE, plastic ? "plastic strain" : "strain");
-    paper_write(paper, FACE_REGULAR, 0.85,
-                plastic ? COLOUR_PLASTIC : COLOUR_STRETCH, x + width, above,
-                ALIGN_RIGHT, "%s%.3g %%", plastic ? "" : "+", 100 * pen->range);
+    plot_legend(pen->stage, COLOUR_COMPRESS, "strain \u2212%.3g %%",
+                fmin(percent, 100));
+    plot_legend(pen->stage, COLOUR_STRETCH, "+%.3g %%", percent);
 }
 
 /* The number of each node beside it. */
 static void draw_numbers(const SpringPen *pen)
 {
-    Paper *paper = pen->stage->paper;
     for (int i = 0; i < pen->system->nodes; i++) {
-        double at[2];
+        double at[2], em = pen->stage->em;
         char number[16];
         plot_place(pen->stage, pen->x + 2 * i, at);
-        at[0] += 0.7 * paper->em;
-        at[1] += 0.4 * paper->em;
-        if (!box_contains(pen->stage->box, at[0], at[1]))
-            continue;
         snprintf(number, sizeof number, "%d", i);
-        canvas_rectangle(&paper->canvas, (int)at[0], (int)at[1],
-                         paper_width(paper, FACE_BOLD, 1.3, number),
-                         paper_pixels(paper, 1.5), COLOUR_PANEL);
-        paper_write(paper, FACE_BOLD, 1.3, COLOUR_TEXT, at[0], at[1],
-                    ALIGN_LEFT, "%s", number);
+        if (box_contains(pen->stage->box, at[0] + 0.7 * em, at[1] + 0.4 * em))
+            paper_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
+                        at[0] + 0.7 * em, at[1] + 0.4 * em, ALIGN_LEFT, number);
     }
 }
 
@@ -314,7 +285,6 @@ static void square_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
     int runs = simulation->runs, folded = 0;
-    double most = 0; /* of all forces: they have one scale */
     const LecturePage *page = show->lecture;
     for (int r = 0; r < runs; r++) {
         pen[r] = square_pen(stage, r);
@@ -340,17 +310,14 @@ static void square_draw(Plot *stage)
         square_nodes(pen);
     if (show->bare)
         return;
-    for (int r = 0; r < runs; r++)
-        most = fmax(most, square_contact_most(&pen[r]));
-    for (int r = runs - 1; r >= 0; r--)
-        square_contact_forces(&pen[r], most);
+    square_contact_forces(pen, runs);
     draw_signs(pen);
     draw_page_arrows(pen);
     draw_warnings(pen, folded);
     if (show->numbers && !show->veiled && system->nodes <= NUMBERED)
         draw_numbers(pen);
     if (pen->range > 0)
-        draw_colour_bar(pen);
+        draw_colours(pen);
 }
 
 /* ---- its numbers --------------------------------------------------------- */

@@ -87,17 +87,8 @@ void plot_scale(const Plot *plot)
     double metres = plot_round_up(SCALE_PART * box->width / scale / 2.5);
     double length = metres * scale, x = box->x + paper->em;
     double y = floor(box->y + box->height - 0.9 * paper->em) + 0.5;
-    const char *name = "m";
-    double shown = metres;
     if (!(length > 4) || !isfinite(length) || length > 0.6 * box->width)
         return;
-    if (metres >= 1000) {
-        name = "km";
-        shown = metres / 1000;
-    } else if (metres < 0.01) {
-        name = "mm";
-        shown = metres * 1000;
-    }
     canvas_rectangle(&paper->canvas, (int)(x - 0.4 * paper->em),
                      (int)(y - 1.4 * paper->em),
                      (int)(length + 0.8 * paper->em), paper_pixels(paper, 1.8),
@@ -109,8 +100,8 @@ void plot_scale(const Plot *plot)
                     x + k * length, y + 0.25 * paper->em,
                     fmax(1, 1.5 * paper->unit), COLOUR_GREY);
     paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * length,
-                y - 1.4 * paper->em, ALIGN_CENTRE, "%s %s",
-                number_of(shown).text, name);
+                y - 1.4 * paper->em, ALIGN_CENTRE, "%s m",
+                number_of(metres).text);
 }
 
 void plot_legend(Plot *plot, Colour colour, const char *format, ...)
@@ -130,43 +121,9 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     }
     double x = plot->box.x + margin + plot->flow[0];
     double y = plot->box.y + 0.6 * paper->em + plot->flow[1];
-    int air = paper_pixels(paper, 0.3); /* the picture may reach up to here */
-    canvas_rectangle(&paper->canvas, (int)x - air, (int)y, width + 2 * air,
-                     paper_pixels(paper, 1.25), COLOUR_PANEL);
-    paper_write(paper, FACE_REGULAR, LEGEND_SIZE, colour, x, y, ALIGN_LEFT,
-                "%s", words);
+    paper_panel(paper, FACE_REGULAR, LEGEND_SIZE, colour, x, y, ALIGN_LEFT,
+                words);
     plot->flow[0] += width + paper_pixels(paper, 1.6);
-}
-
-Box plot_note(const Plot *plot, double x, double y, int width, int height,
-              Box body)
-{
-    Paper *paper = plot->paper;
-    const Box *box = &plot->box;
-    int margin = paper_pixels(paper, 0.7), apart = paper_pixels(paper, 1.1);
-    int right = box->x + box->width, low = box->y + box->height;
-    Box note = {(int)x + apart, (int)y + apart, width + 2 * margin,
-                height + 2 * margin};
-    if (note.x + note.width > right)
-        note.x = (int)x - apart - note.width;
-    if (body.width > 0) { /* right of it, left, below, above */
-        int beyond = body.x + body.width + apart, under = body.y + body.height;
-        if (beyond + note.width <= right)
-            note.x = beyond;
-        else if (body.x - apart - note.width >= box->x)
-            note.x = body.x - apart - note.width;
-        else if (under + apart + note.height <= low)
-            note.y = under + apart;
-        else if (body.y - apart - note.height >= box->y)
-            note.y = body.y - apart - note.height;
-    }
-    if (note.y + note.height > low)
-        note.y = low - note.height;
-    note.x = note.x < box->x ? box->x : note.x;
-    note.y = note.y < box->y ? box->y : note.y;
-    canvas_card(&paper->canvas, note, 0.4 * paper->em, COLOUR_NOTE,
-                COLOUR_GREY);
-    return box_inset(note, margin);
 }
 
 /* ---- off what is drawn -------------------------------------------------- */

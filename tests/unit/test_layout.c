@@ -11,7 +11,7 @@ static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
                                {1, 1},       {300, 4000}, {4000, 200}};
 enum { SIZES = sizeof sizes / sizeof *sizes };
-enum { LISTING = 1, LINE, RESIDUAL, ENERGIES, SPY, SEEN = 5 }; /* cards */
+enum { LISTING = 1, LINE, RESIDUAL, ENERGIES, ASSEMBLY, SEEN = 5 }; /* cards */
 
 static Simulation simulation;
 static Show show;
@@ -162,7 +162,7 @@ TEST(hits_are_what_is_there)
             CHECK(!hits(&l, middle, low, zones[k], i));
         }
     CHECK(l.card[LISTING].height < l.card[LINE].height);
-    for (int i = LISTING; i <= SPY; i++) {
+    for (int i = LISTING; i <= ASSEMBLY; i++) {
         Box close = layout_close_box(&l, i);
         Hit hit = layout_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
@@ -191,7 +191,7 @@ TEST(cards_share_the_column)
     CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
     show.large = LISTING;
     Layout large = show_layout(&show, 1280, 800);
-    for (int i = LINE; i <= SPY; i++)
+    for (int i = LINE; i <= ASSEMBLY; i++)
         CHECK(large.card[LISTING].height > 5 * large.card[i].height);
     show.page.kind = PAGE_HELP;
     Layout page = show_layout(&show, 1280, 800);

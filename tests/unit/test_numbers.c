@@ -641,52 +641,55 @@ static void scalar_E(const Simulation *simulation, Real x, Real E[3])
     E[2] = line ? 1 + 2 * w * (3 * x * x - 1) : 1 / (coshl(x) * coshl(x));
 }
 
-/* E of the map of small_scenes.h at a point, its gradient and the direction
- * with this projection; returns the slope.  springs: projected ones, out */
-static Real map_E(const Simulation *simulation, const Real at[2], Filter filter,
-                  Real *value, Real g[2], Real p[2], int *springs)
+/* E of the map of small_scenes.h at a point, and the direction with this
+ * projection. */
+typedef struct MapE {
+    Real value, g[2], H[3], p[2], slope;
+    int springs; /* projected ones */
+} MapE;
+
+static MapE map_E(const Simulation *simulation, const Real at[2], Filter filter)
 {
     unsigned parts = simulation->exhibit.parts;
     Real h = simulation->run[0].h, w = parts & PART_ELASTICITY ? h * h : 0;
-    Real m = parts & PART_INERTIA ? 1 : 0, H[3] = {m, 0, m};
+    Real m = parts & PART_INERTIA ? 1 : 0;
     Real k = simulation->system.k[0], l2 = simulation->system.l2[0];
-    *value = *springs = 0;
+    MapE E = {.H = {m, 0, m}};
     for (int i = 0; i < 2; i++) {
-        g[i] = m * (at[i] - simulation->exhibit.target[i]);
-        *value += g[i] * (at[i] - simulation->exhibit.target[i]) / 2;
+        E.g[i] = m * (at[i] - simulation->exhibit.target[i]);
+        E.value += E.g[i] * (at[i] - simulation->exhibit.target[i]) / 2;
     }
     for (int pin = 1; pin <= 2; pin++) {
         const double *o = simulation->run[0].x + 2 * pin;
         Real d[2] = {at[0] - o[0], at[1] - o[1]};
         Real q = d[0] * d[0] + d[1] * d[1], s = q / l2 - 1;
         Real low = 2 * k * s, high = 2 * k * (3 * q / l2 - 1);
-        *springs += low < 0 && w > 0;
+        E.springs += low < 0 && w > 0;
         if (filter != FILTER_NONE) {
             low = filter == FILTER_ABS ? fabsl(low) : fmaxl(low, 0);
             high = filter == FILTER_ABS ? fabsl(high) : fmaxl(high, 0);
         }
-        *value += w * l2 * k / 2 * s * s;
+        E.value += w * l2 * k / 2 * s * s;
         for (int i = 0; i < 2; i++)
-            g[i] += w * 2 * k * s * d[i];
+            E.g[i] += w * 2 * k * s * d[i];
         for (int i = 0; i < 3; i++)
-            H[i] += w * ((i != 1) * low +
-                         (high - low) / q * d[i / 2] * d[(i + 1) / 2]);
+            E.H[i] += w * ((i != 1) * low +
+                           (high - low) / q * d[i / 2] * d[(i + 1) / 2]);
     }
-    Real det = H[0] * H[2] - H[1] * H[1];
-    p[0] = -(H[2] * g[0] - H[1] * g[1]) / det;
-    p[1] = -(H[0] * g[1] - H[1] * g[0]) / det;
-    return g[0] * p[0] + g[1] * p[1];
+    Real det = E.H[0] * E.H[2] - E.H[1] * E.H[1];
+    E.p[0] = -(E.H[2] * E.g[0] - E.H[1] * E.g[1]) / det;
+    E.p[1] = -(E.H[0] * E.g[1] - E.H[1] * E.g[0]) / det;
+    E.slope = E.g[0] * E.p[0] + E.g[1] * E.p[1];
+    return E;
 }
 
 /* What is minimised, there. */
 static Real searched_E(const Simulation *simulation, const Real at[2])
 {
-    Real E[3], g[2], p[2];
-    int springs;
-    if (simulation->descent.scalar)
-        scalar_E(simulation, at[0], E);
-    else
-        map_E(simulation, at, FILTER_NONE, E, g, p, &springs);
+    Real E[3];
+    if (!simulation->descent.scalar)
+        return map_E(simulation, at, FILTER_NONE).value;
+    scalar_E(simulation, at[0], E);
     return E[0];
 }
 
@@ -695,15 +698,15 @@ static void tell_iterate(const Simulation *simulation)
 {
     static const Filter ways[] = {FILTER_NONE, FILTER_CLAMP};
     const Descent *descent = &simulation->descent;
-    Real at[2] = {descent->point[0], descent->point[1]}, E[3], g[2], p[2];
-    int springs;
+    Real at[2] = {descent->point[0], descent->point[1]}, E[3];
     scalar_E(simulation, at[0], E);
     if (descent->scalar)
         near("residual", fabsl(E[1]), 1e-13L);
     for (int way = 0; way < 2 && !descent->scalar; way++) {
-        is_rough("slope", map_E(simulation, at, ways[way], E, g, p, &springs));
-        near("residual", hypotl(g[0], g[1]), 1e-13L);
-        Real size = fabsl(p[0]) + fabsl(p[1]);
+        MapE map = map_E(simulation, at, ways[way]);
+        is_rough("slope", map.slope);
+        near("residual", hypotl(map.g[0], map.g[1]), 1e-13L);
+        Real size = fabsl(map.p[0]) + fabsl(map.p[1]);
         near("residual", size / simulation->run[0].h, 1e-12L);
         near("p size", size, 1e-12L);
     }
@@ -714,30 +717,17 @@ static void tell_landscape(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
     const double *o = simulation->exhibit.target;
-    unsigned parts = simulation->exhibit.parts;
-    Real at[2] = {descent->point[0], descent->point[1]}, E, g[2], p[2];
-    Real m = parts & PART_INERTIA ? 1 : 0, H[3] = {m, 0, m};
-    Real h = parts & PART_ELASTICITY ? simulation->run[0].h : 0;
-    int springs;
-    map_E(simulation, at, FILTER_NONE, &E, g, p, &springs);
-    for (int pin = 1; pin <= 2; pin++) {
-        const double *held = simulation->run[0].x + 2 * pin;
-        Real d[2] = {at[0] - held[0], at[1] - held[1]};
-        Real l2 = simulation->system.l2[0];
-        Real c = h * h * 2 * simulation->system.k[0] / l2;
-        for (int i = 0; i < 3; i++)
-            H[i] += c * (2 * d[i / 2] * d[(i + 1) / 2] +
-                         (i != 1) * (d[0] * d[0] + d[1] * d[1] - l2));
-    }
+    Real at[2] = {descent->point[0], descent->point[1]};
+    MapE E = map_E(simulation, at, FILTER_NONE);
     is_point("place", at[0], at[1]);
     is_point("x tilde", o[0], o[1]);
-    near("E", E, 1e-13L * (1 + E));
+    near("E", E.value, 1e-13L * (1 + E.value));
     near("bowl", (powl(at[0] - o[0], 2) + powl(at[1] - o[1], 2)) / 2, 1e-15L);
     for (int i = 0; i < 2; i++)
-        near("g", g[i], 1e-12L);
-    near("Hxx", H[0], 1e-12L);
-    near("Hxy", H[1], 1e-12L);
-    near("Hyy", H[2], 1e-12L);
+        near("g", E.g[i], 1e-12L);
+    near("Hxx", E.H[0], 1e-12L);
+    near("Hxy", E.H[1], 1e-12L);
+    near("Hyy", E.H[2], 1e-12L);
     near("m", 1, 0);
 }
 
@@ -751,14 +741,14 @@ static void tell_search(const Simulation *simulation)
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE ||
                  (!begun && scalar);
     const double *from = begun ? last->from : descent->point;
-    Real at[2] = {from[0], from[1]}, to[2], g[2], p[2] = {0}, E[3];
+    Real at[2] = {from[0], from[1]}, to[2], p[2] = {0}, E[3];
     Real alpha = 2, value, trial = INFINITY;
-    int projected = 0;
+    MapE map = {.springs = 0};
     scalar_E(simulation, at[0], E);
-    if (scalar)
-        p[0] = -E[1] / E[2];
-    else
-        map_E(simulation, at, filter, &value, g, p, &projected);
+    if (!scalar)
+        map = map_E(simulation, at, filter);
+    p[0] = scalar ? -E[1] / E[2] : map.p[0];
+    p[1] = map.p[1];
     value = searched_E(simulation, at);
     do {
         alpha /= 2;
@@ -774,7 +764,7 @@ static void tell_search(const Simulation *simulation)
     is("tolerance", simulation->options.tolerance);
     is("h then", simulation->options.timestep);
     is("nth", descent->count + 1);
-    is("projected", filter == FILTER_NONE ? 0 : projected);
+    is("projected", filter == FILTER_NONE ? 0 : map.springs);
     is("number", begun ? descent->count - 1 : 0);
     is("next number", begun ? descent->count : 1);
     is("iterate", at[0]);
@@ -943,6 +933,14 @@ static void tell_hovered_spring(const Pane *pane, int s)
     is("nothing", 0);
 }
 
+/* 1, 2 or 5 times a power of ten, not below. */
+static Real round_up(Real value)
+{
+    Real power = powl(10, floorl(log10l(value)));
+    Real part = value / power * (1 - 1e-9L);
+    return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
+}
+
 /* The largest force of contact and friction on a node, N, up to the next round
  * number. */
 static void tell_contact(const Pane *pane)
@@ -992,13 +990,23 @@ static void tell_contact(const Pane *pane)
             is("slope",
                part[r] * simulation->options.friction / tanl(20 * degree));
         }
-    Real power = powl(10, floorl(log10l(most)));
-    Real part = most / power * (1 - 1e-9L);
     if (most > 0)
-        is("contact", /* force */ power * (part <= 1   ? 1
-                                           : part <= 2 ? 2
-                                           : part <= 5 ? 5
-                                                       : 10));
+        is("contact", /* force */ round_up(most));
+}
+
+/* The strains at the ends of the colours, in percent. */
+static void tell_colours(const Simulation *simulation)
+{
+    const Plasticity *flow = plasticity_of(&simulation->system);
+    Real most = fabsl(fabsl(simulation->options.stretch) - 1), own = 0.1L;
+    Real range = simulation->scene->strain;
+    if (!(range > 0))
+        range = round_up(fmaxl(most / 2, 0.05L));
+    is("strain", 100 * fminl(range, 1));
+    is("strain", 100 * range);
+    for (int s = 0; s < simulation->system.springs && flow; s++)
+        own = fmaxl(own, fabsl(flow->ep[s]));
+    is("plastic", 100 * round_up(own / 2));
 }
 
 /* ---- a frame ------------------------------------------------------------- */
@@ -1056,6 +1064,7 @@ static void tell_all(const Show *show)
     if (kind == PICTURE_ENVELOPE)
         tell_map(simulation);
     tell_contact(pane);
+    tell_colours(simulation);
     if (show->hover.kind == PICK_NODE && kind == PICTURE_SQUARE)
         tell_node(&show->pane[0], show->hover.index);
     if (show->hover.kind == PICK_SPRING && kind == PICTURE_SQUARE)
@@ -1183,14 +1192,11 @@ static bool is_contour(const Show *show, const Layout *layout, int i,
     Real low = INFINITY, high = 0;
     for (int k = 0; k < 9; k++) {
         double world[2];
-        Real at[2], value, g[2], p[2];
-        int springs;
         camera_world(&camera, map_box.x + texts[i].x + 2 * (k % 3 - 1),
                      map_box.y + texts[i].y + 0.53 * layout->em + k / 3 - 1,
                      world);
-        at[0] = world[0];
-        at[1] = world[1];
-        map_E(simulation, at, FILTER_NONE, &value, g, p, &springs);
+        const Real at[2] = {world[0], world[1]};
+        Real value = map_E(simulation, at, FILTER_NONE).value;
         low = fminl(low, value);
         high = fmaxl(high, value);
     }
@@ -1218,15 +1224,11 @@ static bool is_scale(const Show *show, const Layout *layout, int i,
                      double shown)
 {
     const char *unit = strchr(texts[i].words, ' ');
-    double metre = !unit                      ? NAN
-                   : strcmp(unit, " m") == 0  ? 1
-                   : strcmp(unit, " mm") == 0 ? 1e-3
-                   : strcmp(unit, " km") == 0 ? 1e3
-                                              : NAN;
     for (int p = 0; p < show->panes; p++) {
         double scale = show_camera(show, layout, p).scale[0];
         double half = texts[i].x - layout->pane[p].x - layout->em;
-        if (fabs(shown * metre * scale - 2 * half) < 2)
+        if (unit && strcmp(unit, " m") == 0 &&
+            fabs(shown * scale - 2 * half) < 2)
             return true;
     }
     return false;
@@ -1247,8 +1249,7 @@ static void check_text(const Show *show, const Layout *layout, const char *name,
         bool alone = at == words && !strchr(at, ' ');
         bool first = at == words + strcspn(words, "0123456789");
         double shown = token_at(&at, &digits, &unit);
-        bool percent = strstr(words, " %") && strlen(words) < 12;
-        if (percent || is_true(first ? words : "", shown, digits, unit) ||
+        if (is_true(first ? words : "", shown, digits, unit) ||
             (whole && is_count(show, layout, i, shown)) ||
             (alone && map && is_contour(show, layout, i, shown)) ||
             is_scale(show, layout, i, shown))

@@ -10,7 +10,6 @@
 #include "model/fracture.h"
 #include "model/plasticity.h"
 #include "picture/cards.h"
-#include "picture/exhibits.h"
 #include "picture/font.h"
 #include "scenes/listing.h"
 

@@ -480,25 +480,6 @@ TEST(readme_shows_what_is_drawn)
     CHECK(count == 12);
 }
 
-/* A tolerance at which bodies could hang in the air is named on the stage; the
- * scene's own one is not. */
-TEST(a_loose_tolerance_is_named)
-{
-    static const char *const lines[] = {"drop --segments 4",
-                                        "drop --segments 4 --tolerance 0.01"};
-    int red[2] = {0, 0};
-    for (int k = 0; k < 2; k++) {
-        Canvas frame[2];
-        frame_of(lines[k], 0, frame);
-        for (int i = 0; i < FRAME * FRAME; i++)
-            red[k] += pixel_distance(frame->pixels[i], COLOUR_WARNING) < 60;
-        canvas_free(&frame[0]);
-        canvas_free(&frame[1]);
-    }
-    CHECK(red[0] == 0);
-    CHECK(red[1] > 50);
-}
-
 /* The sheet of films has a tile for each line of tests/data/films.txt, all
  * lines can be run, and they are as long as one another. */
 TEST(readme_shows_films_of_all_scenes)
