@@ -31,7 +31,6 @@ typedef struct Card {
 } Card;
 
 typedef struct Picture {
-    const char *name;
     const Card *const *cards; /* NULL at the end */
     bool stretched;           /* x and y have scales of their own */
     bool own_handles;         /* it draws and picks the scene's handles */

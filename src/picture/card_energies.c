@@ -220,18 +220,6 @@ static Plot draw_legend(const Plot *card, int curves, const Curve *curve,
     return rest;
 }
 
-/* A vertical line at the time that is shown, if it is not the last one. */
-static void draw_now(const Plot *plot, double time)
-{
-    Paper *paper = plot->paper;
-    double at[2];
-    plot_place(plot, (double[2]){time, plot->y.low}, at);
-    if (time < plot->x.high)
-        canvas_line(&paper->canvas, floor(at[0]) + 0.5, plot->box.y,
-                    floor(at[0]) + 0.5, plot->box.y + plot->box.height,
-                    fmax(1, paper->unit), COLOUR_BORDER);
-}
-
 static void draw_curves(const Plot *plot, int curves, const Curve *curve)
 {
     for (int c = curves - 1; c >= 0; c--)
@@ -252,7 +240,9 @@ static void draw_energies(const Plot *card)
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     plot_unit(&plot, joule);
-    draw_now(&plot, now);
+    if (now < plot.x.high)
+        plot_line(&plot, (double[2]){now, plot.y.low},
+                  (double[2]){now, plot.y.high}, 1, COLOUR_BORDER);
     draw_curves(&plot, curves, curve);
 }
 

@@ -64,7 +64,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
     if (inside && accepted)
         plot_disc(plot, point, 5.5, colour);
     else if (inside)
-        canvas_ring(&paper->canvas, at[0], at[1], 4 * unit, 1.6 * unit, colour);
+        plot_ring(plot, point, 4, 1.6, colour);
     else
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);

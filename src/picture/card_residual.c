@@ -33,8 +33,7 @@ static void draw_point(const Plot *plot, const double *at, double radius,
         canvas_rectangle(&paper->canvas, (int)round(p[0]) - half,
                          (int)round(p[1]) - half, 2 * half, 2 * half, colour);
     else
-        canvas_ring(&paper->canvas, p[0], p[1], (radius + 1) * unit, 1.6 * unit,
-                    colour);
+        plot_ring(plot, at, radius + 1, 1.6, colour);
 }
 
 /* Says so, where there are others than values. */
@@ -81,18 +80,17 @@ static void draw_updates(const Plot *plot, const NewtonRecord *records,
 static void draw_tolerance(const Plot *plot, double tolerance, double h)
 {
     Paper *paper = plot->paper;
+    const double left[2] = {plot->x.low, tolerance};
+    const double right[2] = {plot->x.high, tolerance};
     char words[80] = "\u03b5";
-    double p[2], q[2], unit = paper->unit, em = paper->em;
-    plot_place(plot, (double[2]){plot->x.low, tolerance}, p);
-    plot_place(plot, (double[2]){plot->x.high, tolerance}, q);
-    canvas_dashes(&paper->canvas, p[0], floor(p[1]) + 0.5, q[0],
-                  floor(q[1]) + 0.5, fmax(1, 1.4 * unit), 6 * unit, 3 * unit,
-                  NULL, COLOUR_TEXT);
+    double p[2], em = paper->em;
+    plot_place(plot, left, p);
+    plot_dashes(plot, left, right, 1.4, NULL, COLOUR_TEXT);
     bool below = p[1] + 1.05 * em <= plot->box.y + plot->box.height;
     if (below && h > 0)
         snprintf(words, sizeof words, "\u03b5: h \u03b5 = %s m",
                  number_of(h * tolerance).text);
-    if (paper_width(paper, FACE_BOLD, 0.85, words) > q[0] - p[0])
+    if (paper_width(paper, FACE_BOLD, 0.85, words) > plot->box.width)
         snprintf(words, sizeof words, "\u03b5");
     paper_write(paper, FACE_BOLD, 0.85, COLOUR_TEXT, p[0] + 0.3 * em,
                 p[1] + (below ? 0 : -1.25) * em, ALIGN_LEFT, "%s", words);

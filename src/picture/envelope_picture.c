@@ -156,7 +156,6 @@ static const Card card_cell = {
 };
 
 const Picture envelope_picture = {
-    .name = "envelope",
     .cards = (const Card *const[]){&card_page, &card_envelope_numbers,
                                    &card_cell, NULL},
     .stretched = true,

@@ -165,7 +165,9 @@ static void add_trace(const Simulation *simulation, const Trace *trace,
     }
 }
 
-void facts_of(const Show *show, int pane, Facts *facts)
+/* What is known of a pane, whose update is known, and what its picture knows
+ * beside that; facts out. */
+static void facts_of(const Show *show, int pane, Facts *facts)
 {
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",

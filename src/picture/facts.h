@@ -25,10 +25,6 @@ void fact_words(Facts *facts, const char *name, const char *words);
 void fact_when(Facts *facts, const char *name, bool on);
 void fact_point(Facts *facts, const char *name, const double point[2]);
 
-/* What is known of a pane, whose update is known, and what its picture knows
- * beside that; facts out. */
-void facts_of(const Show *show, int pane, Facts *facts);
-
 /* A line as it is written, and where in its text. */
 typedef struct TextLine {
     Colour colour;

@@ -328,7 +328,6 @@ static const Card card_landscape_numbers = {
 };
 
 const Picture landscape_picture = {
-    .name = "landscape",
     .cards =
         (const Card *const[]){&card_page, &card_listing, &card_line,
                               &card_residual, &card_landscape_numbers, NULL},
@@ -406,7 +405,6 @@ static const Card card_dial_numbers = {
 };
 
 const Picture dial_picture = {
-    .name = "dial",
     .cards = (const Card *const[]){&card_page, &card_dial_numbers, NULL},
     .around = {-1.87, -1.87, 1.87, 1.87},
     .draw = dial_draw,

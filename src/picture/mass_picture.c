@@ -176,7 +176,6 @@ static const Card card_matrix = {
 };
 
 const Picture circle_picture = {
-    .name = "circle",
     .cards =
         (const Card *const[]){&card_page, &card_radius, &card_matrix, NULL},
     .bounds = circle_bounds,
@@ -409,7 +408,6 @@ static const Card card_mass_numbers = {
 };
 
 const Picture mass_picture = {
-    .name = "mass",
     .cards = (const Card *const[]){&card_page, &card_mass_numbers,
                                    &card_energies, NULL},
     .places = true,

@@ -143,7 +143,6 @@ static const Card card_race_table = {
 };
 
 const Picture race_picture = {
-    .name = "race",
     .cards = (const Card *const[]){&card_page, &card_race_table, NULL},
     .stretched = true,
     .bounds = race_bounds,

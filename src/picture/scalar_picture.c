@@ -168,7 +168,6 @@ static void scalar_facts(const Simulation *simulation, Facts *facts)
 }
 
 const Picture curve_picture = {
-    .name = "curve",
     .cards = (const Card *const[]){&card_page, &card_listing, &card_line,
                                    &card_residual, NULL},
     .stretched = true,
@@ -314,7 +313,6 @@ static const Card card_tangent_numbers = {
 };
 
 const Picture tangent_picture = {
-    .name = "tangent",
     .cards = (const Card *const[]){&card_page, &card_tangent_numbers,
                                    &card_residual, NULL},
     .stretched = true,

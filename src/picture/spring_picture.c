@@ -263,10 +263,8 @@ static const Card card_profile = {
 };
 
 const Picture spring_picture = {
-    .name = "spring",
-    .cards =
-        (const Card *const[]){&card_page, &card_spring_numbers, &card_block,
-                              &card_profile, NULL},
+    .cards = (const Card *const[]){&card_page, &card_spring_numbers,
+                                   &card_block, &card_profile, NULL},
     .bounds = spring_bounds,
     .draw = spring_draw,
     .facts = add_facts,

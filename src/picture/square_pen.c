@@ -323,11 +323,8 @@ void square_outline(const SpringPen *pen, const double *x, bool dashed,
 
 void square_ghost(const SpringPen *pen, const double *x, Colour colour)
 {
-    const System *system = pen->system;
-    const int *e = system->e;
-    Colour faint = (colour & 0xffffff) | 0x50000000u;
-    int springs = system->springs <= GHOST_SPRINGS ? system->springs : 0;
-    for (int s = 0; s < springs; s++)
-        plot_line(pen->stage, x + 2 * e[2 * s], x + 2 * e[2 * s + 1], 1, faint);
+    if (pen->system->springs <= GHOST_SPRINGS)
+        plot_springs(pen->stage, pen->system, x, 1,
+                     (colour & 0xffffff) | 0x50000000u);
     square_outline(pen, x, true, colour);
 }

@@ -413,21 +413,12 @@ static int square_sample(const Simulation *simulation, Energy *row)
     return rows;
 }
 
-static const Card *const square_cards[] = {&card_page,
-                                           &card_listing,
-                                           &card_line,
-                                           &card_residual,
-                                           &card_energies,
-                                           &card_spy,
-                                           &card_equation,
-                                           &card_parameters,
-                                           &card_search,
-                                           &card_prints,
-                                           &card_law,
-                                           NULL};
+static const Card *const square_cards[] = {
+    &card_page,     &card_listing, &card_line,     &card_residual,
+    &card_energies, &card_spy,     &card_equation, &card_parameters,
+    &card_search,   &card_prints,  &card_law,      NULL};
 
 const Picture square_picture = {
-    .name = "square",
     .cards = square_cards,
     .bounds = square_bounds,
     .draw = square_draw,
