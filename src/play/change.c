@@ -309,9 +309,7 @@ Status player_pace(Player *player, int index, int paces)
 /* The selected number a pace up or down. */
 Status obey_raise(Player *player, const Command *command)
 {
-    const OptionRow *number[OPTIONS_MOST];
-    int count = player_row(player, number);
-    if (player->selected < 0 || player->selected >= count)
+    if (player->selected < 0)
         player->selected = 0;
     return player_pace(player, player->selected,
                        command->kind == COMMAND_RAISE ? 1 : -1);
