@@ -277,7 +277,8 @@ static Status take(Player *player, const Under *under)
     const Options *options = player_settings(player);
     const LecturePage *page = options->page;
     const double *point;
-    bool stretches, paused = player->mode == MODE_PAUSE;
+    bool stretches;
+    bool paused = player->mode == MODE_PAUSE || player->mode == MODE_END;
     int ball;
     mouse->index = under->pick.index;
     show_hold(&player->show, under->pane);
