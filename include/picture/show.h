@@ -146,6 +146,8 @@ typedef struct Held {
     bool on, away; /* the mouse has left the stage: the view follows again */
     int pane;
     double bounds[4];
+    bool boxes;    /* a box is drawn around nodes that are placed together: */
+    double box[4]; /* m, two of its corners */
 } Held;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -248,6 +250,9 @@ typedef struct Show {
     Hit over;   /* and which part of the window */
     Hand hand;
     Held held;
+    const unsigned char
+        *along; /* [along_nodes] 1: placed with others, or NULL */
+    int along_nodes;
     bool strain;   /* springs coloured by strain */
     bool bare;     /* the picture of the slide and nothing else */
     bool print;    /* stage and cards alone, without those of words */

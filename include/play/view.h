@@ -26,7 +26,12 @@ typedef enum InputKind {
     INPUT_LEAVE    /* the mouse is elsewhere */
 } InputKind;
 
-enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
+enum {
+    BUTTON_LEFT = 1,
+    BUTTON_MIDDLE = 2,
+    BUTTON_RIGHT = 3,
+    BUTTON_BOX = 4 /* the left one with Shift */
+};
 
 typedef struct Input {
     InputKind kind;

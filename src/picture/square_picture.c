@@ -110,6 +110,24 @@ static void draw_hand(const SpringPen *pen)
     plot_disc(stage, hand->target, 4, COLOUR_HAND);
 }
 
+/* Nodes that are placed together; the box that is drawn around some. */
+static void draw_box(const SpringPen *pen)
+{
+    const Show *show = pen->show;
+    const double *box = show->held.box;
+    for (int i = 0; i < pen->system->nodes; i++)
+        if (show->along_nodes == pen->system->nodes && show->along[i])
+            plot_ring(pen->stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
+                      COLOUR_HAND);
+    const double corner[5][2] = {{box[0], box[1]},
+                                 {box[2], box[1]},
+                                 {box[2], box[3]},
+                                 {box[0], box[3]},
+                                 {box[0], box[1]}};
+    for (int i = 0; i < 4 && show->held.boxes; i++)
+        plot_dashes(pen->stage, corner[i], corner[i + 1], 2, NULL, COLOUR_HAND);
+}
+
 /* What the mouse is over. */
 static void draw_hover(const SpringPen *pen)
 {
@@ -198,6 +216,7 @@ static void draw_signs(const SpringPen *pen)
     if (trace && trace->p && trace->line >= LINE_SOLVE &&
         trace->line <= LINE_SEARCH)
         draw_direction(pen);
+    draw_box(pen);
     draw_hover(pen);
     draw_hand(pen);
 }

@@ -67,6 +67,7 @@ static void fill_help(Show *show)
     static const HelpRow mouse[] = {
         {"drag", "pulls the square by a node; paused: places it"},
         {"", "a pin, a ground, a ball: moves it"},
+        {"Shift+drag", "paused: a box; its nodes go together"},
         {"drag an edge", "of the paused square: stretch"},
         {"right click", "pins a node, or frees it"},
         {"wheel", "zooms, or changes a number"},
@@ -360,11 +361,13 @@ static void fill_pane(Player *player, int p, Trace *trace)
     }
 }
 
-/* The hand, where it pulls. */
+/* The hand, where it pulls; what is placed together. */
 static void fill_hand(Player *player)
 {
     const Control *control = past_control(&player->past, player->active);
     Hand *hand = &player->show.hand;
+    player->show.along = player->past.along;
+    player->show.along_nodes = player->past.along_nodes;
     if (control->hand < 0 || player_place(player, player->active) >= 0)
         return;
     *hand = (Hand){.on = true,

@@ -394,6 +394,10 @@ static Status follow(Player *player)
                                 : drag_number(player);
     case COMMAND_GOTO:
         return go_to_mouse(player, &under);
+    case COMMAND_BOX:
+        memcpy(player->show.held.box + 2, under.at, sizeof under.at);
+        player->changed = true;
+        return STATUS_OK;
     case COMMAND_PAN:
         show_move(&player->show, &under.layout, under.pane, dx, dy);
         player->lens = player->show.lens;
@@ -513,7 +517,16 @@ static Status pressed(Player *player, const Input *input)
     mouse->from[0] = mouse->last[0] = mouse->x;
     mouse->from[1] = mouse->last[1] = mouse->y;
     mouse->moved = false;
-    if (input->button == BUTTON_LEFT)
+    if (input->button == BUTTON_BOX && under.hit.zone == ZONE_STAGE &&
+        player_stands(player)) {
+        mouse->drag = COMMAND_BOX;
+        show_hold(&player->show, under.pane);
+        player->show.held.boxes = true;
+        for (int k = 0; k < 4; k++)
+            player->show.held.box[k] = under.at[k % 2];
+        return STATUS_OK;
+    }
+    if (input->button == BUTTON_LEFT || input->button == BUTTON_BOX)
         return left_pressed(player, &under, input->clicks);
     if (under.hit.zone != ZONE_STAGE)
         return STATUS_OK;
@@ -524,13 +537,25 @@ static Status pressed(Player *player, const Input *input)
     return STATUS_OK;
 }
 
+/* The nodes in the box; a click with Shift lets them go. */
+static Status box_drawn(Player *player)
+{
+    const double *box = player->show.held.box;
+    Command command = {.kind = COMMAND_BOX, .joins = true};
+    snprintf(command.text, sizeof command.text, "%.6g,%.6g,%.6g,%.6g", box[0],
+             box[1], box[2], box[3]);
+    return player_obey(player, &command);
+}
+
 /* A click on a name takes the next one. */
 static Status released(Player *player)
 {
     Mouse *mouse = &player->mouse;
     CommandKind drag = mouse->drag;
     mouse->drag = COMMAND_NONE;
-    player->show.held.on = false;
+    player->show.held.on = player->show.held.boxes = false;
+    if (drag == COMMAND_BOX)
+        return box_drawn(player);
     if (drag == COMMAND_GRAB && player->holds) {
         Status status = ask(player, COMMAND_RELEASE, 0);
         return !status && mouse->pins ? ask(player, COMMAND_PIN, mouse->index)

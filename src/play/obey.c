@@ -67,6 +67,11 @@ static void settle_line(Player *player, size_t at, bool refused)
                    line[-1].step == line->step &&
                    line[-1].command.kind == line->command.kind &&
                    line[-1].command.number == line->command.number;
+    /* What goes along is where all of them have put it. */
+    bool along =
+        line->command.kind == COMMAND_PLACE &&
+        past_along(&player->past, player->active, line->command.number);
+    follows = follows && !along;
     if (!refused && follows && command_row(line->command.kind)->flags & LATEST)
         line[-1] = *line;
     else if (!refused)

@@ -812,6 +812,7 @@ Status past_begin(Past *past, const Options *options, int panes, int gesture,
     stop_work(past);
     if (!push_branch(past, wanted, edit))
         return STATUS_OUT_OF_MEMORY;
+    past->along_nodes = 0; /* those were other nodes */
     Status status = STATUS_OK;
     for (int p = 0; p < panes && !status; p++)
         status = begin_pane(past, p, &options[p]);
@@ -864,6 +865,13 @@ static const Control *changed(const Control *from, const Command *edit)
     return control;
 }
 
+const unsigned char *past_along(const Past *past, int pane, long node)
+{
+    int nodes = past->machine[pane].simulation.system.nodes;
+    bool has = past->along && past->along_nodes == nodes && node < nodes;
+    return has && past->along[node] ? past->along : NULL;
+}
+
 /* A change of an entry of the topmost branch; its sample is another one. */
 static Status change_entry(Past *past, int pane, const Command *edit,
                            Entry *entry)
@@ -883,7 +891,8 @@ static Status change_entry(Past *past, int pane, const Command *edit,
     if (edit->kind == COMMAND_HANDLE)
         exhibit_drag(simulation, (int)edit->number, edit->x, edit->y);
     else if (edit->kind == COMMAND_PLACE)
-        simulation_place(simulation, (int)edit->number, edit->x, edit->y, true);
+        simulation_place(simulation, (int)edit->number, edit->x, edit->y,
+                         past_along(past, pane, edit->number), true);
     else
         exhibit_flip(simulation, (int)edit->number);
     Status status = keep_state(past, pane, entry);
@@ -965,7 +974,9 @@ void past_free(Past *past)
 {
     drop_branches(past, 0);
     free(past->branch);
+    free(past->along);
     past->branch = NULL;
+    past->along = NULL;
     past->room = 0;
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free_simulation(&past->machine[p]);

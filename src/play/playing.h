@@ -13,7 +13,7 @@ Deed obey_pause, obey_next, obey_back, obey_finer, obey_goto,
     obey_undo; /* walk.c */
 Deed obey_set, obey_default, obey_select, obey_raise, obey_switch, obey_method,
     obey_add, obey_add_pane, obey_end_pane, obey_pane, obey_pin, obey_grab,
-    obey_drag, obey_place, obey_obstacle, obey_handle; /* change.c */
+    obey_drag, obey_place, obey_box, obey_obstacle, obey_handle; /* change.c */
 Deed obey_scene, obey_restart, obey_page, obey_predict, obey_cell; /* begin.c */
 Deed obey_speed, obey_switched, obey_full, obey_column, obey_escape,
     obey_camera, obey_card, obey_shot, obey_film, obey_hash; /* screen.c */

@@ -390,9 +390,11 @@ static void button_input(const SDL_MouseButtonEvent *event, Input *input)
 {
     place_input(event->state == SDL_PRESSED ? INPUT_PRESS : INPUT_RELEASE,
                 event->x, event->y, input);
-    input->button = event->button == SDL_BUTTON_LEFT    ? BUTTON_LEFT
-                    : event->button == SDL_BUTTON_RIGHT ? BUTTON_RIGHT
-                                                        : BUTTON_MIDDLE;
+    bool shift = SDL_GetModState() & KMOD_SHIFT;
+    input->button = event->button == SDL_BUTTON_LEFT && shift ? BUTTON_BOX
+                    : event->button == SDL_BUTTON_LEFT        ? BUTTON_LEFT
+                    : event->button == SDL_BUTTON_RIGHT       ? BUTTON_RIGHT
+                                                              : BUTTON_MIDDLE;
     input->clicks = event->clicks;
 }
 

@@ -223,24 +223,29 @@ Status simulation_use(Simulation *simulation, const Control *control)
 }
 
 Status simulation_place(Simulation *simulation, int node, double x, double y,
-                        bool really)
+                        const unsigned char *along, bool really)
 {
     TimeIntegrator *run = &simulation->run[0];
-    size_t i = 2 * (size_t)node;
+    double *before = run->new_x; /* which the next step overwrites */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;
-    const double before[2] = {run->x[i], run->x[i + 1]};
+    const double way[2] = {x - run->x[2 * node], y - run->x[2 * node + 1]};
     double had[SIMULATION_MAX_RUNS];
     dissipated_so_far(simulation, had);
-    run->x[i] = x;
-    run->x[i + 1] = y;
+    memcpy(before, run->x, run->size * sizeof *before);
+    for (size_t i = 0; along && i < run->size; i++)
+        run->x[i] += along[i / 2] ? way[i % 2] : 0;
+    run->x[2 * node] = x;
+    run->x[2 * node + 1] = y;
     Status status = system_check(run->system, run->x);
     if (status || !really) {
-        memcpy(run->x + i, before, sizeof before);
+        memcpy(run->x, before, run->size * sizeof *before);
         return status;
     }
-    stop_node(run, node);
+    for (int i = 0; i < simulation->system.nodes; i++)
+        if (i == node || (along && along[i]))
+            stop_node(run, i);
     book_change(simulation, had);
     return STATUS_OK;
 }

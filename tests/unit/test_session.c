@@ -5,8 +5,8 @@
  *     key K ...                "N", "Shift+N", "Return": the window's names
  *     type TEXT                a key for each letter
  *     press, move, release,    at a PLACE: X Y in pixels; +X +Y from where the
- *     right, middle, wheel     mouse was; m X,Y in metres; node N; the number
- *                              of the row with this name;
+ *     right, middle, wheel,    mouse was; m X,Y in metres; node N; the number
+ *     shift (and press)        of the row with this name;
  *                              a step of the time line
  *     do COMMAND               as a script gives it
  *     run N, rest              until the run has come to this step, or stops
@@ -199,6 +199,8 @@ static void use_mouse(const char *verb, const char *place)
         put((Input){.kind = INPUT_MOVE});
     else if (strcmp(verb, "wheel") == 0)
         put((Input){.kind = INPUT_WHEEL, .amount = 1});
+    else if (strcmp(verb, "shift") == 0)
+        put((Input){.kind = INPUT_PRESS, .button = BUTTON_BOX});
     else if (strcmp(verb, "right") == 0)
         put((Input){.kind = INPUT_PRESS, .button = BUTTON_RIGHT});
     else if (strcmp(verb, "middle") == 0)
@@ -433,7 +435,7 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
-    else if (strstr("press double move release right middle wheel", verb))
+    else if (strstr("press double move release right middle wheel shift", verb))
         use_mouse(verb, rest);
     else if (strstr("mark same other", verb))
         compare(verb, rest);
@@ -528,6 +530,20 @@ static const Session sessions[] = {
            "key Ctrl+Z", "same a state", "key Ctrl+Shift+Z", "same b state",
            "do place 99 0 0", "says place: there are 0 ... 24, no 99",
            "replays hang --segments 4")},
+    {"nodes in a box are placed together",
+     LINES("begin square --segments 4 --stretch 1 --cells on --paused", "key N",
+           "mark a state", "shift m -0.55,-0.55", "move m 0,0",
+           "move m 0.1,0.55", "release +0 +0", "says 15 nodes go together",
+           "press node 6", "move m -0.3,-0.2", "move m -0.4,-0.2",
+           "release +0 +0", "mark b state", "move m -0.15,-0.2", "over node 11",
+           "key Ctrl+Z", "same a state", "key Ctrl+Shift+Z", "same b state",
+           "press +0 +0", "move +20 +0", "mark b state", "move m 0.3,-0.2",
+           "says no room", "release +0 +0", "same b state", "shift m 0.55,0.1",
+           "release +0 +0", "do place 11 0.05 -0.2", "do place 6 -0.4 -0.2",
+           "move m 0.05,-0.2", "over node 11", "key N N", "do box 1,2",
+           "says two of its corners",
+           "replays square --segments 4 --stretch 1 --cells on", /**/
+           "begin landscape --paused", "do box 1,2,3,4", "says nothing to be")},
     {"a pin goes where it is dragged, and stays there",
      LINES("begin hang --segments 4 --paused", "key Space", "go 2",
            "press node 24", "move m 0.4,0.5", "move m 0.3,0.4", "go 90",
