@@ -38,11 +38,13 @@ static Under look(Player *player)
     Show *show = &player->show;
     Under under = {.layout = show_layout(show, paper ? paper->canvas.width : 1,
                                          paper ? paper->canvas.height : 1),
-                   .pane = show->held.on ? show->held.pane : player->active};
+                   .pane = player->active};
     under.hit = layout_hit(&under.layout, mouse->x, mouse->y);
-    if (under.hit.zone == ZONE_STAGE && !show->held.on &&
-        under.hit.index < past_panes(&player->past))
-        under.pane = under.hit.index;
+    int pane = show->held.on                  ? show->held.pane
+               : under.hit.zone == ZONE_STAGE ? under.hit.index
+                                              : under.pane;
+    if (pane < past_panes(&player->past)) /* it may have gone meanwhile */
+        under.pane = pane;
     show->held.away = false;
     Camera camera = show_camera(show, &under.layout, under.pane);
     camera_world(&camera, mouse->x, mouse->y, under.at);

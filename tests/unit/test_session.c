@@ -556,7 +556,10 @@ static const Session sessions[] = {
            "press node 8", "move +150 +30", "go 60", "mark a state", /**/
            "begin square --segments 2 --stretch 1 --paused", "key Space",
            "press node 8", "move +150 +30", "go 30", "move +0 +0", "go 30",
-           "same a state")},
+           "same a state", /**/
+           "begin square --integrator backward-euler,bdf2 --paused",
+           "press 279 562", "move +10 +0", "key Backspace", "move +10 +0",
+           "panes 1", "release +0 +0")},
     {"grounds and balls: put by a double click, moved, stopped by the square",
      LINES("begin hang --segments 8 --paused", "key N", "mark a state",
            "double m 0,-0.66", "says a ball", "move +1 +0", "over obstacle 0",
