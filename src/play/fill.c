@@ -14,7 +14,7 @@ static const double SMALL_LETTER = 9; /* pixels, of a surface */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
-enum { KEY_TEXT = 32, SCENES_TEXT = 64, SCENES_IN_ROW = 3, DIGITS = 9 };
+enum { KEY_TEXT = 32 };
 
 /* As people read it: "Right" is an arrow. */
 static void pretty_key(char key[KEY_TEXT])
@@ -43,25 +43,6 @@ static void add_keys(const char *keys, char text[KEY_TEXT])
     }
 }
 
-/* "1 2 3", "square, circle, overshoot": the scenes that have a digit.  Returns
- * the next row. */
-static HelpRow *fill_scenes(HelpRow *row)
-{
-    static char digits[DIGITS][KEY_TEXT], names[DIGITS][SCENES_TEXT];
-    for (int i = 0, r = 0; i < DIGITS && scenes[i].name; r++) {
-        digits[r][0] = names[r][0] = '\0';
-        for (int k = 0; k < SCENES_IN_ROW && scenes[i].name; k++, i++) {
-            size_t used = strlen(digits[r]), long_used = strlen(names[r]);
-            snprintf(digits[r] + used, KEY_TEXT - used, "%s%d", k ? " " : "",
-                     i + 1);
-            snprintf(names[r] + long_used, SCENES_TEXT - long_used, "%s%s",
-                     k ? ", " : "", scenes[i].name);
-        }
-        *row++ = (HelpRow){digits[r], names[r]};
-    }
-    return row;
-}
-
 static void fill_help(Show *show)
 {
     static const HelpRow mouse[] = {
@@ -74,17 +55,16 @@ static void fill_help(Show *show)
         {"middle drag", "moves the picture"},
         {"double click", "a ball; on a number: default"},
         {"digits", "open a lit number; Enter, Esc"},
+        {"1 \u2026 9", "a scene; G shows all"},
     };
     enum { MOUSE = sizeof mouse / sizeof *mouse };
-    static HelpRow rows[COMMAND_KINDS + MOUSE + DIGITS];
+    static HelpRow rows[COMMAND_KINDS + MOUSE];
     static char keys[COMMAND_KINDS][KEY_TEXT];
     HelpRow *next = rows + MOUSE;
     char *text = keys[0];
     memcpy(rows, mouse, sizeof mouse);
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = command_row((CommandKind)kind);
-        if (kind == COMMAND_SCENE)
-            next = fill_scenes(next);
         if (!row->label)
             continue;
         if (row->label[0]) {
@@ -215,16 +195,15 @@ static void explain_number(const Player *player, Show *show)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = &simulation->options;
-    int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
-    const char *option =
-        i >= 0 && i < player->numbers ? player->number[i]->name : "";
-    const OptionRow *row =
-        i >= 0 && i < player->numbers ? player->number[i] : NULL;
-    const char *idle = row ? player_idle(player, row) : NULL;
-    if (row && (idle || row->help[0]))
-        snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
-                 idle ? idle : row->help);
     const IntegratorMethod *method = simulation->run[0].method;
+    int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
+    if (i < 0 || i >= player->numbers)
+        return;
+    const OptionRow *row = player->number[i];
+    const char *option = row->name, *idle = player_idle(player, row);
+    if (idle || row->help[0])
+        snprintf(show->sentence, SHOW_TEXT, "%s: %s", option,
+                 idle ? idle : row->help);
     if (strcmp(option, "integrator") == 0 && simulation->runs == 1)
         snprintf(show->sentence, SHOW_TEXT, "%s: %s, order %d%s", method->label,
                  method->implicit ? "implicit" : "explicit", method->order,

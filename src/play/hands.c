@@ -491,12 +491,8 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
     case ZONE_CELL:
         return player_open_cell(player, index);
     case ZONE_STRIP:
-        player_note(player,
-                    player_settings(player)->page
-                        ? "Page Down and Page Up turn the pages, Shift+G "
-                          "lists them; G shows all scenes"
-                        : "G shows all scenes; Page Down begins the "
-                          "lecture");
+        player_note(player, "G shows all scenes, Shift+G all pages of the "
+                            "lecture; Page Down turns them");
         return STATUS_OK;
     case ZONE_STAGE:
         if (under->pane != player->active)

@@ -427,6 +427,28 @@ static Status check_obstacle(const Options *options, const double *x,
                         name, who, nearest);
 }
 
+/* Which side of the line from a to b p is on: twice the area of abp. */
+static double side_of(const double *a, const double *b, const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
+/* Contact sees nodes alone: a small ball may have none near it in a cell. */
+static bool is_in_a_cell(const SquareMesh *mesh, const double *x,
+                         const double *at)
+{
+    int node[3], side[3];
+    for (int t = 0; t < 4 * mesh->cells; t++) {
+        square_mesh_triangle(mesh, t, node, side);
+        const double *a = x + 2 * node[0], *b = x + 2 * node[1];
+        const double *c = x + 2 * node[2];
+        double first = side_of(a, b, at), second = side_of(b, c, at);
+        if (first * second > 0 && first * side_of(c, a, at) > 0)
+            return true;
+    }
+    return false;
+}
+
 bool simulation_has_room(const Simulation *simulation, const Options *options,
                          char *message, size_t size)
 {
@@ -440,13 +462,13 @@ bool simulation_has_room(const Simulation *simulation, const Options *options,
                                list, count, k, (Refusal){message, size}))
                 return false;
     }
+    for (int k = 0; k < options->balls; k++)
+        if (is_in_a_cell(&simulation->mesh, simulation->run[0].x,
+                         options->ball[k])) {
+            snprintf(message, size, "ball %d would be inside of a cell", k);
+            return false;
+        }
     return true;
-}
-
-/* Which side of the line from a to b p is on: twice the area of abp. */
-static double side_of(const double *a, const double *b, const double *p)
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
 /* Cells keep their sides, and of a solid its triangles: none begins turned

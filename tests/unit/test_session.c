@@ -589,7 +589,11 @@ static const Session sessions[] = {
            "move m 0,0.3", "release +0 +0",
            "number ball 0.09375,-0.69375,0.2 m", "do add ground", "key Escape",
            "do obstacle 0 0 0", "number ground 0,1,0,-0.75",
-           "do obstacle 0 0 0", "number ground 0,1,0,-0.5625")},
+           "do obstacle 0 0 0", "number ground 0,1,0,-0.5625", /**/
+           "begin square --stretch 1 --ball 0.8,0.125,0.03 --paused",
+           "do add ball", "key Escape", "do obstacle 0 0.3 0.125",
+           "number ball 0.55,0.125,0.03 m", "do set ball 0.1,0.12,0.02",
+           "says would be inside of a cell")},
     {"the row of numbers takes any that the scene has",
      LINES("begin square --segments 2 --paused", "key N", "key A", "type 2",
            "key Return", "says side: its length", "key Escape",
