@@ -60,11 +60,16 @@ const Control *past_start(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-/* Whether the pane can make no more steps from here. */
-static bool has_failed(const Entry *entry)
+/* Whether the step to here could not be made; and the pane makes no more. */
+static bool is_failure(const Entry *entry)
 {
     Status status = entry->outcome.status;
-    return entry->substeps == 0 && status && !status_is_unconverged(status);
+    return status && !status_is_unconverged(status);
+}
+
+static bool has_failed(const Entry *entry)
+{
+    return entry->substeps == 0 && is_failure(entry);
 }
 
 long past_ended(const Past *past, int pane, long step)
@@ -627,7 +632,7 @@ static Status begin_step(Past *past, int pane)
         machine->outcome = from->outcome;
         return arrive(past, pane);
     }
-    if (to && has_failed(to))
+    if (to && is_failure(to))
         return end_pane(past, pane, to->outcome.status);
     if (past->keeps)
         rounds_begin(&machine->rounds, &machine->simulation);
@@ -877,9 +882,14 @@ static Status change_entry(Past *past, int pane, const Command *edit,
                            Entry *entry)
 {
     Simulation *simulation = &past->machine[pane].simulation;
+    Status status = STATUS_OK;
     drop_sample(entry);
-    if (present(past)->count == 1 && has_failed(entry))
-        entry->substeps = 1; /* it may go on again */
+    if (present(past)->count == 1 && has_failed(entry)) {
+        entry->substeps = 1; /* it may go on again, from what is seen: */
+        status = keep_state(past, pane, entry); /* no step leads there */
+    }
+    if (status)
+        return status;
     if (!drags(edit)) {
         const Control *control = changed(entry->control, edit);
         if (!control)
@@ -895,7 +905,7 @@ static Status change_entry(Past *past, int pane, const Command *edit,
                          past_along(past, pane, edit->number), true);
     else
         exhibit_flip(simulation, (int)edit->number);
-    Status status = keep_state(past, pane, entry);
+    status = keep_state(past, pane, entry);
     return status ? status : land(past, pane, past->step);
 }
 
