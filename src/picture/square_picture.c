@@ -52,7 +52,7 @@ static void square_bounds(const Plot *stage, double bounds[4])
     double half = 0.5 * simulation->mesh.side * (show->bare ? BARE_ROOM : ROOM);
     const double size[2] = {half * extent,
                             half * (show->bare ? extent : fmin(extent, 1.25))};
-    double middle[2] = {0, 0}, need = 1, grown = 1;
+    double middle[2] = {0, 0}, need = 1, grown = 1, tall = 0;
     if (has_frame(simulation)) {
         memcpy(bounds, simulation->scene->frame, 4 * sizeof *bounds);
         return;
@@ -70,12 +70,16 @@ static void square_bounds(const Plot *stage, double bounds[4])
         double reach = fmax(right, up); /* the other one, if one is NaN */
         if (isfinite(reach))
             need = fmax(need, reach);
+        tall = fmax(tall, up);
     }
     while (grown < need && grown < MOST_SEEN)
         grown *= 1.5;
+    /* A wide window has no less room for it than beside cards. */
+    double low = show->bare ? fmax(ROOM / BARE_ROOM, ROOM * tall / grown) : 1;
     for (int k = 0; k < 2; k++) {
-        bounds[k] = middle[k] - grown * size[k];
-        bounds[2 + k] = middle[k] + grown * size[k];
+        double reach = grown * size[k] * (k == 1 ? fmin(low, 1) : 1);
+        bounds[k] = middle[k] - reach;
+        bounds[2 + k] = middle[k] + reach;
     }
 }
 
