@@ -24,6 +24,15 @@ typedef struct Box2 {
     int edge; /* whose it is, a spring; not used of points */
 } Box2;
 
+/* What was found last: of point i edge[first[i]] and on, until that of the
+ * next.
+ */
+typedef struct NearList {
+    bool known;                   /* else all is new, or there was no room */
+    double alpha, margin, *x, *p; /* [2n], for which it is */
+    int *first, *edge;            /* [points + 1], springs */
+} NearList;
+
 typedef struct Boundary {
     SquareMesh shape;     /* without arrays */
     unsigned version;     /* of the system, that it is of */
@@ -36,13 +45,9 @@ typedef struct Boundary {
      * this much more around; widest of the edges' boxes. */
     const double *x, *p;
     double alpha, mean[2], margin, widest;
-    bool upright; /* that is y */
-    Box2 own;     /* of the point that looks */
-    /* What was near at the last x without a way, with this margin: of point i
-     * near[first[i]] and on, until that of the next. */
-    bool listed; /* else it is not known, or there was no room */
-    double *listed_x, listed_margin; /* [2n] */
-    int *first, *near;               /* [points + 1], edges */
+    bool upright;           /* that is y */
+    Box2 own;               /* of the point that looks */
+    NearList list[2], *now; /* without a way, and on one; the present one */
 } Boundary;
 
 /* Bytes of all arrays; and puts them there. */

@@ -7,25 +7,37 @@
 /* Room for so many near edges for each node of the mesh. */
 enum { NEAR_A_NODE = 8 };
 
+/* A list's numbers; then its coordinates. */
+static size_t near_ints(const SquareMesh *mesh)
+{
+    return (1 + NEAR_A_NODE) * (size_t)mesh->nodes + 1;
+}
+
 size_t boundary_bytes(const SquareMesh *mesh)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    return 2 * nodes * sizeof(double) + springs * (sizeof(Box2) + 1) +
-           ((2 + NEAR_A_NODE) * nodes + 1) * sizeof(int) + nodes;
+    return 8 * nodes * sizeof(double) + springs * (sizeof(Box2) + 1) +
+           (nodes + 2 * near_ints(mesh)) * sizeof(int) + nodes;
 }
 
 void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
 {
+    double *x = bytes;
     *boundary = (Boundary){.shape = *mesh, .version = ~0u};
     boundary->shape.x = NULL;
     boundary->shape.e = boundary->shape.order = NULL;
-    boundary->listed_x = bytes;
-    boundary->box = (Box2 *)(boundary->listed_x + 2 * (size_t)mesh->nodes);
+    boundary->box = (Box2 *)(x + 8 * (size_t)mesh->nodes);
     boundary->point = (int *)(boundary->box + mesh->springs);
-    boundary->first = boundary->point + mesh->nodes;
-    boundary->near = boundary->first + mesh->nodes + 1;
-    boundary->sides =
-        (unsigned char *)(boundary->near + NEAR_A_NODE * (size_t)mesh->nodes);
+    int *numbers = boundary->point + mesh->nodes;
+    for (int i = 0; i < 2; i++) {
+        NearList *list = &boundary->list[i];
+        list->x = x + 4 * i * (size_t)mesh->nodes;
+        list->p = list->x + 2 * (size_t)mesh->nodes;
+        list->first = numbers;
+        list->edge = numbers + mesh->nodes + 1;
+        numbers += near_ints(mesh);
+    }
+    boundary->sides = (unsigned char *)numbers;
     boundary->role = boundary->sides + mesh->springs;
 }
 
@@ -83,7 +95,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         if (boundary->role[i] != IN_A_TRIANGLE)
             boundary->point[boundary->points++] = i;
     boundary->version = system->version;
-    boundary->listed = false;
+    boundary->list[0].known = boundary->list[1].known = false;
 }
 
 /* ---- who comes near whom ------------------------------------------------ */
@@ -185,19 +197,19 @@ static int next_box(Boundary *boundary, const System *system, int i, int *place)
     return -1;
 }
 
-/* Goes through all points once, where x is new; false: there is no room. */
-static bool list_near(Boundary *boundary, const System *system)
+/* Goes through all points once; false: there is no room. */
+static bool list_near(Boundary *boundary, const System *system, NearList *list)
 {
     int room = NEAR_A_NODE * boundary->shape.nodes, count = 0, place = 0, edge;
     for (int i = 0; i < boundary->points; i++) {
-        boundary->first[i] = count;
+        list->first[i] = count;
         while ((edge = next_box(boundary, system, i, &place)) >= 0) {
             if (count == room)
                 return false;
-            boundary->near[count++] = edge;
+            list->edge[count++] = edge;
         }
     }
-    boundary->first[boundary->points] = count;
+    list->first[boundary->points] = count;
     return true;
 }
 
@@ -207,26 +219,30 @@ void boundary_sort(Boundary *boundary, const System *system, const double *x,
     size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
+    NearList *list = boundary->now = &boundary->list[p != NULL];
     boundary->x = x;
     boundary->p = p;
     boundary->alpha = alpha;
     boundary->margin = margin;
-    if (!p && boundary->listed && boundary->listed_margin == margin &&
-        memcmp(boundary->listed_x, x, bytes) == 0)
+    if (list->known && list->alpha == alpha && list->margin == margin &&
+        memcmp(list->x, x, bytes) == 0 &&
+        (!p || memcmp(list->p, p, bytes) == 0))
         return;
     sort_boxes(boundary, system);
+    list->known = list_near(boundary, system, list);
+    list->alpha = alpha;
+    list->margin = margin;
+    memcpy(list->x, x, bytes);
     if (p)
-        return;
-    boundary->listed = list_near(boundary, system);
-    boundary->listed_margin = margin;
-    memcpy(boundary->listed_x, x, bytes);
+        memcpy(list->p, p, bytes);
 }
 
 int boundary_next(Boundary *boundary, const System *system, int i, int *place)
 {
-    if (boundary->p || !boundary->listed)
+    const NearList *list = boundary->now;
+    if (!list->known)
         return next_box(boundary, system, i, place);
-    int k = *place > 0 ? *place : boundary->first[i];
-    *place = k < boundary->first[i + 1] ? k + 1 : 0;
-    return *place > 0 ? boundary->near[k] : -1;
+    int k = *place > 0 ? *place : list->first[i];
+    *place = k < list->first[i + 1] ? k + 1 : 0;
+    return *place > 0 ? list->edge[k] : -1;
 }

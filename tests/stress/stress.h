@@ -94,6 +94,7 @@ typedef struct Watch {
     int updates;          /* of this minimisation */
     long crossings;       /* of edges that a break has brought to light */
     bool wrong;           /* in this step */
+    bool flat;            /* a cell was, as E was looked at last */
     char reason[512];     /* what was wrong first */
     Status status;        /* of the last step */
     long steps[VERDICTS]; /* how often each verdict */

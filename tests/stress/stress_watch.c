@@ -15,6 +15,9 @@ enum { ROUNDINGS = 16 };
 /* Beyond this squares may overflow, and NOT_FINITE is the truth. */
 static const long double HUGE_ENERGY = 1e280L;
 
+/* Of a cell's area at rest: where coordinates hardly resolve what is left. */
+#define FLAT 1e-12
+
 /* Larger systems are not solved by a matrix: that costs n^3 in wide numbers. */
 enum { LARGEST_JUDGED = 80 };
 
@@ -251,15 +254,19 @@ static void watch_begin(Watch *watch)
 }
 
 /* E at the present iterate must not be above that at the last one.  (A wall may
- * have carried nodes until a cell is flat to its last digits: E is infinite,
- * and x_n + u, which is not rounded, as well.) */
+ * have carried nodes until a cell is flat to its last digits, and E is
+ * rounding.)
+ */
 static void watch_descent(Watch *watch, const double *u, const char *where)
 {
     Moment moment = watch_moment(watch);
     long double energy = wide_energy(&moment, u);
     long double scale =
         fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
-    bool flat = watch->run->moves && !isfinite(watch->energy);
+    bool was_flat = watch->flat, flat = watch->run->moves;
+    watch->flat =
+        smallest_cell(moment.E.system, watch->run->newton->at.x) < FLAT;
+    flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         blame(watch, "E is %Lg %s", energy, where);
     if (!(energy <= watch->energy) && !flat &&
