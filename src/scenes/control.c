@@ -7,6 +7,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/pull_energy.h"
+#include "model/self_contact.h"
 #include "scenes/body.h"
 
 static Control *make_control(int nodes)
@@ -226,7 +227,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
                         const unsigned char *along, bool really)
 {
     TimeIntegrator *run = &simulation->run[0];
-    double *before = run->new_x; /* which the next step overwrites */
+    double *before = run->new_x, *p = run->new_v; /* the next step's */
     if (node < 0 || node >= simulation->system.nodes || !isfinite(x) ||
         !isfinite(y))
         return STATUS_INVALID_INPUT;
@@ -239,6 +240,10 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
     Status status = system_check(run->system, run->x);
+    for (size_t i = 0; i < run->size; i++)
+        p[i] = run->x[i] - before[i];
+    if (!status && !self_contact_lets_pass(run->system, before, p))
+        status = STATUS_INVALID_INPUT;
     if (status || !really) {
         memcpy(run->x, before, run->size * sizeof *before);
         return status;

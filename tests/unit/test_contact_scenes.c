@@ -162,6 +162,18 @@ TEST(a_body_that_is_pushed_stops_at_another)
     CHECK(x[2 * 9 + 1] > 0.5 && x[2 * 9 + 1] < 0.5 + 1e-3);
 }
 
+/* Neither into another body nor through all of it. */
+TEST(no_node_is_placed_in_another_body)
+{
+    Simulation *scene = simulate("--segments 4 --body 0,0 --body 0,1.1");
+    for (int i = 0; i < 2; i++)
+        CHECK_STATUS(simulation_place(scene, 25, 0, -2 * i, NULL, true),
+                     STATUS_INVALID_INPUT);
+    CHECK_STATUS(simulation_place(scene, 25, -0.5, 0.55, NULL, true),
+                 STATUS_OK);
+    CHECK(exact_crossings(&scene->system, scene->run[0].x) == 0);
+}
+
 /* The sides of the sheet are drawn apart; a node that a hand pins stays. */
 TEST(a_pin_set_by_hand_stays)
 {
