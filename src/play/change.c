@@ -489,8 +489,9 @@ Status obey_place(Player *player, const Command *command)
         if (simulation_place(
                 simulation, (int)command->number, command->x, command->y,
                 past_along(&player->past, p, command->number), false))
-            return player_refuse(player, "no room for it there: an obstacle, "
-                                         "or a cell that would turn over");
+            return player_refuse(player,
+                                 "no room for it there: an obstacle, a "
+                                 "body, or a cell that would turn over");
     }
     return change_all(player, command);
 }
