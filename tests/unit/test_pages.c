@@ -563,7 +563,7 @@ TEST(claim_algorithm2)
 
 TEST(claim_descent)
 {
-    says("descent", "0 0.1 0.35 0.1 0.1 289");
+    says("descent", "0.1 0.35 0.1 0.1 289");
     Simulation *simulation = open_page("descent", "");
     CHECK_NEAR(simulation->run[0].x[0], 0.1, 0);
     CHECK_NEAR(simulation->run[0].x[1], -0.35, 0);
@@ -601,7 +601,7 @@ TEST(claim_psd)
 
 TEST(claim_energy)
 {
-    says("energy", "0 2 0 2 0 4 0 4 1 2 3996");
+    says("energy", "0 2 2 0 4 0 4 1 2 3996");
     SpringFacts rest, near;
     const double k = 100;
     spring_facts((double[2]){1, 0}, 1, k, &rest);
