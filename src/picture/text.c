@@ -1,4 +1,5 @@
 /* text.c - fonts and letters; type.c makes lines and formulas of them. */
+#include <errno.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include <stdio.h>
@@ -69,11 +70,13 @@ Status text_create(Text **text)
     if (given && given[0] == '\0')
         return STATUS_OK;
     Text *made = calloc(1, sizeof *made);
+    errno = 0;
     if (!made || FT_Init_FreeType(&made->library)) {
         free(made);
         return STATUS_OUT_OF_MEMORY;
     }
-    FT_Error error = 0;
+    /* It leaves out, in silence, the kinds of fonts that found no memory. */
+    FT_Error error = errno == ENOMEM ? FT_Err_Out_Of_Memory : 0;
     for (int face = 0; face < FACE_COUNT && error != FT_Err_Out_Of_Memory;
          face++) {
         error = open_font(made->library, (Face)face, given, &made->font[face]);

@@ -209,8 +209,7 @@ Status obey_add(Player *player, const Command *command)
     for (int i = 0; i < player->numbers; i++)
         if (player->number[i] == row)
             player->selected = i;
-    player_note(player, "%s: %s; type %s and Enter", row->name, row->help,
-                row->value);
+    player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
     return STATUS_OK;
 }
 

@@ -45,7 +45,7 @@ static void tell_drift(Player *player)
         fabs(turn) * simulation->mesh.side > simulation->options.tolerance;
     player_note(player,
                 "nothing deforms any more: free as it is, it drifts on at "
-                "%.2g m/s%s; pull a node, pin one, or R begins again",
+                "%.2g m/s%s; pull a node, right click pins one, R begins again",
                 centre, turns ? " and turns" : "");
 }
 

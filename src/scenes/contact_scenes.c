@@ -62,6 +62,7 @@ static void cut(Simulation *simulation, double x, double low, double high)
         if ((a[0] < x) != (b[0] < x) && middle > low && middle < high)
             simulation->system.k[s] = 0;
     }
+    system_changed(&simulation->system, false);
 }
 
 /* The pins of the left half go left, the others right, at 0.2 sides a
