@@ -42,22 +42,38 @@ TEST(random_scenes_keep_the_promise)
     }
 }
 
+/* A scene in which something was wrong once. */
+static long judged_of(const char *line, int steps)
+{
+    Tally tally = {0};
+    char reason[512] = "";
+    Verdict verdict = stress_run(line, steps, &tally, reason);
+    if (verdict)
+        print_error("%s\n", reason);
+    CHECK(verdict == VERDICT_CONVERGED);
+    return tally.judged;
+}
+
 /* Its step 9 begins at rest, after an end that was looked at for a saddle: the
  * test there is of the projected Hessian again. */
 TEST(a_test_at_rest_is_of_its_own_hessian)
 {
-    Tally tally = {0};
-    char reason[512] = "";
-    Verdict verdict = stress_run(
-        "square --segments 4 --side 0.9 --timestep 0.787 --material "
-        "neo-hookean --young 5.39e+04 --poisson 0.337 --body "
-        "0,0,349,-1.05,-4.92,0.822,1.14 --body 1.6,-0.26,293,-8.4,-0.252 "
-        "--body 0.267,1.6,41.8,6.37,-0.279 --self-friction 1.21 --pin "
-        "top-corners --tolerance 1.37e-05 --filter clamp",
-        10, &tally, reason);
-    if (verdict)
-        print_error("%s\n", reason);
-    CHECK(verdict == VERDICT_CONVERGED && tally.judged >= 10);
+    CHECK(judged_of(
+              "square --segments 4 --side 0.9 --timestep 0.787 --material "
+              "neo-hookean --young 5.39e+04 --poisson 0.337 --body "
+              "0,0,349,-1.05,-4.92,0.822,1.14 --body 1.6,-0.26,293,-8.4,-0.252 "
+              "--body 0.267,1.6,41.8,6.37,-0.279 --self-friction 1.21 --pin "
+              "top-corners --tolerance 1.37e-05 --filter clamp",
+              10) >= 10);
+}
+
+/* The beam folds at its notch, whose faces touch in the first step. */
+TEST(the_faces_of_a_slit_touch)
+{
+    CHECK(judged_of("bend --segments 16 --stiffness 1.52e+04 --timestep 0.787 "
+                    "--tolerance 3.96e-06 --friction 0.61 --cells off --yield "
+                    "0.0124 --hardening 1.71 --barrier 0.00139,2.69e+05",
+                    1) >= 1);
 }
 
 /* Steps that break one promise each, and else are those of the slides. */
