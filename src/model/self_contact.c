@@ -373,8 +373,13 @@ bool self_contact_lets_pass(const System *system, const double *x,
                             const double *p)
 {
     Place at = place_at(system, NULL, NULL, x);
-    at.term = system_find_term(system, &self_contact_energy);
-    return !at.term || elements_reach(&at, p) > 1;
+    for (int t = 0; t < system->terms; t++) {
+        at.term = &system->term[t];
+        if (at.term->kind->internal && at.term->kind->reach &&
+            !(at.term->kind->reach(&at, p) > 1))
+            return false;
+    }
+    return true;
 }
 
 Status self_contact_set(System *system, const SquareMesh *mesh,
