@@ -165,8 +165,12 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
 {
     HelpGrid grid = help_grid(show, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.line / (1.3 * em));
-    double key = (show->page.title ? 2.6 : 8) * size * em;
-    double wide = inside.width / (double)grid.columns;
+    double key = 0, wide = inside.width / (double)grid.columns;
+    for (int i = 0; i < show->help_rows; i++)
+        if (show->help[i].text)
+            key = fmax(key,
+                       paper_width(paper, FACE_BOLD, size, show->help[i].key));
+    key += 0.6 * size * em;
     for (int i = 0; i < show->help_rows; i++) {
         const HelpRow *row = &show->help[i];
         double x = inside.x + i / grid.rows * wide;
