@@ -123,14 +123,16 @@ const SESSIONS = {
     for (const key of keys.split(' ')) await tab.key(key);
   },
   touch: async (tab) => {
+    await tab.key('Space');
+    await tab.touch('touchStart', [400, 350]);
+    await tab.until(`/pinned/.test(ask('web_text', 'string'))`, 9000).catch(() => {});
+    await tab.touch('touchEnd');
+    await tab.key('Space');
     await tab.touch('touchStart', [450, 300]);
     for (let i = 1; i <= 6; i++) await tab.touch('touchMove', [450 + 20 * i, 300 - 15 * i]);
     await sleep(400);
     await tab.touch('touchEnd');
     await tab.key('Space');
-    await tab.touch('touchStart', [300, 400]);
-    await tab.until(`/pinned/.test(ask('web_text', 'string'))`, 9000).catch(() => {});
-    await tab.touch('touchEnd');
     await tab.touch('touchStart', [350, 300], [450, 300]);
     await tab.touch('touchMove', [320, 300], [480, 300]);
     await tab.touch('touchEnd');
