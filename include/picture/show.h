@@ -21,7 +21,7 @@ enum {
     SHOW_TEXT = 160,   /* bytes of a sentence */
     SHOW_VALUE = 32,   /* bytes of a setting's value */
     SHOW_TOUCHED = 64, /* springs or nodes listed one by one */
-    SHOW_CODE_LINES = 400,
+    SHOW_CODE_LINES = 64,
     SHOW_PAGES = 64 /* of the lecture, at most */
 };
 
@@ -183,11 +183,10 @@ typedef enum PageKind {
 
 typedef struct Page {
     PageKind kind;
-    const char *title; /* "src/lecture.c: step_forward" */
-    int lines;         /* of text, at most SHOW_CODE_LINES are drawn */
-    const char *const *line;
+    const char *title; /* "src/lecture.c" */
+    int lines;         /* of text */
+    const char *line[SHOW_CODE_LINES];
     unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is lit */
-    int top;                            /* first line shown */
 } Page;
 
 /* Help is a table: a key and what it does; a key without text is a heading. */

@@ -1,3 +1,4 @@
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -116,9 +117,13 @@ Box page_draw_claim(Paper *paper, Box inside, const Show *show)
     if (!show->lecture)
         return inside;
     const Words words = {"Tested", show->lecture->claim, COLOUR_FAINT, 1};
-    int y = put_words(paper, inside, inside.y, 1, TEST_ROOM, &words,
-                      &show_pane(show)->facts, true);
-    return (Box){inside.x, y, inside.width, inside.y + inside.height - y};
+    const Facts *facts = &show_pane(show)->facts;
+    int high = put_words(paper, inside, 0, 1, TEST_ROOM, &words, facts, false);
+    inside.height -= high + paper_pixels(paper, 0.5);
+    put_words(paper, (Box){inside.x, 0, inside.width, INT_MAX},
+              inside.y + inside.height + paper_pixels(paper, 0.5), 1, TEST_ROOM,
+              &words, facts, true);
+    return inside;
 }
 
 /* As much as its words take, ems: guessed without fonts and from the names of

@@ -189,45 +189,32 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
     }
 }
 
-/* How many letters of the text fit into so many columns: all, or up to the
- * last blank. */
-static int fitting_letters(const char *text, int columns)
-{
-    int length = (int)strlen(text), cut = columns;
-    if (length <= columns)
-        return length;
-    while (cut > columns / 2 && text[cut - 1] != ' ')
-        cut--;
-    return cut > columns / 2 ? cut : columns;
-}
-
-/* Lines of code; what does not fit goes on below.  Those at work are lit. */
+/* Lines of code in letters as large as they fit; those at work are lit. */
 static void draw_code(Paper *paper, Box inside, const Page *page)
 {
-    double size = fmax(0.88, paper->least), line = 1.24 * size * paper->em;
-    double y = inside.y;
-    int columns = (int)(inside.width / (0.603 * size * paper->em)) - 1;
+    const double letter = 0.603, high = 1.3, most = 1.9; /* ems */
+    size_t indent = SIZE_MAX, widest = 0;
+    for (int i = 0; i < page->lines; i++) {
+        size_t length = strlen(page->line[i]);
+        size_t blanks = strspn(page->line[i], " ");
+        indent = length > 0 && blanks < indent ? blanks : indent;
+        widest = length > widest ? length : widest;
+    }
+    double air = 0.3 * paper->em;
+    double wide =
+        (inside.width - 2 * air) / (letter * (double)(widest - indent));
+    double size = fmin(wide, inside.height / (high * page->lines)) / paper->em;
+    size = fmax(fmin(size, most), paper->least);
+    int line = paper_pixels(paper, high * size);
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
-    for (int i = page->top; i < page->lines && columns > 10; i++) {
-        const char *text = page->line[i];
-        int indent = (int)strspn(text, " "), column = 0;
-        do {
-            char part[256];
-            int letters = fitting_letters(text, columns - column);
-            if (y + line > inside.y + inside.height)
-                return;
-            snprintf(part, sizeof part, "%.*s", letters, text);
-            if (i < SHOW_CODE_LINES && page->lit[i])
-                canvas_rectangle(&paper->canvas, inside.x, (int)y, inside.width,
-                                 (int)ceil(line), COLOUR_LIT);
-            text_draw(paper->text, &paper->canvas, &style,
-                      inside.x + 0.3 * paper->em +
-                          column * 0.602 * size * paper->em,
-                      y, ALIGN_LEFT, part);
-            y += line;
-            text += letters;
-            column = indent + 4 < columns - 8 ? indent + 4 : columns - 8;
-        } while (*text);
+    for (int i = 0; i < page->lines; i++) {
+        int y = inside.y + i * line;
+        if (page->lit[i])
+            canvas_rectangle(&paper->canvas, inside.x, y, inside.width, line,
+                             COLOUR_LIT);
+        if (page->line[i][0])
+            text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
+                      ALIGN_LEFT, page->line[i] + indent);
     }
 }
 
@@ -239,9 +226,11 @@ static void draw_page(Paper *paper, Box column, const Show *show)
     Box inside = page_inside(column, paper->em);
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
+    bool code = page->kind == PAGE_CODE && show->lecture;
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,
-                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s",
-                page->title ? page->title : "Keys and mouse");
+                box.y + 0.55 * paper->em, ALIGN_LEFT, "%s%s%s",
+                page->title ? page->title : "Keys and mouse", code ? ": " : "",
+                code ? show->lecture->function : "");
     Box before = canvas_clip(&paper->canvas, inside);
     if (page->kind == PAGE_CODE)
         draw_code(paper, page_draw_claim(paper, inside, show), page);

@@ -36,7 +36,7 @@ extern const Card card_page;
 /* The size of its letters in ems: the same for all pages that fit. */
 double page_letters(Paper *paper, Box inside, const Show *show);
 
-/* What a test holds of the page, above its code.  Returns the box below it; the
+/* What a test holds of the page, below its code.  Returns the box above it; the
  * same box outside of the lecture. */
 Box page_draw_claim(Paper *paper, Box inside, const Show *show);
 

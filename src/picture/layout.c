@@ -22,8 +22,8 @@ static const double PAIR_LEAST = 28; /* a column for two cards in a row */
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;
 
-/* The column's part of the width. */
-static const double COLUMN_PART = 0.38;
+/* The column's part of the width, and where code stands in it. */
+static const double COLUMN_PART = 0.38, CODE_PART = 0.75;
 
 /* At 800 pixels of height an em has 14, and never less than 9. */
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
@@ -370,7 +370,8 @@ Layout show_layout(const Show *show, int width, int height)
     unsigned hidden = show->hidden | show->print;
     if (!show->bare && wide >= 53 && (high >= 34 || show->print) && !low &&
         (page || hidden != (1u << picture_cards(picture)) - 1)) {
-        int column = pixels(&layout, fmax(COLUMN_PART * wide, COLUMN_LEAST));
+        double part = show->page.kind == PAGE_CODE ? CODE_PART : COLUMN_PART;
+        int column = pixels(&layout, fmax(part * wide, COLUMN_LEAST));
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;

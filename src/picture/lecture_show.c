@@ -5,6 +5,8 @@
 #include "scenes/listing.h"
 #include "scenes/scene.h"
 
+enum { CODE_SHOWN = 16 }; /* lines */
+
 /* Where Algorithm 3's lines are in step_forward of lecture.c. */
 static const char *const line_texts[LINE_COUNT] = {
     [LINE_START] = "x_n[i] = x[i]",
@@ -34,27 +36,61 @@ static const char *lit_text(const Show *show, const LecturePage *page)
     return page->lit;
 }
 
-/* The function with the comment above it, from near the first lit line on if
- * it is long. */
+/* How many lines from this one on only report, remark or give back, a condition
+ * before them included: a class reads past them. */
+static int count_asides(const char *const *line)
+{
+    static const char *const words[] = {
+        "/*",    "FAIL(",        "fprintf(",       "fputs(",       "puts(",
+        "char ", "snprintf(",    "FILE *",         "return NULL;", "(void)",
+        "free(", "cholmod_free", "cholmod_finish", "SDL_Quit"};
+    const char *head = line[0] + strspn(line[0], " ");
+    bool heads =
+        strncmp(head, "if (", 4) == 0 || strncmp(head, "for (", 5) == 0;
+    int count = heads && !strchr(head, '{');
+    const char *body = line[count] + strspn(line[count], " ");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strncmp(body, words[i], strlen(words[i])) == 0) {
+            while (!strstr(line[count], i == 0 ? "*/" : ";"))
+                count++;
+            return count + 1;
+        }
+    return 0;
+}
+
+/* Of the function as many lines as are seen from the back row, around those
+ * that are lit. */
 static void fill_code(const LecturePage *page, Show *show)
 {
     const Listing *listing = listing_find(page->file);
     Page *code = &show->page;
-    int from, body, to, first = -1;
-    if (!listing ||
-        !listing_function(listing, page->function, &from, &body, &to))
+    int from, at, to, first = -1, last = 0, lines = 0;
+    if (!listing || !listing_function(listing, page->function, &from, &at, &to))
         return;
     const char *text = lit_text(show, page);
     code->kind = PAGE_CODE;
     code->title = page->file;
-    code->line = listing->line + from;
-    code->lines = to - from < SHOW_CODE_LINES ? to - from : SHOW_CODE_LINES;
-    for (int i = body - from; i < code->lines; i++) {
-        code->lit[i] = strstr(code->line[i], text) != NULL;
-        if (code->lit[i] && first < 0)
-            first = i;
+    while (at < to && lines < SHOW_CODE_LINES) {
+        int asides = count_asides(listing->line + at);
+        at += asides;
+        if (asides > 0)
+            continue;
+        code->lit[lines] = strstr(listing->line[at], text) != NULL;
+        if (code->lit[lines]) {
+            first = first < 0 ? lines : first;
+            last = lines;
+        }
+        code->line[lines++] = listing->line[at++];
     }
-    code->top = first > 24 ? first - 12 : 0;
+    lines -= lines > CODE_SHOWN; /* the brace at its end */
+    int top = (first + last - CODE_SHOWN + 1) / 2;
+    top = top > lines - CODE_SHOWN ? lines - CODE_SHOWN : top;
+    for (top = top > 0 ? top : 0; !code->line[top][0];)
+        top++;
+    code->lines = lines - top < CODE_SHOWN ? lines - top : CODE_SHOWN;
+    memmove(code->line, code->line + top,
+            (size_t)code->lines * sizeof *code->line);
+    memmove(code->lit, code->lit + top, (size_t)code->lines);
 }
 
 /* Numbers and topics; a page is marked. */

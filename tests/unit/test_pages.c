@@ -988,6 +988,26 @@ TEST(pages_name_code_that_exists)
     }
 }
 
+/* Of the code a page shows few lines, with those at work, and no reports. */
+TEST(code_is_what_matters)
+{
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
+        Show show;
+        Simulation *simulation = open_page(page->name, "");
+        simulation->options.page = page;
+        show_create(simulation, &show);
+        show_lecture(LECTURE_CODE, NULL, &show);
+        int lit = 0;
+        for (int i = 0; i < show.page.lines; i++) {
+            lit += show.page.lit[i];
+            CHECK(!strstr(show.page.line[i], "FAIL("));
+        }
+        if (lit == 0 || show.page.lines < 4 || show.page.lines > 16)
+            fail_msg("page %s: %d lines, %d lit", page->name, show.page.lines,
+                     lit);
+    }
+}
+
 /* What is asked can be answered; the presenter has 80 minutes. */
 TEST(pages_ask_and_have_notes)
 {
@@ -1039,7 +1059,7 @@ TEST(words_of_all_pages_have_one_size)
 }
 
 /* The smallest letters of a frame, pixels, those of scripts, too. */
-static int smallest;
+static int smallest, smallest_code;
 
 const Glyph *__real_font_glyph(Text *text, Face face, int size,
                                uint32_t letter);
@@ -1049,11 +1069,13 @@ const Glyph *__wrap_font_glyph(Text *text, Face face, int size,
 const Glyph *__wrap_font_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     smallest = letter != ' ' && size < smallest ? size : smallest;
+    if (face == FACE_MONO && size < smallest_code)
+        smallest_code = size;
     return __real_font_glyph(text, face, size, letter);
 }
 
 /* On every page a 55th of the height, in large type a 35th, of code and list,
- * too. */
+ * too; code of lecture.c, whose lines have up to 80 letters, a 42nd. */
 TEST(letters_are_seen_from_the_back_row)
 {
     static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
@@ -1073,8 +1095,11 @@ TEST(letters_are_seen_from_the_back_row)
             show_create(simulation, &show);
             show_lecture(column, NULL, &show);
             show_describe(&show);
-            smallest = INT_MAX;
+            smallest = smallest_code = INT_MAX;
             show_draw(&paper[s], &show);
+            if (column == LECTURE_CODE &&
+                strcmp(page->file, "src/lecture.c") == 0)
+                CHECK(42 * (smallest_code + 0.5) > sizes[s][1]);
             if ((smallest + 0.5) * (i == 1 ? 35 : 55) < sizes[s][1])
                 fail_msg("page %s at %d x %d, %d: letters of %d", page->name,
                          sizes[s][0], sizes[s][1], i, smallest);

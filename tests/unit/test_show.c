@@ -303,14 +303,13 @@ TEST(notes_hide_labels)
 /* Code stands in the place of the cards, its lines at work lit. */
 TEST(pages_light_their_lines)
 {
-    const char *const lines[] = {"int a;", "int b;", "int c;", "int d;"};
     int lit[3];
     stand_up("square", 0);
     for (int i = 0; i < 3; i++) {
         show.page = (Page){.kind = PAGE_CODE,
                            .title = "file.c: function",
                            .lines = 4,
-                           .line = lines,
+                           .line = {"int a;", "int b;", "int c;", "int d;"},
                            .lit = {0, i > 0, i > 1, 0}};
         draw();
         lit[i] = count_colour(layout.column, COLOUR_LIT);
