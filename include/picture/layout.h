@@ -56,6 +56,7 @@ typedef enum Zone {
     ZONE_CARD,       /* index: the card */
     ZONE_CARD_CLOSE, /* index: the card; its cross was hit */
     ZONE_PAGE,       /* help or code */
+    ZONE_PAGE_CLOSE, /* its cross */
     ZONE_SETTING,    /* index: the setting */
     ZONE_TIME,
     ZONE_CHIP, /* index: the chip */
@@ -71,7 +72,7 @@ typedef struct Hit {
 /* What is at this pixel: of things above each other the upper one. */
 Hit layout_hit(const Layout *layout, double x, double y);
 
-/* The cross that closes a card. */
+/* The cross that closes a card, or -1: the page in their place. */
 Box layout_close_box(const Layout *layout, int card);
 
 /* 0 ... 1: how far along the bars of the time line x is; clamped. */

@@ -153,9 +153,9 @@ const OptionRow *option_find(const char *name);
  * Returns whether it can be read and is in the row's range. */
 bool option_read(const OptionRow *row, const char *text, double *value);
 
-/* A number of the row as text: with as many digits as option_read needs to read
- * the same number again, or in short, as the window has room for it: of what is
- * given several times the last one; "none": it was not given.
+/* A number of the row (NULL: any) as text: with as many digits as option_read
+ * needs to read the same number again, or in short, as the window has room for
+ * it: of what is given several times the last one; "none": it was not given.
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_value(const OptionRow *row, const Options *options, char *text,

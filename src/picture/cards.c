@@ -93,14 +93,27 @@ void cards_hint(const Plot *card, const char *text)
                 "%s", line.words);
 }
 
+/* At the right end of the title bar of a box: a plus, or a cross. */
+static void draw_cross(Paper *paper, Box box, bool plus)
+{
+    int bar = paper_pixels(paper, TITLE);
+    double unit = paper->unit, arm = 3.4 * unit;
+    double x = box.x + box.width - bar / 2.0, y = box.y + bar / 2.0;
+    for (int k = 0; k < 2; k++) {
+        double right = plus && k ? 0 : arm;
+        double down = plus ? arm - right : k ? -arm : arm;
+        canvas_line(&paper->canvas, x - right, y - down, x + right, y + down,
+                    1.4 * unit, COLOUR_GREY);
+    }
+}
+
 /* Frame, title and cross; returns what is inside. */
 static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                       bool closed)
 {
     TextLine title = text_first(&show_pane(show)->facts, card->title);
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
-    double unit = paper->unit, x = box.x + box.width - bar / 2.0;
-    double y = box.y + bar / 2.0, arm = 3.4 * unit;
+    double y = box.y + bar / 2.0;
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
     Box before =
@@ -111,12 +124,8 @@ static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                 box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
                 title.words);
     canvas_clip(&paper->canvas, before);
-    for (int k = 0; k < 2 && !show->print; k++) { /* a plus, or a cross */
-        double right = closed && k ? 0 : arm;
-        double down = closed ? arm - right : k ? -arm : arm;
-        canvas_line(&paper->canvas, x - right, y - down, x + right, y + down,
-                    1.4 * unit, COLOUR_GREY);
-    }
+    if (!show->print)
+        draw_cross(paper, box, closed);
     return cards_inside(box, paper->em);
 }
 
@@ -227,6 +236,7 @@ static void draw_page(Paper *paper, Box column, const Show *show)
     canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
                 COLOUR_BORDER);
     bool code = page->kind == PAGE_CODE && show->lecture;
+    draw_cross(paper, box, false);
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,
                 box.y + 0.55 * paper->em, ALIGN_LEFT, "%s%s%s",
                 page->title ? page->title : "Keys and mouse", code ? ": " : "",

@@ -388,7 +388,8 @@ Layout show_layout(const Show *show, int width, int height)
 
 Box layout_close_box(const Layout *layout, int card)
 {
-    Box box = layout->card[card];
+    Box box = card >= 0 ? layout->card[card]
+                        : box_inset(layout->column, pixels(layout, GAP));
     int side = pixels(layout, TITLE_BAR);
     return (Box){box.x + box.width - side, box.y, side,
                  box.height < side ? box.height : side};
@@ -414,6 +415,9 @@ Hit layout_hit(const Layout *layout, double x, double y)
     if (hit.zone == ZONE_CARD &&
         box_contains(layout_close_box(layout, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;
+    if (hit.zone == ZONE_PAGE &&
+        box_contains(layout_close_box(layout, -1), x, y))
+        hit.zone = ZONE_PAGE_CLOSE;
     return hit;
 }
 

@@ -209,13 +209,18 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     fact_point(&facts, "velocity", v);
     fact_point(&facts, "force", force);
     fact_point(&facts, "inertia", tilde);
+    fact_words(&facts, "pin", /* where time passes */
+               !simulation_is_handled(simulation)       ? NULL
+               : system->pinned && system->pinned[node] ? "frees"
+                                                        : "pins");
     draw_note(stage, x, &facts,
               "#text* node {node:9}{pinned}\n"
               "m = {mass} kg\n"
               "{x} = {place} m\n"
               "v = {velocity} m/s\n"
               "f = {force} N\n"
-              "{xt} = {inertia} m");
+              "{xt} = {inertia} m\n"
+              "drag it; a right click {pin} it");
 }
 
 /* The block [[H, -H], [-H, H]] of a spring has the eigenvalues 0, 0 and twice

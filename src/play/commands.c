@@ -58,7 +58,8 @@ void commands_help(FILE *file)
             "commands of scripts (--script FILE), a line each: STEP COMMAND\n"
             "A line waits until its step is shown; a run that is paused waits "
             "for none.\n\"& COMMAND\" is undone together with the one before "
-            "it; # begins a comment.\n");
+            "it; # begins a comment.\n"
+            "Tables on pipes keep the rows of steps that were taken back.\n");
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = &command_rows[kind];
         char start[64];
@@ -173,8 +174,8 @@ void command_format(const Command *command, char *line, size_t size)
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
         else if (*at == 'X' || *at == 'Y')
-            snprintf(word, sizeof word, "%.17g",
-                     *at == 'X' ? command->x : command->y);
+            option_write(NULL, *at == 'X' ? command->x : command->y, word,
+                         sizeof word);
         else if (*at == 'O' && option)
             snprintf(word, sizeof word, "%s", option->name);
         else if (*at == 'V' && option && !command->text[0])

@@ -309,6 +309,8 @@ static void fill_chips(Player *player)
                  options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
         add_chip(player, COMMAND_METHOD, 0, false);
+    if (player->past.now > 0)
+        add_chip(player, COMMAND_UNDO, 0, false);
     add_chip(player, COMMAND_SHEET, 0, false);
     add_chip(player, COMMAND_KEYS, 0, player->column == COLUMN_KEYS);
 }

@@ -486,13 +486,17 @@ static Status left_pressed(Player *player, const Under *under, int clicks)
         return go_to_mouse(player, under);
     case ZONE_SETTING:
         return number_pressed(player, index, clicks);
+    case ZONE_PAGE_CLOSE:
+        return ask(player, COMMAND_ESCAPE, 0);
     case ZONE_PAGE:
         return page_clicked(player, under);
     case ZONE_CELL:
         return player_open_cell(player, index);
     case ZONE_STRIP:
-        player_note(player, "G shows all scenes, Shift+G all pages of the "
-                            "lecture; Page Down turns them");
+        player_note(player,
+                    "elasto %s: G shows all scenes, Shift+G all pages of the "
+                    "lecture; Page Down turns them",
+                    player->scene->name);
         return STATUS_OK;
     case ZONE_STAGE:
         if (under->pane != player->active)
@@ -545,6 +549,16 @@ static Status box_drawn(Player *player)
     return player_obey(player, &command);
 }
 
+/* A left click on a node of a square does nothing by itself. */
+static void node_clicked(Player *player)
+{
+    const Simulation *simulation = player_simulation(player);
+    int node = player->mouse.index;
+    if (node >= 0 && node < simulation->mesh.nodes)
+        player_note(player, "a drag moves node %d, a right click %s it", node,
+                    simulation_is_pinned(simulation, node) ? "frees" : "pins");
+}
+
 /* A click on a name takes the next one. */
 static Status released(Player *player)
 {
@@ -554,6 +568,8 @@ static Status released(Player *player)
     player->show.held.on = player->show.held.boxes = false;
     if (drag == COMMAND_BOX)
         return box_drawn(player);
+    if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE))
+        node_clicked(player);
     if (drag == COMMAND_GRAB && player->holds) {
         Status status = ask(player, COMMAND_RELEASE, 0);
         return !status && mouse->pins ? ask(player, COMMAND_PIN, mouse->index)

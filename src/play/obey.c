@@ -174,8 +174,10 @@ Status player_obey(Player *player, const Command *asked)
     if (past->works && !(flags & SCREEN)) {
         past_aim(past, step, false);
         player->then = THEN_NOTHING;
-        if (command.kind == COMMAND_ESCAPE)
+        if (command.kind == COMMAND_ESCAPE) {
+            player_note(player, "given up: this is the last whole step");
             return player_work(player);
+        }
     }
     Status status = check_number(player, &command);
     bool noted = !status && flags & KEPT; /* before what it does in turn */

@@ -349,8 +349,8 @@ Status player_create(const Options *options, int count, const char *line,
         status = player_open_page(player);
     else if (!status && player->asks &&
              simulation_is_handled(player_simulation(player)))
-        player_note(player, "pull at a node with the mouse; G: all scenes; "
-                            "Page Down: the guided tour");
+        player_note(player, "pull at a node with the mouse; right click pins "
+                            "it; G: all scenes; Page Down: the guided tour");
     return status;
 }
 

@@ -230,6 +230,9 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     for (int i = 0; i < options->panes; i++)
         if (options_parse(argc, argv, i, &options[i], message, sizeof message))
             return misuse(message);
+    if (options->notes && argc > 2)
+        return misuse(
+            "--notes prints those of all pages: nothing goes with it");
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;

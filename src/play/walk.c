@@ -2,6 +2,7 @@
  * Newton's method, or by lines of Algorithm 3, undo.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,6 +116,8 @@ Status obey_back(Player *player, const Command *command)
     (void)command;
     long step = player->past.step;
     player_stop(player);
+    if (step == 0)
+        player_note(player, "this is step 0: nothing was before it");
     if (player->fine == 0 || !has_updates(player))
         return player_show(player, step - 1, false, THEN_NOTHING);
     if (player_place(player, player->active) < 0 && step > 0) {
@@ -157,6 +160,14 @@ Status obey_goto(Player *player, const Command *command)
     return player_show(player, step, false, THEN_NOTHING);
 }
 
+/* With as many digits as the row of numbers has. */
+static double rounded(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%g", value);
+    return strtod(text, NULL);
+}
+
 /* What was done last, or undone: "set stretch 1.2". */
 Status obey_undo(Player *player, const Command *command)
 {
@@ -169,6 +180,8 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     Command edit = *made;
     edit.joins = false;
+    edit.x = rounded(edit.x);
+    edit.y = rounded(edit.y);
     command_format(&edit, line, sizeof line);
     player->mode = MODE_PAUSE;
     player->holds = false;

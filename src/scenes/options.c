@@ -292,12 +292,12 @@ const IntegratorMethod *options_method(const Options *options)
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row->kind == OPTION_NAME) /* the scene's choice: the first */
+    bool named = row && row->kind == OPTION_NAME;
+    if (named) /* the scene's choice: the first */
         snprintf(text, size, "%s", name_at(row->names, (int)fmax(value, 0)));
-    if (row->kind == OPTION_NAME)
-        return;
-    snprintf(text, size, "%.15g", value);
-    if (strtod(text, NULL) != value)
+    else
+        snprintf(text, size, "%.15g", value);
+    if (!named && strtod(text, NULL) != value)
         snprintf(text, size, "%.17g", value);
 }
 

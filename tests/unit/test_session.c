@@ -499,8 +499,17 @@ static const Session sessions[] = {
            "number projection abs", "key K", "says Page Down", /**/
            "begin race --paused", "key N P", "at 0",
            "says from the start: projection none")},
+    {"the mouse tells what it can do",
+     LINES("begin square --segments 2 --stretch 1 --paused", "press node 4",
+           "release +0 +0", "says right click pins it", "right node 4",
+           "press node 4", "release +0 +0", "says right click frees it",
+           "key Left", "says this is step 0", "mark a", "key ?", "other a",
+           "press 876 63", "release +0 +0", "same a",
+           "do place 3 0.1 0.123456789", "chip Ctrl+Z undo", "key Ctrl+Z",
+           "says undone: place 3 0.1 0.123457")},
     {"the title tells of other scenes",
-     LINES("begin square --paused", "press 60 20", "says G shows all scenes")},
+     LINES("begin square --paused", "press 60 20",
+           "says elasto square: G shows all")},
     {"a choice that is lit takes digits, too",
      LINES("begin square --paused", "key Tab Tab Tab Tab Tab Tab", "type 0.8",
            "key Return", "says --integrator: '0.8' is none of: backward-euler",
@@ -661,25 +670,25 @@ static const Session sessions[] = {
            "mark a cards", "key End", "press step 2", "move step 2",
            "same a cards", "release +0 +0", "at 2", "same a cards")},
     {"a change at an old step leaves the later ones to undo",
-     LINES("begin square --segments 2 --stretch 1 --paused", "key N N N N N N",
-           "mark a state", "key Home Right", "mark b state", "right 524 634",
-           "says pinned; steps 2 ... 6: Ctrl+Z leads back", "newest 1",
-           "key N N", "mark c state", "key Ctrl+Z", "says undone", "at 1",
-           "newest 6", "same b state", "key End", "same a state",    /**/
-           "key Ctrl+Shift+Z", "at 3", "same c state", "key Ctrl+Z", /**/
-           "key Home", "press 279 389", "move 279 380", "move 350 300", "key N",
-           "move 360 310", "key N", "release +0 +0", "key N", "newest 3",
-           "key Ctrl+Z", "at 0", "newest 6", "key End", "same a state", /**/
-           "key Home", "press h", "move +0 +0", "move +24 +0", "move +24 +0",
-           "release +0 +0", "number h 0.00862 s", "key Ctrl+Z",
-           "number h 0.004 s", "key Home", "wheel stretch", "wheel stretch",
-           "newest 0", "key N Ctrl+Z", "newest 6", /**/
-           "key Home M", "number method forward Euler", "key Ctrl+Z",
-           "number method backward Euler", "key Tab+M N Ctrl+Z", "at 0",
-           "newest 6", "key R N Ctrl+Z", "newest 6", "key Escape 7 N N",
-           "scene hang", "key Ctrl+Z", "scene square", "at 0", "newest 6",
-           "key End", "same a state",
-           "replays square --segments 2 --stretch 1")},
+     LINES(
+         "begin square --segments 2 --stretch 1 --paused", "key N N N N N N",
+         "mark a state", "key Home Right", "mark b state", "right 524 634",
+         "says pinned; steps 2 ... 6: Ctrl+Z leads back", "newest 1", "key N N",
+         "mark c state", "chip Ctrl+Z undo", "key Ctrl+Z", "says undone: pin 6",
+         "at 1", "newest 6", "same b state", "key End", "same a state", /**/
+         "key Ctrl+Shift+Z", "at 3", "same c state", "key Ctrl+Z",      /**/
+         "key Home", "press 279 389", "move 279 380", "move 350 300", "key N",
+         "move 360 310", "key N", "release +0 +0", "key N", "newest 3",
+         "key Ctrl+Z", "at 0", "newest 6", "key End", "same a state", /**/
+         "key Home", "press h", "move +0 +0", "move +24 +0", "move +24 +0",
+         "release +0 +0", "number h 0.00862 s", "key Ctrl+Z",
+         "number h 0.004 s", "key Home", "wheel stretch", "wheel stretch",
+         "newest 0", "key N Ctrl+Z", "newest 6", /**/
+         "key Home M", "number method forward Euler", "key Ctrl+Z",
+         "number method backward Euler", "key Tab+M N Ctrl+Z", "at 0",
+         "newest 6", "key R N Ctrl+Z", "newest 6", "key Escape 7 N N",
+         "scene hang", "key Ctrl+Z", "scene square", "at 0", "newest 6",
+         "key End", "same a state", "replays square --segments 2 --stretch 1")},
     {"running on from an old step shows the known ones",
      LINES("begin square --segments 2 --paused", "key N N N", "right 524 634",
            "key N N N N", "mark a state", "key Home Space", "run 5", "at 5",
