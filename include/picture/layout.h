@@ -78,9 +78,6 @@ Box layout_close_box(const Layout *layout, int card);
 /* 0 ... 1: how far along the bars of the time line x is; clamped. */
 double layout_time_part(const Layout *layout, double x);
 
-Box box_inset(Box box, int margin);
-bool box_contains(Box box, double x, double y);
-
 /* ---- stage and world ---------------------------------------------------- */
 
 /* From the world (metres, y up; in the curve x and f) to pixels, y down:

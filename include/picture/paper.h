@@ -1,13 +1,11 @@
 /* paper.h - what a frame is drawn on: a canvas, texts in a size that fits it,
  * and pictures that are kept from frame to frame because they seldom change.
  *
- * Sizes are in ems, the size of the texts; layout.h says how many pixels one
+ * Sizes are in ems, the size of plain texts; layout.h says how many pixels one
  * has.  A line is `unit` pixels wide, 1 where the em has 14 pixels.
  */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
-
-#include <stddef.h>
 
 #include "picture/text.h"
 
@@ -38,17 +36,24 @@ void paper_free(Paper *paper);
 /* Ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
 
-/* A line between pixels, at least a pixel wide; width in units. */
+/* Between pixels, at least a pixel wide; width in units.  Dashes have a phase
+ * as in canvas.h. */
 void paper_line(Paper *paper, const double a[2], const double b[2],
                 double width, Colour colour);
+void paper_dashes(Paper *paper, const double a[2], const double b[2],
+                  double width, double *phase, Colour colour);
 
-/* One line of text in markup, made as printf does; y is its upper edge.
- *   size  ems, 1 is the size of all plain texts
- * Returns the width in pixels. */
+/* One line of markup, made as printf does; y is its upper edge.  Returns its
+ * width in pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
-/* The same on a piece of thin white, so that it can be read on a picture. */
+/* In the middle of a box's height; smaller, to 0.6 of the size, where it is
+ * wider than the box. */
+int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
+              Align align, const char *markup);
+
+/* On a piece of thin white, so that it can be read on a picture. */
 int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup);
 

@@ -103,6 +103,19 @@ static Box touched(Box clip, double left, double top, double right,
                  low_end + (low_end < y1) - y};
 }
 
+Box box_inset(Box box, int margin)
+{
+    int width = box.width - 2 * margin, height = box.height - 2 * margin;
+    return (Box){box.x + margin, box.y + margin, width > 0 ? width : 0,
+                 height > 0 ? height : 0};
+}
+
+bool box_contains(Box box, double x, double y)
+{
+    return x >= box.x && x < box.x + box.width && y >= box.y &&
+           y < box.y + box.height;
+}
+
 Box canvas_clip(Canvas *canvas, Box box)
 {
     Box before = canvas->clip, whole = {0, 0, canvas->width, canvas->height};
@@ -129,14 +142,19 @@ static void mix_span(uint32_t *row, int left, int right, Colour colour,
             row[i] = mix(row[i], colour, amount);
 }
 
-void canvas_rectangle(Canvas *canvas, int x, int y, int width, int height,
-                      Colour colour)
+void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
-    Box box =
-        touched(canvas->clip, x, y, (double)x + width, (double)y + height);
-    for (int j = box.y; j < box.y + box.height; j++)
-        mix_span(canvas_row(canvas, j), box.x, box.x + box.width, colour,
+    Box seen = touched(canvas->clip, box.x, box.y, (double)box.x + box.width,
+                       (double)box.y + box.height);
+    for (int j = seen.y; j < seen.y + seen.height; j++)
+        mix_span(canvas_row(canvas, j), seen.x, seen.x + seen.width, colour,
                  opacity(colour));
+}
+
+void canvas_card(Canvas *canvas, Box box, Colour fill, Colour border)
+{
+    canvas_fill(canvas, box, border);
+    canvas_fill(canvas, box_inset(box, 1), fill);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -179,12 +197,6 @@ bool box_cut(const Box *box, double margin, double line[4])
     return t0 <= t1;
 }
 
-static inline void blend(uint32_t *pixel, const LineFrame *frame,
-                         uint32_t amount)
-{
-    *pixel = mix(*pixel, frame->colour, amount);
-}
-
 /* Adds the pixels between low and high (fixed point) of one column, as far as
  * the clip goes. */
 static inline void line_column(const LineFrame *frame, uint32_t *column,
@@ -195,17 +207,18 @@ static inline void line_column(const LineFrame *frame, uint32_t *column,
     if (low >= high)
         return;
     int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
+    Colour colour = frame->colour;
     uint32_t *p = column + row * frame->across;
     if (row == last) {
-        blend(p, frame, (uint32_t)(high - low) * amount >> FIXED_BITS);
+        *p = mix(*p, colour, (uint32_t)(high - low) * amount >> FIXED_BITS);
         return;
     }
     uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
-    blend(p, frame, part * amount >> FIXED_BITS);
+    *p = mix(*p, colour, part * amount >> FIXED_BITS);
     for (p += frame->across; ++row < last; p += frame->across)
-        blend(p, frame, amount);
+        *p = mix(*p, colour, amount);
     part = (uint32_t)(high - last * FIXED_ONE);
-    blend(p, frame, part * amount >> FIXED_BITS);
+    *p = mix(*p, colour, part * amount >> FIXED_BITS);
 }
 
 /* From a0 to a1 > a0, |slope| <= 1, b = b0 at a0, in the axes of the frame; in
@@ -260,28 +273,28 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                      line[back + 1 - k], d[1 - k] / d[k], width);
 }
 
-void canvas_dashes(Canvas *canvas, double x0, double y0, double x1, double y1,
+void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
                    double width, double on, double off, double *phase,
                    Colour colour)
 {
-    double line[4] = {x0, y0, x1, y1}, length = math_hypot(x1 - x0, y1 - y0);
-    double begin = phase ? *phase : 0, period = on + off;
-    if (!(length > 0) || !(period > 0) || !isfinite(length))
+    double line[4] = {a[0], a[1], b[0], b[1]}, begin = phase ? *phase : 0;
+    double dx = b[0] - a[0], dy = b[1] - a[1], length = math_hypot(dx, dy);
+    if (!(length > 0) || !isfinite(length))
         return;
     if (phase)
-        *phase = fmod(begin + length, period);
+        *phase = fmod(begin + length, on + off);
     if (!box_cut(&canvas->clip, width + 1, line))
         return;
-    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-    double from = (line[0] - x0) * ux + (line[1] - y0) * uy;
-    double to = (line[2] - x0) * ux + (line[3] - y0) * uy;
-    for (double k = floor((begin + from) / period); k * period - begin < to;
-         k++) {
-        double a = fmax(k * period - begin, from);
-        double b = fmin(k * period - begin + on, to);
-        if (b > a)
-            canvas_line(canvas, x0 + a * ux, y0 + a * uy, x0 + b * ux,
-                        y0 + b * uy, width, colour);
+    dx /= length;
+    dy /= length;
+    double from = (line[0] - a[0]) * dx + (line[1] - a[1]) * dy;
+    double to = (line[2] - a[0]) * dx + (line[3] - a[1]) * dy;
+    double k = floor((begin + from) / (on + off)) * (on + off) - begin;
+    for (; k < to; k += on + off) {
+        double s = fmax(k, from), t = fmin(k + on, to);
+        if (t > s)
+            canvas_line(canvas, a[0] + s * dx, a[1] + s * dy, a[0] + t * dx,
+                        a[1] + t * dy, width, colour);
     }
 }
 
@@ -366,46 +379,6 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
 static inline double limit_part(double value)
 {
     return value < 0 ? 0 : value > 1 ? 1 : value;
-}
-
-/* Distance of a point to the outline of a box with round corners, < 0 inside
- * (half: half its size). */
-static double card_distance(double x, double y, const double half[2],
-                            double radius)
-{
-    double dx = fabs(x) - half[0] + radius, dy = fabs(y) - half[1] + radius;
-    if (dx > 0 && dy > 0)
-        return math_hypot(dx, dy) - radius;
-    return (dx > dy ? dx : dy) - radius;
-}
-
-/* Corners by distance; what is between them is the same along a row. */
-void canvas_card(Canvas *canvas, Box box, double radius, Colour fill,
-                 Colour border)
-{
-    const double half[2] = {0.5 * box.width, 0.5 * box.height};
-    int rim = (int)ceil(radius) + 1;
-    Box seen = touched(canvas->clip, box.x, box.y, box.x + box.width,
-                       box.y + box.height);
-    if (box.width <= 0 || box.height <= 0)
-        return;
-    int end = seen.x + seen.width, right = box.x + box.width - rim;
-    right = right < end ? right : end;
-    radius = fmin(radius, fmin(half[0], half[1]));
-    for (int j = seen.y; j < seen.y + seen.height; j++) {
-        uint32_t *row = canvas_row(canvas, j);
-        for (int i = seen.x, past; i < end; i = past) {
-            double d = card_distance(i + 0.5 - box.x - half[0],
-                                     j + 0.5 - box.y - half[1], half, radius);
-            double out = limit_part(0.5 - d);
-            double in = border ? limit_part(-0.5 - d) : out;
-            past = i >= box.x + rim && i < right ? right : i + 1;
-            mix_span(row, i, past, fill, (uint32_t)(in * opacity(fill) + 0.5));
-            if (border)
-                mix_span(row, i, past, border,
-                         (uint32_t)((out - in) * opacity(border) + 0.5));
-        }
-    }
 }
 
 /* By the distance from the centre to its two edges; a disc has but one. */

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -103,29 +104,30 @@ static void draw_row(Paper *paper, Box box, const Pane *pane, const Row *row,
     bool struck = text_is_known(facts, row->off);
     TextLine words = text_first(facts, row->markup);
     TextLine value = text_first(facts, reached || struck ? row->value : NULL);
-    double line = text_line(paper->em);
-    double y = box.y + 0.5 * (box.height - line);
-    int x = box.x + paper_pixels(paper, 2 + 1.2 * row->indent);
-    int right = box.x + box.width - paper_pixels(paper, 0.6);
+    char digits[12];
+    int indent = paper_pixels(paper, 2 + 1.2 * row->indent);
+    int wide = paper_width(paper, FACE_REGULAR, 0.88, value.words);
+    Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
+    Box room = {box.x + indent, box.y,
+                box.width - indent - wide - paper_pixels(paper, 1.4),
+                box.height};
     if (lit)
-        canvas_card(&paper->canvas, box, 0.3 * paper->em, COLOUR_LIT, 0);
-    paper_write(paper, FACE_REGULAR, 0.82, COLOUR_GREY, box.x + 1.2 * paper->em,
-                y + 0.12 * paper->em, ALIGN_RIGHT, "%d", number);
-    int room = right - x - paper_pixels(paper, 0.8) -
-               paper_width(paper, FACE_REGULAR, 0.88, value.words);
-    double size = fitting_size(paper, FACE_REGULAR, 1, 0.8, room, words.words);
-    int text = paper_write(
-        paper, FACE_REGULAR, size, struck ? COLOUR_GREY : COLOUR_TEXT, x,
-        y + 0.6 * (1 - size) * paper->em, ALIGN_LEFT, "%s", words.words);
-    if (struck) {
-        double middle = floor(y + 0.62 * line) + 0.5;
-        canvas_line(&paper->canvas, x, middle, x + text, middle,
-                    fmax(1, 1.3 * paper->unit), COLOUR_GREY);
-    }
-    if (text <= room)
-        paper_write(paper, FACE_REGULAR, 0.88, lit ? COLOUR_TEXT : COLOUR_FAINT,
-                    right, y + 0.08 * paper->em, ALIGN_RIGHT, "%s",
-                    value.words);
+        canvas_fill(&paper->canvas, box, COLOUR_LIT);
+    snprintf(digits, sizeof digits, "%d", number);
+    paper_fit(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count, ALIGN_RIGHT,
+              digits);
+    int text =
+        paper_fit(paper, FACE_REGULAR, 1, struck ? COLOUR_GREY : COLOUR_TEXT,
+                  room, ALIGN_LEFT, words.words);
+    if (struck)
+        canvas_fill(&paper->canvas,
+                    (Box){room.x, box.y + box.height / 2, text,
+                          (int)fmax(1, 1.3 * paper->unit)},
+                    COLOUR_GREY);
+    box.width -= paper_pixels(paper, 0.6);
+    if (text <= room.width)
+        paper_fit(paper, FACE_REGULAR, 0.88, lit ? COLOUR_TEXT : COLOUR_FAINT,
+                  box, ALIGN_RIGHT, value.words);
 }
 
 /* The rows of what the active pane does: shown [ROWS] out.  Returns how many

@@ -30,8 +30,10 @@ static void draw_point(const Plot *plot, const double *at, double radius,
     if (kind == RESIDUAL_VALUE)
         plot_disc(plot, at, radius, colour);
     else if (kind == RESIDUAL_ESTIMATE)
-        canvas_rectangle(&paper->canvas, (int)round(p[0]) - half,
-                         (int)round(p[1]) - half, 2 * half, 2 * half, colour);
+        canvas_fill(&paper->canvas,
+                    (Box){(int)round(p[0]) - half, (int)round(p[1]) - half,
+                          2 * half, 2 * half},
+                    colour);
     else
         plot_ring(plot, at, radius + 1, 1.6, colour);
 }

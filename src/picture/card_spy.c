@@ -51,8 +51,8 @@ static void draw_block(Canvas *canvas, int n, int i, int j, Colour colour)
         wide--;
         high--;
     }
-    canvas_rectangle(canvas, x, y, wide > 1 ? wide : 1, high > 1 ? high : 1,
-                     colour);
+    canvas_fill(canvas, (Box){x, y, wide > 1 ? wide : 1, high > 1 ? high : 1},
+                colour);
 }
 
 /* Above the diagonal the matrix, below it the factor with its fill. */
@@ -85,9 +85,8 @@ static void light_spring(Paper *paper, const System *system, int spring,
     for (int k = 0; k < 4; k++) {
         int x = square.x + (int)(place[k % 2] * square.width / n);
         int y = square.y + (int)(place[k / 2] * square.width / n);
-        canvas_rectangle(&paper->canvas, x - 1, y - 1, size + 2, size + 2,
-                         COLOUR_WHITE);
-        canvas_rectangle(&paper->canvas, x, y, size, size, COLOUR_PROJECT);
+        canvas_card(&paper->canvas, (Box){x - 1, y - 1, size + 2, size + 2},
+                    COLOUR_PROJECT, COLOUR_WHITE);
     }
 }
 

@@ -73,57 +73,32 @@ Box cards_inside(Box card, double em)
                  card.height - bar - margin / 2};
 }
 
-double fitting_size(Paper *paper, Face face, double size, double least,
-                    double room, const char *text)
-{
-    int width = paper_width(paper, face, size, text);
-    return width > room ? size * fmax(least, room / width) : size;
-}
-
 void cards_hint(const Plot *card, const char *text)
 {
     TextLine line = text_first(&show_pane(card->show)->facts, text);
-    Paper *paper = card->paper;
-    Box inside = card->box;
-    double size =
-        fitting_size(paper, FACE_REGULAR, 0.92, 0.7, inside.width, line.words);
-    paper_write(paper, FACE_REGULAR, size, COLOUR_GREY,
-                inside.x + 0.5 * inside.width,
-                inside.y + 0.5 * inside.height - 0.7 * paper->em, ALIGN_CENTRE,
-                "%s", line.words);
+    paper_fit(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
+              ALIGN_CENTRE, line.words);
 }
 
 /* At the right end of the title bar of a box: a plus, or a cross. */
 static void draw_cross(Paper *paper, Box box, bool plus)
 {
     int bar = paper_pixels(paper, TITLE);
-    double unit = paper->unit, arm = 3.4 * unit;
-    double x = box.x + box.width - bar / 2.0, y = box.y + bar / 2.0;
-    for (int k = 0; k < 2; k++) {
-        double right = plus && k ? 0 : arm;
-        double down = plus ? arm - right : k ? -arm : arm;
-        canvas_line(&paper->canvas, x - right, y - down, x + right, y + down,
-                    1.4 * unit, COLOUR_GREY);
-    }
+    paper_fit(paper, FACE_REGULAR, 1.2, COLOUR_GREY,
+              (Box){box.x + box.width - bar, box.y, bar, bar}, ALIGN_CENTRE,
+              plus ? "+" : "\u00d7");
 }
 
 /* Frame, title and cross; returns what is inside. */
 static Box draw_frame(Paper *paper, Box box, const Card *card, const Show *show,
                       bool closed)
 {
-    TextLine title = text_first(&show_pane(show)->facts, card->title);
+    TextLine line = text_first(&show_pane(show)->facts, card->title);
     int margin = paper_pixels(paper, 0.8), bar = paper_pixels(paper, TITLE);
-    double y = box.y + bar / 2.0;
-    canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
-                COLOUR_BORDER);
-    Box before =
-        canvas_clip(&paper->canvas, (Box){box.x, box.y, box.width - bar, bar});
-    double size = fitting_size(paper, FACE_BOLD, 0.96, 0.7,
-                               box.width - bar - margin, title.words);
-    paper_write(paper, FACE_BOLD, size, closed ? COLOUR_FAINT : COLOUR_TEXT,
-                box.x + margin, y - 0.65 * size * paper->em, ALIGN_LEFT, "%s",
-                title.words);
-    canvas_clip(&paper->canvas, before);
+    Box title = {box.x + margin, box.y, box.width - bar - margin, bar};
+    canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
+    paper_fit(paper, FACE_BOLD, 0.96, closed ? COLOUR_FAINT : COLOUR_TEXT,
+              title, ALIGN_LEFT, line.words);
     if (!show->print)
         draw_cross(paper, box, closed);
     return cards_inside(box, paper->em);
@@ -188,13 +163,11 @@ static void draw_help(Paper *paper, Box inside, const Show *show)
                     row->key);
         if (!row->text)
             continue;
-        double fitting = fitting_size(paper, FACE_REGULAR, size, 0.6,
-                                      wide - key - 0.5 * em, row->text);
-        paper_write(paper, FACE_REGULAR, fitting,
-                    i < LAYOUT_ROWS && show->grey[i] ? COLOUR_GREY
-                                                     : COLOUR_TEXT,
-                    x + key, y + 0.6 * (size - fitting) * em, ALIGN_LEFT, "%s",
-                    row->text);
+        paper_fit(paper, FACE_REGULAR, size,
+                  i < LAYOUT_ROWS && show->grey[i] ? COLOUR_GREY : COLOUR_TEXT,
+                  (Box){(int)(x + key), (int)y, (int)(wide - key - 0.5 * em),
+                        (int)(1.3 * size * em)},
+                  ALIGN_LEFT, row->text);
     }
 }
 
@@ -219,8 +192,8 @@ static void draw_code(Paper *paper, Box inside, const Page *page)
     for (int i = 0; i < page->lines; i++) {
         int y = inside.y + i * line;
         if (page->lit[i])
-            canvas_rectangle(&paper->canvas, inside.x, y, inside.width, line,
-                             COLOUR_LIT);
+            canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
+                        COLOUR_LIT);
         if (page->line[i][0])
             text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
                       ALIGN_LEFT, page->line[i] + indent);
@@ -233,8 +206,7 @@ static void draw_page(Paper *paper, Box column, const Show *show)
     const Page *page = &show->page;
     Box box = box_inset(column, paper_pixels(paper, 0.9));
     Box inside = page_inside(column, paper->em);
-    canvas_card(&paper->canvas, box, 0.45 * paper->em, COLOUR_WHITE,
-                COLOUR_BORDER);
+    canvas_card(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
     bool code = page->kind == PAGE_CODE && show->lecture;
     draw_cross(paper, box, false);
     paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, inside.x,

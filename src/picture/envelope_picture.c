@@ -27,7 +27,7 @@ static Colour envelope_colour(const EnvelopeCell *cell)
     return envelope_shades[shade];
 }
 
-/* Pixels of a cell. */
+/* Pixels of a cell, but for a line to its neighbours. */
 static Box envelope_box(const Plot *stage, int column, int row)
 {
     double x = log10(envelope_timestep(column));
@@ -37,7 +37,8 @@ static Box envelope_box(const Plot *stage, int column, int row)
     plot_place(stage, low, p);
     plot_place(stage, high, q);
     int left = (int)ceil(p[0]), top = (int)ceil(q[1]);
-    return (Box){left, top, (int)ceil(q[0]) - left, (int)ceil(p[1]) - top};
+    return (Box){left, top, (int)ceil(q[0]) - left - 1,
+                 (int)ceil(p[1]) - top - 1};
 }
 
 /* Four lines around a cell. */
@@ -57,12 +58,9 @@ static void envelope_draw(Plot *stage)
     plot_on(stage, &plot_room, (Axis){.log = true, .label = "h in s"},
             (Axis){.log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
-        for (int column = 0; column < ENVELOPE_COLUMNS; column++) {
-            Box box = envelope_box(stage, column, row);
-            canvas_rectangle(&stage->paper->canvas, box.x, box.y, box.width - 1,
-                             box.height - 1,
-                             envelope_colour(&map->cell[row][column]));
-        }
+        for (int column = 0; column < ENVELOPE_COLUMNS; column++)
+            canvas_fill(&stage->paper->canvas, envelope_box(stage, column, row),
+                        envelope_colour(&map->cell[row][column]));
     envelope_frame(stage, map->column, map->row);
 }
 

@@ -36,17 +36,18 @@ void stage_switches(const Plot *stage)
     Switch out[SCENE_MAX_SWITCHES];
     int count = exhibit_switches(stage->simulation, out);
     for (int i = 0; i < count && stage->text; i++) {
-        Box box = stage_switch_box(stage, i);
-        double x = box.x + 0.5 * paper->em, size = 0.8 * paper->em;
-        double y = box.y + 0.5 * (box.height - size);
-        canvas_card(&paper->canvas, box, 0.4 * paper->em,
-                    out[i].on ? COLOUR_LIT : COLOUR_CHIP, COLOUR_BORDER);
-        canvas_card(&paper->canvas, (Box){(int)x, (int)y, (int)size, (int)size},
-                    0.15 * paper->em, out[i].on ? COLOUR_VALUE : COLOUR_WHITE,
+        Box box = stage_switch_box(stage, i),
+            mark = box_inset(box, box.height / 4);
+        bool on = out[i].on;
+        canvas_card(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
+                    COLOUR_BORDER);
+        mark.width = mark.height;
+        canvas_card(&paper->canvas, mark, on ? COLOUR_VALUE : COLOUR_WHITE,
                     COLOUR_FAINT);
-        paper_write(paper, FACE_REGULAR, 0.92,
-                    out[i].on ? COLOUR_TEXT : COLOUR_FAINT, x + 1.2 * paper->em,
-                    box.y + 0.28 * paper->em, ALIGN_LEFT, "%s", out[i].label);
+        box.x += 2 * mark.width;
+        box.width -= 2 * mark.width;
+        paper_fit(paper, FACE_REGULAR, 0.92, on ? COLOUR_TEXT : COLOUR_FAINT,
+                  box, ALIGN_LEFT, out[i].label);
     }
 }
 
@@ -89,20 +90,15 @@ void stage_prediction(const Plot *stage)
     plot_place(stage, guess->at, at);
     plot_place(stage, guess->came, came);
     if (simulation_point(stage->simulation, point) == 1) {
-        const double low[2] = {at[0], box->y + box->height};
-        const double high[2] = {at[0], box->y};
-        paper_line(paper, low, high, 1.5, COLOUR_HAND);
+        paper_line(paper, (double[2]){at[0], box->y + box->height},
+                   (double[2]){at[0], box->y}, 1.5, COLOUR_HAND);
         came[1] = at[1];
     }
-    for (int k = -1; k <= 1; k += 2) {
-        const double from[2] = {at[0] - arm, at[1] - k * arm};
-        const double to[2] = {at[0] + arm, at[1] + k * arm};
-        paper_line(paper, from, to, 3, COLOUR_HAND);
-    }
+    for (int k = -1; k <= 1; k += 2)
+        paper_line(paper, (double[2]){at[0] - arm, at[1] - k * arm},
+                   (double[2]){at[0] + arm, at[1] + k * arm}, 3, COLOUR_HAND);
     if (guess->shown)
-        canvas_dashes(&paper->canvas, at[0], at[1], came[0], came[1],
-                      1.6 * paper->unit, 5 * paper->unit, 4 * paper->unit, NULL,
-                      COLOUR_HAND);
+        paper_dashes(paper, at, came, 1.6, NULL, COLOUR_HAND);
     plot_text(stage, guess->at, 1, -0.6, 1, ALIGN_LEFT, FACE_BOLD, COLOUR_HAND,
               guess->shown ? "%s m off" : "your guess; N shows the step",
               number_of(guess->distance).text);

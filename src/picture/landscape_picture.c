@@ -55,7 +55,7 @@ static void draw_ground(const Plot *plot)
             double right = E.g[0] * metre / e, up = E.g[1] * metre / e;
             double slope = sqrt(right * right + up * up);
             if (!(E.H[0] > 0 && E.H[0] * E.H[2] > E.H[1] * E.H[1]))
-                canvas_rectangle(canvas, i, j, 2, 2, COLOUR_SHADE);
+                canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             if (contour_distance(E.value / e) > (reach + 1) * slope)
                 continue;
             for (int k = 0; k < 4; k++) {
@@ -63,8 +63,8 @@ static void draw_ground(const Plot *plot)
                     E.value / e + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
                 double part = reach - contour_distance(value) / slope;
                 Colour alpha = (Colour)(255 * fmin(fmax(part, 0), 1)) << 24;
-                canvas_rectangle(canvas, i + k % 2, j + k / 2, 1, 1,
-                                 alpha | (COLOUR_GREY & 0xffffff));
+                canvas_fill(canvas, (Box){i + k % 2, j + k / 2, 1, 1},
+                            alpha | (COLOUR_GREY & 0xffffff));
             }
         }
 }

@@ -9,8 +9,6 @@ static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
 static const double GAP = 0.9;       /* between the zones' contents */
 static const double TITLE_BAR = 2.0; /* a card of which only that is seen */
 static const double LETTER = 0.56;   /* a letter is wide, on average */
-static const double SETTING_LETTER = 0.53; /* the same in the row */
-static const double SMALL_LETTER = 0.57;   /* there, of less than 11 pixels */
 static const double SETTING_GAP = 0.9;     /* between settings */
 static const double CHIP_PADDING = 1.8;    /* a chip has beside its letters */
 static const double CHIP_PADDING_LEAST = 1.2;
@@ -41,21 +39,6 @@ static Box box_column(Box box, int index, int count, int gap)
     int left = (int)((long)room * index / count) + index * gap;
     int right = (int)((long)room * (index + 1) / count) + index * gap;
     return (Box){box.x + left, box.y, right - left, box.height};
-}
-
-Box box_inset(Box box, int margin)
-{
-    Box inner = {box.x + margin, box.y + margin, box.width - 2 * margin,
-                 box.height - 2 * margin};
-    inner.width = inner.width < 0 ? 0 : inner.width;
-    inner.height = inner.height < 0 ? 0 : inner.height;
-    return inner;
-}
-
-bool box_contains(Box box, double x, double y)
-{
-    return x >= box.x && x < box.x + box.width && y >= box.y &&
-           y < box.y + box.height;
 }
 
 /* Takes a strip off the upper or the lower edge of `rest`. */
@@ -100,13 +83,12 @@ static int count_letters(const char *text)
 static void place_settings(const Show *show, Layout *layout, Box *rest)
 {
     int width[LAYOUT_SETTINGS] = {0}, left = pixels(layout, GAP + 0.5);
-    double letter = layout->em < 11 ? SMALL_LETTER : SETTING_LETTER;
     for (int i = 0; i < show->settings; i++) {
         const Setting *one = &show->setting[i];
         int value = count_letters(one->value);
         value = value > one->letters ? value : one->letters;
         value += count_letters(one->name) + 1;
-        width[i] = pixels(layout, value * letter + 0.6);
+        width[i] = pixels(layout, value * LETTER + 0.6);
     }
     Box room = {left, pixels(layout, 0.2),
                 layout->width - pixels(layout, GAP) - left,

@@ -40,6 +40,14 @@ void paper_line(Paper *paper, const double a[2], const double b[2],
                 fmax(1, width * paper->unit), colour);
 }
 
+void paper_dashes(Paper *paper, const double a[2], const double b[2],
+                  double width, double *phase, Colour colour)
+{
+    double unit = paper->unit;
+    canvas_dashes(&paper->canvas, a, b, fmax(1, width * unit), 5 * unit,
+                  4 * unit, phase, colour);
+}
+
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
@@ -65,13 +73,29 @@ int paper_width(Paper *paper, Face face, double size, const char *markup)
     return text_width(paper->text, &style, markup);
 }
 
+int paper_fit(Paper *paper, Face face, double size, Colour colour, Box box,
+              Align align, const char *markup)
+{
+    Box before = canvas_clip(&paper->canvas, box);
+    double wide = paper_width(paper, face, size, markup);
+    size *= wide > box.width ? fmax(0.6, box.width / wide) : 1;
+    int width = paper_write(paper, face, size, colour,
+                            box.x + 0.5 * (int)align * box.width,
+                            box.y + 0.5 * box.height - 0.65 * size * paper->em,
+                            align, "%s", markup);
+    canvas_clip(&paper->canvas, before);
+    return width;
+}
+
 int paper_panel(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
     int left = (int)x - (int)align * wide / 2, air = paper_pixels(paper, 0.3);
-    canvas_rectangle(&paper->canvas, left - air, (int)y, wide + 2 * air,
-                     paper_pixels(paper, 1.36 * size), COLOUR_PANEL);
+    canvas_fill(&paper->canvas,
+                (Box){left - air, (int)y, wide + 2 * air,
+                      paper_pixels(paper, 1.36 * size)},
+                COLOUR_PANEL);
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 

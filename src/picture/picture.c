@@ -44,10 +44,12 @@ int picture_card(const Picture *picture, const char *name)
 static void draw_rules(Paper *paper, const Box *box)
 {
     int thick = (int)fmax(1, paper->unit);
-    canvas_rectangle(&paper->canvas, box->x + box->width, box->y, thick,
-                     box->height, COLOUR_RULE);
-    canvas_rectangle(&paper->canvas, box->x, box->y + box->height, box->width,
-                     thick, COLOUR_RULE);
+    canvas_fill(&paper->canvas,
+                (Box){box->x + box->width, box->y, thick, box->height},
+                COLOUR_RULE);
+    canvas_fill(&paper->canvas,
+                (Box){box->x, box->y + box->height, box->width, thick},
+                COLOUR_RULE);
 }
 
 /* One pane, its words, where it is not alone its label in the colour of its
@@ -90,11 +92,11 @@ static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
     if (cell->group)
         paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
                     box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
-    canvas_card(&paper->canvas, *inside, 0.3 * paper->em, COLOUR_WHITE,
+    canvas_card(&paper->canvas, *inside, COLOUR_WHITE,
                 chosen ? COLOUR_VALUE : COLOUR_BORDER);
     if (chosen)
-        canvas_card(&paper->canvas, box_inset(*inside, 1), 0.3 * paper->em,
-                    COLOUR_WHITE, COLOUR_VALUE);
+        canvas_card(&paper->canvas, box_inset(*inside, 1), COLOUR_WHITE,
+                    COLOUR_VALUE);
     *inside = box_inset(*inside, paper_pixels(paper, 0.3));
     if (cell->simulation) {
         Show show;
@@ -103,10 +105,10 @@ static void draw_cell(Paper *paper, Box box, const SheetCell *cell, bool chosen)
         show.strain = cell->simulation->scene->strain > 0;
         draw_pane(paper, &layout, &show, 0);
     }
-    paper_write(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
-                chosen ? COLOUR_VALUE : COLOUR_TEXT, box.x + 0.5 * box.width,
-                box.y + box.width + 0.15 * paper->em, ALIGN_CENTRE, "%s",
-                cell->name);
+    Box name = {box.x, box.y + box.width, box.width, box.height - box.width};
+    paper_fit(paper, chosen ? FACE_BOLD : FACE_REGULAR, 1,
+              chosen ? COLOUR_VALUE : COLOUR_TEXT, name, ALIGN_CENTRE,
+              cell->name);
 }
 
 void show_draw(Paper *paper, const Show *show)
@@ -130,10 +132,8 @@ void show_draw(Paper *paper, const Show *show)
     }
     if (show->bare)
         return;
-    if (layout.column.width > 0 && show->page.kind != PAGE_NONE)
-        canvas_rectangle(&paper->canvas, layout.column.x, layout.column.y,
-                         layout.column.width, layout.column.height,
-                         COLOUR_WHITE);
+    if (show->page.kind != PAGE_NONE)
+        canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
     cards_draw(paper, &layout, show);
     glow_draw(paper, show);
     frame_draw(paper, &layout, show);

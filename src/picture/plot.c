@@ -115,12 +115,12 @@ static void draw_axes(const Plot *plot)
     double right = box->x + box->width, end = right;
     double below = box->y + box->height + NUMBER_BELOW * em;
     int count = axis_ticks(&plot->y, true, box->height / em, ticks);
+    int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
         bool zero = !plot->y.log && fabs(ticks[i]) < 1e-12 * plot->y.high;
         plot_place(plot, (double[2]){plot->x.low, ticks[i]}, at);
-        double row = floor(at[1] + 1e-9) + 0.5; /* sharp on the screen */
-        canvas_line(&paper->canvas, box->x, row, right, row,
-                    fmax(1, floor(paper->unit)),
+        canvas_fill(&paper->canvas,
+                    (Box){box->x, (int)floor(at[1] + 1e-9), box->width, thin},
                     zero ? COLOUR_BORDER : COLOUR_GRID);
         write_tick(plot, COLOUR_FAINT, box->x - 0.35 * em,
                    at[1] - 0.65 * TICK_SIZE * em, ALIGN_RIGHT,
@@ -251,12 +251,11 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
                  double width, double *phase, Colour colour)
 {
     Canvas *canvas = &plot->paper->canvas;
-    double unit = plot->paper->unit, p[2], q[2];
+    double p[2], q[2];
     Box before = canvas_clip(canvas, plot->box);
     plot_place(plot, a, p);
     plot_place(plot, b, q);
-    canvas_dashes(canvas, p[0], p[1], q[0], q[1], fmax(1, width * unit),
-                  5 * unit, 4 * unit, phase, colour);
+    paper_dashes(plot->paper, p, q, width, phase, colour);
     canvas_clip(canvas, before);
 }
 
@@ -381,9 +380,9 @@ void plot_pin(const Plot *plot, const double *at, double radius)
         return;
     Box box = {(int)floor(p[0] - size + 0.5), (int)floor(p[1] - size + 0.5),
                (int)(2 * size + 0.5), (int)(2 * size + 0.5)};
-    canvas_rectangle(canvas, box.x, box.y, box.width, box.height, COLOUR_TEXT);
-    box = box_inset(box, (int)fmax(1, 0.45 * size));
-    canvas_rectangle(canvas, box.x, box.y, box.width, box.height, COLOUR_WHITE);
+    canvas_fill(canvas, box, COLOUR_TEXT);
+    canvas_fill(canvas, box_inset(box, (int)fmax(1, 0.45 * size)),
+                COLOUR_WHITE);
 }
 
 void plot_arrow(const Plot *plot, const double *a, const double *d,

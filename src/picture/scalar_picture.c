@@ -235,19 +235,16 @@ static void tangent_iterates(const Plot plot[2])
  * and a dashed upright through both. */
 static void tangent_model(const Plot plot[2], const Update *update)
 {
-    Canvas *canvas = &plot->paper->canvas;
     double x1 = update->x1, p = x1 - update->x0, d = 0.15 * p, top[2], low[2];
     const double a[2] = {update->x0 - d, update->first - d * update->second};
     const double b[2] = {x1 + d, d * update->second}, zero[2] = {x1, 0};
     const double lowest[2] = {x1, update->f + 0.5 * update->first * p};
-    double unit = plot->paper->unit;
     plot_line(&plot[0], a, b, 2.4, COLOUR_P);
     plot_graph(&plot[1], model_at, update, 1.8, COLOUR_P);
     plot_place(&plot[0], (double[2]){x1, plot[0].y.high}, top);
     plot_place(&plot[1], (double[2]){x1, plot[1].y.low}, low);
     if (x1 >= plot->x.low && x1 <= plot->x.high)
-        canvas_dashes(canvas, top[0], top[1], low[0], low[1], fmax(1, unit),
-                      4 * unit, 4 * unit, NULL, COLOUR_P);
+        paper_dashes(plot->paper, top, low, 1, NULL, COLOUR_P);
     plot_hollow(&plot[0], zero, 6, 3.6, COLOUR_P);
     plot_hollow(&plot[1], lowest, 6, 3.6, COLOUR_P);
 }

@@ -183,8 +183,7 @@ static void draw_note(const Plot *stage, const double *at, const Facts *facts,
     plot_place(stage, at, p);
     note.box =
         place_note(stage, p, (int)wide + 2 * margin, (int)high + 2 * margin);
-    canvas_card(&paper->canvas, note.box, 0.4 * paper->em, COLOUR_NOTE,
-                COLOUR_GREY);
+    canvas_card(&paper->canvas, note.box, COLOUR_NOTE, COLOUR_GREY);
     note.box = box_inset(note.box, margin);
     text_in_card(&note, facts, text);
 }

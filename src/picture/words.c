@@ -13,7 +13,7 @@
 enum { WORDS_TEXT = 512 }; /* bytes of a text with numbers */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
-static const double SCALE_PART = 0.2;   /* of the stage's width, the scale */
+static const double SCALE_PART = 0.08;  /* of the stage, the least scale */
 static const double FARTHEST = 1e6;     /* pixels */
 static const double LINE_HEIGHT = 1.3;  /* ems of the words */
 /* What a place costs: for the whole of it on other words, for the part of its
@@ -82,26 +82,19 @@ void plot_text(const Plot *plot, const double *at, double right, double below,
 void plot_scale(const Plot *plot)
 {
     Paper *paper = plot->paper;
-    const Box *box = &plot->box;
+    char words[64];
     double scale = plot->camera.scale[0];
-    double metres = plot_round_up(SCALE_PART * box->width / scale / 2.5);
-    double length = metres * scale, x = box->x + paper->em;
-    double y = floor(box->y + box->height - 0.9 * paper->em) + 0.5;
-    if (!(length > 4) || !isfinite(length) || length > 0.6 * box->width)
+    double metres = plot_round_up(SCALE_PART * plot->box.width / scale);
+    double length = metres * scale;
+    Box line = {plot->box.x + paper_pixels(paper, 1),
+                plot->box.y + plot->box.height - paper_pixels(paper, 0.9),
+                (int)length, (int)(1.5 * paper->unit) + 1};
+    if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
-    canvas_rectangle(&paper->canvas, (int)(x - 0.4 * paper->em),
-                     (int)(y - 1.4 * paper->em),
-                     (int)(length + 0.8 * paper->em), paper_pixels(paper, 1.8),
-                     COLOUR_PANEL);
-    canvas_line(&paper->canvas, x, y, x + length, y, fmax(1, 1.5 * paper->unit),
-                COLOUR_GREY);
-    for (int k = 0; k < 2; k++)
-        canvas_line(&paper->canvas, x + k * length, y - 0.25 * paper->em,
-                    x + k * length, y + 0.25 * paper->em,
-                    fmax(1, 1.5 * paper->unit), COLOUR_GREY);
-    paper_write(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, x + 0.5 * length,
-                y - 1.4 * paper->em, ALIGN_CENTRE, "%s m",
-                number_of(metres).text);
+    snprintf(words, sizeof words, "%s m", number_of(metres).text);
+    paper_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT, line.x + 0.5 * length,
+                line.y - 1.4 * paper->em, ALIGN_CENTRE, words);
+    canvas_fill(&paper->canvas, line, COLOUR_GREY);
 }
 
 void plot_legend(Plot *plot, Colour colour, const char *format, ...)
@@ -215,8 +208,9 @@ void plot_words(Plot *plot, int points, const double (*at)[2], double gap,
     }
     if (wide < 1 || !isfinite(least))
         return;
-    canvas_rectangle(&paper->canvas, best.x - 1, best.y + high / 8, wide + 2,
-                     high - high / 4, COLOUR_PANEL);
+    canvas_fill(&paper->canvas,
+                (Box){best.x - 1, best.y + high / 8, wide + 2, high - high / 4},
+                COLOUR_PANEL);
     paper_write(paper, face, size, colour, best.x, best.y, ALIGN_LEFT, "%s",
                 words);
     plot_keep_box(plot, best);

@@ -156,7 +156,8 @@ TEST(shapes_are_clipped)
             at[random_below(&random, 4)] = odd[random_below(&random, 7)];
         canvas_line(canvas, at[0], at[1], at[2], at[3], 3, 0xff000000);
         canvas_disc(canvas, at[0], at[1], fabs(at[2]), 0xff0000ff);
-        canvas_rectangle(canvas, (int)fmod(at[2], 50), -20, 60, 30, 0x80ff0000);
+        canvas_fill(canvas, (Box){(int)fmod(at[2], 50), -20, 60, 30},
+                    0x80ff0000);
     }
     canvas_clear(canvas, COLOUR_WHITE);
     canvas_line(canvas, NAN, 1, 2, 3, 2, 0xff000000);
