@@ -37,6 +37,7 @@ typedef struct LecturePage {
     const char *open;     /* commands when it opens, ';' between; or NULL */
     int lines;            /* or so many lines on from where the page opens */
     bool predict;         /* a click says where the next step leads */
+    bool waits;           /* its answer comes before a step */
     bool forces;          /* that on each node is an arrow */
     bool modes;           /* so is the fastest oscillation, or eigenvectors */
     bool writes;          /* the spring is lit whose number is the step's */

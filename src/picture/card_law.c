@@ -182,8 +182,10 @@ void law_facts(const Simulation *simulation, Facts *facts)
     const Law *law = law_now(simulation, 0, &now);
     if (!law || simulation->runs > 1)
         return;
-    fact_words(facts, "law", law->now);
-    fact(facts, "law x", now.x);
+    bool flowed = law->kind != &plastic_energy || now.ep != 0;
+    if (!isnan(now.x))
+        fact_words(facts, "law", flowed ? law->now : "no spring has flowed");
+    fact(facts, "law x", flowed ? now.x : NAN);
     fact(facts, "law y", isnan(now.x) ? NAN : law->value(&now, now.x));
 }
 
@@ -235,7 +237,7 @@ static void draw_law(const Plot *card)
 
 const Card card_law = {
     .name = "law",
-    .title = "{law}: {law x:3}\nits law",
+    .title = "{law}: {law x:3}\n{law}\nits law",
     .least = 11,
     .weight = 2,
     .lecture = true,

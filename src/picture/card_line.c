@@ -6,7 +6,8 @@
 enum { LINE_POINTS = 161 };
 
 static const double BEYOND = 1.42; /* the axis ends, in first trials */
-static const double ABOVE = 2.2;   /* the least range above 0, in depths */
+static const double ABOVE = 2.2;   /* the most range above 0, in depths, */
+static const double CLIMB = 10;    /* and where p points uphill */
 static const double WORD_SIZE = 0.88, WORDS_ROOM = 1.25; /* ems */
 static const double WORDS_WIDE = 28; /* ems that all words need in one row */
 
@@ -48,7 +49,9 @@ static void fill_curves(const Trace *trace, Curves *curves)
     if (!(low < 0)) /* nothing is below: the first tenth tells the scale */
         depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
     curves->low = -1.12 * depth;
-    curves->high = fmin(fmax(high, 0.25 * depth), ABOVE * depth);
+    curves->high = trace->slope > 0
+                       ? fmin(1.05 * high, CLIMB * depth)
+                       : fmin(fmax(high, 0.25 * depth), ABOVE * depth);
 }
 
 /* A trial above the axis is a small arrow at its upper edge. */
@@ -87,8 +90,9 @@ static Plot draw_words(const Plot *card)
     int rows = inside.width / paper->em < WORDS_WIDE ? 2 : 1;
     int high = paper_pixels(paper, rows * WORDS_ROOM), at[2] = {0, 0};
     TextLine line = text_of(&show_pane(card->show)->facts, words);
-    Box before = canvas_clip(&paper->canvas,
-                             (Box){inside.x, inside.y, inside.width, high});
+    int air = paper_pixels(paper, 0.4); /* of what is raised */
+    Box before = canvas_clip(&paper->canvas, (Box){inside.x, inside.y - air,
+                                                   inside.width, high + air});
     while (text_next(&line))
         words_flow(card, at, WORD_SIZE, 1, &line, true);
     canvas_clip(&paper->canvas, before);

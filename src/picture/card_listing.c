@@ -214,13 +214,22 @@ static void draw_search(const Plot *card)
     draw_rows(card, COUNT, shown, true);
 }
 
-/* The newest updates, as many as there is room for. */
+/* The newest updates, as many as there is room for; of a star this is the upper
+ * half, and below are the residuals as points. */
 static void draw_prints(const Plot *card)
 {
     Paper *paper = card->paper;
+    Plot below = *card;
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
-    double size = inside.width > 40 * paper->em ? 1.5 : 0.95; /* a star */
+    bool star = inside.width > 40 * paper->em;
+    double size = star ? 1.5 : 0.95;
+    if (star && trace) {
+        inside.height /= 2;
+        below.box.y += inside.height;
+        below.box.height -= inside.height;
+        card_residual.draw(&below);
+    }
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
@@ -253,8 +262,8 @@ const Card card_search = {
 const Card card_prints = {
     .name = "prints",
     .title = "what the slides' program prints",
-    .least = 11,
-    .weight = 0.6,
+    .least = 9,
+    .weight = 0.1,
     .lecture = true,
     .draw = draw_prints,
 };

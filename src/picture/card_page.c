@@ -143,7 +143,7 @@ const Card card_page = {
     .title = "{page}\nthe lecture: Page Down",
     .least = 12,
     .needs = page_needs,
-    .weight = 0.3,
+    .weight = 0.05,
     .lecture = true,
     .draw = draw_lecture,
 };

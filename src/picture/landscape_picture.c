@@ -253,6 +253,7 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
     double bowl = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
     fact_point(facts, "g", E.g);
+    fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
     fact(facts, "Hxx", E.H[0]);

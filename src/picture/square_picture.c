@@ -418,8 +418,8 @@ static const Card card_equation = {
 static const Card card_parameters = {
     .name = "parameters",
     .title = "the numbers of simulator.py",
-    .least = 9.6,
-    .weight = 0.4,
+    .least = 8.4,
+    .weight = 0.05,
     .lecture = true,
     .words = "side_len = {side} m,  rho = {rho} kg/m\u00b2\n"
              "k = {k} J/m\u00b2,  initial_stretch = {stretch}\n"

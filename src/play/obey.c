@@ -165,11 +165,11 @@ Status player_obey(Player *player, const Command *asked)
     if (player_veils(player) &&
         (command.kind == COMMAND_NEXT || command.kind == COMMAND_PLAY)) {
         player->told = player_settings(player)->page;
-        if (player->told->answer) { /* first the answer, then the step */
+        if (player->told->answer)
             player_note(player, "it is %.4g",
                         show_number(&player->show, player->told->answer));
-            return STATUS_OK;
-        }
+        if (player->told->answer || player->told->waits)
+            return STATUS_OK; /* the step is the next press */
     }
     if (past->works && !(flags & SCREEN)) {
         past_aim(past, step, false);

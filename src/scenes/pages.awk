@@ -67,7 +67,7 @@ BEGIN {
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["minutes"]
     switches["numbers"] switches["predict"] switches["forces"]
-    switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
+    switches["waits"] switches["modes"] switches["writes"] switches["kinds"] switches["cuts"]
     print "const LecturePage lecture_pages[] = {"
 }
 
