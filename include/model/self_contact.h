@@ -52,9 +52,4 @@ Status self_contact_set(System *system, const SquareMesh *mesh,
 /* The term's data, or NULL. */
 SelfContact *self_contact_of(const System *system);
 
-/* Whether nothing would be passed or turned over, and a tenth of each distance
- * and area would stay, if all nodes went straight from x to x + p, [2n] m. */
-bool self_contact_lets_pass(const System *system, const double *x,
-                            const double *p);
-
 #endif

@@ -87,6 +87,13 @@ void system_lose(System *system, const TermKind *kind, double energy);
  * Returns OK or INVALID_INPUT. */
 Status system_check(const System *system, const double *x);
 
+/* The smallest reach of all terms, or only of internal ones, along p at a
+ * place; and whether nothing would be passed or turned over, and a tenth of
+ * each distance and area would stay, if all nodes went straight from x to x +
+ * p. x, p [2n] m, in. */
+double system_reach(Place at, const double *p, bool internal);
+bool system_lets_pass(const System *system, const double *x, const double *p);
+
 /* P(x), J, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 

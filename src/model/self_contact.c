@@ -369,19 +369,6 @@ SelfContact *self_contact_of(const System *system)
     return system_data(system, &self_contact_energy);
 }
 
-bool self_contact_lets_pass(const System *system, const double *x,
-                            const double *p)
-{
-    Place at = place_at(system, NULL, NULL, x);
-    for (int t = 0; t < system->terms; t++) {
-        at.term = &system->term[t];
-        if (at.term->kind->internal && at.term->kind->reach &&
-            !(at.term->kind->reach(&at, p) > 1))
-            return false;
-    }
-    return true;
-}
-
 Status self_contact_set(System *system, const SquareMesh *mesh,
                         const Barrier *barrier, double friction)
 {

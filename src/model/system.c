@@ -171,6 +171,20 @@ Status system_check(const System *system, const double *x)
                : STATUS_INVALID_INPUT;
 }
 
+double system_reach(Place at, const double *p, bool internal)
+{
+    double reach = INFINITY;
+    for (const TermKind *kind; (kind = next_energy(&at));)
+        if (kind->reach && (kind->internal || !internal))
+            reach = fmin(reach, kind->reach(&at, p));
+    return reach;
+}
+
+bool system_lets_pass(const System *system, const double *x, const double *p)
+{
+    return system_reach(place_at(system, NULL, NULL, x), p, true) > 1;
+}
+
 bool system_has_gravity(const System *system)
 {
     return system->gravity[0] != 0 || system->gravity[1] != 0;

@@ -7,7 +7,6 @@
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/pull_energy.h"
-#include "model/self_contact.h"
 #include "scenes/body.h"
 
 static Control *make_control(int nodes)
@@ -242,7 +241,7 @@ Status simulation_place(Simulation *simulation, int node, double x, double y,
     Status status = system_check(run->system, run->x);
     for (size_t i = 0; i < run->size; i++)
         p[i] = run->x[i] - before[i];
-    if (!status && !self_contact_lets_pass(run->system, before, p))
+    if (!status && !system_lets_pass(run->system, before, p))
         status = STATUS_INVALID_INPUT;
     if (status || !really) {
         memcpy(run->x, before, run->size * sizeof *before);

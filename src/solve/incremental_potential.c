@@ -231,12 +231,7 @@ double along_difference(const void *function, double alpha)
 
 double incremental_potential_reach(const Iterate *at)
 {
-    Place place = end_of(&at->E, at->u, at->x).at;
-    double reach = 1;
-    for (const TermKind *kind; (kind = next_energy(&place));)
-        if (kind->reach)
-            reach = fmin(reach, kind->reach(&place, at->p));
-    return reach;
+    return fmin(1, system_reach(end_of(&at->E, at->u, at->x).at, at->p, false));
 }
 
 bool incremental_potential_allowed(const IncrementalPotential *E,

@@ -97,7 +97,7 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
     Real held = fabsl(e), over = 0; /* |e| = held + over */
     if (flow) {
         kappa = flow->kappa[s];
-        part = 1 / (1 + (Real)flow->hardening);
+        part = jittered(spot, 1 / (1 + (Real)flow->hardening)); /* a double */
         held = fminl(held, flow->yield + flow->hardening * kappa);
         over = fabsl(e) - held;
     }
