@@ -66,10 +66,13 @@ try_fault() { # line
     rm -f build/release/libelasto.a build/release/listing_text.[co]
 }
 
-rm -rf build/mutants
-mkdir -p build/mutants/original build/mutants/taken
-cp -pR Makefile README.md include src tests build/mutants/original || exit 1
-cd build/mutants || exit 1
+# A tree of its own: another run may be under way.
+tree=$PWD/build/mutants.$$
+trap 'rm -rf "$tree"' EXIT
+trap 'exit 1' HUP INT TERM
+mkdir -p "$tree/original" "$tree/taken"
+cp -pR Makefile README.md include src tests "$tree/original" || exit 1
+cd "$tree" || exit 1
 cp original/tests/data/mutants.txt list
 grep -an ' @@ ' list | grep -aF -e "$word" | grep -av '^[0-9]*:#' >chosen
 [ -s chosen ] || {
@@ -83,7 +86,7 @@ cp -pR original 1
 while read -r killer; do
     (cd 1 && run_killer "$killer") || {
         tail -n 20 1/log
-        echo "$killer fails without any fault"
+        echo "$killer fails, or does not compile, without any fault"
         exit 1
     }
 done <named

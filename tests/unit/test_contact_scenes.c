@@ -152,6 +152,35 @@ TEST(pins_and_walls_stop_each_other)
     }
 }
 
+/* Two bodies at rest, 0.2 m apart, have no entries for each other.  One that is
+ * inside a step as near as half the barrier's width gets them there, once, and
+ * the direction solves Newton's equation: 1e-10, rounding of a factor. */
+TEST(pairs_that_come_up_inside_a_step_have_entries)
+{
+    Simulation *scene = simulate("return --segments 2 --body 0,0 --body 0,1.2");
+    const System *system = &scene->system;
+    const SelfContact *self = self_contact_of(system);
+    Newton *newton = scene->run[0].newton;
+    double u[36] = {0}, Hp[36];
+    bool grown;
+    CHECK(system->nodes == 18);
+    make_steps(scene, 1);
+    CHECK(self->pairs == 0);
+    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK(!grown);
+    for (int i = 9; i < 18; i++)
+        u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
+    CHECK_STATUS(newton_start(newton, scene->run[0].x, u, 1e-4),
+                 STATUS_RUNNING);
+    CHECK(self->pairs > 0);
+    incremental_potential_product(&newton->at, newton->search.filter,
+                                  newton->at.p, Hp);
+    for (int i = 0; i < 36; i++)
+        CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
+    CHECK_STATUS(incremental_potential_grow(&newton->at, &grown), STATUS_OK);
+    CHECK(!grown);
+}
+
 /* Pinned all over, one is moved down on the other, 0.2 m below it. */
 TEST(a_body_that_is_pushed_stops_at_another)
 {

@@ -298,7 +298,7 @@ TEST(formulas_are_set)
         {"frac{xxxx over x}", "frac{x over xxxx}", 0, 0, 0, 0},
         {"frac{frac{x over x} over x}", "frac{x over x}", 0.1, 0.6, 0.5, 1.6},
         {"sqrt{x}", "x", 0.5, 1.2, 0, 0.3},
-        {"sqrt{frac{x over x}}", "sqrt{x}", 0.2, 0.6, 0.3, 1.3},
+        {"sqrt{frac{x over x}}", "frac{x over x}", 0.5, 1.2, 0.05, 0.3},
         {"matrix{x & x; x & x}", "xx", 1.2, 2.5, 0.5, 1.4},
         {"matrix{x; x; x}", "matrix{x; x}", 0, 0, 1, 1.3},
         {"matrix{xx & x; x & xx}", "matrix{x & x; x & x}", 1, 1.3, 0, 0},
