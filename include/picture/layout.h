@@ -75,9 +75,6 @@ Hit layout_hit(const Layout *layout, double x, double y);
 /* The cross that closes a card, or -1: the page in their place. */
 Box layout_close_box(const Layout *layout, int card);
 
-/* 0 ... 1: how far along the bars of the time line x is; clamped. */
-double layout_time_part(const Layout *layout, double x);
-
 /* ---- stage and world ---------------------------------------------------- */
 
 /* From the world (metres, y up; in the curve x and f) to pixels, y down:
@@ -110,10 +107,8 @@ static inline void camera_pixel(const Camera *camera, const double world[2],
 void camera_world(const Camera *camera, double x, double y, double world[2]);
 
 /* Zooms by a factor so that the point under pixel (x, y) stays there; moves by
- * (dx, dy) pixels.  Box, bounds and stretched as above; lens in/out.  The zoom
- * stays in 1e-3 ... 1e6. */
-void lens_zoom(Lens *lens, Box box, const double bounds[4], bool stretched,
-               double x, double y, double factor);
+ * (dx, dy) pixels.  The zoom stays in 1e-3 ... 1e6. */
+void lens_zoom(Lens *lens, Box box, double x, double y, double factor);
 void lens_move(Lens *lens, Box box, double dx, double dy);
 
 #endif

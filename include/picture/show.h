@@ -1,13 +1,9 @@
 /* show.h - all that a frame shows, in one struct: filled by whoever plays,
  * read by the pictures and cards.
  *
- * A frame is a function of the Show and of the size of the paper, nothing
- * else: the same Show gives the same pixels.  Pointers are not owned and must
- * live while a frame is drawn; NULL means "there is none", and everything that
- * would need it is left out.  A zeroed Show with one pane is a valid one.
- *
- * Texts are UTF-8, and in the markup of text.h: "{x}^{i+1}" is an x in the
- * colour of x with a superscript.
+ * The same Show and size of the paper give the same pixels.  Pointers are not
+ * owned; NULL means "there is none", and what would need it is left out.  A
+ * zeroed Show with one pane is a valid one.  Texts are in the markup of text.h.
  */
 #ifndef ELASTO_SHOW_H
 #define ELASTO_SHOW_H
@@ -18,16 +14,13 @@
 #include "scenes/simulation.h"
 
 enum {
-    SHOW_TEXT = 160,   /* bytes of a sentence */
-    SHOW_VALUE = 32,   /* bytes of a setting's value */
-    SHOW_TOUCHED = 64, /* springs or nodes listed one by one */
+    SHOW_TEXT = 160, /* bytes of a sentence */
+    SHOW_VALUE = 32, /* bytes of a setting's value */
     SHOW_CODE_LINES = 64,
     SHOW_PAGES = 64 /* of the lecture, at most */
 };
 
-/* ---- Algorithm 3 -------------------------------------------------------- */
-
-/* Where in the listing the run stands.  Everything up to this line is done:
+/* Where in Algorithm 3 the run stands.  Everything up to this line is done:
  * LINE_SOLVE: p is known and drawn; LINE_SEARCH: alpha is. */
 typedef enum Line {
     LINE_NONE,    /* between two steps; no line is lit */
@@ -52,24 +45,23 @@ typedef struct Trace {
     int updates_before;         /* of the step before, drawn in grey */
     const NewtonRecord *record_before;
     /* The present update, from line 3 on. */
-    int iteration;     /* 0, 1, ... */
-    const double *x;   /* [2n] m, x^i, where p was made */
-    const double *p;   /* [2n] m, from line 4 on; NULL before */
-    double residual;   /* of p, m/s */
-    ResidualKind kind; /* of it */
-    bool passed;       /* it is not above the tolerance, and that was known
-                          without p: the numbers of line 4 are not there */
-    bool given_up;     /* the step ended here with the residual as it was: no
-                          alpha was found, or no time was left */
-    double slope;      /* grad E . p, J s^2 */
-    int projected;     /* springs; < 0: not known */
+    int iteration;         /* 0, 1, ... */
+    const double *x;       /* [2n] m, x^i, where p was made */
+    const double *p;       /* [2n] m, from line 4 on; NULL before */
+    double residual;       /* of p, m/s */
+    ResidualKind kind;     /* of it */
+    bool passed;           /* it passes the test, and that was known without p,
+                              which is not there */
+    bool given_up;         /* no alpha was found, or no time was left */
+    double slope;          /* grad E . p, J s^2 */
+    int projected;         /* springs; < 0: not known */
+    const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
     /* E(x + alpha p) - E(x), J s^2, NaN or infinite where E is; or NULL. */
     EnergyDifference difference;
     const void *function; /* its first argument */
     double first;         /* alpha that the search begins with; 0 means 1 */
     int trials;    /* shown so far: first, first/2, ...; the last one is */
     bool accepted; /* taken, else it was refused like those before */
-    const double *x_tilde; /* [2n] m, drawn as a ghost; or NULL */
 } Trace;
 
 /* What is known of a pane, by name: see facts.h. */
@@ -89,7 +81,7 @@ typedef struct Facts {
     Fact fact[FACTS_MOST];
 } Facts;
 
-/* ---- panes -------------------------------------------------------------- */
+/* ---- the stage ---------------------------------------------------------- */
 
 /* A descent's last update as a trace. */
 typedef struct DescentTrace {
@@ -100,9 +92,9 @@ typedef struct DescentTrace {
 
 /* One picture on the stage. */
 typedef struct Pane {
-    const Simulation *simulation; /* the scene, its settings and state */
-    const double *x;     /* [2n] m, positions to draw; NULL: those of run 0 */
-    const double *ghost; /* [2n] m, the outcome with other settings */
+    const Simulation *simulation;
+    const double *x;         /* [2n] m, to be drawn; NULL: those of run 0 */
+    const double *ghost;     /* [2n] m, the outcome with other settings */
     const char *ghost_label; /* "without projection" */
     const History *history;  /* energies (or radii) over time */
     const Trace *trace;
@@ -133,11 +125,11 @@ typedef struct Pick {
     double point[2]; /* m, where the mouse is in the world */
 } Pick;
 
-/* The spring between the grabbed node and the mouse. */
+/* The spring between the grabbed node and the mouse, which is at target. */
 typedef struct Hand {
     bool on;
     int pane, node;
-    double target[2]; /* m, the mouse */
+    double target[2]; /* m */
 } Hand;
 
 /* The part of a pane's world that stays on the stage while something in it is
@@ -154,7 +146,7 @@ typedef struct Held {
 
 /* A number or a choice in the row. */
 typedef struct Setting {
-    const char *name;       /* markup: "h", "stretch", "projection" */
+    const char *name;       /* "h", "stretch", "projection" */
     char value[SHOW_VALUE]; /* "0.02 s", "backward Euler" */
     int letters;            /* the longest value has; 0: as long as now */
     bool changed;           /* differs from the scene's default */
@@ -163,9 +155,8 @@ typedef struct Setting {
 
 /* A key and what it does now. */
 typedef struct Chip {
-    const char *key;   /* "Space", "\u2190" */
-    const char *label; /* "play" */
-    bool lit;          /* the one to press next */
+    const char *key, *label; /* "Space", "play" */
+    bool lit;                /* the one to press next */
 } Chip;
 
 /* A step in the time line. */
@@ -174,22 +165,19 @@ typedef struct StepBar {
     bool unconverged;
 } StepBar;
 
-/* Text beside the stage in the place of the cards. */
-typedef enum PageKind {
-    PAGE_NONE, /* cards */
-    PAGE_HELP, /* all keys */
-    PAGE_CODE  /* a function's text */
-} PageKind;
+/* Text beside the stage in the place of the cards: none, all keys, or a
+ * function's lines. */
+typedef enum PageKind { PAGE_NONE, PAGE_HELP, PAGE_CODE } PageKind;
 
 typedef struct Page {
     PageKind kind;
     const char *title; /* "src/lecture.c" */
-    int lines;         /* of text */
+    int lines;
     const char *line[SHOW_CODE_LINES];
-    unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is lit */
+    unsigned char lit[SHOW_CODE_LINES]; /* 1: the line is */
 } Page;
 
-/* Help is a table: a key and what it does; a key without text is a heading. */
+/* A key and what it does; a key without text is a heading. */
 typedef struct HelpRow {
     const char *key, *text;
 } HelpRow;
@@ -202,13 +190,12 @@ typedef struct SheetCell {
 } SheetCell;
 
 typedef struct Show {
-    int panes; /* 1 ... LAYOUT_PANES */
+    int panes, active; /* 1 ... LAYOUT_PANES; the one that the cards are of */
     Pane pane[LAYOUT_PANES];
-    int active; /* the pane whose numbers the cards show */
 
     /* The strip. */
     const char *topic;        /* "Algorithm 3: projected Newton" */
-    char sentence[SHOW_TEXT]; /* one sentence that follows the state */
+    char sentence[SHOW_TEXT]; /* follows the state */
     char method[SHOW_TEXT];   /* "backward Euler" */
     char state[SHOW_VALUE];   /* "paused", "at rest"; "" means running */
     bool paused;
@@ -219,9 +206,8 @@ typedef struct Show {
     int selected; /* by Tab; -1: none */
 
     /* The time line: steps 1 ... bars; `step` is the one shown. */
-    long bars;
+    long bars, step;
     const StepBar *bar;
-    long step;
     char time_text[SHOW_TEXT]; /* "step 12   t = 0.24 s   real time x 0.5" */
 
     /* The last line. */
@@ -230,10 +216,9 @@ typedef struct Show {
     char message[SHOW_TEXT]; /* in the place of the chips; "": none */
     bool warning;            /* the message is one */
 
-    /* Cards. */
-    unsigned closed; /* bit c: the picture's card c is closed */
-    unsigned hidden; /* bit c: it is not there at all */
-    int large;       /* the enlarged one; -1: none */
+    /* The column.  Bit c of a set is the picture's card c. */
+    unsigned closed, hidden;
+    int large; /* the enlarged one; -1: none */
     Page page;
     int help_rows;
     const HelpRow *help;
@@ -249,11 +234,10 @@ typedef struct Show {
     Hit over;   /* and which part of the window */
     Hand hand;
     Held held;
-    const unsigned char
-        *along; /* [along_nodes] 1: placed with others, or NULL */
     int along_nodes;
-    bool strain;   /* springs coloured by strain */
-    bool bare;     /* the picture of the slide and nothing else */
+    const unsigned char *along; /* [along_nodes] 1: placed with others */
+    bool strain;                /* springs coloured by strain */
+    bool bare;                  /* the picture of the slide and nothing else */
     bool print;    /* stage and cards alone, without those of words */
     double letter; /* pixels that an em has at least; 0: the usual ones */
 
@@ -270,14 +254,27 @@ typedef struct Show {
 /* Nothing selected, everything fits, one pane that shows the simulation. */
 void show_create(const Simulation *simulation, Show *show);
 
-/* Where everything of it is on a paper of this size, 1 or more; chips beyond
- * the room are left out, but not the last one, which tells of all keys. */
+/* The pane whose numbers the cards show. */
+static inline const Pane *show_pane(const Show *show)
+{
+    return &show->pane[show->active];
+}
+
+/* Positions that a pane shows, [2n] m. */
+const double *pane_x(const Pane *pane);
+
+/* Cells of which a triangle has turned over. */
+int pane_folded(const Pane *pane);
+
+/* ---- where things are --------------------------------------------------- */
+
+/* On a paper of this size, 1 or more; chips beyond the room are left out, but
+ * not the last one, which tells of all keys. */
 Layout show_layout(const Show *show, int width, int height);
 
-/* The camera of a pane. */
 Camera show_camera(const Show *show, const Layout *layout, int pane);
 
-/* It holds still from now on. */
+/* The camera holds still from now on. */
 void show_hold(Show *show, int pane);
 
 /* What is at this pixel of the stage; PICK_NONE elsewhere. */
@@ -293,25 +290,14 @@ void show_move(Show *show, const Layout *layout, int pane, double dx,
 int show_help_row(const Show *show, const Layout *layout, double x, double y);
 
 /* What the line of Algorithm 3 is for that the mouse is over, at this pixel of
- * its card, in the markup of text.h; NULL: it is over none. */
+ * its card; NULL: it is over none. */
 const char *show_listing_purpose(const Show *show, const Layout *layout,
                                  double y);
 
 /* The step whose bar is under x; 0 ... bars. */
 long show_step_at(const Show *show, const Layout *layout, double x);
 
-/* The pane whose numbers the cards show. */
-static inline const Pane *show_pane(const Show *show)
-{
-    return &show->pane[show->active];
-}
-
-/* Positions that a pane shows, [2n] m. */
-const double *pane_x(const Pane *pane);
-
-/* Cells that have turned over: one of their two triangles has; 0 where there
- * is no square. */
-int pane_folded(const Pane *pane);
+/* ---- what it knows ------------------------------------------------------ */
 
 /* What the lecture adds, where the simulation's options name a page: topic,
  * number, cards that are hidden; and in the column, if asked for, the text of
@@ -328,16 +314,16 @@ void show_lecture(LectureColumn column, const struct LecturePage *left,
 /* Fills the facts of all panes. */
 void show_know(Show *show);
 
-/* The number that texts know by this name (facts.h) now; NaN: none. */
-double show_number(Show *show, const char *name);
-
-/* All lines of a text (facts.h) that are known of the active pane now, one
- * below the other; out [size]. */
-void show_say(Show *show, const char *text, char *out, size_t size);
-
 /* The last thing before a frame: fills the facts, and from those of the active
  * pane topic, sentence, method and state, as far as they are empty. */
 void show_describe(Show *show);
+
+/* The number that texts know by this name now; NaN: none. */
+double show_number(Show *show, const char *name);
+
+/* All lines of a text (facts.h) that are known of the active pane now; out
+ * [size]. */
+void show_say(Show *show, const char *text, char *out, size_t size);
 
 /* What the history of this scene's picture shows of the state now.  row out;
  * returns how many. */

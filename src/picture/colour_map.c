@@ -2,21 +2,14 @@
 
 #include <string.h>
 
-/* Straight lines in RGB from the grey of rest to an end. */
-static Colour blend(Colour end, double part)
+/* Straight lines in RGB from the grey of rest. */
+Colour colour_of_strain(double strain, double range, Colour below, Colour above)
 {
-    return canvas_mix(COLOUR_REST, end, part >= 1 ? 1 : part > 0 ? part : 0);
-}
-
-Colour colour_map_strain(double strain, double range)
-{
-    return blend(strain < 0 ? COLOUR_COMPRESS : COLOUR_STRETCH,
-                 (strain < 0 ? -strain : strain) / range);
-}
-
-Colour colour_map_plastic(double strain, double range)
-{
-    return blend(COLOUR_PLASTIC, (strain < 0 ? -strain : strain) / range);
+    double part = (strain < 0 ? -strain : strain) / range;
+    return canvas_mix(COLOUR_REST, strain < 0 ? below : above,
+                      part >= 1  ? 1
+                      : part > 0 ? part
+                                 : 0);
 }
 
 /* Vermilion, green, blue, purple, brown, sky blue. */

@@ -60,11 +60,9 @@ Colour colour_of_term(int term);
 /* An integrator, by its name: the same colour alone and among others. */
 Colour colour_of_method(const char *name);
 
-/* From COLOUR_COMPRESS at -range over COLOUR_REST at 0 to COLOUR_STRETCH at
- * range > 0; strains outside get the colour of the end, NaN that of rest. */
-Colour colour_map_strain(double strain, double range);
-
-/* From COLOUR_REST at 0 to COLOUR_PLASTIC at range > 0, either sign. */
-Colour colour_map_plastic(double strain, double range);
+/* From one colour at -range over COLOUR_REST at 0 to another at range > 0;
+ * strains outside get the colour of the end, NaN that of rest. */
+Colour colour_of_strain(double strain, double range, Colour below,
+                        Colour above);
 
 #endif

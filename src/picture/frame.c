@@ -98,6 +98,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     box = cut_left(box, 0.5 * em + paper_fit(paper, FACE_REGULAR, VALUE,
                                              COLOUR_FAINT, box, ALIGN_LEFT,
                                              setting->name));
+    box.width += (int)(0.8 * em); /* of the gap */
     int width = paper_fit(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
                           VALUE, colour, box, ALIGN_LEFT, value);
     paper_dashes(paper, (double[2]){box.x, below + 0.5},

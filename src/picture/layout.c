@@ -6,11 +6,11 @@
 
 /* Sizes in ems, the size of the texts. */
 static const double STRIP = 3.1, ROW = 2.6, TIME = 4.9, LAST = 3.0;
-static const double GAP = 0.9;       /* between the zones' contents */
-static const double TITLE_BAR = 2.0; /* a card of which only that is seen */
-static const double LETTER = 0.56;   /* a letter is wide, on average */
-static const double SETTING_GAP = 0.9;     /* between settings */
-static const double CHIP_PADDING = 1.8;    /* a chip has beside its letters */
+static const double GAP = 0.9;          /* between the zones' contents */
+static const double TITLE_BAR = 2.0;    /* a card of which only that is seen */
+static const double LETTER = 0.56;      /* a letter is wide, on average */
+static const double SETTING_GAP = 0.9;  /* between settings */
+static const double CHIP_PADDING = 1.8; /* a chip has beside its letters */
 static const double CHIP_PADDING_LEAST = 1.2;
 static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
@@ -403,47 +403,31 @@ Hit layout_hit(const Layout *layout, double x, double y)
     return hit;
 }
 
-double layout_time_part(const Layout *layout, double x)
-{
-    const Box *bars = &layout->bars;
-    if (bars->width < 1)
-        return 0;
-    return fmin(fmax((x - bars->x) / bars->width, 0), 1);
-}
-
 /* ---- stage and world ---------------------------------------------------- */
 
 const Lens LENS_FITS = {1, {0, 0}};
 
 static const double ZOOM_LEAST = 1e-3, ZOOM_MOST = 1e6;
 
-/* Pixels a metre that fit; one for both directions unless stretched. */
-static void fitting_scale(Box box, const double bounds[4], bool stretched,
-                          double scale[2])
-{
-    double wide = fmax(bounds[2] - bounds[0], 1e-300);
-    double high = fmax(bounds[3] - bounds[1], 1e-300);
-    scale[0] = fmax(box.width, 1) / wide;
-    scale[1] = fmax(box.height, 1) / high;
-    if (!stretched)
-        scale[0] = scale[1] = fmin(scale[0], scale[1]);
-}
-
+/* Pixels a metre that fit, times zoom; one for both directions unless
+ * stretched. */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens)
 {
     Camera camera;
-    double fit[2];
-    double zoom = lens->zoom > 0 ? lens->zoom : 1;
-    fitting_scale(box, bounds, stretched, fit);
-    double middle[2] = {box.x + 0.5 * box.width, box.y + 0.5 * box.height};
-    double size[2] = {box.width, -(double)box.height};
+    double zoom = lens->zoom > 0 ? lens->zoom : 1, *scale = camera.scale;
+    const double size[2] = {box.width, box.height};
+    for (int k = 0; k < 2; k++)
+        scale[k] =
+            zoom * fmax(size[k], 1) / fmax(bounds[k + 2] - bounds[k], 1e-300);
+    if (!stretched)
+        scale[0] = scale[1] = fmin(scale[0], scale[1]);
     for (int k = 0; k < 2; k++) {
-        double centre = 0.5 * (bounds[k] + bounds[k + 2]);
-        camera.scale[k] = fit[k] * zoom;
-        double sign = k == 0 ? 1 : -1;
-        camera.origin[k] = middle[k] + lens->pan[k] * size[k] * zoom -
-                           sign * camera.scale[k] * centre;
+        double sign = k ? -1 : 1, corner = k ? box.y : box.x;
+        camera.origin[k] =
+            corner + 0.5 * size[k] +
+            sign * (lens->pan[k] * size[k] * zoom -
+                    scale[k] * 0.5 * (bounds[k] + bounds[k + 2]));
     }
     return camera;
 }
@@ -455,17 +439,13 @@ void camera_world(const Camera *camera, double x, double y, double world[2])
 }
 
 /* pan is kept for zoom 1, so that the fitting view may change below it. */
-void lens_zoom(Lens *lens, Box box, const double bounds[4], bool stretched,
-               double x, double y, double factor)
+void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
 {
-    Camera camera = camera_create(box, bounds, stretched, lens);
-    double world[2], after[2];
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
-    camera_world(&camera, x, y, world);
     lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
-    camera = camera_create(box, bounds, stretched, lens);
-    camera_pixel(&camera, world, after);
-    lens_move(lens, box, x - after[0], y - after[1]);
+    double away = lens->zoom / zoom - 1; /* times as far from the middle */
+    lens_move(lens, box, -away * (x - box.x - 0.5 * box.width),
+              -away * (y - box.y - 0.5 * box.height));
 }
 
 void lens_move(Lens *lens, Box box, double dx, double dy)

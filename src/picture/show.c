@@ -82,13 +82,8 @@ void show_zoom(Show *show, const Layout *layout, double x, double y,
                double factor)
 {
     Hit hit = layout_hit(layout, x, y);
-    if (hit.zone != ZONE_STAGE || hit.index >= show->panes)
-        return;
-    Plot stage = show_stage(NULL, show, layout, hit.index);
-    double bounds[4];
-    find_bounds(&stage, bounds);
-    lens_zoom(&show->lens, stage.box, bounds,
-              picture_of(stage.simulation->scene)->stretched, x, y, factor);
+    if (hit.zone == ZONE_STAGE)
+        lens_zoom(&show->lens, layout->pane[hit.index], x, y, factor);
 }
 
 void show_move(Show *show, const Layout *layout, int pane, double dx, double dy)
@@ -98,9 +93,9 @@ void show_move(Show *show, const Layout *layout, int pane, double dx, double dy)
 
 long show_step_at(const Show *show, const Layout *layout, double x)
 {
-    double part = layout_time_part(layout, x) * (double)frame_span(show);
-    long step = part < 0.25 ? 0 : (long)part + 1;
-    return step > show->bars ? show->bars : step;
+    const Box *bars = &layout->bars;
+    double step = (x - bars->x) / fmax(bars->width, 1) * frame_span(show);
+    return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0), show->bars);
 }
 
 const double *pane_x(const Pane *pane)

@@ -125,66 +125,26 @@ static void spring_law(const System *system, int s, double strain, double *tau,
     *bend = spring_law_curvature(law, strain - flow->ep[s]);
 }
 
-/* What the nodes that have a place fill, pixels; cut to the stage. */
-static Box body_box(const Plot *stage)
-{
-    const Pane *pane = &stage->show->pane[stage->pane];
-    const Box *box = &stage->box;
-    double low[2], high[2];
-    square_fills(stage, pane->simulation->system.nodes, pane_x(pane), low,
-                 high);
-    int left = (int)fmax(low[0], box->x), top = (int)fmax(low[1], box->y);
-    int right = (int)fmin(high[0], box->x + box->width);
-    int bottom = (int)fmin(high[1], box->y + box->height);
-    return (Box){left, top, right - left, bottom - top};
-}
-
-/* Where a card of this size stands beside a pixel: in the stage, and beside the
- * body where there is room. */
-static Box place_note(const Plot *stage, const double at[2], int width,
-                      int height)
-{
-    const Box *box = &stage->box, body = body_box(stage);
-    int apart = paper_pixels(stage->paper, 1.1);
-    int right = box->x + box->width, low = box->y + box->height;
-    Box note = {(int)at[0] + apart, (int)at[1] + apart, width, height};
-    if (note.x + width > right)
-        note.x = (int)at[0] - apart - width;
-    if (body.width > 0) { /* right of it, left, below, above */
-        int beyond = body.x + body.width + apart, under = body.y + body.height;
-        if (beyond + width <= right)
-            note.x = beyond;
-        else if (body.x - apart - width >= box->x)
-            note.x = body.x - apart - width;
-        else if (under + apart + height <= low)
-            note.y = under + apart;
-        else if (body.y - apart - height >= box->y)
-            note.y = body.y - apart - height;
-    }
-    if (note.y + height > low)
-        note.y = low - height;
-    note.x = note.x < box->x ? box->x : note.x;
-    note.y = note.y < box->y ? box->y : note.y;
-    return note;
-}
-
-/* A text beside a point of the world. */
-static void draw_note(const Plot *stage, const double *at, const Facts *facts,
-                      const char *text)
+/* A text in a lower corner of the stage, the one farther from the mouse. */
+static void draw_note(const Plot *stage, const Facts *facts, const char *text)
 {
     Paper *paper = stage->paper;
     Plot note = *stage;
+    Box *box = &note.box;
+    double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
+    double wide = WIDTH * paper->em, high = 0;
     int margin = paper_pixels(paper, 0.7);
-    double wide = WIDTH * paper->em, high = 0, p[2];
     for (TextLine line = text_of(facts, text); text_next(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, SMALL, line.words));
         high += LINE * paper->em;
     }
-    plot_place(stage, at, p);
-    note.box =
-        place_note(stage, p, (int)wide + 2 * margin, (int)high + 2 * margin);
-    canvas_card(&paper->canvas, note.box, COLOUR_NOTE, COLOUR_GREY);
-    note.box = box_inset(note.box, margin);
+    plot_place(stage, stage->show->hover.point, mouse);
+    box->width = (int)wide + 2 * margin;
+    box->height = (int)high + 2 * margin;
+    box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
+    box->y += stage->box.height - box->height;
+    canvas_card(&paper->canvas, *box, COLOUR_NOTE, COLOUR_GREY);
+    *box = box_inset(*box, margin);
     text_in_card(&note, facts, text);
 }
 
@@ -212,7 +172,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
                !simulation_is_handled(simulation)       ? NULL
                : system->pinned && system->pinned[node] ? "frees"
                                                         : "pins");
-    draw_note(stage, x, &facts,
+    draw_note(stage, &facts,
               "#text* node {node:9}{pinned}\n"
               "m = {mass} kg\n"
               "{x} = {place} m\n"
@@ -251,7 +211,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
         fact(&facts, "across after", projected_eigenvalue(filter, across));
         fact(&facts, "along after", projected_eigenvalue(filter, along));
     }
-    draw_note(stage, stage->show->hover.point, &facts,
+    draw_note(stage, &facts,
               "#text* spring {a:9}\u2013{b:9}\n"
               "l\u00b2 = {l2} m\u00b2,  strain {strain} %\n"
               "H = ({xx}, {xy}; {xy}, {yy}) J/m\u00b2\n"

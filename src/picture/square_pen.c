@@ -16,49 +16,33 @@ static const double FACE = 4;   /* pixels, the smallest side of one */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
-void square_fills(const Plot *stage, int n, const double *x, double low[2],
-                  double high[2])
-{
-    low[0] = low[1] = INFINITY;
-    high[0] = high[1] = -INFINITY;
-    for (int i = 0; i < n; i++) {
-        double at[2];
-        camera_pixel(&stage->camera, x + 2 * (size_t)i, at);
-        for (int k = 0; k < 2 && isfinite(at[0]) && isfinite(at[1]); k++) {
-            low[k] = at[k] < low[k] ? at[k] : low[k];
-            high[k] = at[k] > high[k] ? at[k] : high[k];
-        }
-    }
-}
-
 /* Pixels between two nodes: at rest, or where nodes have flown so far that the
  * rest shape is nothing beside it, of as many over what they fill. */
 static double seen_spacing(const SpringPen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    double spacing = pen->stage->camera.scale[0] * mesh->spacing;
-    double cells = mesh->side / mesh->spacing, low[2], high[2];
-    square_fills(pen->stage, pen->system->nodes, pen->x, low, high);
-    double reach = fmax(high[0] - low[0], high[1] - low[1]);
-    return reach > FLOWN * spacing * cells ? reach / cells : spacing;
+    double scale = pen->stage->camera.scale[0], reach = 0;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < 2 * pen->system->nodes; i++)
+        if (isfinite(pen->x[i])) {
+            low[i % 2] = fmin(low[i % 2], pen->x[i]);
+            high[i % 2] = fmax(high[i % 2], pen->x[i]);
+        }
+    reach = fmax(high[0] - low[0], high[1] - low[1]);
+    return scale * mesh->spacing *
+           (reach > FLOWN * mesh->side ? reach / mesh->side : 1);
 }
 
-/* A range for the colours: half the strain of the start, at least 5 %. */
-static double strain_range(const Simulation *simulation)
+/* A range for the colours: half the strain of the start, or half of the largest
+ * plastic one, at least 5 %. */
+static double strain_range(const Simulation *simulation, const double *ep)
 {
-    double strain = fabs(fabs(simulation->options.stretch) - 1);
-    if (simulation->scene->strain > 0)
+    double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
+    for (int s = 0; ep && s < simulation->system.springs; s++)
+        most = fmax(most, fabs(ep[s]));
+    if (!ep && simulation->scene->strain > 0)
         return simulation->scene->strain;
-    return plot_round_up(fmax(0.5 * strain, 0.05));
-}
-
-/* Half of the largest plastic strain, or 5 %. */
-static double plastic_range(const System *system, const double *ep)
-{
-    double largest = 0.1;
-    for (int s = 0; s < system->springs; s++)
-        largest = fmax(largest, fabs(ep[s]));
-    return plot_round_up(0.5 * largest);
+    return plot_round_up(fmax(0.5 * most, 0.05));
 }
 
 SpringPen square_pen(Plot *stage, int run)
@@ -76,7 +60,7 @@ SpringPen square_pen(Plot *stage, int run)
                      .run = run,
                      .system = system,
                      .x = run ? simulation->run[run].x : pane_x(pane),
-                     .strain = strain_range(simulation),
+                     .strain = strain_range(simulation, NULL),
                      .ep = plasticity ? plasticity->ep : NULL,
                      .contact = contact_of(system)};
     double unit = stage->paper->unit;
@@ -88,7 +72,7 @@ SpringPen square_pen(Plot *stage, int run)
         pen.radius = fmin(pen.radius, 6.5);
     pen.plastic = !show->strain && !show->bare && pen.ep;
     if (pen.plastic)
-        pen.range = plastic_range(system, pen.ep);
+        pen.range = strain_range(simulation, pen.ep);
     if (show->strain)
         pen.range = pen.strain;
     if (pen.range > 0)
@@ -106,9 +90,11 @@ static bool told_colour(const SpringPen *pen, double plastic, double strain,
                         bool shorter, Colour *colour)
 {
     if (pen->plastic)
-        *colour = colour_map_plastic(plastic, pen->range);
+        *colour = colour_of_strain(plastic, pen->range, COLOUR_PLASTIC,
+                                   COLOUR_PLASTIC);
     else if (pen->range > 0)
-        *colour = colour_map_strain(strain, pen->range);
+        *colour = colour_of_strain(strain, pen->range, COLOUR_COMPRESS,
+                                   COLOUR_STRETCH);
     else if (pen->projected && shorter)
         *colour = COLOUR_PROJECT;
     else

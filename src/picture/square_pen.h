@@ -33,11 +33,6 @@ typedef struct SpringPen {
 
 SpringPen square_pen(Plot *stage, int run);
 
-/* What those of n nodes that have a place fill, pixels; without any, nothing:
- * high is below low.  low, high [2] out */
-void square_fills(const Plot *stage, int n, const double *x, double low[2],
-                  double high[2]);
-
 /* All springs but the broken ones. */
 void square_springs(const SpringPen *pen);
 

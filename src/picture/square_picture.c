@@ -123,13 +123,21 @@ static void draw_box(const SpringPen *pen)
         if (show->along_nodes == pen->system->nodes && show->along[i])
             plot_ring(pen->stage, pen->x + 2 * (size_t)i, pen->radius + 3, 2,
                       COLOUR_HAND);
-    const double corner[5][2] = {{box[0], box[1]},
-                                 {box[2], box[1]},
-                                 {box[2], box[3]},
-                                 {box[0], box[3]},
-                                 {box[0], box[1]}};
-    for (int i = 0; i < 4 && show->held.boxes; i++)
-        plot_dashes(pen->stage, corner[i], corner[i + 1], 2, NULL, COLOUR_HAND);
+    for (int i = 0; i < 4 && show->held.boxes; i++) { /* a side each */
+        int near = i & 2, far = 2 - near, along = i & 1;
+        double a[2] = {box[near], box[near + 1]}, b[2] = {a[0], a[1]};
+        b[along] = box[far + along];
+        plot_dashes(pen->stage, a, b, 2, NULL, COLOUR_HAND);
+    }
+}
+
+static void draw_spring(const SpringPen *pen, int s, double width,
+                        Colour colour)
+{
+    const int *e = pen->system->e + 2 * s;
+    if (!spring_is_broken(pen->system, s))
+        plot_line(pen->stage, pen->x + 2 * e[0], pen->x + 2 * e[1], width,
+                  colour);
 }
 
 /* What the mouse is over. */
@@ -150,15 +158,10 @@ static void draw_hover(const SpringPen *pen)
     bool kinds = page && page->kinds && !pen->show->veiled;
     for (int s = 0; s < system->springs && lit >= 0 && kinds; s++)
         if (exhibit_kind(pen->simulation, s) ==
-                exhibit_kind(pen->simulation, lit) &&
-            !spring_is_broken(system, s))
-            plot_line(pen->stage, pen->x + 2 * system->e[2 * s],
-                      pen->x + 2 * system->e[2 * s + 1], 3, COLOUR_P);
-    if (lit >= 0 && lit < system->springs &&
-        !(kinds && spring_is_broken(system, lit)))
-        plot_line(pen->stage, pen->x + 2 * (size_t)system->e[2 * lit],
-                  pen->x + 2 * (size_t)system->e[2 * lit + 1], 4.5,
-                  writes ? COLOUR_PROJECT : COLOUR_TEXT);
+            exhibit_kind(pen->simulation, lit))
+            draw_spring(pen, s, 3, COLOUR_P);
+    if (lit >= 0 && lit < system->springs)
+        draw_spring(pen, lit, 4.5, writes ? COLOUR_PROJECT : COLOUR_TEXT);
 }
 
 /* ---- all of it ---------------------------------------------------------- */
@@ -294,8 +297,7 @@ static void draw_cuts(const SpringPen *pen)
     const System *system = pen->system;
     for (int s = 0; s < system->springs; s++)
         if (exhibit_kind(pen->simulation, s) < 2)
-            plot_line(pen->stage, pen->x + 2 * system->e[2 * s],
-                      pen->x + 2 * system->e[2 * s + 1], 3, COLOUR_WHITE);
+            draw_spring(pen, s, 3, COLOUR_WHITE);
     square_outline(pen, pen->x, false, COLOUR_X);
 }
 

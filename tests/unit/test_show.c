@@ -284,22 +284,6 @@ TEST(folds_are_counted)
     CHECK(pane_folded(&show.pane[0]) == 2);
 }
 
-/* The card at the mouse hides the label of the pane. */
-TEST(notes_hide_labels)
-{
-    stand_up("square", 1);
-    show.pane[0].label = "label label label label label";
-    show.pane[1] = show.pane[0];
-    show.panes = 2;
-    show.lens.zoom = 2; /* there is no room beside the body */
-    draw();
-    Box pane = layout.pane[1];
-    int before = count_colour(pane, colour_of_run(1));
-    show.hover = (Pick){PICK_SPRING, 1, 12, {-0.2, -0.5}};
-    draw();
-    CHECK(before > 50 && count_colour(pane, colour_of_run(1)) < before - 20);
-}
-
 /* Code stands in the place of the cards, its lines at work lit. */
 TEST(pages_light_their_lines)
 {
@@ -627,34 +611,6 @@ TEST(ends_and_methods_have_their_names)
 }
 
 /* ---- cards --------------------------------------------------------------- */
-
-/* Values, estimates and bounds of residuals look different, and where there are
- * not values alone words above the curve say which is which. */
-TEST(kinds_of_residuals_are_told_apart)
-{
-    int points[3], blank[3]; /* pixels in their colour, and white above them */
-    stand_up("unprojected --filter clamp", 0);
-    Box curve = layout.card[3], above = curve;
-    above.height /= 3;
-    for (int kind = 0; kind < 3; kind++) {
-        const NewtonRecord records[3] = {
-            {.residual = 9, .kind = RESIDUAL_VALUE},
-            {.residual = 1e-3, .kind = (ResidualKind)kind},
-            {.residual = 1e-4, .kind = (ResidualKind)kind}};
-        Trace trace = {.line = LINE_START,
-                       .tolerance = 0.01,
-                       .x = simulation.run[0].x,
-                       .record = records,
-                       .updates = 3};
-        show.pane[0].trace = &trace;
-        draw();
-        points[kind] = count_colour(curve, COLOUR_P);
-        blank[kind] = count_colour(above, COLOUR_WHITE);
-    }
-    CHECK(points[0] != points[1] && points[2] < points[0]);
-    CHECK(blank[1] < blank[0] - 100 && blank[2] < blank[0] - 100);
-    CHECK(blank[1] != blank[2]);
-}
 
 /* What a later explosion would hide: the energies of a step before it keep
  * their numbers, and the axis is theirs; an axis that runs over many powers of
