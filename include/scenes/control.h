@@ -22,8 +22,8 @@ typedef struct Control {
 Control *control_of(const Simulation *simulation);
 Control *control_copy(const Control *from);
 
-/* A ground or, behind those, a ball of the options goes to (x, y), m. */
-void obstacle_move(Options *options, int number, double x, double y);
+/* [2] m, where a ground or, behind those, a ball of the options is. */
+double *obstacle_at(Options *options, int number);
 
 /* One user more, one less; NULL is accepted. */
 const Control *control_keep(const Control *control);

@@ -530,16 +530,14 @@ Status obey_box(Player *player, const Command *command)
 /* A ground or a ball goes as far as the bodies leave room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
-    const Options *now = player_settings(player);
-    int number = (int)command->number, ball = number - (int)now->grounds;
-    const double *from = ball < 0 ? now->ground[number] + 2 : now->ball[ball];
+    Options moved = *player_settings(player);
+    double *at = obstacle_at(&moved, (int)command->number);
+    const double from[2] = {at[0], at[1]};
     Command change = *command;
     bool room = false;
     for (double part = 1; part > 0.005 && !room; part /= 2) {
-        Options moved = *now;
-        change.x = from[0] + part * (command->x - from[0]);
-        change.y = from[1] + part * (command->y - from[1]);
-        obstacle_move(&moved, number, change.x, change.y);
+        change.x = at[0] = from[0] + part * (command->x - from[0]);
+        change.y = at[1] = from[1] + part * (command->y - from[1]);
         room = true;
         for (int p = 0; p < past_panes(&player->past); p++)
             room = room && has_room(player, p, &moved);

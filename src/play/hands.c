@@ -14,9 +14,8 @@
 #include "scenes/scene.h"
 
 enum {
-    CLICK_ROOM = 4,   /* pixels that a click may move */
-    PACE_PIXELS = 24, /* of a drag that changes a number by one pace */
-    NAME_PIXELS = 60  /* the same for a name */
+    CLICK_ROOM = 4,  /* pixels that a click may move */
+    PACE_PIXELS = 24 /* of a drag that changes a number by one pace */
 };
 
 static const double WHEEL_ZOOM = 1.15; /* of one notch */
@@ -124,13 +123,7 @@ Status obey_type(Player *player, const Command *command)
             continue; /* of a letter of several bytes */
         typed[length] = '\0';
     } else if (length + strlen(letter) < sizeof player->typed) {
-        strcat(typed, letter);
-    } else {
-        player_note(player,
-                    "there is room for %zu letters: Enter sets the "
-                    "number, Esc leaves it",
-                    sizeof player->typed - 1);
-        return STATUS_OK;
+        strcat(typed, letter); /* for more there is no room */
     }
     if (player->selected >= 0)
         player_note(player, "a number is typed: Enter sets it, Esc leaves it");
@@ -217,14 +210,7 @@ static Status drag_number(Player *player)
     double paces = (mouse->x - mouse->from[0]) / PACE_PIXELS;
     if (row->count > 1)
         return player_pace(player, mouse->index, 1);
-    if (row->kind == OPTION_NAME) {
-        double names = (mouse->x - mouse->last[0]) / NAME_PIXELS;
-        if (fabs(names) < 1)
-            return STATUS_OK;
-        mouse->last[0] = mouse->x;
-        return player_pace(player, mouse->index, names > 0 ? 1 : -1);
-    }
-    if (row->pace > 0)
+    if (row->pace > 0 || row->kind == OPTION_NAME)
         paces = rint(paces);
     else if (paces == rint(paces))
         paces += 1e-9; /* a value between the round ones */
@@ -276,12 +262,10 @@ static int near_node(const Player *player, const Under *under)
 static Status take(Player *player, const Under *under)
 {
     Mouse *mouse = &player->mouse;
-    const Options *options = player_settings(player);
-    const LecturePage *page = options->page;
+    Options options = *player_settings(player);
+    const LecturePage *page = options.page;
     const double *point;
-    bool stretches;
     bool paused = player->mode == MODE_PAUSE || player->mode == MODE_END;
-    int ball;
     mouse->index = under->pick.index;
     show_hold(&player->show, under->pane);
     switch (under->pick.kind) {
@@ -290,16 +274,13 @@ static Status take(Player *player, const Under *under)
         return STATUS_OK;
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
-        ball = mouse->index - (int)options->grounds;
-        point =
-            ball < 0 ? options->ground[mouse->index] + 2 : options->ball[ball];
+        point = obstacle_at(&options, mouse->index);
         mouse->grip[0] = point[0] - under->at[0];
         mouse->grip[1] = point[1] - under->at[1];
         return STATUS_OK;
     case PICK_EDGE:
-        stretches = player->mode == MODE_PAUSE || player->mode == MODE_WALK;
-        mouse->drag = stretches ? COMMAND_SET : COMMAND_GRAB;
-        mouse->index = stretches ? -1 : near_node(player, under);
+        mouse->drag = COMMAND_SET;
+        mouse->index = -1;
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag = COMMAND_HANDLE;

@@ -855,8 +855,11 @@ static const Control *changed(const Control *from, const Command *edit)
                     edit->text, message, sizeof message);
     else if (edit->kind == COMMAND_SET)
         control->options.number[option_rows[edit->number].slot] = edit->x;
-    if (edit->kind == COMMAND_OBSTACLE)
-        obstacle_move(&control->options, (int)edit->number, edit->x, edit->y);
+    if (edit->kind == COMMAND_OBSTACLE) {
+        double *at = obstacle_at(&control->options, (int)edit->number);
+        at[0] = edit->x;
+        at[1] = edit->y;
+    }
     if (edit->kind == COMMAND_PIN)
         control->pinned[edit->number] = edit->x != 0;
     if (edit->kind == COMMAND_GRAB)

@@ -44,12 +44,10 @@ Control *control_copy(const Control *from)
     return control;
 }
 
-void obstacle_move(Options *options, int number, double x, double y)
+double *obstacle_at(Options *options, int number)
 {
     int ball = number - (int)options->grounds;
-    double *at = ball < 0 ? options->ground[number] + 2 : options->ball[ball];
-    at[0] = x;
-    at[1] = y;
+    return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
 }
 
 const Control *control_keep(const Control *control)
