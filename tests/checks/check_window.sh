@@ -185,11 +185,12 @@ hand_arrives() {
     point 524 634
     xdotool click 3 # at an old step a hand is asked first
     xdotool click 3
-    point 450 760
+    point 150 680
     shot plain >/dev/null
     xdotool click 4 click 4
     shot zoomed >/dev/null
     cmp -s plain.png zoomed.png && echo 'the wheel does nothing'
+    point 450 760
     key 0
     shot plain >/dev/null
     drag 2 '150 500' '150 100'
