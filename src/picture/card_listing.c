@@ -5,6 +5,8 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
+static const double WIDE_PITCH = 2.1; /* ems, of a line with room on a page */
+
 /* A line of a listing; its texts have facts. */
 typedef struct Row {
     const char *of; /* the switch that tells which listing is shown; inside of
@@ -105,8 +107,9 @@ static void draw_row(Paper *paper, Box box, const Pane *pane, const Row *row,
     TextLine words = text_first(facts, row->markup);
     TextLine value = text_first(facts, reached || struck ? row->value : NULL);
     char digits[12];
+    double size = box.height < 0.95 * WIDE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indent);
-    int wide = paper_width(paper, FACE_REGULAR, 0.88, value.words);
+    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, value.words);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
@@ -117,7 +120,7 @@ static void draw_row(Paper *paper, Box box, const Pane *pane, const Row *row,
     paper_fit(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count, ALIGN_RIGHT,
               digits);
     int text =
-        paper_fit(paper, FACE_REGULAR, 1, struck ? COLOUR_GREY : COLOUR_TEXT,
+        paper_fit(paper, FACE_REGULAR, size, struck ? COLOUR_GREY : COLOUR_TEXT,
                   room, ALIGN_LEFT, words.words);
     if (struck)
         canvas_fill(&paper->canvas,
@@ -126,8 +129,9 @@ static void draw_row(Paper *paper, Box box, const Pane *pane, const Row *row,
                     COLOUR_GREY);
     box.width -= paper_pixels(paper, 0.6);
     if (text <= room.width)
-        paper_fit(paper, FACE_REGULAR, 0.88, lit ? COLOUR_TEXT : COLOUR_FAINT,
-                  box, ALIGN_RIGHT, value.words);
+        paper_fit(paper, FACE_REGULAR, 0.88 * size,
+                  lit ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_RIGHT,
+                  value.words);
 }
 
 /* The rows of what the active pane does: shown [ROWS] out.  Returns how many
@@ -150,9 +154,9 @@ static double listing_needs(const Show *show, double wide)
 }
 
 /* How high a line of so many is, pixels. */
-static int find_pitch(Box inside, double em, int count)
+static int find_pitch(const Show *show, Box inside, double em, int count)
 {
-    int pitch = (int)lround(1.75 * em);
+    int pitch = (int)lround((show->lecture ? WIDE_PITCH : 1.75) * em);
     return pitch * count > inside.height ? inside.height / count : pitch;
 }
 
@@ -166,7 +170,7 @@ const char *show_listing_purpose(const Show *show, const Layout *layout,
         return NULL;
     Box inside = cards_inside(layout->card[show->over.index], layout->em);
     int count = find_rows(show, shown);
-    int pitch = find_pitch(inside, layout->em, count);
+    int pitch = find_pitch(show, inside, layout->em, count);
     int row = pitch > 0 && y >= inside.y ? ((int)y - inside.y) / pitch : count;
     bool known = row < count && strcmp(shown[row]->of, "{by gradient}") != 0;
     return known ? purposes[shown[row]->line] : NULL;
@@ -178,7 +182,7 @@ static void draw_rows(const Plot *card, int count, const Row *const *shown,
     const Pane *pane = show_pane(card->show);
     Box inside = card->box;
     const Trace *trace = pane->update;
-    int pitch = find_pitch(inside, card->em, count);
+    int pitch = find_pitch(card->show, inside, card->em, count);
     for (int i = 0; i < count; i++) {
         bool lit = inside_line ? text_is_known(&pane->facts, shown[i]->of)
                                : trace && trace->line == shown[i]->line;
@@ -222,7 +226,7 @@ static void draw_prints(const Plot *card)
     Plot below = *card;
     Box inside = card->box;
     const Trace *trace = show_pane(card->show)->update;
-    bool star = inside.width > 40 * paper->em;
+    bool star = inside.width > STAR_WIDE * paper->em;
     double size = star ? 1.5 : 0.95;
     if (star && trace) {
         inside.height /= 2;
@@ -240,7 +244,8 @@ static void draw_prints(const Plot *card)
     for (int i = first; i < count && i - first < room; i++)
         paper_write(paper, FACE_MONO, size, COLOUR_TEXT, inside.x,
                     inside.y + (i - first) * pitch, ALIGN_LEFT,
-                    "Iteration %d: residual = %s  step size = %s", i,
+                    "%s%d: residual = %s  step size = %s",
+                    inside.width < 29 * paper->em ? "" : "Iteration ", i,
                     number_with(trace->record[i].residual, 4).text,
                     number_of(trace->record[i].alpha).text);
     if (count - first < room && trace->residual <= trace->tolerance)

@@ -7,6 +7,9 @@
 #include "picture/facts.h"
 #include "picture/plot.h"
 
+/* A card that is wider is a page's star, ems. */
+static const double STAR_WIDE = 40;
+
 /* Springs and nodes of a square, and what a step does to them; from the ground
  * up: obstacles, rest shape, ghosts, folded cells, springs, nodes, pins,
  * directions and forces as arrows, what the mouse holds. */

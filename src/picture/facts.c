@@ -363,11 +363,13 @@ void text_in_card(const Plot *card, const Facts *facts, const char *text)
     Paper *paper = card->paper;
     Box inside = card->box;
     double height = 0, size = 1, y = inside.y, above;
+    if (card->show->lecture) /* in a star it is seen from farther away */
+        size = inside.width > STAR_WIDE * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_of(facts, text);
     for (TextLine line = begin; text_next(&line);) {
         int width = paper_width(paper, line.face, 1, line.words);
         height += line_height(paper, &line, 1, NULL);
-        if (width > inside.width)
+        if (width > 0)
             size = fmin(size, (double)inside.width / width);
     }
     size = fmax(fmin(size, inside.height / height), paper->least);

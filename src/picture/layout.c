@@ -16,6 +16,7 @@ static const double BARS = 2.4; /* the bars of the time line are high */
 static const double COLUMN_LEAST = 27;
 static const double NAME = 1.8, HEADING = 2.2; /* of the sheet */
 static const double PAIR_LEAST = 28; /* a column for two cards in a row */
+static const double STAR_REST = 0.4; /* of the stage, below a star */
 
 /* Cards fold where the room is less than this part of what they need. */
 static const double FOLDS = 1.15;
@@ -320,7 +321,7 @@ static double least_letter(const Show *show, int width, int height)
 }
 
 /* The card that a page wants large stands on the stage, and the picture in the
- * card's place, if both are there. */
+ * card's place; where the column has no room for it, below the card. */
 static void place_star(const Show *show, Layout *layout)
 {
     const Picture *picture = picture_of(show_pane(show)->simulation->scene);
@@ -328,11 +329,14 @@ static void place_star(const Show *show, Layout *layout)
     int star = page && page->star ? picture_card(picture, page->star) : -1;
     double bar = 3 * layout->em; /* more than a card that is closed has */
     if (star < 0 || star >= layout->cards || layout->panes != 1 ||
-        layout->card[star].height < bar || layout->stage.height < bar)
+        layout->card[star].width < 1 || layout->stage.height < 2 * bar ||
+        show->closed >> star & 1 || (show->large >= 0 && show->large != star))
         return;
-    Box stage = box_inset(layout->pane[0], (int)(0.9 * layout->em));
-    layout->pane[0] = layout->card[star];
-    layout->card[star] = stage;
+    Box stage = layout->pane[0], place = layout->card[star];
+    if (place.height < bar)
+        place = cut(&stage, true, (int)(STAR_REST * stage.height));
+    layout->card[star] = box_inset(stage, pixels(layout, GAP));
+    layout->pane[0] = place;
 }
 
 Layout show_layout(const Show *show, int width, int height)

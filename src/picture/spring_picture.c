@@ -181,6 +181,7 @@ static void add_facts(const Simulation *simulation, Facts *facts)
     if (simulation->options.page)
         add_differences(simulation, facts);
     fact_when(facts, "root", both);
+    fact_when(facts, "shortened", now.across < 0);
     fact(facts, "root energy", both ? now.root_energy : NAN);
     fact(facts, "root along", both ? now.root_along : NAN);
     fact(facts, "root across", now.root_across);
@@ -269,6 +270,7 @@ const Picture spring_picture = {
     .draw = spring_draw,
     .facts = add_facts,
     .legend = "#force force\n#faint rest length\n"
-              "#project shorter than l: it has an eigenvalue below 0",
+              "#project {told}{shortened}shorter than l: it has an eigenvalue "
+              "below 0",
     .scale = true,
 };

@@ -579,7 +579,7 @@ TEST(claim_descent)
 
 TEST(claim_psd)
 {
-    says("psd", "4 4 0 0 4 1 100 0.6 0.3 1 0.577 0 0 3 0");
+    says("psd", "0 0 4 1 100 0.6 0.3 1 0.577 0 0 3 0");
     CHECK_NEAR(known("psd", "negative"), -220, 1e-12);
     for (double r = 0.02; r < 1.5; r += 0.02) {
         SpringFacts facts;
