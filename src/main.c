@@ -10,23 +10,6 @@
 static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* too large for some stacks */
 
-/* A time in seconds: of the wall, or of the processor for this program. */
-static double seconds(clockid_t clock)
-{
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static double main_used; /* s, of the processor, when the alarm was set */
-
-/* Looks after a second whether the program has gone on. */
-static void set_alarm(void)
-{
-    main_used = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    alarm(1);
-}
-
 /* SIGINT, SIGTERM, SIGHUP: end after the present Newton iteration.  A second
  * one ends at once, whatever the program waits for: a library, a screen.
  * timeout(1) sends each signal twice, to the program and to its group: what
@@ -34,26 +17,16 @@ static void set_alarm(void)
 static void on_signal(int number)
 {
     static double first; /* s */
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    double now = (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
     if (!main_stop)
-        first = seconds(CLOCK_MONOTONIC);
-    else if (seconds(CLOCK_MONOTONIC) - first > 0.1) {
+        first = now;
+    else if (now - first > 0.1) {
         signal(number, SIG_DFL);
         raise(number);
     }
     main_stop = 1;
-    set_alarm();
-}
-
-/* A program that has done nothing since a signal waits for a screen, and in
- * vain. */
-static void on_alarm(int number)
-{
-    const double least = 0.05; /* s */
-    (void)number;
-    if (seconds(CLOCK_PROCESS_CPUTIME_ID) - main_used > least)
-        set_alarm();
-    else
-        window_let_go();
 }
 
 /* Signals that end the run; and those of pipes without a reader and of files
@@ -66,9 +39,6 @@ static void handle_signals(void)
     sigaction(SIGTERM, &action, NULL);
     if (sigaction(SIGHUP, NULL, &old) == 0 && old.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL); /* not so under nohup */
-    action.sa_handler = on_alarm;
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGALRM, &action, NULL);
     action.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &action, NULL);
     sigaction(SIGXFSZ, &action, NULL);
@@ -85,21 +55,10 @@ static void hold_standard_streams(void)
         close(file);
 }
 
-/* The server of the window's screen is gone, or did not answer after a signal:
- * files are finished without it.  A step may be half made: no summary. */
-static void on_lost_screen(void)
-{
-    main_player.view = NULL;
-    main_player.given[0].quiet = true;
-    exit(program_end(&main_player,
-                     main_stop ? STATUS_OK : STATUS_SCREEN_FAILED));
-}
-
 int main(int argc, char **argv)
 {
     hold_standard_streams();
     handle_signals();
-    window_when_lost(on_lost_screen);
     int code = program_begin(argc, argv, &main_stop, &main_player);
     if (code == PROGRAM_PLAYS)
         code = program_end(&main_player, player_run(&main_player));

@@ -65,15 +65,6 @@ Status view_show(View *view);
 bool window_open(const char *title, const int size[2], bool full);
 void window_close(void);
 
-/* From now on `lost` is called when the server of a window is gone; it must not
- * return. */
-void window_when_lost(void (*lost)(void));
-
-/* Ends every wait for a server that does not answer, as if it were gone; while
- * a window is opened the program ends, for nothing was begun.  For handlers of
- * signals. */
-void window_let_go(void);
-
 /* size  [2] out, pixels of a paper that fills it */
 void window_size(int size[2]);
 

@@ -1,19 +1,11 @@
-/* window_sdl.c - the window on a computer.  SDL's renderer only carries the
- * finished picture to the screen, so that it is the same on all of them.
+/* window_sdl.c - the window on a computer.  SDL only carries the finished
+ * picture to the screen, so that it is the same on all of them.
  */
 #include <SDL.h>
-#include <SDL_opengl.h>
-#include <SDL_syswm.h>
 #include <ctype.h>
-#include <dlfcn.h>
-#include <poll.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
-#include <unistd.h>
-#undef Status /* Xlib's */
 
 #include "play/view.h"
 #include "scenes/one_line.h"
@@ -21,73 +13,7 @@
 enum { WINDOW_WIDTH = 1280, WINDOW_HEIGHT = 800, WINDOW_LEAST = 200 };
 
 static SDL_Window *window;
-static SDL_Renderer *renderer;
-static SDL_Texture *texture; /* of the size of the canvas, or NULL */
-static int before[2];        /* pixels, before it filled the screen */
-static bool initialised;     /* SDL's video is ours to end */
-static bool tab;             /* Tab is down and has asked for nothing yet */
-
-/* ---- a server that is gone, or does not answer -------------------------- */
-
-static volatile sig_atomic_t opens;        /* the window is being opened */
-static volatile sig_atomic_t guarded = -1; /* descriptor, -1: none */
-static void (*when_lost)(void);
-
-/* The descriptor on which the window's events arrive; -1: not known. */
-static int event_descriptor(void)
-{
-#if defined SDL_VIDEO_DRIVER_X11
-    SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
-    if (window && SDL_GetWindowWMInfo(window, &info) &&
-        info.subsystem == SDL_SYSWM_X11)
-        return ConnectionNumber(info.info.x11.display);
-#endif
-    return -1;
-}
-
-/* Xlib calls it when its server is gone, and ends the program if it returns. */
-static int server_is_gone(void *display)
-{
-    (void)display;
-    guarded = -1;
-    SDL_SetError("the server of the screen is gone");
-    when_lost();
-    return 0;
-}
-
-/* A function of the Xlib that SDL has loaded; NULL: there is none. */
-static void *xlib_function(const char *name)
-{
-    void *xlib = event_descriptor() >= 0
-                     ? dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD)
-                     : NULL;
-    return xlib ? dlsym(xlib, name) : NULL;
-}
-
-static void guard_server(void)
-{
-    typedef int Handler(void *display);
-    Handler *(*set_handler)(Handler *) = NULL;
-    guarded = event_descriptor();
-    void *symbol = xlib_function("XSetIOErrorHandler");
-    memcpy(&set_handler, &symbol, sizeof symbol);
-    if (set_handler && when_lost)
-        set_handler(server_is_gone);
-}
-
-void window_when_lost(void (*lost)(void))
-{
-    when_lost = lost;
-}
-
-void window_let_go(void)
-{
-    if (opens)
-        _exit(EXIT_FAILURE);
-    if (guarded >= 0)
-        shutdown(guarded, SHUT_RDWR);
-}
+static bool tab; /* Tab is down and has asked for nothing yet */
 
 /* One line out of SDL's message. */
 void window_failure(char *reason, size_t size)
@@ -124,8 +50,7 @@ static bool open_video(void)
     if (!getenv("XDG_RUNTIME_DIR"))
         SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11,KMSDRM");
 #endif
-    initialised = SDL_Init(SDL_INIT_VIDEO) == 0;
-    if (initialised) {
+    if (SDL_Init(SDL_INIT_VIDEO) == 0) {
         const char *driver = SDL_GetCurrentVideoDriver();
         bool shows =
             driver && strcmp(driver, "offscreen") && strcmp(driver, "dummy");
@@ -142,103 +67,65 @@ static bool open_video(void)
     return false;
 }
 
-/* Whether the renderer's OpenGL is computed by the processor, as Mesa does
- * where there is no graphics card: in virtual machines and on far screens. */
-static bool opengl_is_software(void)
+static void put_window(const SDL_Rect *place)
 {
-    const GLubyte *(APIENTRY * get_string)(GLenum) = NULL;
-    void *symbol = NULL;
-    if (SDL_GL_GetCurrentContext())
-        symbol = SDL_GL_GetProcAddress("glGetString");
-    memcpy(&get_string, &symbol, sizeof symbol);
-    const char *name = get_string ? (const char *)get_string(GL_RENDERER) : "";
-    return name && (strstr(name, "llvmpipe") || strstr(name, "softpipe") ||
-                    strstr(name, "Software Rasterizer"));
+    SDL_SetWindowPosition(window, place->x, place->y);
+    SDL_SetWindowSize(window, place->w, place->h);
 }
 
-/* Accelerated if possible.  Copying the paper to an X11 window costs less than
- * half of what drawing it by such an OpenGL does (measured: 6 instead of 14 ms
- * a frame of 900 x 900 pixels). */
-static void create_renderer(void)
+/* Where no window manager does it, SDL changes neither size nor place. */
+void window_set_full(bool full)
 {
-    renderer = SDL_CreateRenderer(
-        window, -1, SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);
-    bool asked = SDL_GetHint(SDL_HINT_RENDER_DRIVER) != NULL;
-    if (renderer && !asked && opengl_is_software() &&
-        strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0) {
-        SDL_DestroyRenderer(renderer);
-        renderer = NULL;
-        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    static SDL_Rect before;
+    SDL_Rect screen;
+    if (full) {
+        SDL_GetWindowPosition(window, &before.x, &before.y);
+        SDL_GetWindowSize(window, &before.w, &before.h);
+        if (!SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window), &screen))
+            put_window(&screen);
     }
-    if (!renderer)
-        renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
+    SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    if (!full)
+        put_window(&before);
 }
 
-/* Where no window manager does it, the window would stay as small as it was and
- * show a part of the picture. */
-static void fill_screen(void)
+bool window_is_full(void)
 {
-#if defined SDL_VIDEO_DRIVER_X11
-    int (*resize)(Display *, Window, int, int, unsigned, unsigned) = NULL;
-    void *symbol = xlib_function("XMoveResizeWindow");
-    SDL_SysWMinfo info;
-    SDL_Rect area;
-    SDL_VERSION(&info.version);
-    memcpy(&resize, &symbol, sizeof symbol);
-    if (resize && SDL_GetWindowWMInfo(window, &info) &&
-        SDL_GetDisplayBounds(SDL_GetWindowDisplayIndex(window), &area) == 0)
-        resize(info.info.x11.display, info.info.x11.window, area.x, area.y,
-               (unsigned)area.w, (unsigned)area.h);
-#endif
+    return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
+/* Pixels that go to an X server as they are cost less than half of what an
+ * OpenGL takes that the processor computes, and no time to begin (measured: 6
+ * instead of 14 ms a frame of 900 x 900 pixels). */
 bool window_open(const char *title, const int size[2], bool full)
 {
     int fitting[2];
-    Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
-                   (full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
-    opens = 1;
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    if (open_video()) {
-        fit_size(size, fitting);
-        window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED,
-                                  SDL_WINDOWPOS_CENTERED, fitting[0],
-                                  fitting[1], flags);
-    }
-    if (window)
-        create_renderer();
-    if (renderer && full)
-        fill_screen();
-    guard_server();
-    opens = 0;
-    if (renderer)
-        SDL_StartTextInput();
-    return renderer != NULL;
-}
-
-static void drop_texture(void)
-{
-    if (texture)
-        SDL_DestroyTexture(texture);
-    texture = NULL;
+    if (!open_video())
+        return false;
+    if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
+        SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    fit_size(size, fitting);
+    window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED,
+                              SDL_WINDOWPOS_CENTERED, fitting[0], fitting[1],
+                              SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    if (!window || !SDL_GetWindowSurface(window))
+        return false;
+    if (full)
+        window_set_full(true);
+    SDL_StartTextInput();
+    return true;
 }
 
 void window_close(void)
 {
-    drop_texture();
-    if (renderer)
-        SDL_DestroyRenderer(renderer);
     if (window)
         SDL_DestroyWindow(window);
-    renderer = NULL;
     window = NULL;
-    if (initialised)
-        SDL_Quit();
-    initialised = false;
-    guarded = -1;
+    SDL_Quit();
 }
 
 /* ---- what it shows ------------------------------------------------------ */
@@ -248,38 +135,11 @@ void window_set_title(const char *title)
     SDL_SetWindowTitle(window, title);
 }
 
-void window_set_full(bool full)
-{
-    static int place[2];
-    if (full) {
-        SDL_GetWindowSize(window, &before[0], &before[1]);
-        SDL_GetWindowPosition(window, &place[0], &place[1]);
-    }
-    SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
-    if (full)
-        fill_screen();
-    /* And SDL would keep the size of the screen. */
-    if (!full && before[0] > 0) {
-        SDL_SetWindowSize(window, before[0], before[1]);
-        SDL_SetWindowPosition(window, place[0], place[1]);
-    }
-}
-
-bool window_is_full(void)
-{
-    return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
-}
-
-/* As far as textures go. */
 void window_size(int size[2])
 {
-    SDL_RendererInfo info = {0};
-    if (SDL_GetRendererOutputSize(renderer, &size[0], &size[1]))
-        size[0] = size[1] = 1;
-    SDL_GetRendererInfo(renderer, &info);
-    int most[] = {info.max_texture_width, info.max_texture_height};
-    for (int i = 0; i < 2; i++)
-        size[i] = most[i] > 0 && most[i] < size[i] ? most[i] : size[i];
+    const SDL_Surface *surface = SDL_GetWindowSurface(window);
+    size[0] = surface ? surface->w : 1;
+    size[1] = surface ? surface->h : 1;
 }
 
 /* Pixels in a point, each way; 1 where nobody knows. */
@@ -301,21 +161,15 @@ double window_letter(void)
 
 Status window_show(const Canvas *canvas)
 {
-    int width, height;
-    if (texture && (SDL_QueryTexture(texture, NULL, NULL, &width, &height) ||
-                    width != canvas->width || height != canvas->height))
-        drop_texture();
-    if (!texture)
-        texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_ARGB8888,
-                                    SDL_TEXTUREACCESS_STREAMING, canvas->width,
-                                    canvas->height);
-    if (!texture || SDL_SetTextureBlendMode(texture, SDL_BLENDMODE_NONE) ||
-        SDL_UpdateTexture(texture, NULL, canvas->pixels,
-                          canvas->width * (int)sizeof *canvas->pixels) ||
-        SDL_RenderCopy(renderer, texture, NULL, NULL))
-        return STATUS_SCREEN_FAILED;
-    SDL_RenderPresent(renderer);
-    return STATUS_OK;
+    SDL_Surface *surface = SDL_GetWindowSurface(window);
+    SDL_Surface *picture = SDL_CreateRGBSurfaceWithFormatFrom(
+        canvas->pixels, canvas->width, canvas->height, 32,
+        canvas->width * (int)sizeof *canvas->pixels, SDL_PIXELFORMAT_RGB888);
+    bool shown = surface && picture &&
+                 SDL_BlitSurface(picture, NULL, surface, NULL) == 0 &&
+                 SDL_UpdateWindowSurface(window) == 0;
+    SDL_FreeSurface(picture);
+    return shown ? STATUS_OK : STATUS_SCREEN_FAILED;
 }
 
 /* ---- keys --------------------------------------------------------------- */
@@ -447,11 +301,6 @@ static Input read_event(const SDL_Event *event)
     case SDL_WINDOWEVENT:
         input.kind = change_of_window(&event->window);
         break;
-    case SDL_RENDER_DEVICE_RESET:
-        drop_texture(); /* fall through */
-    case SDL_RENDER_TARGETS_RESET:
-        input.kind = INPUT_REDRAW;
-        break;
     case SDL_MOUSEMOTION:
         place_input(INPUT_MOVE, event->motion.x, event->motion.y, &input);
         break;
@@ -492,12 +341,11 @@ Input window_input(void)
  * error, which ends the program. */
 void window_wait(int milliseconds)
 {
-    struct pollfd events = {.fd = event_descriptor(), .events = POLLIN};
-    if (events.fd < 0) {
-        SDL_WaitEventTimeout(NULL, milliseconds);
-        return;
+    enum { PAUSE = 8 }; /* ms */
+    for (; milliseconds > 0; milliseconds -= PAUSE) {
+        SDL_PumpEvents();
+        if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
+            return;
+        SDL_Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
     }
-    SDL_PumpEvents(); /* what Xlib has read already is not to be waited for */
-    if (!SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
-        poll(&events, 1, milliseconds);
 }

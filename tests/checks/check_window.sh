@@ -38,9 +38,6 @@ begin() {
     echo $pid >pid
     until_true has_begun "$1" || echo "$1: no window"
     until_true test -s frames/frame_000000.png || echo "$1: no frame"
-    # Making the renderer, SDL may have made the window anew.
-    found=$(has_title "$1" | tail -n 1)
-    window=${found:-$window}
     timeout $timeout xdotool windowfocus --sync "$window" \
         mousemove --window "$window" $((side / 2)) $((side - 20)) 2>/dev/null
 }
@@ -92,9 +89,8 @@ ticks() {
     sed 's/.*) //' "/proc/$pid/stat" | awk '{ print $12 + $13 }'
 }
 
-# With the renderer of a graphics card, and running at first.
+# Running at first.
 keys_arrive() {
-    export SDL_RENDER_DRIVER=opengl
     begin square --segments 2
     frame 5
     key space
@@ -118,9 +114,6 @@ keys_arrive() {
     awk -F, 'NR > 1 && $3 > 8 { print "not two segments: " $0; exit }' states
 }
 verdict keys_arrive "$(keys_arrive)"
-
-# A window first looks whether an OpenGL serves it, which takes it 0.2 s here.
-export SDL_RENDER_DRIVER=software SDL_FRAMEBUFFER_ACCELERATION=0
 
 # Y writes down what was done; that script leads to the same state, without a
 # window.
@@ -341,66 +334,5 @@ in_a_step() {
     done
 }
 verdict a_window_ends_in_the_middle_of_a_step "$(in_a_step)"
-
-# SDL takes another renderer, or the program says that there is none.
-no_renderer() {
-    unset SDL_FRAMEBUFFER_ACCELERATION
-    export SDL_RENDER_DRIVER=nonsense
-    begin square
-    frame 5
-    key q
-    end 0
-}
-verdict a_renderer_that_is_missing_is_replaced "$(no_renderer)"
-
-# What was recorded is whole, and one line of ours says what happened.
-screen_dies() {
-    new_screen mortal 1000x1000 || echo 'no second screen'
-    mortal=$server
-    DISPLAY=:$(cat mortal)
-    begin square --segments 16
-    frame 10
-    kill -KILL $mortal
-    end 1
-    [ "$(cat error)" = \
-        'elasto: drawing failed: the server of the screen is gone' ] ||
-        echo "it says $(cat error)"
-    for file in frames/*.png; do
-        tail -c 8 "$file" | od -An -tx1 | grep -q 'ae 42 60 82' ||
-            echo "$file is not whole"
-    done
-    awk -F, 'NF != columns && columns { print "states: " $0 }
-        { columns = NF }' states
-}
-verdict a_screen_that_dies_leaves_whole_files "$(screen_dies)"
-
-# A server that answers nobody: one signal ends the program within two seconds,
-# running, paused, and while the window opens.
-screen_stops() {
-    new_screen still 1000x1000 || echo 'no second screen'
-    still=$server
-    DISPLAY=:$(cat still)
-    for state in --quiet --paused; do
-        begin square $state
-        [ $state = --paused ] || frame 5
-        kill -STOP $still
-        sleep 0.5
-        kill -TERM $pid
-        timeout=6
-        end 0
-        timeout=20
-        kill -CONT $still
-        [ ! -s error ] || echo "it says $(cat error)"
-    done
-    kill -STOP $still
-    "$elasto" square --states states 2>error &
-    pid=$!
-    sleep 0.5
-    kill -TERM $pid
-    until_true has_ended $pid || echo 'it opens for ever'
-    pid=
-    kill -KILL $still
-}
-verdict a_screen_that_stops_holds_nobody "$(screen_stops)"
 
 exit $failed
