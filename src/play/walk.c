@@ -140,10 +140,7 @@ Status obey_finer(Player *player, const Command *command)
         "N and \u2190 go by lines of Algorithm 3",
     };
     if (!has_updates(player) && player->fine == 0)
-        return player_refuse(player, player_simulation(player)->scene->turn
-                                         ? "a step here has no finer ones"
-                                         : "no step here has updates of "
-                                           "Newton's method");
+        return player_refuse(player, "a step here has no finer ones");
     player->fine = (player->fine + 1) % 3;
     if (player->fine == 0 || !player_stands(player))
         player->mode = MODE_PAUSE;

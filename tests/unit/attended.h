@@ -73,6 +73,18 @@ static inline void obey_all(const char *const *lines)
         CHECK_STATUS(obey(*lines), STATUS_OK);
 }
 
+/* Runs until it pauses by itself, as it must within some hundred steps. */
+static inline void run_until_it_pauses(void)
+{
+    if (player_stands(&player))
+        CHECK_STATUS(obey("play"), STATUS_OK);
+    for (int i = 0; i < 3000 && !player_stands(&player); i++) {
+        Status status = player_step(&player);
+        CHECK(!status || status_is_unconverged(status));
+    }
+    CHECK(player_stands(&player));
+}
+
 static inline const Machine *machine(int pane)
 {
     return &player.past.machine[pane];

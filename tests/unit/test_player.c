@@ -6,14 +6,6 @@
 
 #include <math.h>
 
-/* Runs until it pauses by itself, as it must within some hundred steps. */
-static void run_until_it_pauses(void)
-{
-    for (int i = 0; i < 3000 && !player_stands(&player); i++)
-        CHECK_STATUS(player_step(&player), STATUS_OK);
-    CHECK(player_stands(&player));
-}
-
 /* How far a node gets from where it is in 400 steps of a hundredth of a second
  * with nine digits, over the length of the shortest spring. */
 static double way_that_is_left(void)

@@ -11,7 +11,6 @@
  *     do COMMAND               as a script gives it
  *     run N, rest              until the run has come to this step, or stops
  *     go N                     so many steps of it
- *     until KEY N              this key, until that step is shown
  *     at N, newest N           the step that is shown, and the last one
  *     stands 1, panes N        whether time stands still; side by side
  *     ghost 1                  the earlier outcome is shown, too
@@ -221,27 +220,6 @@ static void run_until(long step)
     player_run(&player);
 }
 
-/* Steps as a run makes them, until it stops by itself. */
-static void run_to_rest(void)
-{
-    if (player_stands(&player))
-        press_key("Space");
-    for (int i = 0; i < 3000 && !player_stands(&player); i++)
-        tell(player_step(&player));
-    CHECK(player_stands(&player));
-}
-
-/* "Left 1": as often as it takes, but not for ever. */
-static void press_until(const char *rest)
-{
-    char key[16];
-    long step;
-    assert_int_equal(sscanf(rest, "%15s %ld", key, &step), 2);
-    for (int i = 0; i < 1000 && player.past.step != step; i++)
-        press_key(key);
-    assert_int_equal(player.past.step, step);
-}
-
 /* How many files there are; and without them. */
 static int count_files(bool away)
 {
@@ -421,12 +399,10 @@ static void session_line(const char *line)
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
     else if (strcmp(verb, "rest") == 0)
-        run_to_rest();
+        run_until_it_pauses();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
             tell(player_step(&player));
-    else if (strcmp(verb, "until") == 0)
-        press_until(rest);
     else if (strcmp(verb, "asks") == 0)
         player.asks = player.changed = true;
     else if (strcmp(verb, "replays") == 0)
@@ -765,12 +741,14 @@ static const Session sessions[] = {
            "residual 0.00015171")},
     {"lines lead back into the step before",
      LINES("begin square --segments 2 --paused", "do step", "do step",
-           "key I I Left", "at 2", "line 0 7", "until Left 1", "line 0 8",
-           "key I", "line 0 0")},
+           "key I I Left", "at 2", "line 0 7",
+           "key Left Left Left Left Left Left Left",
+           "key Left Left Left Left Left Left Left", "at 2", "key Left", "at 1",
+           "line 0 8", "key I", "line 0 0")},
     {"panes wait for each other",
      LINES("begin square --segments 3 --tolerance 0.5,1e-9 --paused", "key I N",
            "line 0 1", "line 1 1", "key N N N", "line 0 8", "line 1 7",
-           "until N 2", "line 0 1", "line 1 1")},
+           "key N N N", "at 1", "key N", "at 2", "line 0 1", "line 1 1")},
     {"running leaves the lines",
      LINES("begin square --segments 2 --paused", "key I I N", "line 0 1",
            "stands 1", "do play", "line 0 0", "stands 0", "chip N next line",
@@ -960,7 +938,7 @@ static const Session sessions[] = {
     {"where a key makes no sense it is said why",
      LINES(
          "begin circle --paused", "do pin 0", "says only nodes of a square",
-         "do finer", "says no step here has updates", "do projection",
+         "do finer", "says has no finer ones", "do projection",
          "says nothing to project", "do add-pane", "says several runs are in",
          "begin overshoot --paused", "do finer", "says has no finer ones",
          "do add-pane", "says no time passes", "do method",
