@@ -183,8 +183,10 @@ void law_facts(const Simulation *simulation, Facts *facts)
     if (!law || simulation->runs > 1)
         return;
     bool flowed = law->kind != &plastic_energy || now.ep != 0;
-    if (!isnan(now.x))
-        fact_words(facts, "law", flowed ? law->now : "no spring has flowed");
+    fact_words(facts, "law",
+               isnan(now.x) ? "nothing is near enough"
+               : flowed     ? law->now
+                            : "no spring has flowed");
     fact(facts, "law x", flowed ? now.x : NAN);
     fact(facts, "law y", isnan(now.x) ? NAN : law->value(&now, now.x));
 }

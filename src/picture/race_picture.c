@@ -94,12 +94,12 @@ static void draw_table(const Plot *card)
                                         "stable to", "energy", "time"};
     enum { COLUMNS = 7, CELL = 64 };
     static const double columns[2][COLUMNS] = {
-        {0, 0.56, 0, 0, 0.78, 0, 1}, {0, 0.38, 0.5, 0.62, 0.75, 0.88, 1}};
+        {0, 0.56, 0, 0, 0.78, 0, 1}, {0, 0.37, 0.49, 0.61, 0.73, 0.86, 1}};
     bool wide = card->box.width > 40 * card->paper->em;
     const Race *race = &card->simulation->exhibit.race;
     Paper *paper = card->paper;
     Box inside = card->box;
-    double line = fmin(3 * paper->em, inside.height / (RACE_METHODS + 1.0));
+    double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
     for (int row = 0; row <= RACE_METHODS; row++) {
         char cell[COLUMNS][CELL] = {""};
         int method = row > 0 ? row - 1 : 0;
