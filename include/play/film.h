@@ -25,7 +25,7 @@ typedef struct Film {
     long frames;       /* so far */
     Output output;
     uint32_t *frame;    /* [width height] */
-    int process, pipe;  /* of ffmpeg, where a process is above 0 */
+    FILE *pipe;         /* to ffmpeg; NULL: it does not run */
     const char *reason; /* why it failed, if errno does not say it; or NULL */
 } Film;
 

@@ -1,13 +1,10 @@
 #include "play/film.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "scenes/one_line.h"
@@ -75,58 +72,36 @@ bool film_runs(const Film *film)
     return film->output.file != NULL;
 }
 
-/* In the new process: standard input is the pipe, its words go nowhere.  It is
- * in a group of its own, so that Ctrl+C does not reach it: the film ends when
- * the pipe does. */
-static void run_ffmpeg(const Film *film, int from)
-{
-    char line[512];
-    snprintf(line, sizeof line,
-             "exec ffmpeg -loglevel quiet -y -f rawvideo -pixel_format bgr0 "
-             "-video_size %dx%d -framerate %d -i pipe:0 %s -f %s \"file:$0\" "
-             ">/dev/null 2>&1",
-             film->width, film->height, film->kind->rate, film->kind->words,
-             film->kind->end + 1);
-    setpgid(0, 0);
-    if (dup2(from, STDIN_FILENO) >= 0)
-        execl("/bin/sh", "sh", "-c", line, film->output.temporary, NULL);
-    _exit(127);
-}
-
-/* With the first frame, whose size the film has. */
+/* With the first frame, whose size the film has.  ffmpeg's words go nowhere; a
+ * session of its own keeps Ctrl+C from it: the film ends when the pipe does. */
 static Status start_ffmpeg(Film *film, const Canvas *canvas)
 {
-    int ends[2];
+    char line[512];
     size_t count = (size_t)canvas->width * (size_t)canvas->height;
     film->width = canvas->width;
     film->height = canvas->height;
     film->frame = malloc(count * sizeof *film->frame);
-    if (!film->frame)
+    if (!film->frame || setenv("ELASTO_FILM", film->output.temporary, 1))
         return STATUS_OUT_OF_MEMORY;
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return STATUS_FILE_FAILED;
-    film->process = fork();
-    if (film->process == 0)
-        run_ffmpeg(film, ends[0]);
-    close(ends[0]);
-    film->pipe = ends[1];
-    if (film->process > 0)
-        return STATUS_OK;
-    close(film->pipe);
-    film->process = 0;
-    return STATUS_FILE_FAILED;
+    snprintf(line, sizeof line,
+             "exec $(command -v setsid) ffmpeg -loglevel quiet -y -f rawvideo "
+             "-pixel_format bgr0 -video_size %dx%d -framerate %d -i pipe:0 %s "
+             "-f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
+             film->width, film->height, film->kind->rate, film->kind->words,
+             film->kind->end + 1);
+    film->pipe = popen(line, "we");
+    return film->pipe ? STATUS_OK : STATUS_FILE_FAILED;
 }
 
-/* All bytes of the frame into the pipe. */
+/* All bytes of the frame into the pipe; a signal may come in between. */
 static Status send_frame(Film *film)
 {
     const char *bytes = (const char *)film->frame;
     size_t size = 4 * (size_t)film->width * (size_t)film->height;
     while (size > 0) {
-        ssize_t wrote = write(film->pipe, bytes, size);
+        ssize_t wrote = write(fileno(film->pipe), bytes, size);
         if (wrote < 0 && errno != EINTR) {
-            if (errno == EPIPE)
-                film->reason = "ffmpeg ended before the film did";
+            film->reason = "ffmpeg ended before the film did";
             return STATUS_FILE_FAILED;
         }
         bytes += wrote > 0 ? wrote : 0;
@@ -157,14 +132,9 @@ Status film_add(Film *film, const Canvas *canvas, int shown)
 /* The end of the pipe, and of ffmpeg.  Returns whether it ended well. */
 static bool end_ffmpeg(Film *film)
 {
-    int code = 0;
-    if (film->process == 0)
-        return false;
-    close(film->pipe);
-    while (waitpid(film->process, &code, 0) < 0 && errno == EINTR)
-        continue;
-    film->process = 0;
-    return WIFEXITED(code) && WEXITSTATUS(code) == 0;
+    bool well = film->pipe && pclose(film->pipe) == 0;
+    film->pipe = NULL;
+    return well;
 }
 
 Status film_close(Film *film)
@@ -189,8 +159,6 @@ Status film_close(Film *film)
 void film_discard(Film *film)
 {
     int reason = errno;
-    if (film->process > 0)
-        kill(film->process, SIGKILL);
     end_ffmpeg(film);
     output_discard(&film->output, false);
     free(film->frame);

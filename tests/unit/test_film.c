@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "play/film.h"
@@ -159,17 +159,13 @@ TEST(sizes_may_change)
     unlink("sizes.apng");
 }
 
-/* A signal to all of the program's group does not reach ffmpeg; one that is
- * killed is called dead, and not waited for. */
+/* One that ends before the film is called dead, and not waited for. */
 TEST(ffmpeg_dies_by_its_own)
 {
     Canvas canvas;
     CHECK_STATUS(canvas_create(WIDTH, HEIGHT, &canvas), STATUS_OK);
     Film film = open_film("dead.mp4");
-    CHECK_STATUS(film_add(&film, &canvas, 1), STATUS_OK);
-    usleep(100000); /* it is a program of its own by now */
-    CHECK(getpgid(film.process) == film.process);
-    CHECK(kill(film.process, SIGKILL) == 0);
+    CHECK(unlink("dead.mp4.part") == 0 && mkdir("dead.mp4.part", 0700) == 0);
     Status status = STATUS_OK;
     for (int i = 0; i < 1000 && !status; i++)
         status = film_add(&film, &canvas, 1);
@@ -177,7 +173,7 @@ TEST(ffmpeg_dies_by_its_own)
     CHECK(film.reason && strstr(film.reason, "ffmpeg ended"));
     CHECK_STATUS(film_close(&film), STATUS_FILE_FAILED);
     CHECK(access("dead.mp4", F_OK) != 0);
-    unlink("dead.mp4.part");
+    rmdir("dead.mp4.part");
     canvas_free(&canvas);
 }
 
