@@ -122,13 +122,11 @@ typedef struct Player {
     bool warning;         /* and it is a bad thing */
     bool explains;        /* the mouse has gone to something else since then */
 
-    int speed;       /* s: 2^s steps a frame, or a frame 2^-s times as long */
-    double due;      /* s, on the wall clock: the next step */
-    double began;    /* s, work that is under way; 0: none is */
-    double mark[2];  /* s, wall and simulated: speed is measured from here */
-    double measured; /* simulated over real time; 0: unknown */
-    bool changed;    /* the window must be drawn again */
-    long sampled;    /* step of the last frame that was drawn; -1: none */
+    int speed;    /* s: 2^s steps a frame, or a frame 2^-s times as long */
+    double due;   /* s, on the wall clock: the next step */
+    double began; /* s, work that is under way; 0: none is */
+    bool changed; /* the window must be drawn again */
+    long sampled; /* step of the last frame that was drawn; -1: none */
 
     /* What only the screen shows. */
     Lens lens;

@@ -168,54 +168,18 @@ static void fill_options(Player *player)
     show->page = (Page){.kind = PAGE_HELP, .title = "Numbers of this scene"};
 }
 
-/* Who makes the steps, and why. */
-static void solver_words(const Simulation *simulation, char *text)
-{
-    const Newton *newton = simulation->run[0].newton;
-    Solver solver = simulation->options.solver;
-    if (newton && newton->refusal)
-        snprintf(text, SHOW_TEXT, "newton made this step, not multigrid: %s",
-                 newton->refusal);
-    else if (solver == SOLVER_AUTO)
-        snprintf(text, SHOW_TEXT,
-                 "auto: newton up to %d segments, as lecture.c goes; above, "
-                 "multigrid, which goes another way to the same test",
-                 AUTO_NEWTON_SEGMENTS);
-    else
-        snprintf(text, SHOW_TEXT, "%s",
-                 solver == SOLVER_NEWTON
-                     ? "newton goes as lecture.c does: a factor for each p"
-                     : "multigrid goes another way than lecture.c, to the same "
-                       "test, without a factor");
-}
-
 /* What a sentence can say of the number under the mouse, or of that which is
  * lit. */
 static void explain_number(const Player *player, Show *show)
 {
-    const Simulation *simulation = player_simulation(player);
-    const Options *options = &simulation->options;
-    const IntegratorMethod *method = simulation->run[0].method;
     int i = show->over.zone == ZONE_SETTING ? show->over.index : show->selected;
     if (i < 0 || i >= player->numbers)
         return;
     const OptionRow *row = player->number[i];
-    const char *option = row->name, *idle = player_idle(player, row);
+    const char *idle = player_idle(player, row);
     if (idle || row->help[0])
-        snprintf(show->sentence, SHOW_TEXT, "%s: %s", option,
+        snprintf(show->sentence, SHOW_TEXT, "%s: %s", row->name,
                  idle ? idle : row->help);
-    if (strcmp(option, "integrator") == 0 && simulation->runs == 1)
-        snprintf(show->sentence, SHOW_TEXT, "%s: %s, order %d%s", method->label,
-                 method->implicit ? "implicit" : "explicit", method->order,
-                 method->damps ? ", takes energy out of motion" : "");
-    if (strcmp(option, "solver") == 0)
-        solver_words(simulation, show->sentence);
-    if (strcmp(option, "tolerance") == 0 &&
-        (simulation->scene->needs & NEEDS_TIME))
-        snprintf(show->sentence, SHOW_TEXT,
-                 "\u03b5 is a velocity: the test lets \u2016{p}\u2016_{\u221e} "
-                 "\u2264 h \u03b5 = %.3g m pass in each step",
-                 options->timestep * options->tolerance);
 }
 
 /* What a sentence can say of a chip, a step of the time line, a line of the
@@ -410,13 +374,12 @@ void player_label_panes(Player *player)
     }
 }
 
-/* "step 12 of 40   t = 0.24 s   real time x 0.5" */
+/* "step 12 of 40   t = 0.24 s   2 steps a frame" */
 static void fill_time(Player *player)
 {
     Show *show = &player->show;
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->turn;
-    double wanted = player_rate(player) * machine_pace(player_machine(player));
     long newest = past_newest(past);
     size_t used = (size_t)snprintf(show->time_text, SHOW_TEXT, "%s %ld",
                                    turn ? turn : "step", past->step);
@@ -427,13 +390,9 @@ static void fill_time(Player *player)
         return;
     used += (size_t)snprintf(show->time_text + used, SHOW_TEXT - used,
                              "   t = %.4g s", player_time(player));
-    if (player_stands(player))
-        return;
-    double speed = player->measured > 0 && player->measured < 0.85 * wanted
-                       ? player->measured
-                       : wanted;
-    snprintf(show->time_text + used, SHOW_TEXT - used,
-             "   real time \u00d7 %.2g", speed);
+    if (player->speed != 0)
+        snprintf(show->time_text + used, SHOW_TEXT - used,
+                 "   %.4g steps a frame", ldexp(1, player->speed));
 }
 
 /* A long step says so, and how to stop it. */

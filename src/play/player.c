@@ -16,12 +16,10 @@ enum {
     FRAME_SIZE = 900,   /* pixels, without a window */
     UNSEEN_STEPS = 100, /* without a window, if nobody says how many */
     FRAME_RATE = 60,    /* frames a second at most */
-    IDLE_WAIT = 200,    /* ms between looks at the signals while paused */
-    BAR_LENGTH = 40     /* letters of the progress bar */
+    IDLE_WAIT = 200     /* ms between looks at the signals while paused */
 };
 
-static const double EARLY = 0.002;      /* s, how early a frame may come */
-static const double MEASURE_TIME = 0.5; /* s, that a speed is taken over */
+static const double EARLY = 0.002; /* s, how early a frame may come */
 
 /* ---- what is asked often ------------------------------------------------- */
 
@@ -129,21 +127,6 @@ Status player_draw(Player *player)
     return status;
 }
 
-/* A bar that fills, on a terminal. */
-static void show_progress(const Player *player)
-{
-    char bar[BAR_LENGTH + 1] = {0};
-    long steps = player->past.step, all = player->given[0].steps;
-    if (player->given[0].quiet || all < 1 || !isatty(STDERR_FILENO))
-        return;
-    int filled = (int)(BAR_LENGTH * fmin((double)steps / (double)all, 1));
-    memset(bar, '.', BAR_LENGTH);
-    memset(bar, '#', (size_t)filled);
-    fprintf(stderr, "\r[%s] %ld/%ld", bar, steps, all);
-    if (player_ended(player))
-        fprintf(stderr, "\r%*s\r", BAR_LENGTH + 44, "");
-}
-
 /* ---- the loop ------------------------------------------------------------ */
 
 /* Keys, mouse, and what else the window says. */
@@ -212,22 +195,9 @@ static Status step_frame(Player *player)
     return status;
 }
 
-/* Simulated over real time, twice a second; unknown after a pause. */
-static void measure_speed(Player *player)
-{
-    double now = clock_now(), time = player_time(player);
-    double passed = now - player->mark[0], made = time - player->mark[1];
-    bool begins = player_stands(player) || made < 0;
-    if (!begins && (passed < MEASURE_TIME || made == 0))
-        return;
-    player->measured = begins ? 0 : made / passed;
-    player->mark[0] = now;
-    player->mark[1] = time;
-}
-
 Status player_start(Player *player)
 {
-    player->due = player->mark[0] = clock_now();
+    player->due = clock_now();
     return player_draw(player);
 }
 
@@ -251,8 +221,6 @@ Status player_frame(Player *player)
             player->due = fmax(player->due + period, now);
         status = step_frame(player);
     }
-    if (player->window)
-        measure_speed(player);
     if (lives && due) {
         player->due = now + 1.0 / FRAME_RATE;
         player_live(player);
@@ -278,9 +246,7 @@ Status player_run(Player *player)
     Status status = player_start(player);
     while (!status && !player_ended(player)) {
         status = player_frame(player);
-        if (!player->window)
-            show_progress(player);
-        else if (!status && !player_ended(player))
+        if (player->window && !status && !player_ended(player))
             window_wait(player_wait(player));
     }
     return status;

@@ -1027,8 +1027,6 @@ static void tell_all(const Show *show)
     is("step", player.past.step);
     is("newest", past_newest(&player.past));
     near("t", simulation_time(simulation), 1e-12L);
-    for (int s = -12; s <= 12; s++) /* 60 frames a second; two digits */
-        is_rough("real time", 60 * (Real)o->timestep * powl(2, s));
     is("panes", show->panes);
     is("runs", simulation->runs);
     is("springs", simulation->system.springs);

@@ -852,18 +852,7 @@ static const Session sessions[] = {
            "number solver auto: newton", "move 1 1", "move solver",
            "sentence up to 32 segments", /**/
            "begin square --segments 33 --paused", "do step",
-           "number solver auto: multigrid", "press solver",
-           "sentence above, multigrid, which goes another way", /**/
-           "begin square --segments 33 --gravity 9.81 --ground 0,1,0,-0.6 "
-           "--paused",
-           "do step", "number solver auto: newton", "press solver",
-           "sentence not multigrid: there are energies beside", /**/
-           "begin square --segments 2 --solver newton --paused", "press solver",
-           "sentence goes as lecture.c does", /**/
-           "begin square --segments 2 --solver multigrid --paused",
-           "press solver", "sentence multigrid goes another way", /**/
-           "begin square --segments 2 --timestep 1000 --paused", "press \u03b5",
-           "sentence = 10 m pass")},
+           "number solver auto: multigrid")},
     {"numbers follow the scene",
      LINES("begin dial --paused", "number h 0.005 s", "run 30",
            "number h 5 s")},
