@@ -21,7 +21,7 @@
  * together are longer comes first. */
 typedef struct Box2 {
     double low[2], high[2];
-    int edge; /* whose it is, a spring; not used of points */
+    int edge; /* whose it is, a spring; -1 of points */
 } Box2;
 
 /* What was found last: of point i edge[first[i]] and on, until that of the
@@ -39,6 +39,7 @@ typedef struct Boundary {
     int points, edges;    /* how many */
     int *point;           /* [nodes] nodes */
     Box2 *box;            /* [springs] of the edges, sorted */
+    Box2 *way;            /* [nodes] of the points */
     unsigned char *sides; /* [springs] triangles on it */
     unsigned char *role;  /* [nodes] */
     /* The way that the boxes are of: from x along alpha p less its mean, and
@@ -46,7 +47,6 @@ typedef struct Boundary {
     const double *x, *p;
     double alpha, mean[2], margin, widest;
     bool upright;           /* that is y */
-    Box2 own;               /* of the point that looks */
     NearList list[2], *now; /* without a way, and on one; the present one */
 } Boundary;
 

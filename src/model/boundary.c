@@ -16,8 +16,8 @@ static size_t near_ints(const SquareMesh *mesh)
 size_t boundary_bytes(const SquareMesh *mesh)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    return 8 * nodes * sizeof(double) + springs * (sizeof(Box2) + 1) +
-           (nodes + 2 * near_ints(mesh)) * sizeof(int) + nodes;
+    return 8 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
+           springs + (nodes + 2 * near_ints(mesh)) * sizeof(int) + nodes;
 }
 
 void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
@@ -27,7 +27,8 @@ void boundary_lay_out(const SquareMesh *mesh, void *bytes, Boundary *boundary)
     boundary->shape.x = NULL;
     boundary->shape.e = boundary->shape.order = NULL;
     boundary->box = (Box2 *)(x + 8 * (size_t)mesh->nodes);
-    boundary->point = (int *)(boundary->box + mesh->springs);
+    boundary->way = boundary->box + mesh->springs;
+    boundary->point = (int *)(boundary->way + mesh->nodes);
     int *numbers = boundary->point + mesh->nodes;
     for (int i = 0; i < 2; i++) {
         NearList *list = &boundary->list[i];
@@ -106,10 +107,14 @@ static void widen(Box2 *box, int k, double from, double to)
     box->high[k] = to > box->high[k] ? to : box->high[k];
 }
 
+static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
+
 /* What a node passes, without the motion that all have in common. */
-static void add_node(const Boundary *boundary, int node, Box2 *box)
+static void take_way(Boundary *boundary, int node)
 {
     const double *p = boundary->p, *mean = boundary->mean;
+    Box2 *box = &boundary->way[node];
+    *box = nothing;
     for (int c = 0; c < 2; c++) {
         double x = boundary->x[2 * node + c], margin = boundary->margin;
         double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
@@ -118,8 +123,6 @@ static void add_node(const Boundary *boundary, int node, Box2 *box)
               x + margin + (way > 0 ? way : 0));
     }
 }
-
-static const Box2 nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 
 /* Equal ones by number: the order is one of x alone. */
 static int by_left_side(const void *one, const void *other)
@@ -130,7 +133,26 @@ static int by_left_side(const void *one, const void *other)
     return a->edge - b->edge;
 }
 
-static void sort_boxes(Boundary *boundary, const System *system)
+/* From the order of the last time, which is nearly the one that is wanted: each
+ * moves past those before it, all together so many places for each edge.  That
+ * was not enough: it is another order. */
+static void sort_from_last(Boundary *boundary)
+{
+    enum { PLACES = 8 };
+    Box2 *box = boundary->box;
+    long left = PLACES * (long)boundary->edges;
+    for (int k = 1; k < boundary->edges && left >= 0; k++) {
+        Box2 own = box[k];
+        int to = k;
+        for (; to > 0 && by_left_side(&box[to - 1], &own) > 0; to--, left--)
+            box[to] = box[to - 1];
+        box[to] = own;
+    }
+    if (left < 0)
+        qsort(box, (size_t)boundary->edges, sizeof *box, by_left_side);
+}
+
+static void make_boxes(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->p;
     boundary->widest = boundary->mean[0] = boundary->mean[1] = 0;
@@ -144,18 +166,20 @@ static void sort_boxes(Boundary *boundary, const System *system)
         }
     }
     boundary->upright = all.high[1] - all.low[1] > all.high[0] - all.low[0];
+    for (int i = 0; i < boundary->points; i++)
+        take_way(boundary, boundary->point[i]);
     for (int k = 0; k < boundary->edges; k++) {
         Box2 *box = &boundary->box[k];
         int s = box->edge;
-        *box = nothing;
+        const Box2 *other = &boundary->way[system->e[2 * s + 1]];
+        *box = boundary->way[system->e[2 * s]];
         box->edge = s;
-        add_node(boundary, system->e[2 * s], box);
-        add_node(boundary, system->e[2 * s + 1], box);
+        for (int c = 0; c < 2; c++)
+            widen(box, c, other->low[c], other->high[c]);
         double wide = box->high[0] - box->low[0];
         boundary->widest = wide > boundary->widest ? wide : boundary->widest;
     }
-    qsort(boundary->box, (size_t)boundary->edges, sizeof *boundary->box,
-          by_left_side);
+    sort_from_last(boundary);
 }
 
 /* The first edge that may end behind this. */
@@ -173,16 +197,12 @@ static int first_edge(const Boundary *boundary, double left)
 }
 
 /* boundary_next, by the boxes. */
-static int next_box(Boundary *boundary, const System *system, int i, int *place)
+static int next_box(const Boundary *boundary, const System *system, int i,
+                    int *place)
 {
     int node = boundary->point[i];
-    Box2 *own = &boundary->own;
-    int k = *place;
-    if (k == 0) {
-        *own = nothing;
-        add_node(boundary, node, own);
-        k = first_edge(boundary, own->low[0]);
-    }
+    const Box2 *own = &boundary->way[node];
+    int k = *place > 0 ? *place : first_edge(boundary, own->low[0]);
     for (; k < boundary->edges && boundary->box[k].low[0] <= own->high[0];
          k++) {
         const Box2 *box = &boundary->box[k];
@@ -228,7 +248,7 @@ void boundary_sort(Boundary *boundary, const System *system, const double *x,
         memcmp(list->x, x, bytes) == 0 &&
         (!p || memcmp(list->p, p, bytes) == 0))
         return;
-    sort_boxes(boundary, system);
+    make_boxes(boundary, system);
     list->known = list_near(boundary, system, list);
     list->alpha = alpha;
     list->margin = margin;

@@ -74,8 +74,10 @@ static Status begin(Term *term, System *system, const double *x_n,
         return status;
     qsort(fresh, (size_t)count, sizeof *fresh, compare);
     size_t bytes = (size_t)count * sizeof *fresh;
-    if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0)
+    if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
         system_changed(system, true);
+        boundary->version = system->version; /* the springs are as they were */
+    }
     memmove(self->pair, fresh, bytes);
     self->pairs = self->sorted = count;
     return STATUS_OK;
