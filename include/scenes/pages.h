@@ -35,6 +35,7 @@ typedef struct LecturePage {
     double speed;         /* steps a frame; 0: the scene's */
     bool numbers;         /* the nodes' are shown */
     const char *open;     /* commands when it opens, ';' between; or NULL */
+    const char *tell;     /* and when N shows the answer; or NULL */
     int lines;            /* or so many lines on from where the page opens */
     bool predict;         /* a click says where the next step leads */
     bool waits;           /* its answer comes before a step */

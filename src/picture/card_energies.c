@@ -146,12 +146,11 @@ Axis energies_axis(const Show *show, double *joule, double *last)
     Curve curve[HISTORY_SERIES];
     int curves = find_curves(show, curve);
     double low = 0, high = 0, first = 0, least = INFINITY, all[2] = {0, 0};
-    double now = simulation_time(simulation);
     *last = 100 * simulation->options.timestep;
     for (int c = 0; c < curves; c++) {
         const History *history = curve[c].history;
         const double *value = history->value[curve[c].series];
-        int point = point_at(history, now);
+        int point = point_at(history, simulation_time(curve[c].simulation));
         for (int i = 0; i <= point; i++) {
             low = fmin(low, value[i]);
             high = fmax(high, value[i]);
@@ -185,16 +184,19 @@ Axis energies_axis(const Show *show, double *joule, double *last)
                   plot_round_axis(high / unit.joule), false, false, unit.name};
 }
 
-/* Names with their values in the colours of the curves, or with `draw` false
+/* Names with their values in the colours of the curves, of each at the time of
+ * its picture (a pane that ended stays where it was); or with `draw` false
  * only measured; returns the pixels that they are high. */
 static int write_legend(const Plot *card, int curves, const Curve *curve,
-                        double time, double size, bool draw)
+                        double size, bool draw)
 {
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < curves; c++) {
         TextLine line = {.colour = curve[c].colour};
-        double value = energies_value(curve[c].simulation, curve[c].history,
-                                      curve[c].series, time);
+        const Simulation *simulation = curve[c].simulation;
+        double time = simulation_time(simulation);
+        double value =
+            energies_value(simulation, curve[c].history, curve[c].series, time);
         EnergyUnit unit = energy_unit(fabs(value));
         snprintf(line.words, sizeof line.words, "%s %s %s",
                  curve[c].name ? curve[c].name : "",
@@ -205,16 +207,15 @@ static int write_legend(const Plot *card, int curves, const Curve *curve,
 }
 
 /* In letters that leave the curves most of the card.  Returns their room. */
-static Plot draw_legend(const Plot *card, int curves, const Curve *curve,
-                        double time)
+static Plot draw_legend(const Plot *card, int curves, const Curve *curve)
 {
     Plot rest = *card;
     double least = card->paper->least, size = fmax(0.85, least);
     double most = LEGEND_PART * card->box.height;
     while (size > fmax(0.5, least) &&
-           write_legend(card, curves, curve, time, size, false) > most)
+           write_legend(card, curves, curve, size, false) > most)
         size -= 0.05;
-    int used = write_legend(card, curves, curve, time, size, true);
+    int used = write_legend(card, curves, curve, size, true);
     rest.box.y += used;
     rest.box.height -= used;
     return rest;
@@ -235,11 +236,13 @@ static void draw_energies(const Plot *card)
     double joule, last;
     double now = simulation_time(card->simulation);
     int curves = find_curves(show, curve);
-    Plot rest = draw_legend(card, curves, curve, now);
+    Plot rest = draw_legend(card, curves, curve);
     Axis energy = energies_axis(show, &joule, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     plot_unit(&plot, joule);
+    for (int c = 0; c < curves; c++)
+        now = fmax(now, simulation_time(curve[c].simulation));
     if (now < plot.x.high)
         plot_line(&plot, (double[2]){now, plot.y.low},
                   (double[2]){now, plot.y.high}, 1, COLOUR_BORDER);

@@ -252,10 +252,13 @@ static void landscape_facts(const Simulation *simulation, Facts *facts)
     for (int k = 0; k < 2; k++) /* nothing but rounding */
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
     double bowl = landscape_part_value(simulation, PART_INERTIA, x[0], x[1]);
+    double springs =
+        landscape_part_value(simulation, PART_ELASTICITY, x[0], x[1]);
     fact_point(facts, "g", E.g);
     fact(facts, "slope", descent->slope != 0 ? descent->slope : NAN);
     fact(facts, "E", E.value < 1e-30 ? 0 : E.value);
     fact(facts, "bowl", bowl < 1e-30 ? 0 : bowl);
+    fact(facts, "elastic part", springs < 1e-30 ? 0 : springs);
     fact(facts, "Hxx", E.H[0]);
     fact(facts, "Hxy", E.H[1]);
     fact(facts, "Hyy", E.H[2]);
@@ -307,7 +310,8 @@ static void landscape_draw(Plot *stage)
         plot_keep_box(&plot, stage_switch_box(stage, i));
     if (plot.text)
         keep_places(&plot);
-    if (plot.text && !show->veiled && (raw || !show->lecture))
+    if (plot.text && !show->veiled &&
+        (show->lecture ? raw && !show->lecture->predict : true))
         draw_other_direction(&plot);
     if (!show->veiled && simulation->exhibit.parts == PART_BOTH &&
         (p[0] != 0 || p[1] != 0))
@@ -325,7 +329,8 @@ static const Card card_landscape_numbers = {
     .words = "#x {x} = {place:4} m\n"
              "#xt {xt} = {x tilde:4} m\n"
              "inertia \u00bd m |{x} \u2212 {xt}|\u00b2 = {bowl:4} J s\u00b2\n"
-             "E = {E:4} J s\u00b2",
+             "elasticity h\u00b2 P = {elastic part:4} J s\u00b2\n"
+             "{part}: {E:4} J s\u00b2",
 };
 
 const Picture landscape_picture = {

@@ -85,11 +85,10 @@ Status obey_restart(Player *player, const Command *command)
 
 /* ---- the lecture --------------------------------------------------------- */
 
-/* Commands with a ; between them, which are undone at once. */
-static Status obey_lines(Player *player, const char *lines)
+Status player_obey_lines(Player *player, const char *lines)
 {
     Status status = STATUS_OK;
-    while (*lines && !status) {
+    while (lines && *lines && !status) {
         char line[COMMAND_TEXT_SIZE];
         Command command;
         size_t length = strcspn(lines, ";");
@@ -107,7 +106,7 @@ Status player_open_page(Player *player)
 {
     const LecturePage *page = player_settings(player)->page;
     player->told = page; /* nobody has asked for these steps */
-    Status status = obey_lines(player, page && page->open ? page->open : "");
+    Status status = player_obey_lines(player, page ? page->open : NULL);
     player->told = NULL;
     return status;
 }
@@ -135,10 +134,11 @@ Status player_check_answer(Player *player)
     player->told = page;
     player->answers++;
     player->right += right;
+    Status status = player_obey_lines(player, page->tell);
     player_note(player, "%s: %s, it is %.4g (%d of %d right so far)", text,
                 right ? "right" : "no", truth, player->right, player->answers);
     player_deselect(player);
-    return STATUS_OK;
+    return status;
 }
 
 /* The page that is asked for: by its name; the next one or the one before; the
@@ -230,7 +230,7 @@ Status player_load_cell(Player *player, long cell)
              map.segments, map.stretch,
              envelope_timestep((int)(cell % ENVELOPE_COLUMNS)),
              envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
-    Status status = obey_lines(player, lines);
+    Status status = player_obey_lines(player, lines);
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
                 map.page ? ", Page Down goes on" : "");
     return status;

@@ -369,8 +369,12 @@ void player_label_panes(Player *player)
                                      alone ? "" : " ", value);
         }
         if (last >= 0 && used < size)
-            snprintf(label + used, size - used, "%sended at step %ld",
-                     used ? ", " : "", last);
+            used +=
+                (size_t)snprintf(label + used, size - used,
+                                 "%sended at step %ld", used ? ", " : "", last);
+        long seen = last < 0 ? last : past_last_seen(past, p, last);
+        if (seen < last && used < size)
+            snprintf(label + used, size - used, " (here %ld)", seen);
     }
 }
 

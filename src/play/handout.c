@@ -158,9 +158,11 @@ static void write_base64(FILE *file, const char *bytes, size_t size)
 static Status go_to_picture(Player *player, const LecturePage *page)
 {
     const Command next = {.kind = COMMAND_NEXT};
-    if (!page->open && !page->lines)
+    if (!page->open && !page->tell && !page->lines)
         return player_run(player);
     Status status = player_open_page(player);
+    if (!status)
+        status = player_obey_lines(player, page->tell);
     for (int i = 0; i < page->lines && !status; i++)
         status = player_obey(player, &next);
     return status || page->lines ? status : player_run(player);

@@ -165,11 +165,16 @@ Status player_obey(Player *player, const Command *asked)
     if (player_veils(player) &&
         (command.kind == COMMAND_NEXT || command.kind == COMMAND_PLAY)) {
         player->told = player_settings(player)->page;
-        if (player->told->answer)
-            player_note(player, "it is %.4g",
-                        show_number(&player->show, player->told->answer));
-        if (player->told->answer || player->told->waits)
-            return STATUS_OK; /* the step is the next press */
+        const LecturePage *told = player->told;
+        double truth =
+            told->answer ? show_number(&player->show, told->answer) : 0;
+        Status shown = player_obey_lines(player, told->tell);
+        if (told->answer)
+            player_note(player, "it is %.4g", truth);
+        bool guessed = player_simulation(player)->prediction.made;
+        if (told->answer || told->waits || told->tell ||
+            (told->predict && !guessed))
+            return shown; /* the step is the next press */
     }
     if (past->works && !(flags & SCREEN)) {
         past_aim(past, step, false);

@@ -110,10 +110,6 @@ void past_history(const Past *past, int pane, History *history)
     for (long step = 0; step < last + stride; step += stride) {
         const Entry *entry = entry_of(past, pane, step < last ? step : last);
         const Sample *sample = entry ? entry->sample : NULL;
-        /* An explosion's energies would flatten those of others. */
-        if (sample && ended >= 0 && history->count > 0 &&
-            sample->row[0].value > PAST_EXPLODED * fabs(history->value[0][0]))
-            return;
         if (sample)
             history_add(history, sample->time, sample->rows, sample->row);
     }

@@ -147,6 +147,9 @@ bool player_explains(const Options *options);
 bool player_veils(const Player *player);
 Status player_check_answer(Player *player);
 
+/* Commands with a ; between them, which are undone at once; NULL: none. */
+Status player_obey_lines(Player *player, const char *lines);
+
 /* ---- screen.c ------------------------------------------------------------ */
 
 /* Speed as SPEED_LEAST ... SPEED_MOST: what the options say, else one step a

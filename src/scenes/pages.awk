@@ -60,6 +60,7 @@ BEGIN {
     texts["claim"] = "claim"
     texts["ask"] = "ask"
     texts["answer"] = "answer"
+    texts["tell"] = "tell"
     texts["veils"] = "veils"
     texts["star"] = "star"
     texts["law"] = "law"

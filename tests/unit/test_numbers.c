@@ -644,7 +644,7 @@ static void scalar_E(const Simulation *simulation, Real x, Real E[3])
 /* E of the map of small_scenes.h at a point, and the direction with this
  * projection. */
 typedef struct MapE {
-    Real value, g[2], H[3], p[2], slope;
+    Real value, elastic, g[2], H[3], p[2], slope;
     int springs; /* projected ones */
 } MapE;
 
@@ -670,6 +670,7 @@ static MapE map_E(const Simulation *simulation, const Real at[2], Filter filter)
             high = filter == FILTER_ABS ? fabsl(high) : fmaxl(high, 0);
         }
         E.value += w * l2 * k / 2 * s * s;
+        E.elastic += h * h * l2 * k / 2 * s * s;
         for (int i = 0; i < 2; i++)
             E.g[i] += w * 2 * k * s * d[i];
         for (int i = 0; i < 3; i++)
@@ -722,6 +723,7 @@ static void tell_landscape(const Simulation *simulation)
     is_point("place", at[0], at[1]);
     is_point("x tilde", o[0], o[1]);
     near("E", E.value, 1e-13L * (1 + E.value));
+    near("elastic part", E.elastic, 1e-13L * (1 + E.elastic));
     near("bowl", (powl(at[0] - o[0], 2) + powl(at[1] - o[1], 2)) / 2, 1e-15L);
     for (int i = 0; i < 2; i++)
         near("g", E.g[i], 1e-12L);

@@ -90,7 +90,7 @@ static double known(const char *name, const char *fact)
 
 TEST(claim_solid)
 {
-    says("solid", "6 49 1 6 49 156 1000");
+    says("solid", "1 1000 10 6 49 1 6 49 156 1000");
     CHECK(known("solid", "masses") == 49 && known("solid", "springs") == 156);
     for (int n = 1; n <= 32; n *= 2) {
         char more[32];
@@ -98,6 +98,7 @@ TEST(claim_solid)
         const System *system = &open_page("solid", more)->system;
         /* n terms, each rounded once */
         CHECK_NEAR(total_mass(system), 1000, 1e-9);
+        CHECK(system->k[0] == 1e5);
         CHECK(system->nodes == (n + 1) * (n + 1));
         CHECK(system->springs == 4 * n * n + 2 * n);
     }
@@ -208,6 +209,8 @@ TEST(claim_forward)
     const double *x =
         make_steps(open_page("forward", "--timestep 0.1"), 1)->run[0].x;
     CHECK_NEAR(hypot(x[0] - cos(0.1), x[1] - sin(0.1)), 0.005, 0.02 * 0.005);
+    /* what Taylor's next term h^2/2 a, a = (-1, 0), leaves is of third order */
+    CHECK_AT_MOST(hypot(x[0] - 0.005 - cos(0.1), x[1] - sin(0.1)), 0.001 / 5);
     CHECK(lecture_find("forward")->predict);
 }
 
@@ -216,11 +219,14 @@ TEST(claim_backward)
     says("backward", "0.5 1 0 0 1 0.5 0.8 0.4 1");
     CHECK_NEAR(known("backward", "factor"), 0.8, 1e-15);
     check_euler("backward", 0.8, 0.4, 1 / 1.25);
+    const double *v = make_steps(open_page("backward", ""), 1)->run[0].v;
+    for (int i = 0; i < 2; i++) /* (1 + h^2) v' = v - h x */
+        CHECK_NEAR(1.25 * v[i], i - 0.5 * (1 - i), 1e-15);
 }
 
 TEST(claim_symplectic)
 {
-    says("symplectic", "2 1000 0.5");
+    says("symplectic", "1 2 2 2 1000 0.5");
     CHECK_NEAR(known("symplectic", "h limit"), 2, 0); /* as below */
     Simulation *simulation = open_page("symplectic", "");
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
@@ -228,9 +234,12 @@ TEST(claim_symplectic)
     for (int i = 0; i < 1000; i++) {
         double now =
             2 * mass_energy(simulation) - 0.5 * (x[0] * v[0] + x[1] * v[1]);
+        double to[2] = {0.75 * x[0] + 0.5 * v[0], -0.5 * x[0] + v[0]};
         start = i == 0 ? now : start;
         CHECK_NEAR(now, start, 1e-12);
-        make_steps(simulation, 1);
+        make_steps(simulation, 1); /* the matrix of trace 2 - h^2 */
+        CHECK_NEAR(x[0], to[0], 1e-15);
+        CHECK_NEAR(v[0], to[1], 1e-15);
     }
     for (int flies = 0; flies < 2; flies++) {
         simulation =
@@ -242,7 +251,7 @@ TEST(claim_symplectic)
 
 TEST(claim_stability)
 {
-    says("stability", "2 0.02 1 1 1 1 2 0.318 0.02 1.00786 4 0.31 7 0.33 10");
+    says("stability", "2 0.02 2 0.318 0.02 1.00786 4 0.31 7 0.33 10");
     double often =
         pow(hypot(1, 0.02 * 2 * acos(-1)), known("stability", "doubling"));
     CHECK_NEAR(often, 2, 1e-9);
@@ -350,7 +359,7 @@ TEST(claim_explicit)
 /* g''/(2 g') of E = (x - 2)^2/2 + 0.45 (x^2 - 1)^2 at the root of g. */
 TEST(claim_tangent)
 {
-    says("tangent", "1 1 10 2.5 2.5 1.17799 2 0.95");
+    says("tangent", "0 1 1 10 2.5 2.5 1.17799 2 0.95");
     double x[16];
     int count = 0;
     Simulation *simulation = open_page("tangent", "");
@@ -407,6 +416,8 @@ TEST(claim_overshoot)
     says("overshoot", "2 4 27.29 11.645 3 10 0 1.0886 2 11.645 3 9 1.08 1.09");
     CHECK_NEAR(known("overshoot", "next"), 2 - sinh(4) / 2, 1e-12);
     CHECK_NEAR(sinh(4), 27.29, 0.005);
+    CHECK_NEAR(known("overshoot", "slope"), tanh(2), 1e-15);
+    CHECK_NEAR(known("overshoot", "curvature"), pow(cosh(2), -2), 1e-15);
     end_of("overshoot", "", 10);
     CHECK_NEAR(updates.record[0].to[0], -11.645, 5e-4);
     CHECK(fabs(updates.record[1].to[0]) > 3e9);
@@ -448,7 +459,7 @@ TEST(claim_explodes)
 
 /* M (x - x_tilde) + h^2 grad P at the end of each step, as a p: M^-1 of it is
  * more than H^-1 of it, so it is only bounded by the tolerance where H is at
- * most 100 M, as it is here: h^2 k is 1.6 and M is 40. */
+ * most 100 M, as it is here: h^2 k is 10 and M is 40. */
 TEST(claim_minimise)
 {
     says("minimise", "0");
@@ -490,6 +501,15 @@ TEST(claim_parts)
     CHECK(value[0][1] == 0 && value[1][2] < 1e-15 && value[1][3] < 1e-15);
     CHECK(value[0][0] > 0 && value[0][0] < value[0][2]);
     CHECK(value[1][0] > 0 && value[1][0] < value[1][1]);
+    for (int i = 0; i < 2; i++) { /* m (x - x_tilde) + h^2 grad P = 0 */
+        double d = 1e-4, by[2] = {i == 0 ? d : 0, i == 1 ? d : 0};
+        double slope = landscape_part_value(simulation, PART_ELASTICITY,
+                                            x[0] + by[0], x[1] + by[1]) -
+                       landscape_part_value(simulation, PART_ELASTICITY,
+                                            x[0] - by[0], x[1] - by[1]);
+        /* H is at most 40 there, and |p| below h epsilon = 2e-7 m */
+        CHECK_NEAR(x[i] - target[i] + slope / (2 * d), 0, 1e-5);
+    }
 }
 
 TEST(claim_dial)
