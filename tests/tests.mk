@@ -30,7 +30,7 @@ $(B)/narrow/%.o: src/solve/%.c $(B)/flags
 	$(Q)$(COMPILE) -DFAST= -DAVX= -MMD -MP -c $< -o $@
 $(B)/tests/unit/test_widths: $(patsubst %,$(B)/narrow/%.o,$(GRID_LOOPS) panels)
 
-$(B)/tests/unit/test_numbers: LIBS += $(call wrap,text_draw paper_paragraph \
+$(B)/tests/unit/test_numbers: LIBS += $(call wrap,number_with number_of \
   plot_create plot_on)
 
 # The program with faults linked in: sanitizers see what they do.

@@ -374,9 +374,8 @@ static void dial_draw(Plot *stage)
     plot_keep_disc(&plot, simulation->run[0].x, 9);
     name_target(&plot);
     for (int i = WALK_POINTS - 1; i > 0 && !show->veiled; i -= 10) {
-        char words[32];
-        snprintf(words, sizeof words, "h = %g s",
-                 round(walk->h[i] * 1e6) / 1e6);
+        char words[64];
+        snprintf(words, sizeof words, "h = %s s", number_of(walk->h[i]).text);
         plot_words(&plot, 1, &walk->point[i], 0.8, 0.95, FACE_REGULAR, COLOUR_X,
                    words);
     }

@@ -109,7 +109,6 @@ static void draw_words(const SpringPen *pen)
     const Obstacle *wall = &pen->contact->obstacle[0];
     double em = stage->em, grip = pen->simulation->grip[pen->run];
     double left[2], at[2], slope = -wall->n[0] / wall->n[1];
-    char part[16] = "";
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
         return;
@@ -121,12 +120,11 @@ static void draw_words(const SpringPen *pen)
         at[0] += low / fabs(slope);
         at[1] -= low;
     }
-    if (grip > 0)
-        snprintf(part, sizeof part, "%.3g ", grip);
     paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT, at[0],
-                at[1] + 1.5 * em, ALIGN_LEFT,
-                "%s\u03bc = %.3g tan %.3g\u00b0%s", part,
-                wall->friction / fabs(slope), fabs(atan(slope)) / DEGREE,
+                at[1] + 1.5 * em, ALIGN_LEFT, "%s%s\u03bc = %s tan %s\u00b0%s",
+                grip > 0 ? number_of(grip).text : "", grip > 0 ? " " : "",
+                number_of(wall->friction / fabs(slope)).text,
+                number_of(fabs(atan(slope)) / DEGREE).text,
                 pen->show->veiled ? ""
                 : slides(pen)     ? ": slides"
                                   : ": holds");

@@ -234,13 +234,13 @@ static void draw_colours(const SpringPen *pen)
 {
     double percent = 100 * pen->range;
     if (pen->plastic) {
-        plot_legend(pen->stage, COLOUR_PLASTIC, "plastic strain up to %.3g %%",
-                    percent);
+        plot_legend(pen->stage, COLOUR_PLASTIC, "plastic strain up to %s %%",
+                    number_of(percent).text);
         return;
     }
-    plot_legend(pen->stage, COLOUR_COMPRESS, "strain \u2212%.3g %%",
-                fmin(percent, 100));
-    plot_legend(pen->stage, COLOUR_STRETCH, "+%.3g %%", percent);
+    plot_legend(pen->stage, COLOUR_COMPRESS, "strain \u2212%s %%",
+                number_of(fmin(percent, 100)).text);
+    plot_legend(pen->stage, COLOUR_STRETCH, "+%s %%", number_of(percent).text);
 }
 
 /* The number of each node beside it. */
