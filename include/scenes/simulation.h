@@ -115,13 +115,6 @@ bool simulation_rests(const Simulation *simulation);
 /* Sum over the runs of what Newton did; zero where all are explicit. */
 NewtonCounters simulation_counters(const Simulation *simulation);
 
-/* Memory that the scene will need, about, in bytes: measured on squares of 128
- * to 1024 segments, where it is right within a tenth.  A Cholesky factor in
- * nested dissection order has of the order of n log n entries (George: Nested
- * Dissection of a Regular Finite Element Mesh, 1973); multigrid has some
- * vectors. 0 in scenes without a square. */
-double simulation_bytes(const Options *options);
-
 /* Stored entries of the Hessians of all runs; 0 where none was allocated. */
 long long simulation_matrix_entries(const Simulation *simulation);
 

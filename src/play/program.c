@@ -4,7 +4,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "scenes/one_line.h"
 #include "scenes/pages.h"
@@ -125,26 +124,6 @@ static void report_failure(const Player *player, Status status)
              advice(player, status));
 }
 
-/* A square that does not fit is refused before it is begun: where memory is
- * promised that is not there, the program would end without a word. */
-static bool fits_in_memory(const Options *options, char *message, size_t size)
-{
-    Options smaller = *options;
-    double there =
-        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    double needed = simulation_bytes(options);
-    if (!(there > 0) || needed <= there)
-        return true;
-    while (smaller.segments > 1 && simulation_bytes(&smaller) > there)
-        smaller.segments--;
-    snprintf(message, size,
-             "--segments %d needs about %.1f GB of memory and there are %.1f: "
-             "from 1 to %d",
-             (int)options->segments, 1e-9 * needed, 1e-9 * there,
-             (int)smaller.segments);
-    return false;
-}
-
 /* Whether any step, or the scene as a whole, did not converge. */
 static bool is_unconverged(const Player *player)
 {
@@ -238,9 +217,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
         return code;
     if (recording_check(options, message, sizeof message))
         return misuse(message);
-    for (int i = 0; i < options->panes; i++)
-        if (!fits_in_memory(&options[i], message, sizeof message))
-            return misuse(message);
     if (options->handout) {
         code = make_handout(options, stop, player);
         *player = (Player){0};

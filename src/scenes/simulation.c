@@ -271,25 +271,6 @@ NewtonCounters simulation_counters(const Simulation *simulation)
     return sum;
 }
 
-/* Whether multigrid works is what the command line tells of it. */
-double simulation_bytes(const Options *options)
-{
-    const IntegratorMethod *method = options_method(options);
-    bool multigrid = options->solver == SOLVER_AUTO
-                         ? options->segments > AUTO_NEWTON_SEGMENTS
-                         : options->solver == SOLVER_MULTIGRID;
-    double row = options->segments + 1.0;
-    double n = row * row * fmax(options->bodies, 1);
-    if (!(options->scene->needs & NEEDS_MESH))
-        return 0;
-    if (!method->implicit)
-        return 250 * n;
-    if (multigrid && options->filter == FILTER_CLAMP && !options->minimum &&
-        options->line_search == LINE_SEARCH_BACKTRACK && !method->averaged)
-        return 655 * n;
-    return (130 * log2(n) + 750) * n;
-}
-
 long long simulation_matrix_entries(const Simulation *simulation)
 {
     long long sum = 0;
