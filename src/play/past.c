@@ -929,6 +929,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         branch = push_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
+    if (edit->kind == branch->edit.kind) /* what undo tells: the last of it */
+        branch->edit = *edit;
     forget_behind(past, past->step - past_moves(edit));
     for (long i = branch->count - 1; i < branch->count + again; i++)
         for (int p = from; p < to && !status; p++)

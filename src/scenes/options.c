@@ -376,8 +376,8 @@ double option_paced(const OptionRow *row, const Options *options, double paces)
         return paces > 0 ? fmax(row->low, FIRST) : value;
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names);
-        int now = (int)fmax(value, 0) + (int)rint(paces);
-        return (now % count + count) % count;
+        int on = (int)rint(paces), to = (int)fmax(value, 0) + on;
+        return on == 0 ? value : (to % count + count) % count;
     }
     value = row->pace > 0 ? (rint(value / row->pace) + rint(paces)) * row->pace
                           : factor_paced(value, paces);

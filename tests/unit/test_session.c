@@ -487,7 +487,11 @@ static const Session sessions[] = {
     {"a choice that is lit takes digits, too",
      LINES("begin square --paused", "key Tab Tab Tab Tab Tab Tab", "type 0.8",
            "key Return", "says --integrator: '0.8' is none of: backward-euler",
-           "key Escape", "scene square", "number method backward Euler")},
+           "key Escape", "scene square", "number method backward Euler",
+           "press method", "move +9 +0", "move +16 +0",
+           "number method forward Euler", "move +24 +0",
+           "number method symplectic Euler", "move -49 +0",
+           "number method backward Euler", "release +0 +0")},
     {"P and L keep what was changed since the last step",
      LINES("begin square --paused", "key N N N N N N N N N N N N",
            "mark a state", "key Tab Tab Up", "number k 150000 J/m\u00b2",
@@ -656,8 +660,9 @@ static const Session sessions[] = {
          "key Ctrl+Z", "at 0", "newest 6", "key End", "same a state", /**/
          "key Home", "press h", "move +0 +0", "move +24 +0", "move +24 +0",
          "release +0 +0", "number h 0.00862 s", "key Ctrl+Z",
-         "number h 0.004 s", "key Home", "wheel stretch", "wheel stretch",
-         "newest 0", "key N Ctrl+Z", "newest 6", /**/
+         "says undone: set timestep 0.00862", "number h 0.004 s", "key Home",
+         "wheel stretch", "wheel stretch", "newest 0", "key N Ctrl+Z",
+         "newest 6", /**/
          "key Home M", "number method forward Euler", "key Ctrl+Z",
          "number method backward Euler", "key Tab+M N Ctrl+Z", "at 0",
          "newest 6", "key R N Ctrl+Z", "newest 6", "key Escape 7 N N",
