@@ -158,12 +158,12 @@ static void jerk(Random *random, int step)
              random_uniform(random, -5, 5));
 }
 
-/* One step after a jerk.  A step of backward Euler ends where E is at most what
- * it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 + P_n, and what
- * the hand's energy falls by is its work, up to rounding.  Methods
- * that damp nothing gather the hand's work: beyond 1e20 J, false, and nothing
- * is NaN.  A step of explicit ones may lead beyond all numbers: false, and it
- * changes nothing. */
+/* One step after a jerk, in which E never rises.  A step of backward Euler ends
+ * where E is at most what it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m
+ * |v_n|^2/2 + P_n, and what the hand's energy falls by is its work, up to
+ * rounding.  Methods that damp nothing gather the hand's work: beyond 1e20 J,
+ * false, and nothing is NaN.  A step of explicit ones may lead beyond all
+ * numbers: false, and it changes nothing. */
 static bool jerked_step(bool descends)
 {
     const Simulation *simulation = &past.machine[0].simulation;
@@ -181,6 +181,9 @@ static bool jerked_step(bool descends)
         return false;
     }
     CHECK(past.step == before + 1);
+    const Records *records = &past.machine[0].records;
+    for (int i = 0; i < records->count; i++)
+        CHECK(records->row[i].change <= 0);
     for (int k = 0; k < size; k++)
         CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_energies(simulation, 0);
