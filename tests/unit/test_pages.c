@@ -682,7 +682,7 @@ TEST(claim_algorithm3)
 
 TEST(claim_step)
 {
-    says("step", "2 10 10 36 330 0.01 10 2 10");
+    says("step", "2 10 10 36 330 392 0.01 10 2 10 20 0.009");
     int count[2];
     for (int i = 0; i < 2; i++) {
         make_steps(open_page("step", i ? "" : "--tolerance 0.01"), 1);
@@ -693,8 +693,19 @@ TEST(claim_step)
         CHECK_NEAR(at[0].residual / at[1].residual, 36, 0.5);
         if (i == 1)
             CHECK_NEAR(at[1].residual / at[2].residual, 330, 5);
+        for (int k = 1; i == 1 && k < updates.count; k++)
+            CHECK(at[k].projected == 20);
     }
+    CHECK_NEAR(updates.record[2].residual / updates.record[3].residual, 392,
+               0.5);
     CHECK(count[1] == count[0] + 2);
+    make_steps(open_page("step", "--filter none --tolerance 1e-9"), 1);
+    CHECK(updates.count == 4);
+    for (int k = 2; k < 4; k++) {
+        double before = updates.record[k - 1].residual;
+        CHECK_NEAR(updates.record[k].residual / (before * before), 0.009,
+                   0.0005);
+    }
 }
 
 TEST(claim_simulator)
