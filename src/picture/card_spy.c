@@ -41,7 +41,7 @@ static unsigned char *make_pattern(const System *system, bool natural,
 }
 
 /* The block in row i, column j of n, at least a pixel large. */
-static void draw_block(Canvas *canvas, int n, int i, int j, Colour colour)
+static void draw_square(Canvas *canvas, int n, int i, int j, Colour colour)
 {
     int side = canvas->width;
     int x = (int)((long)j * side / n), y = (int)((long)i * side / n);
@@ -62,13 +62,13 @@ static void draw_pattern(Canvas *canvas, int n, const unsigned char *block)
         for (int i = j + 1; i < n; i++) {
             int what = block[(size_t)j * (size_t)n + (size_t)i];
             if (what == ENTRY)
-                draw_block(canvas, n, j, i, COLOUR_X);
+                draw_square(canvas, n, j, i, COLOUR_X);
             if (what != NOTHING)
-                draw_block(canvas, n, i, j,
-                           what == ENTRY ? COLOUR_X : 0xffe0a060u);
+                draw_square(canvas, n, i, j,
+                            what == ENTRY ? COLOUR_X : 0xffe0a060u);
         }
     for (int i = 0; i < n; i++)
-        draw_block(canvas, n, i, i, COLOUR_X);
+        draw_square(canvas, n, i, i, COLOUR_X);
 }
 
 /* The four blocks of a spring; < 0: of none. */
@@ -117,6 +117,21 @@ static void draw_matrix(const Plot *card, Box square, bool natural, int springs)
                  natural, square);
 }
 
+/* What the newest spring adds, if there is room below the patterns. */
+static void draw_block(const Plot *card, int used)
+{
+    Plot below = *card;
+    below.box.y += used;
+    below.box.height -= used;
+    if (below.box.height > 7 * card->paper->em)
+        text_in_card(&below, &show_pane(card->show)->facts,
+                     "#project P_{spring} = matrix{"
+                     "{Bxx:3} & {Bxy:3} & {-Bxx:3} & {-Bxy:3}; "
+                     "{Bxy:3} & {Byy:3} & {-Bxy:3} & {-Byy:3}; "
+                     "{-Bxx:3} & {-Bxy:3} & {Bxx:3} & {Bxy:3}; "
+                     "{-Bxy:3} & {-Byy:3} & {Bxy:3} & {Byy:3}} kJ/m^{2}");
+}
+
 /* Beside each other: with the rows in the nodes' order, as the springs write
  * it, one a step, where a page wants it so; and in the order of elimination. */
 static void draw_spy(const Plot *card)
@@ -134,7 +149,7 @@ static void draw_spy(const Plot *card)
     if (side < 4 * line || system->nodes > SPY_NODES || system->nodes < 1)
         cards_hint(card,
                    side < 4 * line ? "enlarge it" : "too many nodes to draw");
-    else
+    else {
         for (int k = 0; k < 2; k++) {
             int x = inside.x + k * (side + gap);
             paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
@@ -143,6 +158,8 @@ static void draw_spy(const Plot *card)
             draw_matrix(card, (Box){x, inside.y + line, side, side}, !k,
                         k ? system->springs : springs);
         }
+        draw_block(card, 2 * line + side);
+    }
 }
 
 const Card card_spy = {

@@ -5,6 +5,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 #include "model/fracture.h"
+#include "model/mass_spring_energy.h"
 #include "picture/plot.h"
 #include "picture/square_pen.h"
 #include "base/mathematics.h"
@@ -352,6 +353,22 @@ int lecture_spring(const Simulation *simulation)
     return (int)(simulation->steps % simulation->system.springs);
 }
 
+/* Of the block [[H, -H], [-H, H]] of the newest spring, kJ/m^2. */
+static void add_block(const Simulation *simulation, Facts *facts)
+{
+    static const char *const names[] = {"Bxx",  "Bxy",  "Byy",
+                                        "-Bxx", "-Bxy", "-Byy"};
+    const System *system = &simulation->system;
+    int spring = lecture_spring(simulation);
+    double d[2], H[3], l2 = system->l2[spring];
+    spring_strain(system->e + 2 * spring, l2, simulation->run[0].x, d);
+    spring_hessian(d, l2, system->k[spring], simulation->options.filter, H);
+    for (int i = 0; i < 6; i++) {
+        bool none = fabs(H[i % 3]) < 1e-12 * system->k[spring];
+        fact(facts, names[i], none ? 0 : (i < 3 ? 1e-3 : -1e-3) * H[i % 3]);
+    }
+}
+
 /* What pages say of the mesh, the Hessian and one row of M a = f. */
 static void square_facts(const Simulation *simulation, Facts *facts)
 {
@@ -389,6 +406,8 @@ static void square_facts(const Simulation *simulation, Facts *facts)
     fact(facts, "newest", lecture_spring(simulation));
     fact(facts, "from", e[0]);
     fact(facts, "to", e[1]);
+    if (page->writes)
+        add_block(simulation, facts);
     law_facts(simulation, facts);
     if (page->modes) {
         double omega = simulation_fastest(simulation, mode);

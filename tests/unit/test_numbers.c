@@ -399,6 +399,29 @@ static void tell_law(const Simulation *simulation)
     near("law y", value, 1e-10L * (1 + fabsl(value)));
 }
 
+/* What a stretched spring adds to the Hessian, kJ/m^2: by P'' of its length and
+ * P' over it. */
+static void tell_block(const Simulation *simulation, int spring)
+{
+    static const char *const names[2][3] = {{"Bxx", "Bxy", "Byy"},
+                                            {"-Bxx", "-Bxy", "-Byy"}};
+    const System *system = &simulation->system;
+    const int *e = system->e + 2 * spring;
+    const double *x = simulation->run[0].x;
+    Real d[2], k = system->k[spring], l2 = system->l2[spring];
+    for (int c = 0; c < 2; c++)
+        d[c] = (Real)x[2 * e[0] + c] - x[2 * e[1] + c];
+    Real r2 = d[0] * d[0] + d[1] * d[1];
+    Real across = fmaxl(0, 2 * k * (r2 / l2 - 1));
+    Real along = fmaxl(0, 2 * k * (3 * r2 / l2 - 1));
+    for (int i = 0; i < 3; i++) {
+        Real part = d[i / 2] * d[(i + 1) / 2] / r2;
+        Real H = part * along + ((i != 1) - part) * across;
+        near(names[0][i], H / 1000, 1e-9L * k);
+        near(names[1][i], -H / 1000, 1e-9L * k);
+    }
+}
+
 /* Its mesh, its fastest oscillation, and the force on its last node. */
 static void tell_page(const Simulation *simulation)
 {
@@ -430,6 +453,7 @@ static void tell_page(const Simulation *simulation)
     is("newest", newest);
     is("from", system->e[2 * newest]);
     is("to", system->e[2 * newest + 1]);
+    tell_block(simulation, newest);
     is("segments", n);
     is("side", side);
     is("rho", o->density);
