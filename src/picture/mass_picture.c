@@ -281,10 +281,12 @@ static void draw_mass_lesson(Plot *stage)
     plot_hollow(stage, end, 6, 3.4, COLOUR_GREY);
     if (step.by_old_v) { /* what it lacks */
         const double d[2] = {0.5 * h * h * step.a[0], 0.5 * h * h * step.a[1]};
-        const double tip[2] = {step.new_x[0] + d[0], step.new_x[1] + d[1]};
+        const double at[2][2] = {
+            {step.new_x[0] + d[0], step.new_x[1] + d[1]},
+            {step.new_x[0] + 0.5 * d[0], step.new_x[1] + 0.5 * d[1]}};
         plot_arrow(stage, step.new_x, d, 1, 2, COLOUR_WARNING);
         if (stage->text)
-            plot_words(stage, 1, &tip, 0.8, 1, FACE_BOLD, COLOUR_WARNING,
+            plot_words(stage, 2, at, 1.2, 1, FACE_BOLD, COLOUR_WARNING,
                        "h\u00b2/2 a");
     }
     if (stage->text)

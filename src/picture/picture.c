@@ -71,11 +71,16 @@ static void draw_pane(Paper *paper, const Layout *layout, const Show *show,
         stage_handles(&stage);
     stage_switches(&stage);
     stage_prediction(&stage);
-    if (layout->panes > 1 && show->pane[pane].label)
+    const char *label = layout->panes > 1 ? show->pane[pane].label : NULL;
+    if (label) { /* above the scale where it is long */
+        int wide = paper_width(paper, FACE_BOLD, 1, label);
+        bool high = wide > stage.box.width - 10 * paper->em;
         paper_panel(paper, FACE_BOLD, 1, colour_of_run(pane),
                     stage.box.x + 0.5 * stage.box.width,
-                    stage.box.y + stage.box.height - 1.7 * paper->em,
-                    ALIGN_CENTRE, show->pane[pane].label);
+                    stage.box.y + stage.box.height -
+                        (high ? 4.2 : 1.7) * paper->em,
+                    ALIGN_CENTRE, label);
+    }
     if (picture->hover && stage.text && hover->pane == pane &&
         hover->kind != PICK_NONE && !show->hand.on)
         picture->hover(&stage);
