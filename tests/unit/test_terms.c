@@ -39,8 +39,9 @@ static const Row rows[] = {
     {"spring of no length", SPRING, .flat = true, .far = 1e3},
     {"springs of next to no length", GRAPH, .flat = true, .far = 1e3},
     {"springs, averaged", GRAPH, .averaged = true, .far = 1e3},
-    {"central field", GRAPH, .pull = 3, .far = 1e3},
-    {"central field, averaged", GRAPH, .pull = 3, .averaged = true, .far = 1e3},
+    {"field and hand", GRAPH, .pull = 3, .far = 1e3},
+    {"field and hand, averaged", GRAPH, .pull = 3, .averaged = true,
+     .far = 1e3},
     {"damped springs", GRAPH, .damping = 0.3, .far = 1e3},
     {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .far = 1e3},
     {"flowing springs, damped", GRAPH, .yield = 0.1, .hardening = 0.3,
@@ -202,16 +203,23 @@ static void make_shape(const Row *row, Random *random, Case *c)
     c->system.k[0] = 7;
 }
 
-static Status set_field(System *system, double omega2)
+/* A field that pulls all nodes, and a hand that pulls one. */
+static void set_pulls(Random *random, double strength, System *system)
 {
-    return pull_set(system, &central_field, &(Pull){.node = -1, .k = omega2});
+    const Pull all = {.node = -1, .k = strength};
+    const Pull one = {.node = random_below(random, system->nodes),
+                      .k = 3 * strength,
+                      .target = {random_uniform(random, -2, 2),
+                                 random_uniform(random, -2, 2)}};
+    CHECK_STATUS(pull_set(system, &central_field, &all), STATUS_OK);
+    CHECK_STATUS(pull_set(system, &hand_energy, &one), STATUS_OK);
 }
 
-/* What else the row has: pull, flow, damping. */
+/* What else the row has: pulls, flow, damping. */
 static void add_terms(const Row *row, Random *random, System *system)
 {
     if (row->pull > 0)
-        CHECK_STATUS(set_field(system, row->pull), STATUS_OK);
+        set_pulls(random, row->pull, system);
     if (row->yield > 0) {
         CHECK_STATUS(plastic_energy.set(system, NULL, &row->yield), STATUS_OK);
         for (int s = 0; s < system->springs; s++) {
@@ -597,7 +605,7 @@ static void a_system_uses_its_terms(void **unused)
     System system;
     double x[MAX_SIZE], v[MAX_SIZE], a[MAX_SIZE], kinetic = 0;
     random_system(&random, SPRINGS_MIXED, &system, x);
-    CHECK_STATUS(set_field(&system, 3), STATUS_OK);
+    set_pulls(&random, 3, &system);
     Place at = place_at(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {
